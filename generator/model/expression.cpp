@@ -1,0 +1,134 @@
+#include "model/expression.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using Op = Expression::Op;
+using Node = Expression::Node;
+
+/// Appends the nodes of `expression`; the position of its value.
+std::size_t append(std::vector<Node>& nodes, const Expression& expression) {
+  const std::size_t shift = nodes.size();
+  for (Node node : expression.nodes()) {
+    node.left += shift;
+    node.right += shift;
+    nodes.push_back(node);
+  }
+  return nodes.size() - 1;
+}
+
+double folded(const std::vector<Node>& nodes, const Node& operation) {
+  const auto value = [&](std::size_t i) { return nodes[i].value; };
+  switch (operation.op) {
+    case Op::kLiteral:
+    case Op::kParameter:
+      break;
+    case Op::kNegate:
+      return -value(operation.left);
+    case Op::kAdd:
+      return value(operation.left) + value(operation.right);
+    case Op::kSubtract:
+      return value(operation.left) - value(operation.right);
+    case Op::kMultiply:
+      return value(operation.left) * value(operation.right);
+    case Op::kDivide:
+      return value(operation.left) / value(operation.right);
+    case Op::kPower: {
+      double product = 1;
+      for (int i = 0; i < std::abs(operation.exponent); ++i) product *= value(operation.left);
+      return operation.exponent < 0 ? 1 / product : product;
+    }
+    case Op::kSqrt:
+      return std::sqrt(value(operation.left));
+    case Op::kSin:
+      return std::sin(value(operation.left));
+    case Op::kCos:
+      return std::cos(value(operation.left));
+  }
+  JD_CHECK(false, "operation {}", static_cast<int>(operation.op));
+}
+
+bool is_number(const Expression& expression, double value) {
+  return expression.is_constant() && expression.constant() == value;
+}
+
+}  // namespace
+
+Expression Expression::parameter(ParameterIndex index) {
+  Expression result;
+  result.nodes_ = {Node{.op = Op::kParameter, .parameter = index}};
+  return result;
+}
+
+double Expression::constant() const {
+  JD_CHECK(is_constant(), "{} nodes", nodes_.size());
+  return nodes_[0].value;
+}
+
+Expression Expression::unary(Op op, const Expression& operand) {
+  JD_CHECK(op == Op::kNegate || op == Op::kSqrt || op == Op::kSin || op == Op::kCos, "operation {}",
+           static_cast<int>(op));
+  Expression result;
+  result.nodes_.clear();
+  const std::size_t value = append(result.nodes_, operand);
+  const Node node{.op = op, .left = value, .right = value};
+  if (operand.is_constant()) return Expression(folded(result.nodes_, node));
+  if (op == Op::kNegate && result.nodes_.back().op == Op::kNegate && result.nodes_.back().left == value - 1) {
+    result.nodes_.pop_back();
+    return result;
+  }
+  result.nodes_.push_back(node);
+  return result;
+}
+
+Expression Expression::binary(Op op, const Expression& left, const Expression& right) {
+  const bool add = op == Op::kAdd;
+  const bool subtract = op == Op::kSubtract;
+  const bool multiply = op == Op::kMultiply;
+  const bool divide = op == Op::kDivide;
+  JD_CHECK(add || subtract || multiply || divide, "operation {}", static_cast<int>(op));
+  const bool constant = left.is_constant() && right.is_constant();
+  if (!constant) {
+    if ((add || subtract) && right.is_zero()) return left;
+    if (add && left.is_zero()) return right;
+    if (subtract && left.is_zero()) return unary(Op::kNegate, right);
+    if (multiply && (left.is_zero() || right.is_zero())) return Expression(0.0);
+    if (divide && left.is_zero()) return Expression(0.0);
+    if ((multiply || divide) && is_number(right, 1)) return left;
+    if (multiply && is_number(left, 1)) return right;
+  }
+  Expression result;
+  result.nodes_.clear();
+  Node node{.op = op};
+  node.left = append(result.nodes_, left);
+  node.right = append(result.nodes_, right);
+  if (constant) return Expression(folded(result.nodes_, node));
+  result.nodes_.push_back(node);
+  return result;
+}
+
+Expression Expression::power(const Expression& base, int exponent) {
+  if (exponent == 0) return Expression(1.0);
+  if (exponent == 1) return base;
+  Expression result;
+  result.nodes_.clear();
+  const std::size_t value = append(result.nodes_, base);
+  const Node node{.op = Op::kPower, .exponent = exponent, .left = value, .right = value};
+  if (base.is_constant()) return Expression(folded(result.nodes_, node));
+  result.nodes_.push_back(node);
+  return result;
+}
+
+Expression Expression::tangent(const Expression& operand) {
+  if (operand.is_constant()) return Expression(std::sin(operand.constant()) / std::cos(operand.constant()));
+  Expression result;
+  result.nodes_.clear();
+  const std::size_t value = append(result.nodes_, operand);
+  result.nodes_.push_back(Node{.op = Op::kSin, .left = value, .right = value});
+  result.nodes_.push_back(Node{.op = Op::kCos, .left = value, .right = value});
+  result.nodes_.push_back(Node{.op = Op::kDivide, .left = value + 1, .right = value + 2});
+  return result;
+}
+
+}  // namespace jourdain::model

@@ -1,0 +1,115 @@
+// Arithmetic over literals and named parameters, as it stands in a model file ("m/3*l^2", "30*deg").
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "support/check.hpp"
+#include "support/index.hpp"
+
+namespace jourdain::model {
+
+using ParameterIndex = support::Index<struct ParameterTag>;
+
+/// A number that may depend on tunable parameters. Operands come before their operator, the last node is the value;
+/// a node may be the operand of several.
+/// Subexpressions without parameters are folded to one double on construction: a model's numbers are rounded to
+/// double once, on reading. Exact identities are applied: 1*x = x, x+0 = x, 0*x = 0, -(-x) = x, x^1 = x, x^0 = 1.
+class Expression {
+ public:
+  enum class Op { kLiteral, kParameter, kNegate, kAdd, kSubtract, kMultiply, kDivide, kPower, kSqrt, kSin, kCos };
+  struct Node {
+    Op op = Op::kLiteral;
+    double value = 0;          ///< kLiteral
+    ParameterIndex parameter = {};  ///< kParameter
+    int exponent = 0;          ///< kPower: integer exponent
+    std::size_t left = 0;      ///< operand (unary) or left operand
+    std::size_t right = 0;
+  };
+
+  Expression() : Expression(0.0) {}
+  Expression(double value) : nodes_{Node{.op = Op::kLiteral, .value = value}} {}  // NOLINT: numbers are expressions
+  static Expression parameter(ParameterIndex index);
+  static Expression unary(Op op, const Expression& operand);
+  static Expression binary(Op op, const Expression& left, const Expression& right);
+  static Expression power(const Expression& base, int exponent);
+  /// sin/cos of one shared operand, so that nested tangents do not grow exponentially.
+  static Expression tangent(const Expression& operand);
+
+  bool is_constant() const { return nodes_.size() == 1 && nodes_[0].op == Op::kLiteral; }
+  /// The value of an expression without parameters.
+  double constant() const;
+  bool is_zero() const { return is_constant() && constant() == 0; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+
+  /// Value in the arithmetic of `T` (double, long double, GiNaC::ex, …) with the given parameter values; `sqrt`,
+  /// `sin`, `cos` are found by argument-dependent lookup (the standard ones for built-in types). `literal` turns a
+  /// double into a T.
+  template <class T, class Literal>
+  T evaluate(std::span<const T> parameters, Literal&& literal) const;
+  template <class T>
+  T evaluate(std::span<const T> parameters) const {
+    return evaluate<T>(parameters, [](double v) { return T(v); });
+  }
+
+ private:
+  std::vector<Node> nodes_;
+};
+
+/// Why a text is not an expression: offset in the text, length of the offending part, message, hint.
+struct ExpressionError {
+  std::size_t offset = 0;
+  std::size_t length = 1;
+  std::string message;
+  std::string hint;
+};
+
+inline constexpr std::size_t kMaximumExpressionLength = 2000;
+inline constexpr int kMaximumExpressionDepth = 100;
+
+/// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), sqrt, sin, cos, tan and the given parameter names. `^` binds
+/// tighter than unary minus and takes integer exponents (or 0.5) only. Text over kMaximumExpressionLength or nested
+/// deeper than kMaximumExpressionDepth, unknown names (with "did you mean"), NaN or infinity are errors.
+std::variant<Expression, ExpressionError> parse_expression(std::string_view text,
+                                                           const std::vector<std::string>& parameter_names);
+
+template <class T, class Literal>
+T Expression::evaluate(std::span<const T> parameters, Literal&& literal) const {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  std::vector<T> values;
+  values.reserve(nodes_.size());
+  for (const Node& node : nodes_) {
+    switch (node.op) {
+      case Op::kLiteral: values.push_back(literal(node.value)); break;
+      case Op::kParameter:
+        JD_CHECK(node.parameter.value < parameters.size(), "parameter {}", node.parameter.value);
+        values.push_back(parameters[node.parameter.value]);
+        break;
+      case Op::kNegate: values.push_back(T(-values[node.left])); break;
+      case Op::kAdd: values.push_back(T(values[node.left] + values[node.right])); break;
+      case Op::kSubtract: values.push_back(T(values[node.left] - values[node.right])); break;
+      case Op::kMultiply: values.push_back(T(values[node.left] * values[node.right])); break;
+      case Op::kDivide: values.push_back(T(values[node.left] / values[node.right])); break;
+      case Op::kPower: {
+        T product = literal(1.0);
+        for (int i = 0; i < (node.exponent < 0 ? -node.exponent : node.exponent); ++i)
+          product = T(product * values[node.left]);
+        values.push_back(node.exponent < 0 ? T(literal(1.0) / product) : product);
+        break;
+      }
+      case Op::kSqrt: values.push_back(T(sqrt(values[node.left]))); break;
+      case Op::kSin: values.push_back(T(sin(values[node.left]))); break;
+      case Op::kCos: values.push_back(T(cos(values[node.left]))); break;
+    }
+  }
+  return values.back();
+}
+
+}  // namespace jourdain::model

@@ -1,0 +1,231 @@
+// Recursive descent with a bounded depth; the grammar, loosest binding first:
+//   sum := product (('+'|'-') product)*      product := signed (('*'|'/') signed)*
+//   signed := ('+'|'-') signed | power       power := primary ('^' signed)?
+//   primary := number | name | function '(' sum ')' | '(' sum ')'
+#include <fmt/format.h>
+
+#include <charconv>
+#include <numbers>
+
+#include "model/expression.hpp"
+#include "support/diagnostics.hpp"
+#include "support/utf8.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using Op = Expression::Op;
+
+constexpr int kMaximumExponent = 64;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool starts_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+
+class Parser {
+ public:
+  Parser(std::string_view text, const std::vector<std::string>& parameters)
+      : text_(text), parameters_(parameters) {}
+
+  Expression parse() {
+    Expression result = sum(0);
+    if (at_end()) return result;
+    const std::size_t begin = position_;
+    if (text_[begin] == ')') fail(begin, 1, "')' without '('");
+    const bool operand = is_digit(text_[begin]) || starts_name(text_[begin]) || text_[begin] == '(';
+    fail(begin, operand ? 1 : character(begin),
+         fmt::format("expected an operator, found '{}'", rest_of_word(begin)),
+         operand ? "a product needs '*'" : "");
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t offset, std::size_t length, std::string message,
+                         std::string hint = "") const {
+    throw ExpressionError{offset, std::max<std::size_t>(1, length), std::move(message), std::move(hint)};
+  }
+
+  bool at_end() {
+    while (position_ < text_.size() &&
+           std::string_view(" \t\r\n").find(text_[position_]) != std::string_view::npos)
+      ++position_;
+    return position_ == text_.size();
+  }
+
+  bool next_is(char c) { return !at_end() && text_[position_] == c; }
+
+  bool accept(char c) {
+    if (!next_is(c)) return false;
+    ++position_;
+    return true;
+  }
+
+  std::size_t character(std::size_t offset) const { return support::utf8_at(text_, offset).bytes; }
+
+  std::string_view name_at(std::size_t begin) const {
+    std::size_t end = begin;
+    while (end < text_.size() && (starts_name(text_[end]) || is_digit(text_[end]))) ++end;
+    return text_.substr(begin, end - begin);
+  }
+
+  std::string rest_of_word(std::size_t begin) const {
+    const std::string_view name = name_at(begin);
+    return support::shown(name.empty() ? text_.substr(begin, character(begin)) : name);
+  }
+
+  /// Checks what an operation written at `begin` gave.
+  Expression finite(Expression value, std::size_t begin) const {
+    if (value.is_constant() && !std::isfinite(value.constant()))
+      fail(begin, position_ - begin,
+           std::isnan(value.constant()) ? "the value is not a number" : "the value is infinite");
+    return value;
+  }
+
+  Expression sum(int depth) {
+    const std::size_t begin = position_;
+    Expression result = product(depth);
+    for (;;) {
+      if (accept('+'))
+        result = finite(Expression::binary(Op::kAdd, result, product(depth)), begin);
+      else if (accept('-'))
+        result = finite(Expression::binary(Op::kSubtract, result, product(depth)), begin);
+      else
+        return result;
+    }
+  }
+
+  Expression product(int depth) {
+    const std::size_t begin = position_;
+    Expression result = signed_power(depth);
+    for (;;) {
+      if (accept('*')) {
+        if (next_is('*'))
+          fail(position_ - 1, 2, "expected an operand, found '*'", "powers are written with '^'");
+        result = finite(Expression::binary(Op::kMultiply, result, signed_power(depth)), begin);
+      } else if (accept('/')) {
+        const std::size_t divisor = skip_blanks();
+        const Expression right = signed_power(depth);
+        if (right.is_zero()) fail(divisor, position_ - divisor, "division by zero");
+        result = finite(Expression::binary(Op::kDivide, result, right), begin);
+      } else {
+        return result;
+      }
+    }
+  }
+
+  std::size_t skip_blanks() {
+    at_end();
+    return position_;
+  }
+
+  Expression signed_power(int depth) {
+    const std::size_t begin = skip_blanks();
+    if (depth > kMaximumExpressionDepth)
+      fail(begin, 1, fmt::format("nested deeper than {} levels", kMaximumExpressionDepth));
+    if (accept('-')) return Expression::unary(Op::kNegate, signed_power(depth + 1));
+    if (accept('+')) return signed_power(depth + 1);
+    Expression base = primary(depth);
+    if (!accept('^')) return base;
+    const std::size_t where = skip_blanks();
+    const Expression exponent = signed_power(depth + 1);
+    return finite(raised(base, exponent, begin, where), begin);
+  }
+
+  Expression raised(const Expression& base, const Expression& exponent, std::size_t begin,
+                    std::size_t where) const {
+    const std::size_t length = position_ - where;
+    if (!exponent.is_constant()) fail(where, length, "an exponent must not depend on parameters");
+    const double value = exponent.constant();
+    if (base.is_zero() && value < 0) fail(begin, position_ - begin, "division by zero");
+    if (value == 0.5) return square_root(base, begin);
+    if (value != std::floor(value) || std::abs(value) > kMaximumExponent)
+      fail(where, length,
+           fmt::format("exponent {} is neither 0.5 nor an integer between {} and {}", value,
+                       -kMaximumExponent, kMaximumExponent));
+    return Expression::power(base, static_cast<int>(value));
+  }
+
+  Expression square_root(const Expression& operand, std::size_t begin) const {
+    if (operand.is_constant() && operand.constant() < 0)
+      fail(begin, position_ - begin, fmt::format("square root of a negative number, {}", operand.constant()));
+    return Expression::unary(Op::kSqrt, operand);
+  }
+
+  Expression primary(int depth) {
+    if (at_end()) fail(position_ == 0 ? 0 : position_ - 1, 1, "expected a number or a name, found the end");
+    const std::size_t begin = position_;
+    if (accept('(')) {
+      Expression inner = sum(depth + 1);
+      if (!accept(')')) fail(begin, 1, "'(' is not closed");
+      return inner;
+    }
+    if (is_digit(text_[begin]) || text_[begin] == '.') return number();
+    if (starts_name(text_[begin])) return name(depth);
+    fail(begin, character(begin),
+         fmt::format("expected a number or a name, found '{}'", rest_of_word(begin)));
+  }
+
+  Expression number() {
+    const std::size_t begin = position_;
+    double value = 0;
+    const char* const end = text_.data() + text_.size();
+    const auto [stop, error] = std::from_chars(text_.data() + begin, end, value);
+    const auto length = static_cast<std::size_t>(stop - text_.data()) - begin;
+    if (error == std::errc::invalid_argument) fail(begin, 1, "'.' is not a number");
+    if (error != std::errc()) fail(begin, length, "the number is out of the range of double precision");
+    position_ = begin + length;
+    return Expression(value);
+  }
+
+  Expression name(int depth) {
+    const std::size_t begin = position_;
+    const std::string_view word = name_at(begin);
+    position_ += word.size();
+    for (std::size_t i = 0; i < parameters_.size(); ++i)
+      if (parameters_[i] == word) return Expression::parameter(ParameterIndex(i));
+    if (word == "pi") return Expression(std::numbers::pi);
+    if (word == "deg") return Expression(std::numbers::pi / 180);
+    if (next_is('(')) return function(word, begin, depth);
+    if (word == "sqrt" || word == "sin" || word == "cos" || word == "tan")
+      fail(begin, word.size(), fmt::format("function '{}' needs an argument", word),
+           fmt::format("write {}(...)", word));
+    std::vector<std::string> known = parameters_;
+    known.insert(known.end(), {"pi", "deg"});
+    const std::string close = support::nearest(word, known);
+    fail(begin, word.size(), fmt::format("unknown name '{}'", support::shown(word)),
+         close.empty() ? "declare it in [parameters]" : fmt::format("did you mean '{}'?", close));
+  }
+
+  Expression function(std::string_view word, std::size_t begin, int depth) {
+    const bool known = word == "sqrt" || word == "sin" || word == "cos" || word == "tan";
+    if (!known)
+      fail(begin, word.size(), fmt::format("unknown function '{}'", support::shown(word)),
+           "known are sqrt, sin, cos, tan");
+    const std::size_t bracket = position_;
+    accept('(');
+    const Expression argument = sum(depth + 1);
+    if (!accept(')')) fail(bracket, 1, "'(' is not closed");
+    if (word == "tan") return finite(Expression::tangent(argument), begin);
+    if (word == "sqrt") return square_root(argument, begin);
+    return finite(Expression::unary(word == "sin" ? Op::kSin : Op::kCos, argument), begin);
+  }
+
+  std::string_view text_;
+  const std::vector<std::string>& parameters_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace
+
+std::variant<Expression, ExpressionError> parse_expression(std::string_view text,
+                                                           const std::vector<std::string>& parameter_names) {
+  if (text.size() > kMaximumExpressionLength)
+    return ExpressionError{
+        0, 1, fmt::format("the expression is longer than {} characters", kMaximumExpressionLength), ""};
+  try {
+    return Parser(text, parameter_names).parse();
+  } catch (const ExpressionError& error) {
+    return error;
+  }
+}
+
+}  // namespace jourdain::model

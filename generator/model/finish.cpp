@@ -1,0 +1,91 @@
+#include "model/finish.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/checks.hpp"
+#include "model/matrix3.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::Diagnostics;
+using support::shown;
+
+void lock(Mechanism& mechanism, std::size_t j) {
+  Joint& joint = mechanism.joints[j];
+  joint.type = JointType::kFixed;
+  joint.stiffness = joint.rest = joint.damping = joint.initial_position = joint.initial_velocity = 0.0;
+  std::erase_if(mechanism.actuators,
+                [&](const Actuator& actuator) { return actuator.joint == JointIndex(j); });
+}
+
+void lock_joints(Mechanism& mechanism, const ReadOptions& options, Diagnostics& diagnostics) {
+  for (const std::string& name : options.locked_joints) {
+    const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
+                                    [&](const Joint& candidate) { return candidate.name == name; });
+    if (joint != mechanism.joints.end()) {
+      lock(mechanism, static_cast<std::size_t>(joint - mechanism.joints.begin()));
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const Joint& candidate : mechanism.joints) names.push_back(candidate.name);
+    const std::string close = support::nearest(name, names);
+    diagnostics.error({}, fmt::format("there is no joint '{}' to lock", shown(name)),
+                      close.empty() ? "" : fmt::format("did you mean '{}'?", shown(close)));
+  }
+}
+
+/// Entries of the rotation matrix that `Mechanism::snap` changes by more than rounding. 0 for tunable angles.
+int snapped_entries(const Rotation& rotation) {
+  constexpr double kRounding = 1e-15;  // a product of a few sines and cosines of exact quarter turns
+  Numbers3 angles{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!rotation.rpy[i].is_constant()) return 0;
+    angles[i] = rotation.rpy[i].constant();
+  }
+  int count = 0;
+  for (const Numbers3& row : rotation_from_rpy(angles))
+    for (const double entry : row) {
+      const double distance = std::abs(entry - std::round(entry));
+      count += distance > kRounding && distance <= kSnapTolerance ? 1 : 0;
+    }
+  return count;
+}
+
+void note_snapped_rotations(const Mechanism& mechanism, Diagnostics& diagnostics) {
+  int count = 0;
+  std::optional<SourceRange> first;
+  const auto add = [&](const Rotation& rotation, const SourceRange& owner) {
+    const int entries = snapped_entries(rotation);
+    const SourceRange& where = rotation.where.line == 0 ? owner : rotation.where;
+    if (entries > 0 && (!first || where.line < first->line)) first = where;
+    count += entries;
+  };
+  for (const Body& body : mechanism.bodies) add(body.inertia_axes, body.where);
+  for (const Joint& joint : mechanism.joints) add(joint.placement.rotation, joint.where);
+  if (count == 0) return;
+  const std::string entries = count == 1 ? "1 rotation entry" : fmt::format("{} rotation entries", count);
+  diagnostics.note(*first, fmt::format("{} within 1e-9 of 0 or ±1 read as exact", entries),
+                   "--no-snap keeps them");
+}
+
+}  // namespace
+
+std::optional<Mechanism> finish_reading(Mechanism mechanism, const Completeness& complete,
+                                        const ReadOptions& options, support::Severity triangle,
+                                        Diagnostics& diagnostics) {
+  mechanism.snap = options.snap;
+  if (complete.structure) lock_joints(mechanism, options, diagnostics);
+  if (mechanism.snap) note_snapped_rotations(mechanism, diagnostics);
+  check_numbers(mechanism, diagnostics);
+  const bool tree = complete.structure && check_graph(mechanism, diagnostics);
+  if (tree && complete.numbers) check_inertias(mechanism, diagnostics, triangle);
+  if (diagnostics.has_errors()) return {};
+  return mechanism;
+}
+
+}  // namespace jourdain::model

@@ -1,0 +1,21 @@
+// Which names may become C++ identifiers, and how others are turned into one.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace jourdain::model {
+
+/// [A-Za-z_][A-Za-z0-9_]*
+bool is_identifier(std::string_view name);
+
+/// A C++17/20/23 keyword, alternative token, or a name that the standard library's C headers define as a macro or
+/// that emitted code uses itself at that place (`Real`, `Model`, `State`, `Input`, `Parameters`, `detail`, …).
+bool is_reserved(std::string_view name);
+
+/// Namespace name for a model: every character outside [A-Za-z0-9_] becomes '_', runs of '_' one (identifiers with
+/// "__" are reserved), a leading digit or '_' gets the prefix "model_", a reserved word gets the suffix "_model".
+/// Never empty.
+std::string cpp_name(std::string_view name);
+
+}  // namespace jourdain::model

@@ -1,0 +1,98 @@
+// Numbers and positions of a TOML file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/toml_table.hpp"
+
+namespace jourdain::model {
+
+void TomlFile::declare(const std::vector<Parameter>& parameters) {
+  names_.clear();
+  values_.clear();
+  for (const Parameter& parameter : parameters) {
+    names_.push_back(parameter.name);
+    values_.push_back(parameter.value);
+  }
+}
+
+void TomlFile::error(SourceRange where, std::string message, std::string hint) {
+  ++error_count_;
+  diagnostics_.error(where, std::move(message), std::move(hint));
+}
+
+SourceRange TomlFile::range(const toml::source_region& region) const {
+  const int line = static_cast<int>(region.begin.line);
+  const int column = static_cast<int>(region.begin.column);
+  const std::size_t begin = lines_.offset(line, column);
+  const bool one_line = region.end.line == region.begin.line;
+  const std::size_t end =
+      one_line ? lines_.offset(line, static_cast<int>(region.end.column)) : diagnostics_.text().size();
+  return lines_.range(begin, std::max<std::size_t>(end, begin + 1) - begin);
+}
+
+Expression TomlFile::number_error(SourceRange where, std::string message, std::string hint) {
+  error(where, std::move(message), std::move(hint));
+  complete_.numbers = false;
+  return 0.0;
+}
+
+Expression TomlFile::expression(const toml::node& node, const std::string& what) {
+  const SourceRange where = range(node.source());
+  if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+  if (const auto* number = node.as_floating_point()) {
+    if (!std::isfinite(number->get())) return number_error(where, fmt::format("{} is not finite", what));
+    if (is_underflow(node)) return number_error(where, "the number is out of the range of double precision");
+    return number->get();
+  }
+  if (const auto* text = node.as_string()) return parsed(*text);
+  return number_error(where,
+                      fmt::format("{} must be a number or an expression, not {}", what, type_in_words(node)));
+}
+
+/// toml++ reads 1e-400 as zero.
+bool TomlFile::is_underflow(const toml::node& node) const {
+  if (node.as_floating_point()->get() != 0) return false;
+  const toml::source_region& region = node.source();
+  const std::size_t begin =
+      lines_.offset(static_cast<int>(region.begin.line), static_cast<int>(region.begin.column));
+  const std::size_t end =
+      lines_.offset(static_cast<int>(region.end.line), static_cast<int>(region.end.column));
+  const std::string_view written = std::string_view(diagnostics_.text()).substr(begin, end - begin);
+  return written.substr(0, written.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos;
+}
+
+Expression TomlFile::parsed(const toml::value<std::string>& text) {
+  const auto result = parse_expression(text.get(), names_);
+  if (const auto* wrong = std::get_if<ExpressionError>(&result))
+    return number_error(inside(text, *wrong), wrong->message, wrong->hint);
+  const Expression& expression = std::get<Expression>(result);
+  const double at_defaults = value(expression);
+  if (!std::isfinite(at_defaults))
+    return number_error(range(text.source()),
+                        fmt::format("the value is {} at the parameters' default values",
+                                    std::isnan(at_defaults) ? "not a number" : "infinite"));
+  return expression;
+}
+
+/// The offending part of an expression, or all of it where the string is written with escapes.
+SourceRange TomlFile::inside(const toml::value<std::string>& text, const ExpressionError& error) const {
+  const toml::source_position& begin = text.source().begin;
+  const std::size_t quote = lines_.offset(static_cast<int>(begin.line), static_cast<int>(begin.column));
+  const std::string_view written = std::string_view(diagnostics_.text()).substr(quote);
+  const std::size_t first = written.find_first_not_of(written.substr(0, 1));
+  const bool as_written =
+      !text.get().empty() && first != std::string_view::npos && written.substr(first).starts_with(text.get());
+  return as_written ? lines_.range(quote + first + error.offset, error.length) : range(text.source());
+}
+
+double TomlFile::constant(const toml::node& node, const std::string& what) {
+  const Expression result = expression(node, what);
+  if (result.is_constant()) return result.constant();
+  number_error(range(node.source()),
+               fmt::format("{} must be constant, it cannot depend on parameters", what));
+  return 0;
+}
+
+}  // namespace jourdain::model

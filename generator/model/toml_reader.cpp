@@ -1,0 +1,165 @@
+// The TOML model file. Wherever a number stands, a string with an expression over parameters may stand
+// ("m/3*l^2", "30*deg"; see parse_expression), but for axes and parameter values, which are constant.
+//
+//   [model]
+//   name = "pendulum"              # required, up to 100 printable characters
+//   description = "..."            # optional
+//   source = "..."                 # optional: where the numbers come from
+//   gravity = [0, 0, -9.81]        # m/s², inertial frame; this is the default
+//
+//   [parameters]                   # tunable at run time; the values are defaults
+//   m = 1.0
+//   l = { value = 1.0, unit = "m", description = "length" }
+//
+//   [[body]]
+//   name = "bob"
+//   mass = "m"                     # kg
+//   center_of_mass = [0, 0, "-l"]  # m, body frame; default zero
+//   inertia = [xx, yy, zz]         # kg m², or { xx, yy, zz, xy, xz, yz }; default zero: a point mass
+//   inertia_at = "center_of_mass"  # or "origin"
+//   inertia_rpy = [0, 0, 0]        # rad, orientation of the inertia's axes
+//   inertia_kind = "rigid"         # or "lumped": need not be one rigid body's
+//   shape = { kind = "box", size = [x, y, z], density = 2700 }   # m, kg/m³; instead of inertia, centred at the
+//                                  # centre of mass; density instead of mass. Further kinds:
+//                                  # { kind = "cylinder", radius, length, axis = "z" }, { kind = "sphere", radius }
+//                                  # and { kind = "rod", length, axis = "z" } (thin, without density)
+//
+//   [[joint]]
+//   name = "hinge"
+//   type = "revolute"              # "prismatic", "fixed"
+//   parent = "world"               # the inertial frame, or a body
+//   child = "bob"
+//   position = [0, 0, 0]           # m, joint frame in the parent's frame
+//   rpy = [0, 0, 0]                # rad
+//   axis = [0, 0, 1]               # in the joint frame; this and the following not for fixed joints
+//   stiffness, damping             # N m/rad, N m s/rad (N/m, N s/m); default 0
+//   rest, initial_position         # rad (m); default 0
+//   initial_velocity               # rad/s (m/s); default 0
+//
+//   [[actuator]]
+//   joint = "hinge"
+//   name = "motor"                 # default: the joint's name
+#include <fmt/format.h>
+
+#include "model/finish.hpp"
+#include "model/nesting.hpp"
+#include "model/read.hpp"
+#include "model/toml_sections.hpp"
+#include "support/utf8.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::Diagnostics;
+
+constexpr double kStandardGravity = 9.81;
+
+class TomlReader {
+ public:
+  TomlReader(Diagnostics& diagnostics, const toml::table& root) : file_(diagnostics), root_(root) {}
+
+  Mechanism read() {
+    const std::vector<std::string> known{"model", "parameters", "body", "joint", "actuator"};
+    const TomlTable top(file_, root_, "the file", {}, known);
+    Mechanism mechanism;
+    if (const toml::table* section = top.table("parameters"))
+      mechanism.parameters = read_parameters(file_, *section);
+    file_.declare(mechanism.parameters);
+    read_model(top, mechanism);
+    if (const auto* section = tables(top, "body")) mechanism.bodies = read_bodies(file_, *section);
+    if (const auto* section = tables(top, "joint"))
+      mechanism.joints = read_joints(file_, *section, mechanism.bodies);
+    if (const auto* section = tables(top, "actuator"))
+      mechanism.actuators = read_actuators(file_, *section, mechanism.joints);
+    return mechanism;
+  }
+
+  const Completeness& complete() { return file_.complete(); }
+
+ private:
+  void read_model(const TomlTable& top, Mechanism& mechanism) {
+    mechanism.gravity = {0.0, 0.0, -kStandardGravity};
+    if (!top.has("model"))
+      return file_.error({}, "the file has no [model]", "it needs at least [model] and a name");
+    const toml::table* section = top.table("model");
+    if (!section) return;
+    const TomlTable table(file_, *section, "[model]", top.where("model"),
+                          {"name", "description", "source", "gravity"});
+    mechanism.name = table.required_text("name").value_or("");
+    if (table.text("name")) check_model_name(table, mechanism.name);
+    mechanism.description = table.text("description").value_or("");
+    mechanism.source = table.text("source").value_or("");
+    mechanism.gravity = table.vector("gravity", mechanism.gravity);
+  }
+
+  static void check_model_name(const TomlTable& table, const std::string& name) {
+    constexpr int kLongest = 100;
+    int length = 0;
+    bool printable = true;
+    for (std::size_t i = 0; i < name.size(); ++length) {
+      const support::Utf8Character character = support::utf8_at(name, i);
+      printable = printable && character.printable;
+      i += character.bytes;
+    }
+    if (length == 0) table.error("name", "the model's name is empty");
+    if (!printable) table.error("name", "the model's name has characters that cannot be printed");
+    if (length > kLongest)
+      table.error("name", fmt::format("the model's name is longer than {} characters", kLongest));
+  }
+
+  /// The array of tables [[key]], or nothing (after a diagnostic if it is something else).
+  const toml::array* tables(const TomlTable& top, const std::string& key) {
+    if (!top.has(key)) return nullptr;
+    const toml::array* array = top.find(key)->as_array();
+    const bool list_of_tables = array && (array->empty() || array->is_homogeneous(toml::node_type::table));
+    if (list_of_tables && array->size() <= kMaximumBodies) return array;
+    file_.complete().structure = false;
+    if (list_of_tables)
+      file_.error(
+          {}, fmt::format("the file has {} [[{}]] tables, more than {}", array->size(), key, kMaximumBodies));
+    else
+      top.error(key, fmt::format("'{}' must be a list of tables", key),
+                fmt::format("write [[{}]] for each one", key));
+    return nullptr;
+  }
+
+  TomlFile file_;
+  const toml::table& root_;
+};
+
+/// "Error while parsing array: …" of toml++ in our words.
+std::string syntax_message(std::string_view description) {
+  constexpr std::string_view kPrefix = "Error while parsing ";
+  if (description.starts_with(kPrefix)) description.remove_prefix(kPrefix.size());
+  return fmt::format("TOML syntax, {}", description);
+}
+
+}  // namespace
+
+std::optional<Mechanism> read_toml(Diagnostics& diagnostics, const ReadOptions& options) {
+  const support::LineIndex lines(diagnostics.text());
+  if (const auto offset = deep_toml_nesting(diagnostics.text())) {
+    diagnostics.error(lines.range(*offset, 1), fmt::format("nested deeper than {} levels", kMaximumNesting));
+    return {};
+  }
+  if (options.root == RootJoint::kFree) {
+    diagnostics.error({}, "a free root can be asked for with URDF files only",
+                      "declare the root's joint in the file");
+    return {};
+  }
+  try {
+    const toml::table root = toml::parse(std::string_view(diagnostics.text()));
+    TomlReader reader(diagnostics, root);
+    Mechanism mechanism = reader.read();
+    return finish_reading(std::move(mechanism), reader.complete(), options, support::Severity::kError,
+                          diagnostics);
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    diagnostics.error({static_cast<int>(begin.line), static_cast<int>(begin.column), 1},
+                      syntax_message(error.description()));
+    return {};
+  }
+}
+
+}  // namespace jourdain::model

@@ -1,0 +1,157 @@
+#include "model/toml_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace jourdain::model {
+
+using support::shown;
+
+std::string_view type_in_words(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::none:
+      return "nothing";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "a truth value";
+    case toml::node_type::date:
+      return "a date";
+    case toml::node_type::time:
+      return "a time";
+    case toml::node_type::date_time:
+      return "a date";
+  }
+  return "something else";
+}
+
+TomlTable::TomlTable(TomlFile& file, const toml::table& table, std::string what, SourceRange where,
+                     const std::vector<std::string>& known)
+    : file_(file), table_(table), what_(std::move(what)), where_(where) {
+  for (const auto& [key, value] : table_) {
+    const std::string name(key.str());
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string close = support::nearest(name, known);
+    file_.error(file_.range(key.source()), fmt::format("unknown key '{}' in {}", shown(name), what_),
+                close.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
+                              : fmt::format("did you mean '{}'?", close));
+  }
+}
+
+SourceRange TomlTable::where(std::string_view key) const {
+  const toml::node* node = find(key);
+  return node ? file_.range(node->source()) : where_;
+}
+
+std::string TomlTable::quoted(std::string_view key) const { return fmt::format("'{}' of {}", key, what_); }
+
+void TomlTable::missing(std::string_view key, std::string hint) const {
+  file_.error(where_, fmt::format("{} needs '{}'", what_, key), std::move(hint));
+}
+
+void TomlTable::error(std::string_view key, std::string message, std::string hint) const {
+  file_.error(where(key), std::move(message), std::move(hint));
+}
+
+void TomlTable::wrong_type(std::string_view key, std::string_view expected) const {
+  error(key, fmt::format("{} must be {}, not {}", quoted(key), expected, type_in_words(*find(key))));
+}
+
+std::optional<std::string> TomlTable::text(std::string_view key) const {
+  if (!has(key)) return {};
+  if (const auto* text = find(key)->as_string()) return text->get();
+  wrong_type(key, "a string");
+  return {};
+}
+
+std::optional<std::string> TomlTable::required_text(std::string_view key) const {
+  if (!has(key)) missing(key);
+  return text(key);
+}
+
+std::optional<std::size_t> TomlTable::choice(std::string_view key,
+                                             const std::vector<std::string>& allowed) const {
+  if (!has(key)) return 0;
+  const std::optional<std::string> word = text(key);
+  if (!word) return {};
+  for (std::size_t i = 0; i < allowed.size(); ++i)
+    if (allowed[i] == *word) return i;
+  const std::string close = support::nearest(*word, allowed);
+  error(key, fmt::format("{} cannot be '{}'", quoted(key), shown(*word)),
+        close.empty() ? fmt::format("known are {}", fmt::join(allowed, ", "))
+                      : fmt::format("did you mean '{}'?", close));
+  return {};
+}
+
+Expression TomlTable::number(std::string_view key, const Expression& otherwise) const {
+  return has(key) ? file_.expression(*find(key), quoted(key)) : otherwise;
+}
+
+Expression TomlTable::positive(std::string_view key) const {
+  if (!has(key)) {
+    missing(key);
+    file_.complete().numbers = false;
+    return 1.0;
+  }
+  const std::size_t mark = file_.error_count();
+  const Expression result = number(key);
+  if (file_.error_count() == mark && !(file_.value(result) > 0)) {
+    error(key, fmt::format("{} must be positive, not {}", quoted(key), file_.value(result)));
+    file_.complete().numbers = false;
+  }
+  return result;
+}
+
+const toml::array* TomlTable::three(std::string_view key) const {
+  const toml::array* array = find(key)->as_array();
+  if (!array) {
+    wrong_type(key, "an array of three numbers");
+  } else if (array->size() != 3) {
+    error(key, fmt::format("{} needs 3 numbers, found {}", quoted(key), array->size()));
+    array = nullptr;
+  }
+  if (!array) file_.complete().numbers = false;
+  return array;
+}
+
+Vector3 TomlTable::vector(std::string_view key, const Vector3& otherwise) const {
+  if (!has(key)) return otherwise;
+  const toml::array* array = three(key);
+  if (!array) return otherwise;
+  Vector3 result;
+  for (std::size_t i = 0; i < 3; ++i) result[i] = file_.expression((*array)[i], quoted(key));
+  return result;
+}
+
+std::array<double, 3> TomlTable::constant_vector(std::string_view key,
+                                                 const std::array<double, 3>& otherwise) const {
+  if (!has(key)) return otherwise;
+  const toml::array* array = three(key);
+  if (!array) return otherwise;
+  const std::size_t mark = file_.error_count();
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i) result[i] = file_.constant((*array)[i], quoted(key));
+  return file_.error_count() == mark ? result : otherwise;
+}
+
+Rotation TomlTable::rotation(std::string_view key) const {
+  return {vector(key), has(key) ? where(key) : SourceRange{}};
+}
+
+const toml::table* TomlTable::table(std::string_view key) const {
+  if (!has(key)) return nullptr;
+  if (const auto* found = find(key)->as_table()) return found;
+  wrong_type(key, "a table");
+  return nullptr;
+}
+
+}  // namespace jourdain::model

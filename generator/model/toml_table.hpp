@@ -1,0 +1,103 @@
+// Typed access to TOML tables: every key that is asked for wrongly, missing or unknown becomes a diagnostic.
+#pragma once
+
+#include <toml++/toml.h>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/finish.hpp"
+#include "model/mechanism.hpp"
+#include "support/diagnostics.hpp"
+#include "support/line_index.hpp"
+
+namespace jourdain::model {
+
+/// One TOML file while it is read.
+class TomlFile {
+ public:
+  explicit TomlFile(support::Diagnostics& diagnostics)
+      : diagnostics_(diagnostics), lines_(diagnostics.text()) {}
+
+  /// The names that expressions may use from now on, and their values.
+  void declare(const std::vector<Parameter>& parameters);
+
+  SourceRange range(const toml::source_region& region) const;
+  void error(SourceRange where, std::string message, std::string hint = "");
+  /// How often `error` was called: lets a caller see whether a value could be read.
+  std::size_t error_count() const { return error_count_; }
+
+  /// A number or an expression string; 0 after a diagnostic. Finite at the parameters' default values.
+  Expression expression(const toml::node& node, const std::string& what);
+  /// An expression that does not depend on parameters; 0 after a diagnostic.
+  double constant(const toml::node& node, const std::string& what);
+  /// At the parameters' default values.
+  double value(const Expression& expression) const { return expression.evaluate<double>(values_); }
+
+  Completeness& complete() { return complete_; }
+
+ private:
+  Expression number_error(SourceRange where, std::string message, std::string hint = "");
+  Expression parsed(const toml::value<std::string>& text);
+  SourceRange inside(const toml::value<std::string>& text, const ExpressionError& error) const;
+  bool is_underflow(const toml::node& node) const;
+
+  support::Diagnostics& diagnostics_;
+  support::LineIndex lines_;
+  std::vector<std::string> names_;
+  std::vector<double> values_;
+  Completeness complete_;
+  std::size_t error_count_ = 0;
+};
+
+/// A table of which all keys are known. `what` names it in messages ("body 'bob'").
+class TomlTable {
+ public:
+  /// Reports keys that are not in `known`. `where` is underlined when a key is missing.
+  TomlTable(TomlFile& file, const toml::table& table, std::string what, SourceRange where,
+            const std::vector<std::string>& known);
+
+  TomlFile& file() const { return file_; }
+  const std::string& what() const { return what_; }
+  bool has(std::string_view key) const { return find(key) != nullptr; }
+  const toml::node* find(std::string_view key) const { return table_.get(key); }
+  /// Of the value of `key`, or of the table where it is missing.
+  SourceRange where(std::string_view key) const;
+
+  /// The text of `key`; nothing (after a diagnostic if it has another type) where it is missing.
+  std::optional<std::string> text(std::string_view key) const;
+  std::optional<std::string> required_text(std::string_view key) const;
+  /// One of `allowed`, or nothing after a diagnostic; the first one where it is missing.
+  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& allowed) const;
+
+  Expression number(std::string_view key, const Expression& otherwise = 0.0) const;
+  /// A required number that is positive at the parameters' default values.
+  Expression positive(std::string_view key) const;
+  /// Three numbers; `otherwise` where the key is missing.
+  Vector3 vector(std::string_view key, const Vector3& otherwise = {}) const;
+  /// Three numbers that do not depend on parameters.
+  std::array<double, 3> constant_vector(std::string_view key, const std::array<double, 3>& otherwise) const;
+  Rotation rotation(std::string_view key) const;
+  /// A table within this one; nothing (after a diagnostic if it has another type) where it is missing.
+  const toml::table* table(std::string_view key) const;
+
+  void missing(std::string_view key, std::string hint = "") const;
+  void error(std::string_view key, std::string message, std::string hint = "") const;
+  std::string quoted(std::string_view key) const;
+
+ private:
+  const toml::array* three(std::string_view key) const;
+  void wrong_type(std::string_view key, std::string_view expected) const;
+
+  TomlFile& file_;
+  const toml::table& table_;
+  std::string what_;
+  SourceRange where_;
+};
+
+/// "a string", "an array", …: what a value is, in words.
+std::string_view type_in_words(const toml::node& node);
+
+}  // namespace jourdain::model

@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "model/read.hpp"
+
+namespace jourdain::model {
+namespace {
+
+const std::string kArm = R"(<?xml version="1.0"?>
+<robot name="arm">
+  <link name="base"/>
+  <link name="arm">
+    <inertial>
+      <origin xyz="0.1 +2e-1 -.3" rpy="0.4 0.5 0.6"/>
+      <mass value="2"/>
+      <inertia ixx="0.1" ixy="0.01" ixz="0.02" iyy="0.2" iyz="0.03" izz="0.25"/>
+    </inertial>
+    <visual><geometry><box size="not read"/></geometry></visual>
+  </link>
+  <link name="finger"/>
+  <link name="sensor"/>
+  <joint name="elbow" type="continuous">
+    <origin xyz="1 2 3" rpy="0.1 0.2 0.3"/>
+    <parent link="base"/>
+    <child link="arm"/>
+    <dynamics damping="0.5" friction="0"/>
+  </joint>
+  <joint name="slide" type="prismatic">
+    <parent link="arm"/>
+    <child link="finger"/>
+    <axis xyz="0 -1 0"/>
+  </joint>
+  <joint name="mount" type="fixed">
+    <parent link="finger"/>
+    <child link="sensor"/>
+    <axis xyz="0 0 0"/>
+    <mimic joint="slide"/>
+  </joint>
+  <gazebo><anything deep="1"/></gazebo>
+</robot>
+)";
+
+Mechanism read_cleanly(const std::string& text, const ReadOptions& options = {}) {
+  support::Diagnostics diagnostics("arm.urdf", text);
+  auto mechanism = read_mechanism(diagnostics, options);
+  EXPECT_EQ(diagnostics.format(), "");
+  return mechanism.value_or(Mechanism());
+}
+
+TEST(ReadUrdf, TakesLinks) {
+  const Mechanism m = read_cleanly(kArm);
+  EXPECT_EQ(m.name, "arm");
+  EXPECT_EQ(m.gravity[2].constant(), -9.81);
+  ASSERT_EQ(m.bodies.size(), 4u);
+  EXPECT_TRUE(m.bodies[0].mass.is_zero());
+  const Body& arm = m.bodies[1];
+  EXPECT_EQ(arm.mass.constant(), 2);
+  EXPECT_EQ(arm.center_of_mass[1].constant(), 0.2);
+  EXPECT_EQ(arm.center_of_mass[2].constant(), -0.3);
+  EXPECT_EQ(arm.inertia_axes.rpy[2].constant(), 0.6);
+  EXPECT_EQ(arm.inertia.yy.constant(), 0.2);
+  EXPECT_EQ(arm.inertia.xz.constant(), 0.02);
+  EXPECT_EQ(arm.inertia.yz.constant(), 0.03);
+  EXPECT_EQ(arm.where.line, 4);
+}
+
+TEST(ReadUrdf, TakesJointsAndActuatesThoseThatMove) {
+  const Mechanism m = read_cleanly(kArm);
+  ASSERT_EQ(m.joints.size(), 4u);
+  EXPECT_EQ(m.joints[0].type, JointType::kRevolute);
+  EXPECT_EQ(m.joints[0].axis, (std::array<double, 3>{1, 0, 0}));
+  EXPECT_EQ(m.joints[0].placement.position[2].constant(), 3);
+  EXPECT_EQ(m.joints[0].placement.rotation.rpy[0].constant(), 0.1);
+  EXPECT_EQ(m.joints[0].damping.constant(), 0.5);
+  EXPECT_EQ(m.joints[1].type, JointType::kPrismatic);
+  EXPECT_EQ(m.joints[1].axis, (std::array<double, 3>{0, -1, 0}));
+  EXPECT_EQ(m.joints[2].type, JointType::kFixed);
+  ASSERT_EQ(m.actuators.size(), 2u);
+  EXPECT_EQ(m.actuators[1].name, "slide");
+  EXPECT_EQ(m.actuators[1].joint, JointIndex(1));
+}
+
+TEST(ReadUrdf, FixesTheRootToTheWorld) {
+  const Mechanism m = read_cleanly(kArm);
+  const Joint& root = m.joints[3];
+  EXPECT_EQ(root.name, "base_to_world");
+  EXPECT_EQ(root.type, JointType::kFixed);
+  EXPECT_FALSE(root.parent.has_value());
+  EXPECT_EQ(root.child, BodyIndex(0));
+}
+
+TEST(ReadUrdf, LeavesDampingOutOnRequest) {
+  EXPECT_TRUE(read_cleanly(kArm, {.damping = false}).joints[0].damping.is_zero());
+}
+
+TEST(ReadUrdf, LocksJoints) {
+  const Mechanism m = read_cleanly(kArm, {.locked_joints = {"slide"}});
+  EXPECT_EQ(m.joints[1].type, JointType::kFixed);
+  ASSERT_EQ(m.actuators.size(), 1u);
+  EXPECT_EQ(m.actuators[0].name, "elbow");
+}
+
+/// A real robot and its degrees of freedom.
+struct Robot {
+  const char* name;
+  std::size_t degrees_of_freedom;
+};
+
+/// The strings of the JSON list that begins behind `mark`.
+std::vector<std::string> quoted_words(const std::string& json, const std::string& mark) {
+  const std::size_t begin = json.find(mark) + mark.size();
+  const std::string list = json.substr(begin, json.find(']', begin) - begin);
+  std::vector<std::string> words;
+  for (std::size_t open = list.find('"'); open != std::string::npos;) {
+    const std::size_t close = list.find('"', open + 1);
+    words.push_back(list.substr(open + 1, close - open - 1));
+    open = list.find('"', close + 1);
+  }
+  return words;
+}
+
+class ReadUrdfOf : public testing::TestWithParam<Robot> {};
+
+TEST_P(ReadUrdfOf, ARealRobotGivesNoErrors) {
+  const std::filesystem::path data = std::filesystem::path(JOURDAIN_SOURCE_DIR) / "../shared/data";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << "robot descriptions are not there: ../shared/data";
+  const std::string name = GetParam().name;
+  support::Diagnostics diagnostics(name + ".urdf",
+                                   support::read_file((data / "urdf" / (name + ".urdf")).string()));
+  const auto mechanism = read_mechanism(diagnostics);
+  ASSERT_TRUE(mechanism.has_value()) << diagnostics.format();
+
+  // The published accelerations name the same joints; their order sorts siblings by name where ours is the
+  // file's.
+  std::vector<std::string> names;
+  for (const JointIndex joint : moving_joints(*mechanism))
+    names.push_back(mechanism->joints[joint.value].name);
+  EXPECT_EQ(names.size(), GetParam().degrees_of_freedom);
+  const std::string reference =
+      support::read_file((data / "accelerations" / (name + ".fixed.json")).string());
+  std::vector<std::string> expected = quoted_words(reference, "\"joints\": [");
+  std::sort(names.begin(), names.end());
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(names, expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, ReadUrdfOf,
+                         testing::Values(Robot{"double_pendulum", 2}, Robot{"ur5", 6}, Robot{"panda", 9},
+                                         Robot{"hyq", 12}, Robot{"talos_reduced", 32}),
+                         [](const auto& given) { return std::string(given.param.name); });
+
+}  // namespace
+}  // namespace jourdain::model
