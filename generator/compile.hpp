@@ -1,0 +1,57 @@
+// The whole compiler as one function: mechanism in, checked sources out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics/equations.hpp"
+#include "emit/files.hpp"
+#include "model/mechanism.hpp"
+#include "passes/pipeline.hpp"
+#include "support/diagnostics.hpp"
+#include "validate/translation.hpp"
+
+namespace jourdain {
+
+struct CompileOptions {
+  std::string name;                      ///< namespace and file name; empty: made from the model's name
+  std::vector<std::string> functions = emit::function_names();
+  dynamics::DerivationOptions derivation;
+  std::vector<std::string> passes_off;   ///< names of passes to leave out
+  std::string path;                      ///< of the description, as printed in the emitted files
+  std::string sha256;                    ///< of the description
+  bool damping = true;                   ///< printed as an assumption when joint damping was switched off on reading
+};
+
+/// What one simplification saved, counted by switching it off.
+struct Omission {
+  std::string name;     ///< "base inertial parameters", "gravity", …
+  std::string what;     ///< a sentence on what was left out here, and why
+  long saved = 0;       ///< operations of forward_dynamics with it off minus with it on
+};
+
+struct CompiledModel {
+  std::vector<emit::FunctionInfo> functions;
+  ir::Module module;
+  std::vector<passes::PassRecord> passes;
+  std::vector<Omission> omissions;
+  validate::Verdict verdict;
+  std::vector<emit::File> files;  ///< empty unless the verdict accepts
+};
+
+/// Joints that move no inertia become diagnostics; call it before `compile`.
+void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diagnostics);
+
+/// Derives, optimises, validates and emits. A rejected verdict leaves `files` empty. `mechanism` must have passed
+/// check_mechanism and check_inertia.
+CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& options);
+
+/// The last stage of `compile`: validates `model.module` against the equations and the references and, if that succeeds,
+/// fills in `model.files`; otherwise they stay empty.
+void validate_and_emit(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+                       const CompileOptions& options, CompiledModel& model);
+
+/// Equations lowered to one program per function, before any pass.
+ir::Module lower_functions(const dynamics::Equations& equations, const std::vector<emit::FunctionInfo>& functions);
+
+}  // namespace jourdain

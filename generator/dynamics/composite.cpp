@@ -1,0 +1,138 @@
+#include "dynamics/composite.hpp"
+
+#include <fmt/format.h>
+
+namespace jourdain::dynamics {
+
+using kinematics::kGround;
+using kinematics::Link;
+using kinematics::LinkTree;
+using kinematics::MassMoments;
+using kinematics::Matrix3;
+using kinematics::Statements;
+using kinematics::WorkingFrames;
+
+namespace {
+
+/// R S Rᵀ with its intermediate bound (permutations cost nothing).
+Matrix3 rotated(const Matrix3& R, const Matrix3& S, const std::string& name, Statements& statements) {
+  Matrix3 RS = R * S;
+  for (std::size_t i = 0; i < 3; ++i) RS[i] = statements.bind(fmt::format("{}r{}", name, i), RS[i]);
+  return statements.bind_symmetric(name, RS * transpose(R));
+}
+
+/// S and polar turned about z from link to working axes. With d = S_xx − S_yy and t = s d + 2 c S_xy:
+/// S'_xx = S_xx − s t, S'_xy = c t − S_xy; the trace of the xy block does not change.
+Matrix3 turned(const Matrix3& S, const Ex& polar, const Ex& c, const Ex& s, const std::string& name,
+               Statements& statements) {
+  if (s.is_zero()) return S;
+  const Ex difference = statements.bind(name + "_d", S[0][0] - S[1][1]);
+  const Ex twice = statements.bind(name + "_e", 2 * S[0][1]);
+  const Ex t = statements.bind(name + "_t", s * difference + c * twice);
+  Matrix3 T;
+  T[0][0] = S[0][0] - s * t;
+  T[0][1] = T[1][0] = c * t - S[0][1];
+  T[0][2] = T[2][0] = c * S[0][2] - s * S[1][2];
+  T[1][2] = T[2][1] = s * S[0][2] + c * S[1][2];
+  T[2][2] = S[2][2];
+  T = statements.bind_symmetric(name, T);
+  T[1][1] = statements.bind(name + "_yy", polar - T[0][0]);
+  return T;
+}
+
+}  // namespace
+
+std::vector<CompositeBody> derive_composites(const LinkTree& tree, const WorkingFrames& frames,
+                                             Statements& statements) {
+  const std::size_t n = tree.links.size();
+  std::vector<MassMoments> in_link(n), in_working(n);  // sums over the link's body and children so far
+  std::vector<Ex> working_polar(n, 0);
+  std::vector<CompositeBody> composites(n);
+  for (std::size_t i = 0; i < n; ++i) in_link[i] = tree.links[i].moments;
+  for (std::size_t i = n; i-- > 0;) {
+    const Link& link = tree.links[i];
+    const std::string S = fmt::format("S{}", i), h = fmt::format("h{}", i);
+    const MassMoments& own = in_link[i];
+    const Ex own_polar = statements.bind(S + "b_zz", own.second[0][0] + own.second[1][1]);
+    const Matrix3 own_second = turned(own.second, own_polar, frames.cosine(i), frames.sine(i), S + "b", statements);
+    CompositeBody& body = composites[i];
+    body.moments.mass = statements.bind(fmt::format("m{}", i), own.mass + in_working[i].mass);
+    body.moments.first =
+        statements.bind(h, frames.to_working(i, own.first, h + "b") + in_working[i].first);
+    body.polar = statements.bind(fmt::format("J{}", i), own_polar + working_polar[i]);
+    body.moments.second = statements.bind_symmetric(S, own_second + in_working[i].second);
+    if (!in_working[i].second[0][0].is_zero())
+      body.moments.second[1][1] = statements.bind(S + "_yy", body.polar - body.moments.second[0][0]);
+    if (link.parent == kGround) continue;
+
+    const Vector3& r = frames.offset(i);
+    const std::string at_parent = fmt::format("at{}", i);
+    MassMoments moved = body.moments;
+    if (!link.parallel) {
+      moved.first = statements.bind(h + at_parent, link.R_PL * moved.first);
+      moved.second = rotated(link.R_PL, moved.second, S + at_parent, statements);
+    }
+    const Vector3 mr = statements.bind(h + "r", moved.mass * r);
+    const Vector3 middle = statements.bind(h + "k", moved.first + Ex(GiNaC::numeric(1, 2)) * mr);
+    MassMoments& target = link.parallel ? in_working[link.parent] : in_link[link.parent];
+    if (link.parallel) {
+      const Ex shift = statements.bind(fmt::format("D{}", i), r[0] * middle[0] + r[1] * middle[1]);
+      const Ex half = statements.bind(fmt::format("E{}", i), body.polar + shift);
+      working_polar[link.parent] = statements.bind(fmt::format("Jc{}", i), working_polar[link.parent] + half + shift);
+    }
+    target.mass = statements.bind(fmt::format("mc{}", i), target.mass + moved.mass);
+    target.first = statements.bind(h + "c", target.first + (moved.first + mr));
+    target.second =
+        statements.bind_symmetric(S + "c", target.second + (moved.second + kinematics::symmetric_outer(r, middle)));
+  }
+  return composites;
+}
+
+Wrench unit_momentum(const Link& link, const CompositeBody& body) {
+  const Vector3& h = body.moments.first;
+  const auto& S = body.moments.second;
+  if (link.revolute) return {{-h[1], h[0], 0}, {-S[0][2], -S[1][2], body.polar}};
+  return {{0, 0, body.moments.mass}, {h[1], -h[0], 0}};
+}
+
+Wrench to_parent(const LinkTree& tree, const WorkingFrames& frames, std::size_t i, const Wrench& wrench,
+                 const std::string& name, Statements& statements) {
+  const Link& link = tree.links[i];
+  Wrench moved = wrench;
+  if (!link.parallel) {
+    moved.force = statements.bind(name + "f", link.R_PL * wrench.force);
+    moved.moment = link.R_PL * wrench.moment;
+  }
+  moved.moment = statements.bind(name + "n", moved.moment + kinematics::cross(frames.offset(i), moved.force));
+  if (link.parallel || link.parent == kGround) return moved;
+  return {frames.to_working(link.parent, moved.force, name + "F"),
+          frames.to_working(link.parent, moved.moment, name + "N")};
+}
+
+std::vector<Wrench> accumulate_wrenches(const LinkTree& tree, const WorkingFrames& frames,
+                                        const std::vector<Wrench>& own, const std::string& name,
+                                        Statements& statements) {
+  const std::size_t n = tree.links.size();
+  std::vector<Wrench> in_link(n), total = own;  // children that are not parallel are summed in link axes first
+  for (std::size_t i = n; i-- > 0;) {
+    const Link& link = tree.links[i];
+    const std::string f = fmt::format("{}f{}", name, i), m = fmt::format("{}n{}", name, i);
+    total[i].force =
+        statements.bind(f, total[i].force + frames.to_working(i, in_link[i].force, f + "b"));
+    total[i].moment =
+        statements.bind(m, total[i].moment + frames.to_working(i, in_link[i].moment, m + "b"));
+    if (link.parent == kGround) continue;
+    Wrench moved = total[i];
+    if (!link.parallel) {
+      moved.force = statements.bind(f + "p", link.R_PL * moved.force);
+      moved.moment = statements.bind(m + "p", link.R_PL * moved.moment);
+    }
+    Wrench& target = link.parallel ? total[link.parent] : in_link[link.parent];
+    target.force = statements.bind(f + "c", target.force + moved.force);
+    target.moment =
+        statements.bind(m + "c", target.moment + (moved.moment + kinematics::cross(frames.offset(i), moved.force)));
+  }
+  return total;
+}
+
+}  // namespace jourdain::dynamics

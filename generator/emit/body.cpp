@@ -1,0 +1,240 @@
+#include "emit/body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace jourdain::emit {
+
+using ir::Node;
+using ir::Op;
+using ir::Program;
+using ir::ValueId;
+
+std::string literal_text(double value) {
+  std::string digits = fmt::format("{}", value);
+  if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
+  return fmt::format("Real({})", digits);
+}
+
+namespace {
+
+/// Binding strength of an expression's outermost operation.
+enum class Strength { kSum, kProduct, kAtom };
+
+struct Text {
+  std::string text;
+  Strength strength = Strength::kAtom;
+};
+
+std::string at_least(const Text& text, Strength strength) {
+  return text.strength >= strength ? text.text : "(" + text.text + ")";
+}
+
+class BodyPrinter {
+ public:
+  BodyPrinter(const Program& program, Names names, const LeafText& leaf, const OutputText& output,
+              const StoredValues& stored)
+      : program_(program),
+        leaf_(leaf),
+        output_(output),
+        stored_(stored),
+        uses_(ir::use_counts(program)),
+        name_(program.nodes.size()) {
+    for (std::size_t i = 0; i < program.nodes.size(); ++i)
+      if (const auto it = stored.find(ValueId(i)); it != stored.end())
+        name_[i] = it->second;
+      else if (is_statement(i))
+        name_[i] = names.unique(program.labels[i], fmt::format("t{}", i));
+    find_pairs();
+  }
+
+  Body print(std::size_t maximum_statements) {
+    std::vector<std::size_t> statements;
+    for (std::size_t i = 0; i < program_.nodes.size(); ++i)
+      if (!name_[i].empty()) statements.push_back(i);
+    Body body;
+    const std::vector<std::size_t> part_of = cut(statements, maximum_statements);
+    const std::size_t parts = statements.empty() ? 1 : part_of[statements.back()] + 1;
+    const auto slots = work_slots(statements, part_of, parts);
+    body.work_size = slots.size();
+    body.parts.resize(parts);
+    for (std::size_t part = 0; part < parts; ++part) print_part(body.parts[part], part, statements, part_of, slots);
+    for (const ir::Output& output : program_.outputs)
+      if (!stored_.count(output.value)) body.parts.back().lines.push_back(output_(output, expression(output.value, true).text));
+    return body;
+  }
+
+ private:
+  bool is_statement(std::size_t i) const {
+    const Node& node = program_.nodes[i];
+    if (ir::operand_count(node.op) == 0) return false;
+    if (node.op == Op::kSin || node.op == Op::kCos) return true;
+    if (node.op == Op::kNegate) return uses_[i] > 1;
+    return uses_[i] > 1 || !program_.labels[i].empty();
+  }
+
+  /// Sines and cosines of the same angle; the later one of a pair is computed with the earlier.
+  void find_pairs() {
+    std::map<ValueId, std::size_t> sines, cosines;
+    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
+      if (program_.nodes[i].op == Op::kSin) sines[program_.nodes[i].a] = i;
+      if (program_.nodes[i].op == Op::kCos) cosines[program_.nodes[i].a] = i;
+    }
+    for (const auto& [angle, sine] : sines)
+      if (const auto it = cosines.find(angle);
+          it != cosines.end() && !stored_.count(ValueId(sine)) && !stored_.count(ValueId(it->second))) {
+        pair_[std::min(sine, it->second)] = std::max(sine, it->second);
+        second_.insert(std::max(sine, it->second));
+      }
+  }
+
+  /// Statements that statement `i` reads, through the expressions written inside it.
+  void operands(std::size_t i, std::set<std::size_t>& found) const {
+    const Node& node = program_.nodes[i];
+    for (int k = 0; k < ir::operand_count(node.op); ++k) {
+      const std::size_t operand = (k == 0 ? node.a : node.b).value;
+      if (!name_[operand].empty())
+        found.insert(operand);
+      else
+        operands(operand, found);
+    }
+  }
+
+  std::set<std::size_t> reads(std::size_t i) const {
+    std::set<std::size_t> found;
+    operands(i, found);
+    return found;
+  }
+
+  /// For each value that is live after statement k: where it is last read. Cuts lie where few values are live.
+  std::vector<std::size_t> cut(const std::vector<std::size_t>& statements, std::size_t maximum) const {
+    std::vector<std::size_t> part_of(program_.nodes.size(), 0);
+    if (statements.size() <= maximum) return part_of;
+    std::map<std::size_t, std::size_t> position, last;
+    for (std::size_t k = 0; k < statements.size(); ++k) {
+      position[statements[k]] = k;
+      for (std::size_t operand : reads(statements[k])) last[operand] = k;
+    }
+    for (const ir::Output& output : program_.outputs) last[output.value.value] = statements.size();
+    std::vector<long> change(statements.size() + 2, 0);
+    for (const auto& [value, end] : last) {
+      if (!position.count(value)) continue;
+      ++change[position[value]];
+      --change[end];
+    }
+    std::vector<long> live(statements.size(), 0);
+    long count = 0;
+    for (std::size_t k = 0; k < statements.size(); ++k) live[k] = count += change[k];
+    std::size_t part = 0, begin = 0;
+    while (begin < statements.size()) {
+      std::size_t end = statements.size();
+      if (end - begin > maximum)
+        end = static_cast<std::size_t>(std::min_element(live.begin() + static_cast<long>(begin + maximum / 2),
+                                                        live.begin() + static_cast<long>(begin + maximum)) -
+                                       live.begin()) +
+              1;
+      for (std::size_t k = begin; k < end; ++k) part_of[statements[k]] = part;
+      ++part;
+      begin = end;
+    }
+    for (const auto& [first, second] : pair_) part_of[second] = part_of[first];
+    return part_of;
+  }
+
+  std::set<std::size_t> needed_in(std::size_t part, const std::vector<std::size_t>& statements,
+                                  const std::vector<std::size_t>& part_of, std::size_t parts) const {
+    std::set<std::size_t> needed;
+    for (std::size_t i : statements)
+      if (part_of[i] == part) operands(i, needed);
+    if (part + 1 == parts)
+      for (const ir::Output& output : program_.outputs) {
+        if (name_[output.value.value].empty())
+          operands(output.value.value, needed);
+        else
+          needed.insert(output.value.value);
+      }
+    std::set<std::size_t> from_earlier;
+    for (std::size_t i : needed)
+      if (part_of[i] < part) from_earlier.insert(i);
+    return from_earlier;
+  }
+
+  /// Entry of `w` for each value that a later part reads.
+  std::map<std::size_t, std::size_t> work_slots(const std::vector<std::size_t>& statements,
+                                                const std::vector<std::size_t>& part_of, std::size_t parts) const {
+    std::map<std::size_t, std::size_t> slots;
+    for (std::size_t part = 1; part < parts; ++part)
+      for (std::size_t i : needed_in(part, statements, part_of, parts)) slots.try_emplace(i, slots.size());
+    return slots;
+  }
+
+  void print_part(Part& part, std::size_t index, const std::vector<std::size_t>& statements,
+                  const std::vector<std::size_t>& part_of, const std::map<std::size_t, std::size_t>& slots) const {
+    const std::size_t parts = part_of[statements.empty() ? 0 : statements.back()] + 1;
+    if (index > 0)
+      for (std::size_t i : needed_in(index, statements, part_of, parts))
+        part.lines.push_back(fmt::format("const Real {} = w[{}];", name_[i], slots.at(i)));
+    for (std::size_t i : statements)
+      if (part_of[i] == index) print_statement(part, i);
+    for (const auto& [i, slot] : slots)
+      if (part_of[i] == index) part.lines.push_back(fmt::format("w[{}] = {};", slot, name_[i]));
+  }
+
+  void print_statement(Part& part, std::size_t i) const {
+    if (second_.count(i)) return;
+    const auto it = pair_.find(i);
+    if (it == pair_.end()) {
+      const char* declare = stored_.count(ValueId(i)) ? "" : "const Real ";
+      part.lines.push_back(fmt::format("{}{} = {};", declare, name_[i], expression(ValueId(i), false).text));
+      return;
+    }
+    const bool sine_first = program_.nodes[i].op == Op::kSin;
+    const std::string &sine = name_[sine_first ? i : it->second], &cosine = name_[sine_first ? it->second : i];
+    part.lines.push_back(fmt::format("Real {}, {};", sine, cosine));
+    part.lines.push_back(fmt::format("detail::sine_cosine({}, {}, {});",
+                                     expression(program_.nodes[i].a, true).text, sine, cosine));
+  }
+
+  /// The expression of a value; `by_name` for one that has a name already.
+  Text expression(ValueId id, bool by_name) const {
+    if (by_name && !name_[id.value].empty()) return {name_[id.value]};
+    const Node& node = program_[id];
+    const auto a = [&](Strength strength) { return at_least(expression(node.a, true), strength); };
+    const auto b = [&](Strength strength) { return at_least(expression(node.b, true), strength); };
+    switch (node.op) {
+      case Op::kLiteral: return {literal_text(node.literal)};
+      case Op::kLeaf: return {leaf_(node.leaf, node.index)};
+      case Op::kNegate: return {"-" + a(Strength::kAtom), Strength::kSum};
+      case Op::kAdd: return {a(Strength::kSum) + " + " + b(Strength::kProduct), Strength::kSum};
+      case Op::kSubtract: return {a(Strength::kSum) + " - " + b(Strength::kProduct), Strength::kSum};
+      case Op::kMultiply: return {a(Strength::kProduct) + " * " + b(Strength::kAtom), Strength::kProduct};
+      case Op::kDivide: return {a(Strength::kProduct) + " / " + b(Strength::kAtom), Strength::kProduct};
+      case Op::kSqrt: return {fmt::format("detail::square_root({})", expression(node.a, true).text)};
+      case Op::kSin: return {fmt::format("detail::sine({})", expression(node.a, true).text)};
+      case Op::kCos: return {fmt::format("detail::cosine({})", expression(node.a, true).text)};
+    }
+    return {};
+  }
+
+  const Program& program_;
+  const LeafText& leaf_;
+  const OutputText& output_;
+  const StoredValues& stored_;
+  std::vector<std::size_t> uses_;
+  std::vector<std::string> name_;  ///< of statements; empty for what is written inside them
+  std::map<std::size_t, std::size_t> pair_;
+  std::set<std::size_t> second_;
+};
+
+}  // namespace
+
+Body print_body(const Program& program, Names names, const LeafText& leaf, const OutputText& output,
+                const StoredValues& stored, std::size_t maximum_statements) {
+  return BodyPrinter(program, std::move(names), leaf, output, stored).print(maximum_statements);
+}
+
+}  // namespace jourdain::emit

@@ -1,0 +1,48 @@
+// The emitted files of a model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emit/functions.hpp"
+#include "ir/module.hpp"
+
+namespace jourdain::emit {
+
+struct ParameterText {
+  std::string name;
+  double value = 0;
+  std::string unit;
+  std::string description;
+};
+
+/// What the files say about a model beside its programs.
+struct ModelText {
+  std::string name;         ///< namespace and file name
+  std::string title;        ///< the model's own name
+  std::string description;
+  std::string numbers_from; ///< source of the model's numbers
+  std::string path;         ///< relative path of the description
+  std::string sha256;       ///< of the description
+  std::vector<std::string> positions, velocities, inputs;  ///< names in order
+  std::vector<ParameterText> parameters;
+  std::vector<std::string> assumptions;  ///< sentences
+  std::vector<std::string> left_out;     ///< sentences
+  std::string validation;                ///< a sentence
+  double backward_error = 0;             ///< of M zdot = k_bar − q_bar, worst over the sampled states
+  double condition = 0;                  ///< cond(M), worst over the sampled states
+};
+
+struct File {
+  std::string name;
+  std::string text;
+};
+
+/// NAME.hpp, NAME_kernels.hpp, NAME.cpp and NAME.json, in this order. `functions` are those to emit; each but kStep has a
+/// program of the same name in `module`.
+std::vector<File> emit_files(const ModelText& model, const std::vector<FunctionInfo>& functions,
+                             const ir::Module& module);
+
+inline constexpr const char* kVersion = "0.1.0";
+
+}  // namespace jourdain::emit

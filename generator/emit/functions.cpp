@@ -1,0 +1,49 @@
+#include "emit/functions.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace jourdain::emit {
+
+const std::vector<FunctionInfo>& all_functions() {
+  static const std::vector<FunctionInfo> functions = {
+      {"initial_state", Shape::kState, "", false, false, {}, "The state that the model description starts from, at t = 0."},
+      {"mass_matrix", Shape::kMatrix, "M", false, false, {},
+       "Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled."},
+      {"k_bar", Shape::kVector, "k", false, false, {},
+       "Coriolis and centrifugal terms k_bar(y, z); no gravity."},
+      {"q_bar", Shape::kVector, "q", true, false, {},
+       "Applied forces q_bar(y, z, u): gravity, springs, dampers, inputs. Sign as in M zdot = k_bar - q_bar:\n"
+       "a force that pushes a coordinate forward makes its entry negative."},
+      {"forward_dynamics", Shape::kVector, "zdot", true, false, {},
+       "Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2."},
+      {"inverse_dynamics", Shape::kVector, "tau", false, true, {},
+       "Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations\n"
+       "`zdot`, N m or N."},
+      {"kinetic_energy", Shape::kScalar, "", false, false, {}, "Kinetic energy, J."},
+      {"potential_energy", Shape::kScalar, "", false, false, {},
+       "Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J."},
+      {"rk4_step", Shape::kStep, "", true, false, {"forward_dynamics"},
+       "One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.\n"
+       "Four calls of forward_dynamics."},
+  };
+  return functions;
+}
+
+std::vector<std::string> function_names() {
+  std::vector<std::string> names;
+  for (const FunctionInfo& function : all_functions()) names.push_back(function.name);
+  return names;
+}
+
+std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted) {
+  std::set<std::string> names(wanted.begin(), wanted.end());
+  for (const FunctionInfo& function : all_functions())
+    if (names.count(function.name)) names.insert(function.needs.begin(), function.needs.end());
+  std::vector<FunctionInfo> chosen;
+  for (const FunctionInfo& function : all_functions())
+    if (names.count(function.name)) chosen.push_back(function);
+  return chosen;
+}
+
+}  // namespace jourdain::emit

@@ -1,0 +1,67 @@
+#include "emit/manifest.hpp"
+
+#include <fmt/format.h>
+
+#include "emit/names.hpp"
+
+namespace jourdain::emit {
+
+namespace {
+
+std::string string_array(const std::vector<std::string>& entries) {
+  std::string text;
+  for (const std::string& entry : entries) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", quoted_text(entry));
+  return "[" + text + "]";
+}
+
+std::string operations_object(const ir::Operations& count) {
+  return fmt::format(
+      R"({{"arithmetic": {}, "add": {}, "sub": {}, "mul": {}, "div": {}, "sqrt": {}, "neg": {}, "sin": {}, "cos": {}}})",
+      count.arithmetic(), count.add, count.subtract, count.multiply, count.divide, count.sqrt, count.negate, count.sin,
+      count.cos);
+}
+
+}  // namespace
+
+std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions, const ir::Module& module) {
+  std::string text = "{\n";
+  const auto field = [&text](const std::string& key, const std::string& value) {
+    text += fmt::format("  \"{}\": {},\n", key, value);
+  };
+  const auto string = [](const std::string& value) { return "\"" + quoted_text(value) + "\""; };
+  std::vector<std::string> parameters, names;
+  std::string values;
+  for (const ParameterText& parameter : model.parameters) {
+    parameters.push_back(parameter.name);
+    values += fmt::format("{}{}", values.empty() ? "" : ", ", parameter.value);
+  }
+  for (const FunctionInfo& function : functions) names.push_back(function.name);
+  field("generator", string(fmt::format("Jourdain {}", kVersion)));
+  field("name", string(model.name));
+  field("title", string(model.title));
+  field("model", string(model.path));
+  field("sha256", string(model.sha256));
+  field("position_count", fmt::format("{}", model.positions.size()));
+  field("velocity_count", fmt::format("{}", model.velocities.size()));
+  field("input_count", fmt::format("{}", model.inputs.size()));
+  field("parameter_count", fmt::format("{}", model.parameters.size()));
+  field("positions", string_array(model.positions));
+  field("velocities", string_array(model.velocities));
+  field("inputs", string_array(model.inputs));
+  field("outputs", "[]");
+  field("parameters", string_array(parameters));
+  field("parameter_values", "[" + values + "]");
+  field("functions", string_array(names));
+  text += "  \"operations\": {\n";
+  text += fmt::format("    \"model\": {}", operations_object(ir::count_operations(module.constants)));
+  for (const ir::Program& program : module.functions)
+    text += fmt::format(",\n    \"{}\": {}", program.name, operations_object(ir::count_operations(program)));
+  text += "\n  },\n";
+  field("assumptions", string_array(model.assumptions));
+  field("left_out", string_array(model.left_out));
+  field("backward_error", fmt::format("{:.2g}", model.backward_error));
+  text += fmt::format("  \"condition\": {:.2g}\n}}\n", model.condition);
+  return text;
+}
+
+}  // namespace jourdain::emit

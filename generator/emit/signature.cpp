@@ -1,0 +1,38 @@
+#include "emit/signature.hpp"
+
+#include <fmt/format.h>
+
+#include "emit/layout.hpp"
+
+namespace jourdain::emit {
+
+std::string Argument::text(bool named) const {
+  if (!bounds.empty()) return fmt::format("{} (&{}){}", type, named ? name : "", bounds);
+  return named ? type + " " + name : type;
+}
+
+std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real, std::size_t nz) {
+  std::vector<Argument> list = {{fmt::format("const Model<{}>&", real), "model", ""}};
+  if (function.shape == Shape::kState) return list;
+  const bool step = function.shape == Shape::kStep;
+  list.push_back({fmt::format("{}State<{}>&", step ? "" : "const ", real), "state", ""});
+  if (function.takes_input) list.push_back({fmt::format("const Input<{}>&", real), "input", ""});
+  if (function.takes_acceleration) list.push_back({"const " + real, "zdot", fmt::format("[{}]", nz)});
+  if (step) list.push_back({real, "h", ""});
+  if (function.shape == Shape::kVector) list.push_back({real, function.result, fmt::format("[{}]", nz)});
+  if (function.shape == Shape::kMatrix) list.push_back({real, function.result, fmt::format("[{0}][{0}]", nz)});
+  return list;
+}
+
+std::string signature(const FunctionInfo& function, const std::string& real, std::size_t nz,
+                      const std::string* body) {
+  const std::string result = function.shape == Shape::kState    ? fmt::format("State<{}> ", real)
+                             : function.shape == Shape::kScalar ? real + " "
+                                                                : "void ";
+  std::string text;
+  for (const Argument& argument : arguments(function, real, nz))
+    text += (text.empty() ? "" : ", ") + argument.text(!body || mentions(*body, argument.name));
+  return result + function.name + "(" + text + ") noexcept";
+}
+
+}  // namespace jourdain::emit

@@ -1,0 +1,25 @@
+// Declarations of the emitted functions; the argument order is the binding API (design section 4).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emit/functions.hpp"
+
+namespace jourdain::emit {
+
+/// A function parameter: type, name and the bounds of an array reference.
+struct Argument {
+  std::string type, name, bounds;
+
+  std::string text(bool named) const;
+};
+
+/// For number type `real` and `nz` generalized velocities.
+std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real, std::size_t nz);
+
+/// Without the closing semicolon. Arguments that `body` does not use are left unnamed; without a body all are named.
+std::string signature(const FunctionInfo& function, const std::string& real, std::size_t nz,
+                      const std::string* body = nullptr);
+
+}  // namespace jourdain::emit

@@ -1,0 +1,133 @@
+#include "ir/builder.hpp"
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace jourdain::ir {
+
+std::size_t Builder::Hash::operator()(const Node& node) const {
+  std::size_t h = static_cast<std::size_t>(node.op);
+  const auto mix = [&h](std::size_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull + (h >> 29); };
+  mix(static_cast<std::size_t>(node.leaf) + 31 * node.index);
+  mix(std::hash<double>{}(node.literal));
+  mix(node.a.value);
+  mix(node.b.value);
+  return h;
+}
+
+ValueId Builder::intern(const Node& node) {
+  const auto [it, is_new] = known_.try_emplace(node, ValueId(program_.nodes.size()));
+  if (is_new) {
+    program_.nodes.push_back(node);
+    program_.labels.emplace_back();
+  }
+  return it->second;
+}
+
+double Builder::literal_of(Signed a) const {
+  const double value = program_[a.value].literal;
+  return a.negative ? -value : value;
+}
+
+bool Builder::is_literal(Signed a, double value) const { return is_literal(a) && literal_of(a) == value; }
+
+Signed Builder::literal(double value) {
+  const bool negative = value < 0;
+  return {intern({.op = Op::kLiteral, .literal = std::fabs(value)}), negative};
+}
+
+Signed Builder::leaf(LeafKind kind, std::size_t index) {
+  return {intern({.op = Op::kLeaf, .leaf = kind, .index = static_cast<std::uint32_t>(index)}), false};
+}
+
+Signed Builder::add(Signed a, Signed b) {
+  if (is_literal(a, 0)) return b;
+  if (is_literal(b, 0)) return a;
+  if (a.value == b.value && a.negative != b.negative) return literal(0);
+  if (is_literal(a) && is_literal(b)) return literal(literal_of(a) + literal_of(b));
+  if (a.negative == b.negative) {
+    if (b.value < a.value) std::swap(a, b);
+    return {intern({.op = Op::kAdd, .a = a.value, .b = b.value}), a.negative};
+  }
+  // One canonical form of a difference: the operand declared first is positive, the sign moves outward.
+  if (b.value < a.value) std::swap(a, b);
+  return {intern({.op = Op::kSubtract, .a = a.value, .b = b.value}), a.negative};
+}
+
+Signed Builder::multiply(Signed a, Signed b) {
+  if (is_literal(a, 0) || is_literal(b, 0)) return literal(0);
+  if (is_literal(a) && is_literal(b)) return literal(literal_of(a) * literal_of(b));
+  const bool negative = a.negative != b.negative;
+  a.negative = b.negative = false;
+  if (is_literal(a, 1)) return {b.value, negative};
+  if (is_literal(b, 1)) return {a.value, negative};
+  if (b.value < a.value) std::swap(a, b);
+  return {intern({.op = Op::kMultiply, .a = a.value, .b = b.value}), negative};
+}
+
+Signed Builder::divide(Signed a, Signed b) {
+  if (is_literal(a, 0) && !is_literal(b, 0)) return literal(0);
+  if (is_literal(a) && is_literal(b) && !is_literal(b, 0)) return literal(literal_of(a) / literal_of(b));
+  const bool negative = a.negative != b.negative;
+  a.negative = b.negative = false;
+  if (is_literal(b, 1)) return {a.value, negative};
+  return {intern({.op = Op::kDivide, .a = a.value, .b = b.value}), negative};
+}
+
+Signed Builder::unary(Op op, Signed a) {
+  switch (op) {
+    case Op::kNegate: return -a;
+    case Op::kSin: return {intern({.op = op, .a = a.value}), a.negative};
+    case Op::kCos: return {intern({.op = op, .a = a.value}), false};
+    case Op::kSqrt: {
+      const ValueId operand = a.negative ? intern({.op = Op::kNegate, .a = a.value}) : a.value;
+      return {intern({.op = op, .a = operand}), false};
+    }
+    case Op::kLiteral:
+    case Op::kLeaf:
+    case Op::kAdd:
+    case Op::kSubtract:
+    case Op::kMultiply:
+    case Op::kDivide: break;
+  }
+  JD_CHECK(false, "{} is not unary", op_name(op));
+  return a;
+}
+
+Signed Builder::apply(const Node& node, Signed a, Signed b) {
+  switch (node.op) {
+    case Op::kLiteral: return literal(node.literal);
+    case Op::kLeaf: return leaf(node.leaf, node.index);
+    case Op::kAdd: return add(a, b);
+    case Op::kSubtract: return subtract(a, b);
+    case Op::kMultiply: return multiply(a, b);
+    case Op::kDivide: return divide(a, b);
+    case Op::kNegate:
+    case Op::kSqrt:
+    case Op::kSin:
+    case Op::kCos: return unary(node.op, a);
+  }
+  return a;
+}
+
+void Builder::label(ValueId value, const std::string& name) {
+  std::string& label = program_.labels[value.value];
+  if (label.empty()) label = name;
+}
+
+void Builder::output(const std::string& name, int row, int column, Signed value) {
+  if (value.negative) {
+    const Node& node = program_[value.value];
+    value.value = node.op == Op::kLiteral ? intern({.op = Op::kLiteral, .literal = -node.literal})
+                                          : intern({.op = Op::kNegate, .a = value.value});
+  }
+  program_.outputs.push_back({name, row, column, value.value});
+}
+
+Program Builder::finish(std::string name) {
+  program_.name = std::move(name);
+  return std::move(program_);
+}
+
+}  // namespace jourdain::ir

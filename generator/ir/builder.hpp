@@ -1,0 +1,55 @@
+// Building programs: equal operations get one value, trivial ones none, signs move outward.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+
+#include "ir/program.hpp"
+
+namespace jourdain::ir {
+
+/// A value or its negative. Carrying the sign beside the value keeps negations out of the program.
+struct Signed {
+  ValueId value;
+  bool negative = false;
+  Signed operator-() const { return {value, !negative}; }
+};
+
+/// Hash-consing builder. Operations with 0 and ±1, of equal operands and of two literals are simplified; operands of commutative
+/// operations are put in order of their index, so that the program depends on the calls alone.
+class Builder {
+ public:
+  Signed literal(double value);
+  Signed leaf(LeafKind kind, std::size_t index);
+  Signed add(Signed a, Signed b);
+  Signed subtract(Signed a, Signed b) { return add(a, -b); }
+  Signed multiply(Signed a, Signed b);
+  Signed divide(Signed a, Signed b);
+  Signed unary(Op op, Signed a);  ///< kNegate, kSqrt, kSin (odd), kCos (even)
+
+  /// The operation of `node` on operands of this builder.
+  Signed apply(const Node& node, Signed a, Signed b);
+
+  /// Gives a value a mechanical name, unless it has one.
+  void label(ValueId value, const std::string& name);
+  void output(const std::string& name, int row, int column, Signed value);
+
+  /// Is it a literal, and which? (with the sign)
+  bool is_literal(Signed a, double value) const;
+
+  const Program& program() const { return program_; }
+  Program finish(std::string name);
+
+ private:
+  ValueId intern(const Node& node);
+  double literal_of(Signed a) const;
+  bool is_literal(Signed a) const { return program_[a.value].op == Op::kLiteral; }
+
+  struct Hash {
+    std::size_t operator()(const Node& node) const;
+  };
+  Program program_;
+  std::unordered_map<Node, ValueId, Hash> known_;
+};
+
+}  // namespace jourdain::ir

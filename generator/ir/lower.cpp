@@ -1,0 +1,180 @@
+#include "ir/lower.hpp"
+
+#include <cln/cln.h>
+#include <fmt/format.h>
+#include <ginac/ginac.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "ir/builder.hpp"
+
+namespace jourdain::ir {
+
+namespace {
+
+using GiNaC::ex_to;
+using GiNaC::is_a;
+using kinematics::Ex;
+
+LeafKind leaf_kind(kinematics::LeafKind kind) {
+  switch (kind) {
+    case kinematics::LeafKind::kParameter: return LeafKind::kParameter;
+    case kinematics::LeafKind::kPosition: return LeafKind::kPosition;
+    case kinematics::LeafKind::kVelocity: return LeafKind::kVelocity;
+    case kinematics::LeafKind::kAcceleration: return LeafKind::kAcceleration;
+    case kinematics::LeafKind::kInput: return LeafKind::kInput;
+  }
+  return LeafKind::kParameter;
+}
+
+double to_double(const Ex& number) {
+  return cln::double_approx(cln::realpart(ex_to<GiNaC::numeric>(number).to_cl_N()));
+}
+
+/// A factor of a product with its integer or half-integer power, or a term of a sum with its coefficient.
+struct Operand {
+  std::string key;
+  Ex value;
+};
+
+class Lowering {
+ public:
+  Lowering(const kinematics::Statements& statements, const std::vector<Target>& targets)
+      : statements_(statements) {
+    for (const auto& leaf : statements.leaves()) leaves_[leaf.symbol] = &leaf;
+    for (const auto& statement : statements.all()) bound_[statement.name] = &statement.value;
+    for (const Target& target : targets) need(target.value);
+  }
+
+  Program run(const std::vector<Target>& targets, std::string name) {
+    for (const auto& statement : statements_.all()) {
+      if (!needed_.count(statement.name)) continue;
+      const Signed value = lower(statement.value);
+      builder_.label(value.value, statement.name.get_name());
+      lowered_[statement.name] = value;
+    }
+    for (const Target& target : targets)
+      builder_.output(target.name, target.row, target.column, lower(target.value));
+    return builder_.finish(std::move(name));
+  }
+
+ private:
+  /// Marks the statements that `value` needs; iterative, because chains of statements are long.
+  void need(const Ex& value) {
+    std::vector<Ex> pending{value};
+    while (!pending.empty()) {
+      const Ex next = pending.back();
+      pending.pop_back();
+      if (is_a<GiNaC::symbol>(next)) {
+        const auto it = bound_.find(ex_to<GiNaC::symbol>(next));
+        if (it != bound_.end() && needed_.insert(it->first).second) pending.push_back(*it->second);
+      }
+      for (std::size_t i = 0; i < next.nops(); ++i) pending.push_back(next.op(i));
+    }
+  }
+
+  Signed symbol(const GiNaC::symbol& s) {
+    if (const auto it = lowered_.find(s); it != lowered_.end()) return it->second;
+    const auto it = leaves_.find(s);
+    JD_CHECK(it != leaves_.end(), "unbound symbol {}", s.get_name());
+    return builder_.leaf(leaf_kind(it->second->kind), it->second->index);
+  }
+
+  /// Text that orders operands; built from values' indices, never from GiNaC's order.
+  std::string key(const Ex& e) {
+    if (is_a<GiNaC::numeric>(e)) return fmt::format("#{:a}", to_double(e));
+    if (is_a<GiNaC::symbol>(e)) {
+      const Signed s = symbol(ex_to<GiNaC::symbol>(e));
+      return fmt::format("{:08}", s.value.value);
+    }
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < e.nops(); ++i) keys.push_back(key(e.op(i)));
+    if (is_a<GiNaC::add>(e) || is_a<GiNaC::mul>(e)) std::sort(keys.begin(), keys.end());
+    const char* kind = is_a<GiNaC::add>(e) ? "+" : is_a<GiNaC::mul>(e) ? "*" : is_a<GiNaC::power>(e) ? "^" : "f";
+    return fmt::format("({}{})", kind, fmt::join(keys, " "));
+  }
+
+  std::vector<Operand> sorted_operands(const Ex& e) {
+    std::vector<Operand> operands;
+    for (std::size_t i = 0; i < e.nops(); ++i) operands.push_back({key(without_coefficient(e.op(i))), e.op(i)});
+    std::sort(operands.begin(), operands.end(),
+              [](const Operand& a, const Operand& b) { return a.key < b.key; });
+    return operands;
+  }
+
+  static Ex without_coefficient(const Ex& term) {
+    if (!is_a<GiNaC::mul>(term)) return term;
+    for (std::size_t i = 0; i < term.nops(); ++i)
+      if (is_a<GiNaC::numeric>(term.op(i))) return term / term.op(i);
+    return term;
+  }
+
+  Signed lower(const Ex& e) {
+    if (is_a<GiNaC::numeric>(e)) return builder_.literal(to_double(e));
+    if (is_a<GiNaC::symbol>(e)) return symbol(ex_to<GiNaC::symbol>(e));
+    if (is_a<GiNaC::add>(e)) return sum(e);
+    if (is_a<GiNaC::mul>(e)) return product(e);
+    if (is_a<GiNaC::power>(e)) return power(e.op(0), e.op(1));
+    if (is_ex_the_function(e, GiNaC::sin)) return builder_.unary(Op::kSin, lower(e.op(0)));
+    if (is_ex_the_function(e, GiNaC::cos)) return builder_.unary(Op::kCos, lower(e.op(0)));
+    JD_CHECK(false, "cannot lower '{}'", (std::ostringstream() << e).str());
+    return {};
+  }
+
+  Signed sum(const Ex& e) {
+    const std::vector<Operand> terms = sorted_operands(e);
+    Signed total = lower(terms[0].value);
+    for (std::size_t i = 1; i < terms.size(); ++i) total = builder_.add(total, lower(terms[i].value));
+    return total;
+  }
+
+  /// Symbolic factors in order, then the numeric one, then the denominator.
+  Signed product(const Ex& e) {
+    Signed numerator = builder_.literal(1), denominator = builder_.literal(1);
+    Ex coefficient = 1;
+    for (const Operand& factor : sorted_operands(e)) {
+      if (is_a<GiNaC::numeric>(factor.value))
+        coefficient = coefficient * factor.value;
+      else if (is_a<GiNaC::power>(factor.value) && factor.value.op(1).info(GiNaC::info_flags::negative))
+        denominator = builder_.multiply(denominator, power(factor.value.op(0), -factor.value.op(1)));
+      else
+        numerator = builder_.multiply(numerator, lower(factor.value));
+    }
+    numerator = builder_.multiply(numerator, builder_.literal(to_double(coefficient)));
+    return builder_.divide(numerator, denominator);
+  }
+
+  Signed power(const Ex& base, const Ex& exponent) {
+    JD_CHECK(is_a<GiNaC::numeric>(exponent), "exponent is not a number");
+    if (ex_to<GiNaC::numeric>(exponent).is_negative())
+      return builder_.divide(builder_.literal(1), power(base, -exponent));
+    const Ex twice = 2 * exponent;
+    JD_CHECK(ex_to<GiNaC::numeric>(twice).is_integer(), "exponent {}", to_double(exponent));
+    const int halves = ex_to<GiNaC::numeric>(twice).to_int();
+    const Signed value = lower(base);
+    Signed result = halves % 2 ? builder_.unary(Op::kSqrt, value) : builder_.literal(1);
+    Signed square = value;  // value^(2^k)
+    for (int n = halves / 2; n > 0; n /= 2) {
+      if (n % 2) result = builder_.multiply(result, square);
+      if (n > 1) square = builder_.multiply(square, square);
+    }
+    return result;
+  }
+
+  const kinematics::Statements& statements_;
+  Builder builder_;
+  std::map<GiNaC::symbol, const kinematics::Leaf*, GiNaC::ex_is_less> leaves_;
+  std::map<GiNaC::symbol, const Ex*, GiNaC::ex_is_less> bound_;
+  std::set<GiNaC::symbol, GiNaC::ex_is_less> needed_;
+  std::map<GiNaC::symbol, Signed, GiNaC::ex_is_less> lowered_;
+};
+
+}  // namespace
+
+Program lower(const kinematics::Statements& statements, const std::vector<Target>& targets, std::string name) {
+  return Lowering(statements, targets).run(targets, std::move(name));
+}
+
+}  // namespace jourdain::ir

@@ -1,0 +1,135 @@
+#include "ir/program.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace jourdain::ir {
+
+int operand_count(Op op) {
+  switch (op) {
+    case Op::kLiteral:
+    case Op::kLeaf: return 0;
+    case Op::kNegate:
+    case Op::kSqrt:
+    case Op::kSin:
+    case Op::kCos: return 1;
+    case Op::kAdd:
+    case Op::kSubtract:
+    case Op::kMultiply:
+    case Op::kDivide: return 2;
+  }
+  return 0;
+}
+
+const char* op_name(Op op) {
+  switch (op) {
+    case Op::kLiteral: return "literal";
+    case Op::kLeaf: return "leaf";
+    case Op::kNegate: return "neg";
+    case Op::kAdd: return "add";
+    case Op::kSubtract: return "sub";
+    case Op::kMultiply: return "mul";
+    case Op::kDivide: return "div";
+    case Op::kSqrt: return "sqrt";
+    case Op::kSin: return "sin";
+    case Op::kCos: return "cos";
+  }
+  return "";
+}
+
+const char* leaf_name(LeafKind kind) {
+  switch (kind) {
+    case LeafKind::kParameter: return "parameter";
+    case LeafKind::kConstant: return "constant";
+    case LeafKind::kPosition: return "y";
+    case LeafKind::kVelocity: return "z";
+    case LeafKind::kAcceleration: return "zdot";
+    case LeafKind::kInput: return "u";
+  }
+  return "";
+}
+
+Operations count_operations(const Program& program) {
+  Operations count;
+  for (const Node& node : program.nodes) switch (node.op) {
+      case Op::kLiteral:
+      case Op::kLeaf: break;
+      case Op::kNegate: ++count.negate; break;
+      case Op::kAdd: ++count.add; break;
+      case Op::kSubtract: ++count.subtract; break;
+      case Op::kMultiply: ++count.multiply; break;
+      case Op::kDivide: ++count.divide; break;
+      case Op::kSqrt: ++count.sqrt; break;
+      case Op::kSin: ++count.sin; break;
+      case Op::kCos: ++count.cos; break;
+    }
+  return count;
+}
+
+std::string print(const Program& program) {
+  std::string text = fmt::format("program {}\n", program.name);
+  for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+    const Node& node = program.nodes[i];
+    text += fmt::format("%{}{}{} = ", i, program.labels[i].empty() ? "" : " ", program.labels[i]);
+    if (node.op == Op::kLiteral)
+      text += fmt::format("{}\n", node.literal);
+    else if (node.op == Op::kLeaf)
+      text += fmt::format("{}[{}]\n", leaf_name(node.leaf), node.index);
+    else if (operand_count(node.op) == 1)
+      text += fmt::format("{} %{}\n", op_name(node.op), node.a.value);
+    else
+      text += fmt::format("{} %{} %{}\n", op_name(node.op), node.a.value, node.b.value);
+  }
+  for (const Output& output : program.outputs) {
+    text += output.name;
+    if (output.row >= 0) text += fmt::format("[{}]", output.row);
+    if (output.column >= 0) text += fmt::format("[{}]", output.column);
+    text += fmt::format(" := %{}\n", output.value.value);
+  }
+  return text;
+}
+
+std::vector<std::size_t> use_counts(const Program& program) {
+  std::vector<std::size_t> uses(program.nodes.size(), 0);
+  for (const Node& node : program.nodes) {
+    if (operand_count(node.op) >= 1) ++uses[node.a.value];
+    if (operand_count(node.op) == 2) ++uses[node.b.value];
+  }
+  for (const Output& output : program.outputs) ++uses[output.value.value];
+  return uses;
+}
+
+template <class Real>
+std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leaves) {
+  std::vector<Real> v;
+  v.reserve(program.nodes.size());
+  for (const Node& node : program.nodes) {
+    const auto a = [&] { return v[node.a.value]; };
+    const auto b = [&] { return v[node.b.value]; };
+    switch (node.op) {
+      case Op::kLiteral: v.push_back(static_cast<Real>(node.literal)); break;
+      case Op::kLeaf:
+        JD_CHECK(node.index < leaves[node.leaf].size(), "{}[{}]", leaf_name(node.leaf), node.index);
+        v.push_back(leaves[node.leaf][node.index]);
+        break;
+      case Op::kNegate: v.push_back(-a()); break;
+      case Op::kAdd: v.push_back(a() + b()); break;
+      case Op::kSubtract: v.push_back(a() - b()); break;
+      case Op::kMultiply: v.push_back(a() * b()); break;
+      case Op::kDivide: v.push_back(a() / b()); break;
+      case Op::kSqrt: v.push_back(std::sqrt(a())); break;
+      case Op::kSin: v.push_back(std::sin(a())); break;
+      case Op::kCos: v.push_back(std::cos(a())); break;
+    }
+  }
+  std::vector<Real> results;
+  for (const Output& output : program.outputs) results.push_back(v[output.value.value]);
+  return results;
+}
+
+template std::vector<float> interpret(const Program&, const LeafValues<float>&);
+template std::vector<double> interpret(const Program&, const LeafValues<double>&);
+template std::vector<long double> interpret(const Program&, const LeafValues<long double>&);
+
+}  // namespace jourdain::ir

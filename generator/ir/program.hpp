@@ -1,0 +1,99 @@
+// The straight-line program that the passes work on: arrays of operations in SSA form.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/check.hpp"
+#include "support/index.hpp"
+
+namespace jourdain::ir {
+
+using ValueId = support::Index<struct ValueTag>;
+
+enum class Op : std::uint8_t {
+  kLiteral,
+  kLeaf,
+  kNegate,
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kSqrt,
+  kSin,
+  kCos
+};
+
+/// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed once.
+enum class LeafKind : std::uint8_t { kParameter, kConstant, kPosition, kVelocity, kAcceleration, kInput };
+inline constexpr std::size_t kLeafKinds = 6;
+
+struct Node {
+  Op op = Op::kLiteral;
+  LeafKind leaf = LeafKind::kParameter;  ///< kLeaf
+  std::uint32_t index = 0;               ///< kLeaf: entry of that array
+  double literal = 0;                    ///< kLiteral
+  ValueId a{}, b{};                      ///< operands; b of binary operations only
+
+  friend bool operator==(const Node&, const Node&) = default;
+};
+
+/// Number of operands of an operation: 0, 1 or 2.
+int operand_count(Op op);
+const char* op_name(Op op);
+const char* leaf_name(LeafKind kind);
+
+/// One result of a program: entry `index` of the array `name`, or a scalar where `index` is negative.
+struct Output {
+  std::string name;
+  int row = -1;
+  int column = -1;
+  ValueId value{};
+};
+
+/// A value's index is its position; operands come earlier, so the order is a schedule.
+struct Program {
+  std::string name;
+  std::vector<Node> nodes;
+  std::vector<std::string> labels;  ///< mechanical name of a value ("w3_x"), or empty
+  std::vector<Output> outputs;
+
+  const Node& operator[](ValueId id) const {
+    JD_CHECK(id.value < nodes.size(), "value {} of {}", id.value, nodes.size());
+    return nodes[id.value];
+  }
+};
+
+/// Operations of a program by kind. Leaves and literals cost nothing.
+struct Operations {
+  std::size_t add = 0, subtract = 0, multiply = 0, divide = 0, sqrt = 0, negate = 0, sin = 0, cos = 0;
+
+  /// add + subtract + multiply + divide + sqrt; negations and sin, cos are counted apart.
+  std::size_t arithmetic() const { return add + subtract + multiply + divide + sqrt; }
+  friend bool operator==(const Operations&, const Operations&) = default;
+};
+
+Operations count_operations(const Program& program);
+
+/// Human-readable listing, one value a line: `%12 S3_xx = mul %4 %7`; then the outputs.
+std::string print(const Program& program);
+
+/// How often each value is used, by operations and outputs.
+std::vector<std::size_t> use_counts(const Program& program);
+
+/// Values of leaves by kind; a span may be empty where a program has no such leaf.
+template <class Real>
+struct LeafValues {
+  std::array<std::vector<Real>, kLeafKinds> of;
+
+  std::vector<Real>& operator[](LeafKind kind) { return of[static_cast<std::size_t>(kind)]; }
+  const std::vector<Real>& operator[](LeafKind kind) const { return of[static_cast<std::size_t>(kind)]; }
+};
+
+/// The outputs of a program, in order, computed in `Real` arithmetic (double, float, long double).
+template <class Real>
+std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leaves);
+
+}  // namespace jourdain::ir

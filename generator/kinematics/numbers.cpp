@@ -1,0 +1,117 @@
+#include "kinematics/numbers.hpp"
+
+#include <cln/cln.h>
+
+#include <cmath>
+
+#include "kinematics/statements.hpp"
+#include "support/check.hpp"
+
+namespace jourdain::kinematics {
+
+using GiNaC::ex_to;
+using GiNaC::numeric;
+
+namespace {
+
+/// A number as a float of kDigits digits, whatever GiNaC's global precision is.
+cln::cl_F to_float(const Ex& number) {
+  return cln::cl_float(cln::realpart(ex_to<numeric>(number).to_cl_N()), cln::float_format(kDigits));
+}
+
+/// `function` of a number at kDigits digits.
+template <class Function>
+Ex numeric_function(const Ex& argument, Function function) {
+  return numeric(cln::cl_N(function(to_float(argument))));
+}
+
+/// The number among 0, 1 and −1 that is nearer than `tolerance` to a numeric entry, otherwise the entry.
+Ex snapped(const Ex& entry, const numeric& tolerance) {
+  if (!is_number(entry)) return entry;
+  for (int target : {0, 1, -1})
+    if (GiNaC::abs(ex_to<numeric>(Ex(entry - target))) < tolerance) return target;
+  return entry;
+}
+
+/// An expression's value type with the functions that Expression::evaluate looks up by argument.
+struct Symbolic {
+  Ex value;
+  friend Symbolic operator-(const Symbolic& a) { return {-a.value}; }
+  friend Symbolic operator+(const Symbolic& a, const Symbolic& b) { return {a.value + b.value}; }
+  friend Symbolic operator-(const Symbolic& a, const Symbolic& b) { return {a.value - b.value}; }
+  friend Symbolic operator*(const Symbolic& a, const Symbolic& b) { return {a.value * b.value}; }
+  friend Symbolic operator/(const Symbolic& a, const Symbolic& b) { return {a.value / b.value}; }
+  friend Symbolic sqrt(const Symbolic& a) { return {square_root(a.value)}; }
+  friend Symbolic sin(const Symbolic& a) { return {sine(a.value)}; }
+  friend Symbolic cos(const Symbolic& a) { return {cosine(a.value)}; }
+};
+
+}  // namespace
+
+Ex square_root(const Ex& value) {
+  if (!is_number(value)) return GiNaC::sqrt(value);
+  const Ex exact_root = GiNaC::sqrt(value);
+  if (is_number(exact_root)) return exact_root;
+  return numeric_function(value, [](const cln::cl_F& x) { return cln::sqrt(x); });
+}
+
+Ex exact(double value) {
+  JD_CHECK(std::isfinite(value), "{}", value);
+  return numeric(cln::cl_N(cln::rational(cln::cl_DF(value))));
+}
+
+Ex sine(const Ex& angle) {
+  if (angle.is_zero()) return 0;
+  return is_number(angle) ? numeric_function(angle, [](const cln::cl_F& x) { return cln::sin(x); }) : GiNaC::sin(angle);
+}
+
+Ex cosine(const Ex& angle) {
+  if (angle.is_zero()) return 1;
+  return is_number(angle) ? numeric_function(angle, [](const cln::cl_F& x) { return cln::cos(x); }) : GiNaC::cos(angle);
+}
+
+Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters) {
+  std::vector<Symbolic> values;
+  for (const Ex& parameter : parameters) values.push_back({parameter});
+  return expression.evaluate<Symbolic>(values, [](double v) { return Symbolic{exact(v)}; }).value;
+}
+
+Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters) {
+  return {to_symbolic(vector[0], parameters), to_symbolic(vector[1], parameters), to_symbolic(vector[2], parameters)};
+}
+
+Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap) {
+  std::array<Ex, 3> c, s;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Ex angle = to_symbolic(rotation.rpy[i], parameters);
+    c[i] = cosine(angle);
+    s[i] = sine(angle);
+  }
+  const Matrix3 Rx = {{{1, 0, 0}, {0, c[0], -s[0]}, {0, s[0], c[0]}}};
+  const Matrix3 Ry = {{{c[1], 0, s[1]}, {0, 1, 0}, {-s[1], 0, c[1]}}};
+  const Matrix3 Rz = {{{c[2], -s[2], 0}, {s[2], c[2], 0}, {0, 0, 1}}};
+  Matrix3 R = Rz * (Ry * Rx);
+  if (snap)
+    for (Vector3& row : R.rows)
+      for (Ex& entry : row.entries) entry = snapped(entry, ex_to<numeric>(exact(model::kSnapTolerance)));
+  return R;
+}
+
+Ex settled(const Ex& value) {
+  static const numeric kRounding = numeric(1, 10).power(45);
+  return is_number(value) && !ex_to<numeric>(value).is_rational() ? snapped(value, kRounding) : value;
+}
+
+Vector3 settled(const Vector3& value) { return {settled(value[0]), settled(value[1]), settled(value[2])}; }
+
+Matrix3 settled(const Matrix3& value) { return {{settled(value[0]), settled(value[1]), settled(value[2])}}; }
+
+Vector3 unit_vector(const std::array<double, 3>& direction) {
+  Vector3 v = {exact(direction[0]), exact(direction[1]), exact(direction[2])};
+  const Ex length = square_root(dot(v, v));
+  JD_CHECK(!length.is_zero(), "zero axis");
+  for (Ex& entry : v.entries) entry = entry / length;
+  return v;
+}
+
+}  // namespace jourdain::kinematics

@@ -1,0 +1,37 @@
+// From the doubles of a model file to exact symbolic numbers.
+#pragma once
+
+#include <span>
+
+#include "kinematics/spatial.hpp"
+#include "model/mechanism.hpp"
+
+namespace jourdain::kinematics {
+
+/// Digits of the floats that sin, cos and sqrt of numbers become; everything else is an exact rational.
+inline constexpr long kDigits = 60;
+
+/// The rational number that a finite double is.
+Ex exact(double value);
+
+/// Elementary functions of a number at kDigits digits, exact where that is possible (of a symbol: unevaluated).
+Ex square_root(const Ex& value);
+Ex sine(const Ex& angle);
+Ex cosine(const Ex& angle);
+
+Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters);
+Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters);
+
+/// Rotation matrix of roll, pitch, yaw. With `snap`, numeric entries within model::kSnapTolerance of 0 and ±1 become
+/// those exact numbers.
+Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap);
+
+/// Removes what only the rounding of kDigits-digit floats left: a number within 1e-45 of 0, 1 or −1 becomes that.
+Ex settled(const Ex& value);
+Vector3 settled(const Vector3& value);
+Matrix3 settled(const Matrix3& value);
+
+/// The unit vector along a non-zero vector of doubles; exact where the vector lies on an axis.
+Vector3 unit_vector(const std::array<double, 3>& direction);
+
+}  // namespace jourdain::kinematics

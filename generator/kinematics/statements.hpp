@@ -1,0 +1,51 @@
+// Straight-line symbolic statements: every intermediate of the derivation is bound to a named symbol, so that no
+// expression ever grows beyond a few terms.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <string>
+#include <vector>
+
+#include "kinematics/spatial.hpp"
+
+namespace jourdain::kinematics {
+
+/// What a free symbol of the statements stands for.
+enum class LeafKind { kParameter, kPosition, kVelocity, kAcceleration, kInput };
+
+struct Leaf {
+  LeafKind kind = LeafKind::kParameter;
+  std::size_t index = 0;  ///< entry of the parameter list, y, z, ż or u
+  GiNaC::symbol symbol;
+};
+
+struct Statement {
+  GiNaC::symbol name;
+  Ex value;  ///< of leaves, numbers and earlier names
+};
+
+/// Leaves and statements in order of declaration. Numbers are exact rationals or floats of `kDigits` digits.
+class Statements {
+ public:
+  Ex leaf(LeafKind kind, std::size_t index, const std::string& name);
+
+  /// Binds `value` to a new symbol and returns that; numbers, symbols and negated symbols come back as they are.
+  Ex bind(const std::string& name, const Ex& value);
+  Vector3 bind(const std::string& name, const Vector3& value);
+  /// Binds the upper triangle of a symmetric matrix.
+  Matrix3 bind_symmetric(const std::string& name, const Matrix3& value);
+
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+  const std::vector<Statement>& all() const { return statements_; }
+
+ private:
+  std::vector<Leaf> leaves_;
+  std::vector<Statement> statements_;
+};
+
+bool is_number(const Ex& value);
+/// 0, 1 or −1.
+bool is_trivial(const Ex& value);
+
+}  // namespace jourdain::kinematics

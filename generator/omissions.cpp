@@ -1,0 +1,92 @@
+#include "omissions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace jourdain {
+
+namespace {
+
+struct Switch {
+  const char* name;
+  const char* what;
+  std::function<void(model::Mechanism&, CompileOptions&)> off;
+};
+
+/// Simplifications that can be switched off one by one.
+const std::vector<Switch>& switches() {
+  static const std::vector<Switch> list = {
+      {"base inertial parameters", "what a joint's motion does not feel is counted with the parent",
+       [](model::Mechanism&, CompileOptions& o) { o.derivation.link_tree.regroup = false; }},
+      {"parallel axes", "consecutive parallel joints share one frame and the sine and cosine of the summed angle",
+       [](model::Mechanism&, CompileOptions& o) { o.derivation.link_tree.share_parallel = false; }},
+      {"sparsity of M", "coordinates of different branches are not coupled; M is factored along branches only",
+       [](model::Mechanism&, CompileOptions& o) { o.derivation.branch_sparsity = false; }},
+      {"snapped rotations", "rotations by multiples of a right angle are permutations",
+       [](model::Mechanism& m, CompileOptions&) { m.snap = false; }},
+      {"common factors", "factors that several terms of a sum share are multiplied once",
+       [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("factor"); }},
+      {"parameter-only values", "values that depend on parameters alone are computed once, with the model",
+       [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("hoist"); }},
+  };
+  return list;
+}
+
+std::size_t forward_operations(const ir::Module& module) {
+  for (const ir::Program& program : module.functions)
+    if (program.name == "forward_dynamics") return ir::count_operations(program).arithmetic();
+  JD_CHECK(false, "no forward_dynamics");
+  return 0;
+}
+
+/// forward_dynamics on its own, with the options given.
+ir::Module forward_module(const model::Mechanism& mechanism, const CompileOptions& options) {
+  const auto equations = dynamics::derive_equations(mechanism, options.derivation);
+  return passes::optimise(lower_functions(equations, emit::with_needed({"forward_dynamics"})), options.passes_off).module;
+}
+
+/// Joint elements and gravity that the scene does not have: nothing to count, they never came in.
+std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledModel& compiled) {
+  std::vector<Omission> list;
+  list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
+  list.push_back({"t", "nothing depends on time", 0});
+  const auto none = [&](auto member) {
+    return std::all_of(mechanism.joints.begin(), mechanism.joints.end(),
+                       [member](const model::Joint& joint) { return (joint.*member).is_zero(); });
+  };
+  const model::Vector3& g = mechanism.gravity;
+  if (g[0].is_zero() && g[1].is_zero() && g[2].is_zero()) list.push_back({"gravity", "zero", 0});
+  if (none(&model::Joint::stiffness)) list.push_back({"springs", "none", 0});
+  if (none(&model::Joint::damping)) list.push_back({"dampers", "none", 0});
+  if (mechanism.actuators.empty()) list.push_back({"inputs", "none", 0});
+  if (mechanism.parameters.empty()) list.push_back({"parameters", "all numbers are baked in", 0});
+  std::string missing;
+  for (const emit::FunctionInfo& function : emit::all_functions()) {
+    const bool emitted = std::any_of(compiled.functions.begin(), compiled.functions.end(),
+                                     [&](const emit::FunctionInfo& f) { return f.name == function.name; });
+    if (!emitted) missing += (missing.empty() ? "" : ", ") + function.name;
+  }
+  if (!missing.empty()) list.push_back({"functions not asked for", missing, 0});
+  return list;
+}
+
+}  // namespace
+
+std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const CompileOptions& options,
+                                     const CompiledModel& compiled) {
+  const long with = static_cast<long>(forward_operations(forward_module(mechanism, options)));
+  std::vector<Omission> list;
+  for (const Switch& s : switches()) {
+    model::Mechanism other = mechanism;
+    CompileOptions changed = options;
+    s.off(other, changed);
+    const long without = static_cast<long>(forward_operations(forward_module(other, changed)));
+    if (without != with) list.push_back({s.name, s.what, without - with});
+  }
+  for (const Omission& omission : absent(mechanism, compiled)) list.push_back(omission);
+  return list;
+}
+
+}  // namespace jourdain

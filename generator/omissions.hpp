@@ -1,0 +1,14 @@
+// What an emitted model does not contain because its scene does not need it, and what that saved.
+#pragma once
+
+#include <vector>
+
+#include "compile.hpp"
+
+namespace jourdain {
+
+/// Each saving is counted: the operations of forward_dynamics with the simplification off minus those of `compiled`.
+std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const CompileOptions& options,
+                                     const CompiledModel& compiled);
+
+}  // namespace jourdain

@@ -1,0 +1,134 @@
+#include "passes/factor.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "passes/rewrite.hpp"
+
+namespace jourdain::passes {
+
+using ir::Builder;
+using ir::Node;
+using ir::Op;
+using ir::Program;
+using ir::Signed;
+using ir::ValueId;
+
+namespace {
+
+struct Term {
+  ValueId value{};
+  bool negative = false;
+};
+
+class Factoring {
+ public:
+  explicit Factoring(const Program& program)
+      : program_(program), uses_(ir::use_counts(program)), copy_(program.nodes.size()) {}
+
+  Program run() {
+    const std::vector<bool> inner = inner_sums();
+    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
+      if (inner[i]) continue;  // rebuilt with the sum that uses it
+      const Node& node = program_.nodes[i];
+      if (is_sum(node)) {
+        std::vector<Term> terms;
+        collect(ValueId(i), false, terms);
+        copy_[i] = rebuild(terms);
+      } else {
+        copy_[i] = builder_.apply(node, copy_[node.a.value], copy_[node.b.value]);
+      }
+      if (!program_.labels[i].empty()) builder_.label(copy_[i].value, program_.labels[i]);
+    }
+    for (const ir::Output& output : program_.outputs)
+      builder_.output(output.name, output.row, output.column, copy_[output.value.value]);
+    return remove_dead_code(builder_.finish(program_.name));
+  }
+
+ private:
+  static bool is_sum(const Node& node) { return node.op == Op::kAdd || node.op == Op::kSubtract; }
+
+  bool absorbed(ValueId id) const { return is_sum(program_[id]) && uses_[id.value] == 1; }
+
+  /// Sums that are used once, by another sum.
+  std::vector<bool> inner_sums() const {
+    std::vector<bool> inner(program_.nodes.size(), false);
+    for (const Node& node : program_.nodes) {
+      if (!is_sum(node)) continue;
+      for (ValueId operand : {node.a, node.b})
+        if (absorbed(operand)) inner[operand.value] = true;
+    }
+    return inner;
+  }
+
+  void collect(ValueId id, bool negative, std::vector<Term>& terms) const {
+    const Node& node = program_[id];
+    const auto operand = [&](ValueId value, bool sign) {
+      if (absorbed(value))
+        collect(value, sign, terms);
+      else
+        terms.push_back({value, sign});
+    };
+    operand(node.a, negative);
+    operand(node.b, negative != (node.op == Op::kSubtract));
+  }
+
+  bool factorable(const Term& term) const {
+    return program_[term.value].op == Op::kMultiply && uses_[term.value.value] == 1;
+  }
+
+  /// The factor that most products of the sum share (the one declared first among equals), if any two do.
+  std::optional<ValueId> common_factor(const std::vector<Term>& terms) const {
+    std::map<ValueId, int> occurrences;
+    for (const Term& term : terms) {
+      if (!factorable(term)) continue;
+      const Node& product = program_[term.value];
+      ++occurrences[product.a];
+      if (product.b != product.a) ++occurrences[product.b];
+    }
+    const auto best = std::max_element(occurrences.begin(), occurrences.end(),
+                                       [](const auto& x, const auto& y) { return x.second < y.second; });
+    if (best == occurrences.end() || best->second < 2) return std::nullopt;
+    return best->first;
+  }
+
+  Signed signed_copy(ValueId value, bool negative) const {
+    return negative ? -copy_[value.value] : copy_[value.value];
+  }
+
+  Signed rebuild(const std::vector<Term>& terms) {
+    const std::optional<ValueId> factor = common_factor(terms);
+    std::vector<Term> rest;
+    std::optional<Signed> cofactor;
+    for (const Term& term : terms) {
+      const Node& product = program_[term.value];
+      if (!factor || !factorable(term) || (product.a != *factor && product.b != *factor)) {
+        rest.push_back(term);
+        continue;
+      }
+      const Signed other = signed_copy(product.a == *factor ? product.b : product.a, term.negative);
+      cofactor = cofactor ? builder_.add(*cofactor, other) : other;
+    }
+    if (!factor) return plain_sum(terms);
+    const Signed grouped = builder_.multiply(copy_[factor->value], *cofactor);
+    return rest.empty() ? grouped : builder_.add(rebuild(rest), grouped);
+  }
+
+  Signed plain_sum(const std::vector<Term>& terms) {
+    Signed sum = signed_copy(terms[0].value, terms[0].negative);
+    for (std::size_t i = 1; i < terms.size(); ++i) sum = builder_.add(sum, signed_copy(terms[i].value, terms[i].negative));
+    return sum;
+  }
+
+  const Program& program_;
+  std::vector<std::size_t> uses_;
+  Builder builder_;
+  std::vector<Signed> copy_;
+};
+
+}  // namespace
+
+Program factor(const Program& program) { return Factoring(program).run(); }
+
+}  // namespace jourdain::passes

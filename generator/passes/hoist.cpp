@@ -1,0 +1,83 @@
+#include "passes/hoist.hpp"
+
+#include <map>
+
+#include "ir/builder.hpp"
+
+namespace jourdain::passes {
+
+using ir::Builder;
+using ir::LeafKind;
+using ir::Module;
+using ir::Node;
+using ir::Op;
+using ir::Program;
+using ir::Signed;
+using ir::ValueId;
+
+namespace {
+
+class Hoisting {
+ public:
+  explicit Hoisting(const Module& module) : module_(module) {
+    JD_CHECK(module.constants.outputs.empty(), "hoist runs once");
+  }
+
+  Module run() {
+    Module result;
+    for (const Program& function : module_.functions) result.functions.push_back(split(function));
+    result.constants = constants_.finish("constants");
+    return result;
+  }
+
+ private:
+  /// Value of a function on either side of the cut.
+  struct Copy {
+    Signed value;
+    bool fixed = false;  ///< lives in the constants program
+  };
+
+  Program split(const Program& function) {
+    Builder body;
+    std::vector<Copy> copy(function.nodes.size());
+    const auto inside = [&](ValueId id) { return copy[id.value].fixed ? read(body, copy[id.value].value) : copy[id.value].value; };
+    for (std::size_t i = 0; i < function.nodes.size(); ++i) {
+      const Node& node = function.nodes[i];
+      const int operands = ir::operand_count(node.op);
+      const bool fixed = (operands == 0 && (node.op == Op::kLiteral || node.leaf == LeafKind::kParameter)) ||
+                         (operands >= 1 && copy[node.a.value].fixed && (operands == 1 || copy[node.b.value].fixed));
+      if (fixed)
+        copy[i] = {constants_.apply(node, copy[node.a.value].value, copy[node.b.value].value), true};
+      else
+        copy[i] = {body.apply(node, operands >= 1 ? inside(node.a) : Signed{}, operands == 2 ? inside(node.b) : Signed{}), false};
+      if (!function.labels[i].empty()) (fixed ? constants_ : body).label(copy[i].value.value, function.labels[i]);
+    }
+    for (const ir::Output& output : function.outputs)
+      body.output(output.name, output.row, output.column, inside(output.value));
+    return body.finish(function.name);
+  }
+
+  /// A value of the constants program as seen from a function: literals are copied, others become a leaf.
+  Signed read(Builder& body, Signed value) {
+    const Node& node = constants_.program()[value.value];
+    if (node.op == Op::kLiteral) {
+      const Signed literal = body.literal(node.literal);
+      return value.negative ? -literal : literal;
+    }
+    const auto [it, is_new] = index_.try_emplace(value.value, index_.size());
+    if (is_new) constants_.output("constant", static_cast<int>(it->second), -1, {value.value, false});
+    const Signed leaf = body.leaf(LeafKind::kConstant, it->second);
+    body.label(leaf.value, constants_.program().labels[value.value.value]);
+    return value.negative ? -leaf : leaf;
+  }
+
+  const Module& module_;
+  Builder constants_;
+  std::map<ValueId, std::size_t> index_;
+};
+
+}  // namespace
+
+Module hoist(const Module& module) { return Hoisting(module).run(); }
+
+}  // namespace jourdain::passes
