@@ -115,9 +115,10 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
                        CompiledModel& result) {
   result.files.clear();
   result.verdict = validate::validate_translation(mechanism, equations, result.module);
+  result.assumptions = assumptions(mechanism, options, result.verdict);
   if (!result.verdict.accepted()) return;
   emit::ModelText text = model_text(mechanism, options);
-  text.assumptions = assumptions(mechanism, options, result.verdict);
+  text.assumptions = result.assumptions;
   for (const Omission& omission : result.omissions)
     text.left_out.push_back(omission.saved == 0 ? omission.name + ": " + omission.what
                                                 : fmt::format("{}: {} ({} operations of forward_dynamics)", omission.name,

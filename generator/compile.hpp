@@ -35,6 +35,7 @@ struct CompiledModel {
   ir::Module module;
   std::vector<passes::PassRecord> passes;
   std::vector<Omission> omissions;
+  std::vector<std::string> assumptions;  ///< sentences, as printed in the emitted header
   validate::Verdict verdict;
   std::vector<emit::File> files;  ///< empty unless the verdict accepts
 };

@@ -102,6 +102,7 @@ class Builder {
     link.revolute = joint.type == JointType::kRevolute;
     link.parent = parent;
     Vector3 z = bound("axis_" + joint.name, R_LJ * unit_vector(joint.axis));
+    if (mechanism_.snap) z = aligned(z);
     if (z[0].is_equal(-1) || z[1].is_equal(-1) || z[2].is_equal(-1)) {
       link.sign = -1;
       z = Ex(-1) * z;

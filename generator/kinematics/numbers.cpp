@@ -106,6 +106,17 @@ Vector3 settled(const Vector3& value) { return {settled(value[0]), settled(value
 
 Matrix3 settled(const Matrix3& value) { return {{settled(value[0]), settled(value[1]), settled(value[2])}}; }
 
+Vector3 aligned(const Vector3& direction) {
+  static const numeric kDoubleRounding = numeric(1, 10).power(15);
+  Vector3 result;
+  int zeros = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = snapped(direction[i], kDoubleRounding);
+    zeros += result[i].is_zero() ? 1 : 0;
+  }
+  return zeros == 2 ? result : direction;
+}
+
 Vector3 unit_vector(const std::array<double, 3>& direction) {
   Vector3 v = {exact(direction[0]), exact(direction[1]), exact(direction[2])};
   const Ex length = square_root(dot(v, v));

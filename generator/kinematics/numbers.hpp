@@ -26,10 +26,13 @@ Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters
 /// those exact numbers.
 Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap);
 
-/// Removes what only the rounding of kDigits-digit floats left: a number within 1e-45 of 0, 1 or −1 becomes that.
+/// Removes what only the rounding of kDigits-digit floats left: a float within 1e-45 of 0, 1 or −1 becomes that.
 Ex settled(const Ex& value);
 Vector3 settled(const Vector3& value);
 Matrix3 settled(const Matrix3& value);
+
+/// A direction that is aligned with a coordinate axis to within rounding of doubles (1e-15) becomes exactly aligned.
+Vector3 aligned(const Vector3& direction);
 
 /// The unit vector along a non-zero vector of doubles; exact where the vector lies on an axis.
 Vector3 unit_vector(const std::array<double, 3>& direction);

@@ -1,0 +1,9 @@
+#include "commands/commands.hpp"
+
+namespace jourdain::commands {
+
+void add_all(CLI::App& app, int& status) {
+  for (auto add : {add_compile, add_check, add_info, add_equations, add_simulate}) add(app, status);
+}
+
+}  // namespace jourdain::commands

@@ -1,0 +1,71 @@
+#include <CLI/Option.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands/commands.hpp"
+#include "commands/load.hpp"
+#include "commands/report_text.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+struct Arguments {
+  ModelArguments model;
+  std::string folder;
+  std::vector<std::string> functions;
+  bool explain = false;
+};
+
+std::string check_function(const std::string& function) {
+  const std::vector<std::string> known = emit::function_names();
+  if (std::find(known.begin(), known.end(), function) != known.end()) return "";
+  const std::string near = support::nearest(function, known);
+  return near.empty() ? fmt::format("no function '{}'; there are {}", function, fmt::join(known, ", "))
+                      : fmt::format("no function '{}'; did you mean '{}'?", function, near);
+}
+
+void write_files(const std::string& folder, const std::vector<emit::File>& files) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw support::EnvironmentError(fmt::format("cannot make folder '{}': {}", folder, error.message()));
+  for (const emit::File& file : files)
+    support::write_file((std::filesystem::path(folder) / file.name).string(), file.text);
+}
+
+int run(const Arguments& arguments) {
+  std::optional<LoadedMechanism> loaded = load(arguments.model);
+  if (!loaded) return kModelWrong;
+  if (!arguments.functions.empty()) loaded->options.functions = arguments.functions;
+  const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
+  if (!compiled.verdict.accepted()) {
+    print_refusal(compiled.verdict);
+    return kInternal;
+  }
+  write_files(arguments.folder, compiled.files);
+  const std::size_t freedom = model::moving_joints(loaded->mechanism).size();
+  fmt::print("{}: {} degree{} of freedom\n", loaded->options.name, freedom, freedom == 1 ? "" : "s");
+  for (const emit::File& file : compiled.files)
+    fmt::print("  wrote {}\n", (std::filesystem::path(arguments.folder) / file.name).generic_string());
+  fmt::print("{}{}", operations_table(compiled.module), verdict_text(compiled.verdict));
+  if (arguments.explain) fmt::print("{}{}", passes_text(compiled.passes), omissions_text(compiled.omissions));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_compile(CLI::App& app, int& status) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("compile", "emit C++ for a model: jourdain compile arm.toml -o src/arm");
+  arguments->model.add_to(*command);
+  command->add_option("-o,--output", arguments->folder, "folder to write into")->required();
+  command->add_option("--functions", arguments->functions, "functions to emit (default: all)")
+      ->delimiter(',')
+      ->check(check_function);
+  command->add_flag("--explain", arguments->explain, "print what each pass did and what was left out");
+  command->callback([arguments, &status] { status = run(*arguments); });
+}
+
+}  // namespace jourdain::commands

@@ -1,0 +1,156 @@
+#include "commands/equation_text.hpp"
+
+#include <fmt/format.h>
+
+#include "compile.hpp"
+#include "dynamics/harmonics.hpp"
+#include "emit/names.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+using ir::Op;
+using ir::ValueId;
+
+/// Largest number of coordinates for which expanded equations are readable.
+constexpr std::size_t kExpandedCoordinates = 3;
+
+/// Prints a program as one equation per named or shared value, then its outputs.
+class EquationPrinter {
+ public:
+  EquationPrinter(const ir::Program& program, const model::Mechanism& mechanism, bool latex)
+      : program_(program), mechanism_(mechanism), latex_(latex), uses_(ir::use_counts(program)) {
+    emit::Names names({});
+    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+      const bool operation = ir::operand_count(program.nodes[i].op) > 0;
+      const bool named = operation && (uses_[i] > 1 || !program.labels[i].empty());
+      names_.push_back(named ? names.unique(program.labels[i], fmt::format("t{}", i)) : "");
+    }
+  }
+
+  std::string print() const {
+    std::string text;
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (!names_[i].empty()) text += equation(spelt(names_[i]), expression(ValueId(i), true).text);
+    for (const ir::Output& output : program_.outputs)
+      text += equation(output_name(output), expression(output.value, false).text);
+    return text;
+  }
+
+ private:
+  struct Text {
+    std::string text;
+    int strength;  ///< 0 sum, 1 product, 2 atom
+  };
+
+  std::string spelt(const std::string& name) const { return latex_ ? dynamics::latex_name(name) : name; }
+
+  std::string equation(const std::string& left, const std::string& right) const {
+    return latex_ ? fmt::format("  {} &= {} \\\\\n", left, right) : fmt::format("  {} = {}\n", left, right);
+  }
+
+  std::string output_name(const ir::Output& output) const {
+    const std::string base = output.name == "M" ? "M" : latex_ ? "\\bar " + output.name : output.name + "_bar";
+    const std::string at = output.column < 0 ? fmt::format("{}", output.row)
+                                             : fmt::format("{}{}{}", output.row, latex_ ? "," : "][", output.column);
+    return latex_ ? fmt::format("{}_{{{}}}", base, at) : fmt::format("{}[{}]", base, at);
+  }
+
+  std::string leaf(const ir::Node& node) const {
+    switch (node.leaf) {
+      case ir::LeafKind::kParameter: return spelt(mechanism_.parameters[node.index].name);
+      case ir::LeafKind::kPosition: return spelt(fmt::format("y{}", node.index));
+      case ir::LeafKind::kVelocity: return spelt(fmt::format("z{}", node.index));
+      case ir::LeafKind::kInput: return spelt(fmt::format("u{}", node.index));
+      case ir::LeafKind::kConstant:
+      case ir::LeafKind::kAcceleration: break;
+    }
+    JD_CHECK(false, "leaf {}", ir::leaf_name(node.leaf));
+    return "";
+  }
+
+  std::string at_least(const Text& text, int strength) const {
+    return text.strength >= strength ? text.text : "(" + text.text + ")";
+  }
+
+  Text expression(ValueId id, bool own) const {
+    if (!own && !names_[id.value].empty()) return {spelt(names_[id.value]), 2};
+    const ir::Node& node = program_[id];
+    const auto a = [&](int strength) { return at_least(expression(node.a, false), strength); };
+    const auto b = [&](int strength) { return at_least(expression(node.b, false), strength); };
+    const std::string function = latex_ ? "\\" : "";
+    switch (node.op) {
+      case Op::kLiteral: return {fmt::format("{}", node.literal), node.literal < 0 ? 0 : 2};
+      case Op::kLeaf: return {leaf(node), 2};
+      case Op::kNegate: return {"-" + a(1), 0};
+      case Op::kAdd: return {a(0) + " + " + b(1), 0};
+      case Op::kSubtract: return {a(0) + " - " + b(1), 0};
+      case Op::kMultiply: return {a(1) + (latex_ ? " " : "*") + b(latex_ ? 2 : 1), 1};
+      case Op::kDivide:
+        if (latex_) return {fmt::format("\\frac{{{}}}{{{}}}", a(0), b(0)), 2};
+        return {a(1) + "/" + b(2), 1};
+      case Op::kSqrt: return {fmt::format(fmt::runtime(latex_ ? "\\sqrt{{{}}}" : "sqrt({})"), a(0)), 2};
+      case Op::kSin: return {fmt::format("{}sin({})", function, a(0)), 2};
+      case Op::kCos: return {fmt::format("{}cos({})", function, a(0)), 2};
+    }
+    return {};
+  }
+
+  const ir::Program& program_;
+  const model::Mechanism& mechanism_;
+  bool latex_;
+  std::vector<std::size_t> uses_;
+  std::vector<std::string> names_;
+};
+
+std::string expanded(const dynamics::Equations& equations, bool latex) {
+  std::string text;
+  const auto line = [&](const std::string& left, const kinematics::Ex& value) {
+    const std::string right = dynamics::to_text(dynamics::expand(equations, value), latex);
+    text += latex ? fmt::format("  {} &= {} \\\\\n", left, right) : fmt::format("  {} = {}\n", left, right);
+  };
+  const std::size_t n = equations.M.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j)
+      line(latex ? fmt::format("M_{{{},{}}}", i, j) : fmt::format("M[{}][{}]", i, j), equations.M[i][j]);
+  for (std::size_t i = 0; i < n; ++i)
+    line(latex ? fmt::format("\\bar k_{{{}}}", i) : fmt::format("k_bar[{}]", i), equations.k_bar[i]);
+  for (std::size_t i = 0; i < n; ++i)
+    line(latex ? fmt::format("\\bar q_{{{}}}", i) : fmt::format("q_bar[{}]", i), equations.q_bar[i]);
+  return text;
+}
+
+std::string block(const std::string& title, const std::string& lines, bool latex) {
+  if (latex) return fmt::format("% {}\n\\begin{{align*}}\n{}\\end{{align*}}\n", title, lines);
+  return fmt::format("{}\n{}\n", title, lines);
+}
+
+std::string legend(const model::Mechanism& mechanism, bool latex) {
+  std::string text;
+  std::size_t i = 0;
+  for (model::JointIndex joint : model::moving_joints(mechanism)) {
+    text += fmt::format("{}  y{}, z{}: {}\n", latex ? "%" : "", i, i, mechanism.joints[joint.value].name);
+    ++i;
+  }
+  for (std::size_t k = 0; k < mechanism.actuators.size(); ++k)
+    text += fmt::format("{}  u{}: {}\n", latex ? "%" : "", k, mechanism.actuators[k].name);
+  return text;
+}
+
+}  // namespace
+
+std::string equations_text(const model::Mechanism& mechanism, bool latex) {
+  const dynamics::Equations equations = dynamics::derive_equations(mechanism);
+  std::string text = fmt::format("{}{}: M zdot = k_bar - q_bar, dy/dt = z\n", latex ? "% " : "", mechanism.name);
+  text += legend(mechanism, latex);
+  if (!latex) text += "\n";
+  if (equations.zdot.size() <= kExpandedCoordinates) text += block("Expanded", expanded(equations, latex), latex);
+  for (const ir::Program& program :
+       lower_functions(equations, emit::with_needed({"mass_matrix", "k_bar", "q_bar"})).functions)
+    text += block(fmt::format("{} with named intermediates", program.name),
+                  EquationPrinter(program, mechanism, latex).print(), latex);
+  return text;
+}
+
+}  // namespace jourdain::commands

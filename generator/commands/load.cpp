@@ -1,0 +1,84 @@
+#include "commands/load.hpp"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <fmt/format.h>
+#include <nettle/sha2.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "model/names.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+std::string sha256(const std::string& text) {
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, text.size(), reinterpret_cast<const std::uint8_t*>(text.data()));
+  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+  sha256_digest(&context, digest.size(), digest.data());
+  std::string hex;
+  for (std::uint8_t byte : digest) hex += fmt::format("{:02x}", byte);
+  return hex;
+}
+
+/// Emitted files never name a folder of the machine.
+std::string printed_path(const std::string& path) {
+  const std::filesystem::path p(path);
+  return p.is_absolute() ? p.filename().string() : p.lexically_normal().generic_string();
+}
+
+std::string check_name(const std::string& name) {
+  if (!model::is_identifier(name) || name.find("__") != std::string::npos || name[0] == '_')
+    return fmt::format("'{}' is not a C++ identifier that may name a namespace", name);
+  if (model::is_reserved(name) || model::cpp_name(name) != name)
+    return fmt::format("'{}' is reserved; try '{}'", name, model::cpp_name(name));
+  return "";
+}
+
+}  // namespace
+
+void ModelArguments::add_to(CLI::App& command) {
+  command.add_option("MODEL", path, "model description: .toml, or .urdf")->required();
+  command.add_option("--name", name, "namespace and file name of the emitted code")->check(check_name);
+  command.add_option("--root", root, "URDF: root link fixed to the world, or free")
+      ->check(CLI::IsMember({"fixed", "free"}));
+  command.add_option("--lock", read.locked_joints, "joints to lock at coordinate zero")->delimiter(',');
+  command.add_flag("!--no-damping", read.damping, "URDF: leave out joint damping");
+  command.add_flag("!--no-snap", read.snap, "keep rotation entries that are nearly 0 or ±1 as they are");
+}
+
+std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
+  support::Diagnostics diagnostics(arguments.path, support::read_file(arguments.path));
+  model::ReadOptions read = arguments.read;
+  read.root = arguments.root == "free" ? model::RootJoint::kFree : model::RootJoint::kFixed;
+  std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
+  if (mechanism) check_inertia(*mechanism, diagnostics);
+  fmt::print(stderr, "{}", diagnostics.format());
+  if (!mechanism || diagnostics.has_errors()) return std::nullopt;
+  LoadedMechanism loaded{std::move(*mechanism), {}};
+  loaded.options.name = arguments.name.empty() ? model::cpp_name(loaded.mechanism.name) : arguments.name;
+  loaded.options.path = printed_path(arguments.path);
+  loaded.options.sha256 = sha256(diagnostics.text());
+  loaded.options.damping = read.damping;
+  if (arguments.name.empty() && loaded.options.name != loaded.mechanism.name)
+    fmt::print(stderr, "note: model '{}' becomes namespace '{}' (--name chooses another)\n", loaded.mechanism.name,
+               loaded.options.name);
+  return loaded;
+}
+
+void print_refusal(const validate::Verdict& verdict) {
+  constexpr std::size_t kShown = 10;
+  for (std::size_t i = 0; i < std::min(kShown, verdict.failures.size()); ++i)
+    fmt::print(stderr, "error: refused to emit: {}\n", verdict.failures[i]);
+  if (verdict.failures.size() > kShown)
+    fmt::print(stderr, "error: and {} more\n", verdict.failures.size() - kShown);
+}
+
+}  // namespace jourdain::commands

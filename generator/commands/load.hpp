@@ -1,0 +1,39 @@
+// What all commands share: the arguments that say which model to read and how, and reading it.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include <optional>
+#include <string>
+
+#include "compile.hpp"
+#include "model/read.hpp"
+
+namespace jourdain::commands {
+
+/// Exit statuses (README, style guide).
+inline constexpr int kSuccess = 0, kModelWrong = 1, kUsage = 2, kEnvironment = 3, kInternal = 70;
+
+struct ModelArguments {
+  std::string path;
+  std::string root = "fixed";
+  std::string name;
+  model::ReadOptions read;
+
+  /// Adds MODEL, --root, --lock, --no-damping, --no-snap and --name.
+  void add_to(CLI::App& command);
+};
+
+struct LoadedMechanism {
+  model::Mechanism mechanism;
+  CompileOptions options;  ///< name, path and hash filled in
+};
+
+/// Reads and checks the model and prints its diagnostics to stderr; nothing when it has errors. Throws EnvironmentError
+/// when the file cannot be read.
+std::optional<LoadedMechanism> load(const ModelArguments& arguments);
+
+/// Prints why the compiler refused to emit, at most ten reasons.
+void print_refusal(const validate::Verdict& verdict);
+
+}  // namespace jourdain::commands

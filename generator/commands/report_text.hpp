@@ -1,0 +1,16 @@
+// Tables about a compiled model for the terminal.
+#pragma once
+
+#include <string>
+
+#include "compile.hpp"
+
+namespace jourdain::commands {
+
+/// Operations per function by kind, aligned.
+std::string operations_table(const ir::Module& module);
+std::string verdict_text(const validate::Verdict& verdict);
+std::string passes_text(const std::vector<passes::PassRecord>& passes);
+std::string omissions_text(const std::vector<Omission>& omissions);
+
+}  // namespace jourdain::commands

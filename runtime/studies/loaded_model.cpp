@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "studies/loaded_model.hpp"
+
+#include <dlfcn.h>
+
+#include "support/check.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+std::string last_error() {
+  const char* text = dlerror();
+  return text ? text : "unknown error";
+}
+
+}  // namespace
+
+void LoadedModel::Close::operator()(void* handle) const { dlclose(handle); }
+
+LoadedModel::LoadedModel(const std::string& path) : handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+  if (!handle_) throw support::EnvironmentError("cannot load '" + path + "': " + last_error());
+  void* symbol = dlsym(handle_.get(), "jourdain_model");
+  if (!symbol) throw support::EnvironmentError("no model in '" + path + "': " + last_error());
+  table_ = reinterpret_cast<const jourdain_model_table* (*)()>(symbol)();
+}
+
+}  // namespace jourdain::studies

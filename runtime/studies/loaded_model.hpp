@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// An emitted model loaded from a shared object through its table of C functions.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "jourdain/model_table.h"
+
+namespace jourdain::studies {
+
+/// Keeps the shared object loaded for as long as it lives.
+class LoadedModel {
+ public:
+  /// Throws EnvironmentError naming the path when the object cannot be loaded or has no `jourdain_model`.
+  explicit LoadedModel(const std::string& path);
+
+  const jourdain_model_table& table() const { return *table_; }
+
+ private:
+  struct Close {
+    void operator()(void* handle) const;
+  };
+  std::unique_ptr<void, Close> handle_;
+  const jourdain_model_table* table_ = nullptr;
+};
+
+}  // namespace jourdain::studies
