@@ -33,11 +33,15 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
-  pole_h_z = parameters.pole_mass * parameters.pole_half_length;
-  pole_S_zz = parameters.pole_mass * (parameters.pole_half_length * parameters.pole_half_length) *
-      Real(1.3333333333333333);
+  const Real expression = parameters.pole_half_length * Real(2.0);
+  const Real expression_2 = expression * expression;
+  const Real expression_3 = expression_2 * parameters.pole_mass;
+  const Real expression_4 = expression_3 * Real(0.08333333333333333);
+  const Real t11 = expression_4 * Real(0.5);
+  mr_z = parameters.pole_half_length * parameters.pole_mass;
+  S_zz = parameters.pole_half_length * mr_z + (t11 + t11);
   hinge_m = parameters.pole_mass + parameters.cart_mass;
-  invD_1 = Real(1.0) / pole_S_zz;
+  invD_1 = Real(1.0) / S_zz;
 }
 
 template <class Real>
@@ -54,16 +58,16 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
-  const Real h1b_x = c1 * model.pole_h_z;
+  const Real h1b_x = c1 * model.mr_z;
   M[0][0] = model.hinge_m;
   M[0][1] = M[1][0] = h1b_x;
-  M[1][1] = model.pole_S_zz;
+  M[1][1] = model.S_zz;
 }
 
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real h1b_y = s1 * model.pole_h_z;
+  const Real h1b_y = s1 * model.mr_z;
   const Real zw_1 = state.z[1] * state.z[1];
   const Real kdf1_y = h1b_y * zw_1;
   k[0] = kdf1_y;
@@ -74,7 +78,7 @@ template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
     noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real h1b_y = s1 * model.pole_h_z;
+  const Real h1b_y = s1 * model.mr_z;
   const Real q_1 = h1b_y * Real(9.8);
   q[0] = -input.u[0];
   q[1] = -q_1;
@@ -85,8 +89,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&zdot)[2]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real h1b_x = c1 * model.pole_h_z;
-  const Real h1b_y = s1 * model.pole_h_z;
+  const Real h1b_x = c1 * model.mr_z;
+  const Real h1b_y = s1 * model.mr_z;
   const Real bQp1 = h1b_y * Real(9.8);
   const Real zw_1 = state.z[1] * state.z[1];
   const Real bdf1_y = h1b_y * zw_1;
@@ -106,11 +110,11 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[2]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real h1b_x = c1 * model.pole_h_z;
-  const Real h1b_y = s1 * model.pole_h_z;
+  const Real h1b_x = c1 * model.mr_z;
+  const Real h1b_y = s1 * model.mr_z;
   const Real adf0_z = zdot[0] * model.hinge_m;
   const Real zw_1 = state.z[1] * state.z[1];
-  const Real adn1_z = zdot[1] * model.pole_S_zz;
+  const Real adn1_z = zdot[1] * model.S_zz;
   const Real af0_z = h1b_y * zw_1 - (adf0_z + h1b_x * zdot[1]);
   const Real aQ1 = adn1_z + (h1b_x * zdot[0] - h1b_y * Real(9.8));
   tau[0] = -af0_z;
@@ -120,10 +124,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
-  const Real h1b_x = c1 * model.pole_h_z;
+  const Real h1b_x = c1 * model.mr_z;
   const Real P0 = state.z[0] * model.hinge_m * Real(0.5);
   const Real T0 = state.z[0] * P0;
-  const Real P1 = Real(0.5) * (state.z[1] * model.pole_S_zz) + h1b_x * state.z[0];
+  const Real P1 = h1b_x * state.z[0] + Real(0.5) * (state.z[1] * model.S_zz);
   const Real T1 = T0 + state.z[1] * P1;
   return T1;
 }
@@ -131,7 +135,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
-  const Real h1b_x = c1 * model.pole_h_z;
+  const Real h1b_x = c1 * model.mr_z;
   const Real V = h1b_x * Real(9.8);
   return V;
 }

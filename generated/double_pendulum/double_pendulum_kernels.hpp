@@ -34,12 +34,14 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
   l1 = parameters.l1;
-  lower_h_y = parameters.l2 * parameters.m2;
-  lower_S_yy = parameters.m2 * (parameters.l2 * parameters.l2);
-  const Real t10 = parameters.m1 + parameters.m2;
-  c3 = l1 * l1 * t10;
-  elbow_h_y = l1 * t10;
-  invD_1 = Real(1.0) / lower_S_yy;
+  const Real mr_y_2 = parameters.m1 * l1;
+  mr_y = parameters.m2 * parameters.l2;
+  S_yy = parameters.l2 * mr_y;
+  const Real mr_y_3 = l1 * parameters.m2;
+  elbow_h_y_2 = mr_y_2 + mr_y_3;
+  c3 = l1 * elbow_h_y_2;
+  elbow_h_y = l1 * (parameters.m1 + parameters.m2);
+  invD_1 = Real(1.0) / S_yy;
 }
 
 template <class Real>
@@ -62,14 +64,14 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   detail::sine_cosine(angle1, s1, c1);
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.lower_h_y;
-  const Real h1b_y = c1 * model.lower_h_y;
+  const Real h1b_x = s1 * model.mr_y;
+  const Real h1b_y = c1 * model.mr_y;
   const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
-  const Real E1 = D1 + model.lower_S_yy;
+  const Real E1 = D1 + model.S_yy;
   const Real J0 = D1 + E1 + model.c3;
   M[0][0] = J0;
   M[0][1] = M[1][0] = E1;
-  M[1][1] = model.lower_S_yy;
+  M[1][1] = model.S_yy;
 }
 
 template <class Real>
@@ -81,8 +83,8 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
   detail::sine_cosine(angle1, s1, c1);
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.lower_h_y;
-  const Real h1b_y = c1 * model.lower_h_y;
+  const Real h1b_x = s1 * model.mr_y;
+  const Real h1b_y = c1 * model.mr_y;
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
@@ -100,7 +102,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real s0 = detail::sine(state.y[0]);
   const Real angle1 = state.y[0] + state.y[1];
   const Real s1 = detail::sine(angle1);
-  const Real h1b_x = s1 * model.lower_h_y;
+  const Real h1b_x = s1 * model.mr_y;
   const Real h0b_x = s0 * model.elbow_h_y;
   const Real h0_x = h1b_x + h0b_x;
   const Real q_0 = h0_x * Real(9.81);
@@ -119,11 +121,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(angle1, s1, c1);
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.lower_h_y;
-  const Real h1b_y = c1 * model.lower_h_y;
+  const Real h1b_x = s1 * model.mr_y;
+  const Real h1b_y = c1 * model.mr_y;
   const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
-  const Real E1 = D1 + model.lower_S_yy;
-  const Real h0b_x = s0 * model.elbow_h_y;
+  const Real E1 = D1 + model.S_yy;
+  const Real h0b_x = s0 * model.elbow_h_y_2;
   const Real h0_x = h1b_x + h0b_x;
   const Real bQp0 = h0_x * Real(9.81);
   const Real bW0w22 = state.z[0] * state.z[0];
@@ -154,24 +156,24 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(angle1, s1, c1);
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.lower_h_y;
-  const Real h1b_y = c1 * model.lower_h_y;
+  const Real h1b_x = s1 * model.mr_y;
+  const Real h1b_y = c1 * model.mr_y;
   const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
-  const Real h0b_x = s0 * model.elbow_h_y;
+  const Real h0b_x = s0 * model.elbow_h_y_2;
   const Real h0_x = h1b_x + h0b_x;
-  const Real J0 = D1 + (D1 + model.lower_S_yy) + model.c3;
+  const Real J0 = D1 + (D1 + model.S_yy) + model.c3;
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = J0 * zdot[0];
   const Real aW0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = r1_x * aW0w22 - r1_y * zdot[0];
+  const Real aa1o_x = r1_y * zdot[0] - r1_x * aW0w22;
   const Real aa1o_y = r1_y * aW0w22 + (Real(9.81) + r1_x * zdot[0]);
   const Real zw_1 = state.z[1] * (state.z[1] + (state.z[0] + state.z[0]));
-  const Real adf1_x = h1b_x * zw_1 - h1b_y * zdot[1];
+  const Real adf1_x = h1b_y * zdot[1] - h1b_x * zw_1;
   const Real adf1_y = h1b_x * zdot[1] + h1b_y * zw_1;
-  const Real adn1_z = model.lower_S_yy * zdot[1];
-  const Real aQ0 = r1_y * adf1_x - (r1_x * adf1_y + (adn0_z + (aQp0 + adn1_z)));
-  const Real aQ1 = adn1_z - (h1b_y * aa1o_x - (model.lower_S_yy * zdot[0] + h1b_x * aa1o_y));
-  tau[0] = -aQ0;
+  const Real adn1_z = model.S_yy * zdot[1];
+  const Real aQ0 = r1_y * adf1_x + (r1_x * adf1_y + (adn0_z + (aQp0 + adn1_z)));
+  const Real aQ1 = adn1_z + (h1b_y * aa1o_x + (model.S_yy * zdot[0] + h1b_x * aa1o_y));
+  tau[0] = aQ0;
   tau[1] = aQ1;
 }
 
@@ -184,16 +186,16 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   detail::sine_cosine(angle1, s1, c1);
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.lower_h_y;
-  const Real h1b_y = c1 * model.lower_h_y;
+  const Real h1b_x = s1 * model.mr_y;
+  const Real h1b_y = c1 * model.mr_y;
   const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
-  const Real J0 = D1 + (D1 + model.lower_S_yy) + model.c3;
+  const Real J0 = D1 + (D1 + model.S_yy) + model.c3;
   const Real P0 = J0 * state.z[0] * Real(0.5);
   const Real T0 = state.z[0] * P0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
-  const Real P1 = h1b_y * v1o_x + (h1b_x * v1o_y + (model.lower_S_yy * state.z[0] + Real(0.5) *
-      (model.lower_S_yy * state.z[1])));
+  const Real P1 = h1b_y * v1o_x + (h1b_x * v1o_y + (model.S_yy * state.z[0] + Real(0.5) * (model.S_yy *
+      state.z[1])));
   const Real T1 = T0 + state.z[1] * P1;
   return T1;
 }
@@ -203,7 +205,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real c0 = detail::cosine(state.y[0]);
   const Real angle1 = state.y[0] + state.y[1];
   const Real c1 = detail::cosine(angle1);
-  const Real h1b_y = c1 * model.lower_h_y;
+  const Real h1b_y = c1 * model.mr_y;
   const Real h0b_y = c0 * model.elbow_h_y;
   const Real h0_y = h1b_y + h0b_y;
   const Real V = h0_y * Real(9.81);

@@ -329,17 +329,17 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
-  const Real w3pp_x = c2 * w2pp_y - s2 * state.z[1];
+  const Real w3pp_x = s2 * state.z[1] - c2 * w2pp_y;
   const Real w3pp_y = c2 * state.z[1] + s2 * w2pp_y;
   const Real w3_z = w3pp_y - state.z[3];
-  const Real w4pp_x = c3 * w2_z + s3 * w3pp_x;
-  const Real w4pp_y = c3 * w3pp_x - s3 * w2_z;
+  const Real w4pp_x = c3 * w2_z - s3 * w3pp_x;
+  const Real w4pp_y = c3 * w3pp_x + s3 * w2_z;
   const Real w4_z = w4pp_x + state.z[4];
-  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
-  const Real w5pp_y = c4 * w3_z + s4 * w4pp_y;
+  const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
+  const Real w5pp_y = c4 * w3_z - s4 * w4pp_y;
   const Real w5_z = w5pp_y - state.z[5];
-  const Real w6pp_x = c5 * w4_z + s5 * w5pp_x;
-  const Real w6pp_y = c5 * w5pp_x - s5 * w4_z;
+  const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
+  const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
   const Real kKy1 = S1b_xy * state.z[0];
   const Real kQp1 = state.z[0] * kKy1;
   const Real z2_1 = Real(2.0) * state.z[1];
@@ -347,8 +347,8 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kal1o_y = state.z[0] * state.z[1];
   const Real kal2p_x = s1 * kal1o_y;
   const Real kal2p_y = c1 * kal1o_y;
-  const Real kKx2 = S2b_xz * w2pp_x - (S2b_xx * w2pp_y - S2b_xy * state.z[1]);
-  const Real kKy2 = S2b_yy * state.z[1] - (S2b_xy * w2pp_y + S2b_yz * w2pp_x);
+  const Real kKx2 = S2b_xz * w2pp_x + (S2b_xy * state.z[1] - S2b_xx * w2pp_y);
+  const Real kKy2 = S2b_yz * w2pp_x - (S2b_yy * state.z[1] - S2b_xy * w2pp_y);
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real kal2o_x = kal2p_y - state.z[2] * state.z[1];
@@ -362,23 +362,23 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL2w00 = w3pp_x * w3pp_x;
   const Real kL2w01 = w3pp_x * w3pp_y;
   const Real kL2U0_x = kL2w22 + kL2w11;
-  const Real kL2U0_z = kal3p_y - kL2w02;
-  const Real kL2U1_x = kal2p_x + kL2w01;
+  const Real kL2U0_z = kal3p_y + kL2w02;
+  const Real kL2U1_x = kal2p_x - kL2w01;
   const Real kL2U1_z = kal3p_x + kL2w12;
-  const Real kL2U2_x = kal3p_y + kL2w02;
+  const Real kL2U2_x = kal3p_y - kL2w02;
   const Real kL2U2_z = kL2w11 + kL2w00;
   const Real ka3o_x = Real(0.0825) * kL2U0_x - Real(0.316) * kL2U0_z;
   const Real ka3o_z = Real(0.0825) * kL2U2_x + Real(0.316) * kL2U2_z;
-  const Real kKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z - S3b_xy * w3pp_x);
-  const Real kKy3 = S3b_yy * w3pp_x - (S3b_xy * w2_z + S3b_yz * w3pp_y);
+  const Real kKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z + S3b_xy * w3pp_x);
+  const Real kKy3 = S3b_yy * w3pp_x + (S3b_xy * w2_z + S3b_yz * w3pp_y);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_y + w3_z);
-  const Real kax3 = h3b_x * w2_z - h3b_y * w3pp_x;
+  const Real kax3 = h3b_x * w2_z + h3b_y * w3pp_x;
   const Real kdf3_x = h3b_x * zw_3;
   const Real kdf3_y = h3b_y * zw_3;
   const Real kdf3_z = z2_3 * kax3;
-  const Real kal3o_x = kal2p_x - w3pp_x * state.z[3];
+  const Real kal3o_x = kal2p_x + w3pp_x * state.z[3];
   const Real kal3o_y = kal3p_x - w2_z * state.z[3];
   const Real kal4p_x = c3 * kal3o_x - s3 * kal3o_y;
   const Real kal4p_y = c3 * kal3o_y + s3 * kal3o_x;
@@ -386,43 +386,43 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL3w00 = w4pp_x * w4pp_x;
   const Real kL3w22 = w3_z * w3_z;
   const Real kL3w01 = w4pp_x * w4pp_y;
-  const Real kL3U0_y = kal3p_y + kL3w01;
+  const Real kL3U0_y = kal3p_y - kL3w01;
   const Real kL3U1_y = kL3w00 + kL3w22;
-  const Real kL3U2_y = kal4p_x + kL3w12;
+  const Real kL3U2_y = kal4p_x - kL3w12;
   const Real ka4o_y = Real(0.0825) * kL3U1_y - (c3 * ka3o_x + s3 * ka3o_z);
   const Real ka4o_z = Real(0.316) * kL2U1_z - Real(0.0825) * (kL2U1_x - kL3U2_y);
-  const Real kKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
-  const Real kKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y + S4b_yz * w4pp_x);
+  const Real kKx4 = S4b_xz * w4pp_x + (S4b_xx * w4pp_y + S4b_xy * w3_z);
+  const Real kKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_x + w4_z);
-  const Real kax4 = h4b_x * w4pp_y + h4b_y * w3_z;
+  const Real kax4 = h4b_x * w4pp_y - h4b_y * w3_z;
   const Real kdf4_x = h4b_x * zw_4;
   const Real kdf4_y = h4b_y * zw_4;
   const Real kdf4_z = z2_4 * kax4;
   const Real kal4o_x = kal4p_y - w3_z * state.z[4];
-  const Real kal4o_y = kal3p_y + w4pp_y * state.z[4];
+  const Real kal4o_y = kal3p_y - w4pp_y * state.z[4];
   const Real kal5p_x = c4 * kal4o_x - s4 * kal4o_y;
   const Real kal5p_y = c4 * kal4o_y + s4 * kal4o_x;
   const Real kL4w12 = w4_z * w5pp_y;
   const Real kL4w02 = w4_z * w5pp_x;
   const Real kL4w11 = w5pp_y * w5pp_y;
   const Real kL4w00 = w5pp_x * w5pp_x;
-  const Real kL4U0_z = kal5p_y - kL4w02;
+  const Real kL4U0_z = kal5p_y + kL4w02;
   const Real kL4U1_z = kal5p_x + kL4w12;
   const Real kL4U2_z = kL4w11 + kL4w00;
   const Real ka5o_x = Real(0.384) * kL4U0_z + (c4 * ka4o_y + s4 * ka4o_z);
   const Real ka5o_z = Real(0.384) * kL4U2_z - (Real(0.0825) * kL3U0_y - (c3 * ka3o_z - s3 * ka3o_x));
-  const Real kKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z - S5b_xy * w5pp_x);
-  const Real kKy5 = S5b_yy * w5pp_x - (S5b_xy * w4_z - S5b_yz * w5pp_y);
+  const Real kKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z + S5b_xy * w5pp_x);
+  const Real kKy5 = S5b_yy * w5pp_x + (S5b_xy * w4_z - S5b_yz * w5pp_y);
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real zz_5 = state.z[5] * state.z[5];
   const Real zw_5 = state.z[5] * (w5pp_y + w5_z);
-  const Real kax5 = h5b_x * w4_z - h5b_y * w5pp_x;
+  const Real kax5 = h5b_x * w4_z + h5b_y * w5pp_x;
   const Real kdf5_x = h5b_x * zw_5;
   const Real kdf5_y = h5b_y * zw_5;
   const Real kdf5_z = z2_5 * kax5;
-  const Real kal5o_x = kal4p_x - w5pp_x * state.z[5];
+  const Real kal5o_x = kal4p_x + w5pp_x * state.z[5];
   const Real kal5o_y = kal5p_x - w4_z * state.z[5];
   const Real kal6p_x = c5 * kal5o_x - s5 * kal5o_y;
   const Real kal6p_y = c5 * kal5o_y + s5 * kal5o_x;
@@ -430,56 +430,56 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL5w00 = w6pp_x * w6pp_x;
   const Real kL5w22 = w5_z * w5_z;
   const Real kL5U1_y = kL5w00 + kL5w22;
-  const Real kL5U2_y = kal6p_x + kL5w12;
+  const Real kL5U2_y = kal6p_x - kL5w12;
   const Real ka6o_y = Real(0.088) * kL5U1_y - (c5 * ka5o_x - s5 * ka5o_z);
   const Real ka6o_z = Real(0.088) * kL5U2_y - (Real(0.384) * kL4U1_z + (c4 * ka4o_z - s4 * ka4o_y));
-  const Real kKx6 = S6b_xz * w6pp_x + (S6b_xx * w6pp_y - S6b_xy * w5_z);
-  const Real kKy6 = S6b_yy * w5_z + (S6b_xy * w6pp_y - S6b_yz * w6pp_x);
-  const Real kQp6 = Real(0.006684151967360946) * kal6p_x + (w6pp_y * kKy6 + (w5_z * kKx6 + (h6b_y * ka6o_y +
+  const Real kKx6 = S6b_xz * w6pp_x - (S6b_xx * w6pp_y + S6b_xy * w5_z);
+  const Real kKy6 = S6b_yy * w5_z - (S6b_xy * w6pp_y + S6b_yz * w6pp_x);
+  const Real kQp6 = Real(0.006684151967360946) * kal6p_x - (w6pp_y * kKy6 - (w5_z * kKx6 + (h6b_y * ka6o_y +
       (h6b_x * ka6o_z + (S6b_xz * kal6p_y + S6b_yz * kal5p_y)))));
   const Real z2_6 = Real(2.0) * state.z[6];
   const Real zz_6 = state.z[6] * state.z[6];
   const Real zw_6 = state.z[6] * (state.z[6] - (w6pp_x + w6pp_x));
-  const Real kax6 = h6b_x * w6pp_y + h6b_y * w5_z;
+  const Real kax6 = h6b_x * w6pp_y - h6b_y * w5_z;
   const Real kdf6_x = h6b_x * zw_6;
   const Real kdf6_y = h6b_y * zw_6;
   const Real kdf6_z = z2_6 * kax6;
   const Real kdn6_x = S6b_yz * zz_6 + kKy6 * z2_6;
   const Real kn6c_x = Real(0.088) * kdf6_y;
-  const Real kn6c_z = Real(0.088) * kdf6_z - (S6b_xz * zz_6 - kKx6 * z2_6);
-  const Real kf5_y = s5 * kdf6_z - (kdf5_y - c5 * kdf6_x);
+  const Real kn6c_z = Real(0.088) * kdf6_z + (S6b_xz * zz_6 - kKx6 * z2_6);
+  const Real kf5_y = s5 * kdf6_z + (kdf5_y - c5 * kdf6_x);
   const Real kf5_z = kdf5_z - kdf6_y;
-  const Real kn5_x = s5 * kdn6_x + (c5 * kn6c_x - (S5b_yz * zz_5 - kKy5 * z2_5));
+  const Real kn5_x = s5 * kdn6_x + (c5 * kn6c_x - (S5b_yz * zz_5 + kKy5 * z2_5));
   const Real kn5c_x = Real(0.384) * kf5_z - (s5 * kn6c_x - (c5 * kdn6_x - (S5b_xz * zz_5 - kKx5 * z2_5)));
   const Real kn5c_y = kn6c_z + Real(0.384) * kf5_y;
-  const Real kf4_x = s4 * kf5_z - (kdf4_x + c4 * kf5_y);
-  const Real kf4_y = s4 * kf5_y - (kdf4_y - c4 * kf5_z);
-  const Real kf4_z = s5 * kdf6_x - (c5 * kdf6_z - (kdf4_z - kdf5_x));
-  const Real kn4_x = s4 * kn5c_y + (c4 * kn5c_x - (S4b_yz * zz_4 - kKy4 * z2_4));
-  const Real kn4c_x = kn5_x + Real(0.0825) * kf4_y;
-  const Real kn4c_z = Real(0.0825) * kf4_z - (s4 * kn5c_x - (c4 * kn5c_y + (S4b_xz * zz_4 + kKx4 * z2_4)));
+  const Real kf4_x = s4 * kf5_z - (kdf4_x - c4 * kf5_y);
+  const Real kf4_y = s4 * kf5_y + (kdf4_y - c4 * kf5_z);
+  const Real kf4_z = s5 * kdf6_x + (c5 * kdf6_z - (kdf4_z + kdf5_x));
+  const Real kn4_x = s4 * kn5c_y - (c4 * kn5c_x - (S4b_yz * zz_4 - kKy4 * z2_4));
+  const Real kn4c_x = kn5_x - Real(0.0825) * kf4_y;
+  const Real kn4c_z = Real(0.0825) * kf4_z - (s4 * kn5c_x + (c4 * kn5c_y - (S4b_xz * zz_4 + kKx4 * z2_4)));
   const Real kf3_x = s3 * kf4_x + (kdf3_x - c3 * kf4_z);
   const Real kf3_y = s3 * kf4_z + (kdf3_y + c3 * kf4_x);
-  const Real kf3_z = kdf3_z + kf4_y;
-  const Real kn3c_x = Real(0.316) * kf3_z - (s3 * kn4c_x - (c3 * kn4_x + (S3b_xz * zz_3 - kKx3 * z2_3)));
+  const Real kf3_z = kdf3_z - kf4_y;
+  const Real kn3c_x = Real(0.316) * kf3_z - (s3 * kn4c_x + (c3 * kn4_x - (S3b_xz * zz_3 - kKx3 * z2_3)));
   const Real kn3c_y = Real(0.316) * kf3_y - (kn4c_z + Real(0.0825) * kf3_x);
-  const Real kn3c_z = Real(0.0825) * kf3_z - (s3 * kn4_x + (c3 * kn4c_x + (S3b_yz * zz_3 + kKy3 * z2_3)));
-  const Real kn2_x = s2 * kn3c_y - (c2 * kn3c_x - (S2b_yz * zz_2 - kKy2 * z2_2));
+  const Real kn3c_z = Real(0.0825) * kf3_z + (s3 * kn4_x - (c3 * kn4c_x + (S3b_yz * zz_3 - kKy3 * z2_3)));
+  const Real kn2_x = s2 * kn3c_y - (c2 * kn3c_x - (S2b_yz * zz_2 + kKy2 * z2_2));
   const Real kn1_x = s1 * kn2_x - (c1 * kn3c_z - (S1b_yz * zz_1 - kKy1 * z2_1));
   const Real kQ1 = s2 * kn3c_x + (c2 * kn3c_y - (kKx2 * z2_2 - (kQp1 - S2b_xz * zz_2)));
-  const Real kQ2 = kn3c_z - (state.z[1] * kKx2 + (w2pp_y * kKy2 - (S2b_zz * kal2p_x - S2b_xz * kal2p_y)));
-  const Real kQ3 = kn4c_z - (w3pp_x * kKx3 + (w2_z * kKy3 + (h3b_y * ka3o_z - (h3b_x * ka3o_x - (S3b_yz *
+  const Real kQ2 = kn3c_z + (w2pp_y * kKy2 - (S2b_xz * kal2p_y + (state.z[1] * kKx2 - S2b_zz * kal2p_x)));
+  const Real kQ3 = kn4c_z + (w3pp_x * kKx3 + (w2_z * kKy3 - (h3b_y * ka3o_z - (h3b_x * ka3o_x - (S3b_yz *
       kal3p_x + (S3b_zz * kal3p_y - S3b_xz * kal2p_x))))));
-  const Real kQ4 = kn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 + (h4b_y * ka4o_y + (h4b_x * ka4o_z + (S4b_yz *
+  const Real kQ4 = kn5_x - (w4pp_y * kKy4 - (w3_z * kKx4 + (h4b_y * ka4o_y + (h4b_x * ka4o_z + (S4b_yz *
       kal3p_y - (S4b_zz * kal4p_x - S4b_xz * kal4p_y))))));
-  const Real kQ5 = kn6c_z + (w5pp_x * kKx5 - (w4_z * kKy5 + (h5b_y * ka5o_z + (h5b_x * ka5o_x - (S5b_yz *
+  const Real kQ5 = kn6c_z + (w5pp_x * kKx5 - (w4_z * kKy5 - (h5b_y * ka5o_z + (h5b_x * ka5o_x - (S5b_yz *
       kal5p_x - (S5b_zz * kal5p_y + S5b_xz * kal4p_x))))));
   k[0] = -kn1_x;
   k[1] = -kQ1;
   k[2] = kQ2;
   k[3] = -kQ3;
   k[4] = -kQ4;
-  k[5] = -kQ5;
+  k[5] = kQ5;
   k[6] = -kQp6;
 }
 
@@ -519,25 +519,25 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real q_1 = input.u[1] + h1b_y * Real(9.81);
   const Real g2p_x = c1 * Real(9.81);
   const Real g2p_y = s1 * Real(9.81);
-  const Real q_2 = input.u[2] + h2b_y * g2p_y;
+  const Real q_2 = h2b_y * g2p_y + input.u[2];
   const Real g3p_x = c2 * g2p_y;
   const Real g3p_y = s2 * g2p_y;
-  const Real q_3 = h3b_y * g2p_x - (input.u[3] - h3b_x * g3p_x);
+  const Real q_3 = input.u[3] - (h3b_x * g3p_x + h3b_y * g2p_x);
   const Real g4p_x = c3 * g2p_x + s3 * g3p_x;
   const Real g4p_y = c3 * g3p_x - s3 * g2p_x;
-  const Real q_4 = h4b_y * g4p_y + (input.u[4] - h4b_x * g3p_y);
+  const Real q_4 = input.u[4] - (h4b_x * g3p_y - h4b_y * g4p_y);
   const Real g5p_x = c4 * g4p_y - s4 * g3p_y;
   const Real g5p_y = c4 * g3p_y + s4 * g4p_y;
-  const Real q_5 = h5b_y * g4p_x - (input.u[5] - h5b_x * g5p_x);
+  const Real q_5 = input.u[5] - (h5b_x * g5p_x + h5b_y * g4p_x);
   const Real g6p_y = c5 * g5p_x - s5 * g4p_x;
-  const Real q_6 = h6b_y * g6p_y - (input.u[6] + h6b_x * g5p_y);
+  const Real q_6 = input.u[6] + (h6b_x * g5p_y - h6b_y * g6p_y);
   q[0] = -input.u[0];
   q[1] = -q_1;
   q[2] = -q_2;
-  q[3] = q_3;
+  q[3] = -q_3;
   q[4] = -q_4;
-  q[5] = q_5;
-  q[6] = q_6;
+  q[5] = -q_5;
+  q[6] = -q_6;
 }
 
 template <class Real>
@@ -650,17 +650,17 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
-  const Real w3pp_x = c2 * w2pp_y - s2 * state.z[1];
+  const Real w3pp_x = s2 * state.z[1] - c2 * w2pp_y;
   const Real w3pp_y = c2 * state.z[1] + s2 * w2pp_y;
   const Real w3_z = w3pp_y - state.z[3];
-  const Real w4pp_x = c3 * w2_z + s3 * w3pp_x;
-  const Real w4pp_y = c3 * w3pp_x - s3 * w2_z;
+  const Real w4pp_x = c3 * w2_z - s3 * w3pp_x;
+  const Real w4pp_y = c3 * w3pp_x + s3 * w2_z;
   const Real w4_z = w4pp_x + state.z[4];
-  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
-  const Real w5pp_y = c4 * w3_z + s4 * w4pp_y;
+  const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
+  const Real w5pp_y = c4 * w3_z - s4 * w4pp_y;
   const Real w5_z = w5pp_y - state.z[5];
-  const Real w6pp_x = c5 * w4_z + s5 * w5pp_x;
-  const Real w6pp_y = c5 * w5pp_x - s5 * w4_z;
+  const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
+  const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
   const Real p3_3n_y = Real(0.0825) * h3b_y + (S3b_zz + h3b_x * Real(0.316));
   const Real p3_3N_x = c2 * S3b_yz + s2 * p3_3n_y;
   const Real t310 = h4b_x * Real(0.0825);
@@ -712,8 +712,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bal2p_y = c1 * bal1o_y;
   const Real bL1a_x = c1 * Real(9.81);
   const Real bL1a_y = s1 * Real(9.81);
-  const Real bKx2 = S2b_xz * w2pp_x - (S2b_xx * w2pp_y - S2b_xy * state.z[1]);
-  const Real bKy2 = S2b_yy * state.z[1] - (S2b_xy * w2pp_y + S2b_yz * w2pp_x);
+  const Real bKx2 = S2b_xz * w2pp_x + (S2b_xy * state.z[1] - S2b_xx * w2pp_y);
+  const Real bKy2 = S2b_yz * w2pp_x - (S2b_yy * state.z[1] - S2b_xy * w2pp_y);
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real bal2o_x = bal2p_y - state.z[2] * state.z[1];
@@ -729,23 +729,23 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL2w00 = w3pp_x * w3pp_x;
   const Real bL2w01 = w3pp_x * w3pp_y;
   const Real bL2U0_x = bL2w22 + bL2w11;
-  const Real bL2U0_z = bal3p_y - bL2w02;
-  const Real bL2U1_x = bal2p_x + bL2w01;
+  const Real bL2U0_z = bal3p_y + bL2w02;
+  const Real bL2U1_x = bal2p_x - bL2w01;
   const Real bL2U1_z = bal3p_x + bL2w12;
-  const Real bL2U2_x = bal3p_y + bL2w02;
+  const Real bL2U2_x = bal3p_y - bL2w02;
   const Real bL2U2_z = bL2w11 + bL2w00;
   const Real ba3o_x = Real(0.316) * bL2U0_z - (bL2a_x + Real(0.0825) * bL2U0_x);
   const Real ba3o_z = Real(0.316) * bL2U2_z - (bL1a_x - Real(0.0825) * bL2U2_x);
-  const Real bKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z - S3b_xy * w3pp_x);
-  const Real bKy3 = S3b_yy * w3pp_x - (S3b_xy * w2_z + S3b_yz * w3pp_y);
+  const Real bKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z + S3b_xy * w3pp_x);
+  const Real bKy3 = S3b_yy * w3pp_x + (S3b_xy * w2_z + S3b_yz * w3pp_y);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_y + w3_z);
-  const Real bax3 = h3b_x * w2_z - h3b_y * w3pp_x;
+  const Real bax3 = h3b_x * w2_z + h3b_y * w3pp_x;
   const Real bdf3_x = h3b_x * zw_3;
   const Real bdf3_y = h3b_y * zw_3;
   const Real bdf3_z = z2_3 * bax3;
-  const Real bal3o_x = bal2p_x - w3pp_x * state.z[3];
+  const Real bal3o_x = bal2p_x + w3pp_x * state.z[3];
   const Real bal3o_y = bal3p_x - w2_z * state.z[3];
   const Real bal4p_x = c3 * bal3o_x - s3 * bal3o_y;
   const Real bal4p_y = c3 * bal3o_y + s3 * bal3o_x;
@@ -753,43 +753,43 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL3w00 = w4pp_x * w4pp_x;
   const Real bL3w22 = w3_z * w3_z;
   const Real bL3w01 = w4pp_x * w4pp_y;
-  const Real bL3U0_y = bal3p_y + bL3w01;
+  const Real bL3U0_y = bal3p_y - bL3w01;
   const Real bL3U1_y = bL3w00 + bL3w22;
-  const Real bL3U2_y = bal4p_x + bL3w12;
+  const Real bL3U2_y = bal4p_x - bL3w12;
   const Real ba4o_y = Real(0.0825) * bL3U1_y + (c3 * ba3o_x - s3 * ba3o_z);
   const Real ba4o_z = Real(0.0825) * (bL2U1_x - bL3U2_y) - (bL2a_y + Real(0.316) * bL2U1_z);
-  const Real bKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
-  const Real bKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y + S4b_yz * w4pp_x);
+  const Real bKx4 = S4b_xz * w4pp_x + (S4b_xx * w4pp_y + S4b_xy * w3_z);
+  const Real bKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_x + w4_z);
-  const Real bax4 = h4b_x * w4pp_y + h4b_y * w3_z;
+  const Real bax4 = h4b_x * w4pp_y - h4b_y * w3_z;
   const Real bdf4_x = h4b_x * zw_4;
   const Real bdf4_y = h4b_y * zw_4;
   const Real bdf4_z = z2_4 * bax4;
   const Real bal4o_x = bal4p_y - w3_z * state.z[4];
-  const Real bal4o_y = bal3p_y + w4pp_y * state.z[4];
+  const Real bal4o_y = bal3p_y - w4pp_y * state.z[4];
   const Real bal5p_x = c4 * bal4o_x - s4 * bal4o_y;
   const Real bal5p_y = c4 * bal4o_y + s4 * bal4o_x;
   const Real bL4w12 = w4_z * w5pp_y;
   const Real bL4w02 = w4_z * w5pp_x;
   const Real bL4w11 = w5pp_y * w5pp_y;
   const Real bL4w00 = w5pp_x * w5pp_x;
-  const Real bL4U0_z = bal5p_y - bL4w02;
+  const Real bL4U0_z = bal5p_y + bL4w02;
   const Real bL4U1_z = bal5p_x + bL4w12;
   const Real bL4U2_z = bL4w11 + bL4w00;
   const Real ba5o_x = Real(0.384) * bL4U0_z + (c4 * ba4o_y - s4 * ba4o_z);
   const Real ba5o_z = Real(0.384) * bL4U2_z - (Real(0.0825) * bL3U0_y - (c3 * ba3o_z + s3 * ba3o_x));
-  const Real bKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z - S5b_xy * w5pp_x);
-  const Real bKy5 = S5b_yy * w5pp_x - (S5b_xy * w4_z - S5b_yz * w5pp_y);
+  const Real bKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z + S5b_xy * w5pp_x);
+  const Real bKy5 = S5b_yy * w5pp_x + (S5b_xy * w4_z - S5b_yz * w5pp_y);
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real zz_5 = state.z[5] * state.z[5];
   const Real zw_5 = state.z[5] * (w5pp_y + w5_z);
-  const Real bax5 = h5b_x * w4_z - h5b_y * w5pp_x;
+  const Real bax5 = h5b_x * w4_z + h5b_y * w5pp_x;
   const Real bdf5_x = h5b_x * zw_5;
   const Real bdf5_y = h5b_y * zw_5;
   const Real bdf5_z = z2_5 * bax5;
-  const Real bal5o_x = bal4p_x - w5pp_x * state.z[5];
+  const Real bal5o_x = bal4p_x + w5pp_x * state.z[5];
   const Real bal5o_y = bal5p_x - w4_z * state.z[5];
   const Real bal6p_x = c5 * bal5o_x - s5 * bal5o_y;
   const Real bal6p_y = c5 * bal5o_y + s5 * bal5o_x;
@@ -797,40 +797,40 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL5w00 = w6pp_x * w6pp_x;
   const Real bL5w22 = w5_z * w5_z;
   const Real bL5U1_y = bL5w00 + bL5w22;
-  const Real bL5U2_y = bal6p_x + bL5w12;
+  const Real bL5U2_y = bal6p_x - bL5w12;
   const Real ba6o_y = Real(0.088) * bL5U1_y - (c5 * ba5o_x - s5 * ba5o_z);
   const Real ba6o_z = Real(0.088) * bL5U2_y - (Real(0.384) * bL4U1_z - (c4 * ba4o_z + s4 * ba4o_y));
-  const Real bKx6 = S6b_xz * w6pp_x + (S6b_xx * w6pp_y - S6b_xy * w5_z);
-  const Real bKy6 = S6b_yy * w5_z + (S6b_xy * w6pp_y - S6b_yz * w6pp_x);
+  const Real bKx6 = S6b_xz * w6pp_x - (S6b_xx * w6pp_y + S6b_xy * w5_z);
+  const Real bKy6 = S6b_yy * w5_z - (S6b_xy * w6pp_y + S6b_yz * w6pp_x);
   const Real z2_6 = Real(2.0) * state.z[6];
   const Real zz_6 = state.z[6] * state.z[6];
   const Real zw_6 = state.z[6] * (state.z[6] - (w6pp_x + w6pp_x));
-  const Real bax6 = h6b_x * w6pp_y + h6b_y * w5_z;
+  const Real bax6 = h6b_x * w6pp_y - h6b_y * w5_z;
   const Real bdf6_x = h6b_x * zw_6;
   const Real bdf6_y = h6b_y * zw_6;
   const Real bdf6_z = z2_6 * bax6;
   const Real bdn6_x = S6b_yz * zz_6 + bKy6 * z2_6;
   const Real bn6c_x = Real(0.088) * bdf6_y;
-  const Real bn6c_z = Real(0.088) * bdf6_z - (S6b_xz * zz_6 - bKx6 * z2_6);
-  const Real bf5_y = s5 * bdf6_z - (bdf5_y - c5 * bdf6_x);
+  const Real bn6c_z = Real(0.088) * bdf6_z + (S6b_xz * zz_6 - bKx6 * z2_6);
+  const Real bf5_y = s5 * bdf6_z + (bdf5_y - c5 * bdf6_x);
   const Real bf5_z = bdf5_z - bdf6_y;
-  const Real bn5_x = s5 * bdn6_x + (c5 * bn6c_x - (S5b_yz * zz_5 - bKy5 * z2_5));
+  const Real bn5_x = s5 * bdn6_x + (c5 * bn6c_x - (S5b_yz * zz_5 + bKy5 * z2_5));
   const Real bn5c_x = Real(0.384) * bf5_z - (s5 * bn6c_x - (c5 * bdn6_x - (S5b_xz * zz_5 - bKx5 * z2_5)));
   const Real bn5c_y = bn6c_z + Real(0.384) * bf5_y;
-  const Real bf4_x = s4 * bf5_z - (bdf4_x + c4 * bf5_y);
-  const Real bf4_y = s4 * bf5_y - (bdf4_y - c4 * bf5_z);
-  const Real bf4_z = s5 * bdf6_x - (c5 * bdf6_z - (bdf4_z - bdf5_x));
-  const Real bn4_x = s4 * bn5c_y + (c4 * bn5c_x - (S4b_yz * zz_4 - bKy4 * z2_4));
-  const Real bn4c_x = bn5_x + Real(0.0825) * bf4_y;
-  const Real bn4c_z = Real(0.0825) * bf4_z - (s4 * bn5c_x - (c4 * bn5c_y + (S4b_xz * zz_4 + bKx4 * z2_4)));
+  const Real bf4_x = s4 * bf5_z - (bdf4_x - c4 * bf5_y);
+  const Real bf4_y = s4 * bf5_y + (bdf4_y - c4 * bf5_z);
+  const Real bf4_z = s5 * bdf6_x + (c5 * bdf6_z - (bdf4_z + bdf5_x));
+  const Real bn4_x = s4 * bn5c_y - (c4 * bn5c_x - (S4b_yz * zz_4 - bKy4 * z2_4));
+  const Real bn4c_x = bn5_x - Real(0.0825) * bf4_y;
+  const Real bn4c_z = Real(0.0825) * bf4_z - (s4 * bn5c_x + (c4 * bn5c_y - (S4b_xz * zz_4 + bKx4 * z2_4)));
   const Real bf3_x = s3 * bf4_x + (bdf3_x - c3 * bf4_z);
   const Real bf3_y = s3 * bf4_z + (bdf3_y + c3 * bf4_x);
-  const Real bf3_z = bdf3_z + bf4_y;
-  const Real bn3c_x = Real(0.316) * bf3_z - (s3 * bn4c_x - (c3 * bn4_x + (S3b_xz * zz_3 - bKx3 * z2_3)));
+  const Real bf3_z = bdf3_z - bf4_y;
+  const Real bn3c_x = Real(0.316) * bf3_z - (s3 * bn4c_x + (c3 * bn4_x - (S3b_xz * zz_3 - bKx3 * z2_3)));
   const Real bn3c_y = Real(0.316) * bf3_y - (bn4c_z + Real(0.0825) * bf3_x);
-  const Real bn3c_z = Real(0.0825) * bf3_z - (s3 * bn4_x + (c3 * bn4c_x + (S3b_yz * zz_3 + bKy3 * z2_3)));
-  const Real bn2_x = s2 * bn3c_y - (c2 * bn3c_x - (S2b_yz * zz_2 - bKy2 * z2_2));
-  const Real b_6 = input.u[6] - (Real(0.006684151967360946) * bal6p_x + (w6pp_y * bKy6 + (w5_z * bKx6 + (h6b_y
+  const Real bn3c_z = Real(0.0825) * bf3_z + (s3 * bn4_x - (c3 * bn4c_x + (S3b_yz * zz_3 - bKy3 * z2_3)));
+  const Real bn2_x = s2 * bn3c_y - (c2 * bn3c_x - (S2b_yz * zz_2 + bKy2 * z2_2));
+  const Real b_6 = input.u[6] - (Real(0.006684151967360946) * bal6p_x - (w6pp_y * bKy6 - (w5_z * bKx6 + (h6b_y
       * ba6o_y + (h6b_x * ba6o_z + (S6b_xz * bal6p_y + S6b_yz * bal5p_y))))));
   const Real L_6_5 = S6b_yz * Real(149.60760989322966);
   const Real H6_5_5 = S5b_zz - S6b_yz * L_6_5;
@@ -844,7 +844,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real L_6_2 = p6_3n_z * Real(149.60760989322966);
   const Real L_6_1 = p6_3N_y * Real(149.60760989322966);
   const Real L_6_0 = p6_2N_x * Real(149.60760989322966);
-  const Real x6_5 = b_6 * L_6_5 + (input.u[5] - (bn6c_z + (w5pp_x * bKx5 - (w4_z * bKy5 + (h5b_y * ba5o_z +
+  const Real x6_5 = b_6 * L_6_5 + (input.u[5] + (bn6c_z + (w5pp_x * bKx5 - (w4_z * bKy5 - (h5b_y * ba5o_z +
       (h5b_x * ba5o_x - (S5b_yz * bal5p_x - (S5b_zz * bal5p_y + S5b_xz * bal4p_x))))))));
   const Real invD_5 = Real(1.0) / H6_5_5;
   const Real L_5_4 = H6_5_4 * invD_5;
@@ -857,7 +857,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real L_5_2 = H6_5_2 * invD_5;
   const Real L_5_1 = H6_5_1 * invD_5;
   const Real L_5_0 = H6_5_0 * invD_5;
-  const Real x5_4 = x6_5 * L_5_4 - (b_6 * L_6_4 + (input.u[4] - (bn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 +
+  const Real x5_4 = x6_5 * L_5_4 - (b_6 * L_6_4 + (input.u[4] - (bn5_x - (w4pp_y * bKy4 - (w3_z * bKx4 +
       (h4b_y * ba4o_y - (h4b_x * ba4o_z - (S4b_yz * bal3p_y - (S4b_zz * bal4p_x - S4b_xz * bal4p_y)))))))));
   const Real invD_4 = Real(1.0) / H5_4_4;
   const Real L_4_3 = H5_4_3 * invD_4;
@@ -868,8 +868,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real L_4_2 = H5_4_2 * invD_4;
   const Real L_4_1 = H5_4_1 * invD_4;
   const Real L_4_0 = H5_4_0 * invD_4;
-  const Real x4_3 = x5_4 * L_4_3 - (x6_5 * L_5_3 - (b_6 * L_6_3 - (input.u[3] - (bn4c_z - (w3pp_x * bKx3 +
-      (w2_z * bKy3 + (h3b_y * ba3o_z + (h3b_x * ba3o_x + (S3b_yz * bal3p_x + (S3b_zz * bal3p_y - S3b_xz *
+  const Real x4_3 = x5_4 * L_4_3 - (x6_5 * L_5_3 - (b_6 * L_6_3 - (input.u[3] - (bn4c_z + (w3pp_x * bKx3 +
+      (w2_z * bKy3 - (h3b_y * ba3o_z + (h3b_x * ba3o_x + (S3b_yz * bal3p_x + (S3b_zz * bal3p_y - S3b_xz *
       bal2p_x))))))))));
   const Real invD_3 = Real(1.0) / H4_3_3;
   const Real L_3_2 = H4_3_2 * invD_3;
@@ -879,8 +879,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
       s1 * S2b_xz))));
   const Real L_3_1 = H4_3_1 * invD_3;
   const Real L_3_0 = H4_3_0 * invD_3;
-  const Real x3_2 = x4_3 * L_3_2 - (x5_4 * L_4_2 - (x6_5 * L_5_2 - (b_6 * L_6_2 - (input.u[2] + (bn3c_z -
-      (state.z[1] * bKx2 + (w2pp_y * bKy2 - (h2b_y * bL1a_y + (S2b_zz * bal2p_x - S2b_xz * bal2p_y)))))))));
+  const Real x3_2 = x4_3 * L_3_2 - (x5_4 * L_4_2 - (x6_5 * L_5_2 - (b_6 * L_6_2 - (input.u[2] + (bn3c_z +
+      (w2pp_y * bKy2 + (h2b_y * bL1a_y - (S2b_xz * bal2p_y + (state.z[1] * bKx2 - S2b_zz * bal2p_x)))))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
   const Real H2_1_1 = H3_2_1 * L_2_1 - (H4_3_1 * L_3_1 - (H5_4_1 * L_4_1 - (H6_5_1 * L_5_1 - (S1b_zz - p6_3N_y
@@ -1036,17 +1036,17 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
-  const Real w3pp_x = c2 * w2pp_y - s2 * state.z[1];
+  const Real w3pp_x = s2 * state.z[1] - c2 * w2pp_y;
   const Real w3pp_y = c2 * state.z[1] + s2 * w2pp_y;
   const Real w3_z = w3pp_y - state.z[3];
-  const Real w4pp_x = c3 * w2_z + s3 * w3pp_x;
-  const Real w4pp_y = c3 * w3pp_x - s3 * w2_z;
+  const Real w4pp_x = c3 * w2_z - s3 * w3pp_x;
+  const Real w4pp_y = c3 * w3pp_x + s3 * w2_z;
   const Real w4_z = w4pp_x + state.z[4];
-  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
-  const Real w5pp_y = c4 * w3_z + s4 * w4pp_y;
+  const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
+  const Real w5pp_y = c4 * w3_z - s4 * w4pp_y;
   const Real w5_z = w5pp_y - state.z[5];
-  const Real w6pp_x = c5 * w4_z + s5 * w5pp_x;
-  const Real w6pp_y = c5 * w5pp_x - s5 * w4_z;
+  const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
+  const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
   const Real adn0_z = S0b_zz * zdot[0];
   const Real aKy1 = S1b_xy * state.z[0];
   const Real z2_1 = Real(2.0) * state.z[1];
@@ -1054,11 +1054,11 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real adn1_z = S1b_zz * zdot[1];
   const Real aal1o_y = state.z[0] * state.z[1];
   const Real aal2p_x = c1 * zdot[0] - s1 * aal1o_y;
-  const Real aal2p_y = c1 * aal1o_y + s1 * zdot[0];
+  const Real aal2p_y = s1 * zdot[0] + c1 * aal1o_y;
   const Real aL1a_x = c1 * Real(9.81);
   const Real aL1a_y = s1 * Real(9.81);
-  const Real aKx2 = S2b_xz * w2pp_x - (S2b_xx * w2pp_y - S2b_xy * state.z[1]);
-  const Real aKy2 = S2b_yy * state.z[1] - (S2b_xy * w2pp_y + S2b_yz * w2pp_x);
+  const Real aKx2 = S2b_xz * w2pp_x + (S2b_xy * state.z[1] - S2b_xx * w2pp_y);
+  const Real aKy2 = S2b_yz * w2pp_x - (S2b_yy * state.z[1] - S2b_xy * w2pp_y);
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real adn2_z = S2b_zz * zdot[2];
@@ -1076,22 +1076,22 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL2w00 = w3pp_x * w3pp_x;
   const Real aL2w01 = w3pp_x * w3pp_y;
   const Real aL2U0_x = aL2w22 + aL2w11;
-  const Real aL2U0_z = aal3p_y - aL2w02;
-  const Real aL2U1_x = aal2o_z - aL2w01;
+  const Real aL2U0_z = aal3p_y + aL2w02;
+  const Real aL2U1_x = aal2o_z + aL2w01;
   const Real aL2U1_z = aal3p_x + aL2w12;
-  const Real aL2U2_x = aal3p_y + aL2w02;
+  const Real aL2U2_x = aal3p_y - aL2w02;
   const Real aL2U2_z = aL2w11 + aL2w00;
   const Real aa3o_x = Real(0.316) * aL2U0_z - (aL2a_x + Real(0.0825) * aL2U0_x);
   const Real aa3o_z = Real(0.316) * aL2U2_z - (aL1a_x - Real(0.0825) * aL2U2_x);
-  const Real aKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z - S3b_xy * w3pp_x);
-  const Real aKy3 = S3b_yy * w3pp_x - (S3b_xy * w2_z + S3b_yz * w3pp_y);
+  const Real aKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z + S3b_xy * w3pp_x);
+  const Real aKy3 = S3b_yy * w3pp_x + (S3b_xy * w2_z + S3b_yz * w3pp_y);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_y + w3_z);
-  const Real aax3 = h3b_x * w2_z - h3b_y * w3pp_x;
+  const Real aax3 = h3b_x * w2_z + h3b_y * w3pp_x;
   const Real adf3_z = z2_3 * aax3;
   const Real adn3_z = S3b_zz * zdot[3];
-  const Real aal3o_x = aal2o_z + w3pp_x * state.z[3];
+  const Real aal3o_x = aal2o_z - w3pp_x * state.z[3];
   const Real aal3o_y = aal3p_x - w2_z * state.z[3];
   const Real aal3o_z = aal3p_y - zdot[3];
   const Real aal4p_x = c3 * aal3o_x + s3 * aal3o_y;
@@ -1100,21 +1100,21 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL3w00 = w4pp_x * w4pp_x;
   const Real aL3w22 = w3_z * w3_z;
   const Real aL3w01 = w4pp_x * w4pp_y;
-  const Real aL3U0_y = aal3o_z + aL3w01;
+  const Real aL3U0_y = aal3o_z - aL3w01;
   const Real aL3U1_y = aL3w00 + aL3w22;
-  const Real aL3U2_y = aal4p_x - aL3w12;
+  const Real aL3U2_y = aal4p_x + aL3w12;
   const Real aa4o_y = Real(0.0825) * aL3U1_y + (c3 * aa3o_x - s3 * aa3o_z);
   const Real aa4o_z = Real(0.0825) * (aL2U1_x - aL3U2_y) + (aL2a_y + Real(0.316) * aL2U1_z);
-  const Real aKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
-  const Real aKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y + S4b_yz * w4pp_x);
+  const Real aKx4 = S4b_xz * w4pp_x + (S4b_xx * w4pp_y + S4b_xy * w3_z);
+  const Real aKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_x + w4_z);
-  const Real aax4 = h4b_x * w4pp_y + h4b_y * w3_z;
+  const Real aax4 = h4b_x * w4pp_y - h4b_y * w3_z;
   const Real adf4_z = z2_4 * aax4;
   const Real adn4_z = S4b_zz * zdot[4];
   const Real aal4o_x = aal4p_y - w3_z * state.z[4];
-  const Real aal4o_y = aal3o_z + w4pp_y * state.z[4];
+  const Real aal4o_y = aal3o_z - w4pp_y * state.z[4];
   const Real aal4o_z = aal4p_x + zdot[4];
   const Real aal5p_x = c4 * aal4o_x - s4 * aal4o_y;
   const Real aal5p_y = c4 * aal4o_y + s4 * aal4o_x;
@@ -1122,20 +1122,20 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL4w02 = w4_z * w5pp_x;
   const Real aL4w11 = w5pp_y * w5pp_y;
   const Real aL4w00 = w5pp_x * w5pp_x;
-  const Real aL4U0_z = aal5p_y - aL4w02;
+  const Real aL4U0_z = aal5p_y + aL4w02;
   const Real aL4U1_z = aal5p_x + aL4w12;
   const Real aL4U2_z = aL4w11 + aL4w00;
   const Real aa5o_x = Real(0.384) * aL4U0_z + (c4 * aa4o_y + s4 * aa4o_z);
   const Real aa5o_z = Real(0.384) * aL4U2_z - (Real(0.0825) * aL3U0_y - (c3 * aa3o_z + s3 * aa3o_x));
-  const Real aKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z - S5b_xy * w5pp_x);
-  const Real aKy5 = S5b_yy * w5pp_x - (S5b_xy * w4_z - S5b_yz * w5pp_y);
+  const Real aKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z + S5b_xy * w5pp_x);
+  const Real aKy5 = S5b_yy * w5pp_x + (S5b_xy * w4_z - S5b_yz * w5pp_y);
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real zz_5 = state.z[5] * state.z[5];
   const Real zw_5 = state.z[5] * (w5pp_y + w5_z);
-  const Real aax5 = h5b_x * w4_z - h5b_y * w5pp_x;
+  const Real aax5 = h5b_x * w4_z + h5b_y * w5pp_x;
   const Real adf5_z = z2_5 * aax5;
   const Real adn5_z = S5b_zz * zdot[5];
-  const Real aal5o_x = aal4o_z + w5pp_x * state.z[5];
+  const Real aal5o_x = aal4o_z - w5pp_x * state.z[5];
   const Real aal5o_y = aal5p_x - w4_z * state.z[5];
   const Real aal5o_z = aal5p_y - zdot[5];
   const Real aal6p_x = c5 * aal5o_x + s5 * aal5o_y;
@@ -1144,65 +1144,65 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL5w00 = w6pp_x * w6pp_x;
   const Real aL5w22 = w5_z * w5_z;
   const Real aL5U1_y = aL5w00 + aL5w22;
-  const Real aL5U2_y = aal6p_x - aL5w12;
+  const Real aL5U2_y = aal6p_x + aL5w12;
   const Real aa6o_y = Real(0.088) * aL5U1_y - (c5 * aa5o_x - s5 * aa5o_z);
   const Real aa6o_z = Real(0.088) * aL5U2_y + (Real(0.384) * aL4U1_z + (c4 * aa4o_z - s4 * aa4o_y));
-  const Real aKx6 = S6b_xz * w6pp_x + (S6b_xx * w6pp_y - S6b_xy * w5_z);
-  const Real aKy6 = S6b_yy * w5_z + (S6b_xy * w6pp_y - S6b_yz * w6pp_x);
+  const Real aKx6 = S6b_xz * w6pp_x - (S6b_xx * w6pp_y + S6b_xy * w5_z);
+  const Real aKy6 = S6b_yy * w5_z - (S6b_xy * w6pp_y + S6b_yz * w6pp_x);
   const Real z2_6 = Real(2.0) * state.z[6];
   const Real zz_6 = state.z[6] * state.z[6];
   const Real zw_6 = state.z[6] * (state.z[6] - (w6pp_x + w6pp_x));
-  const Real aax6 = h6b_x * w6pp_y + h6b_y * w5_z;
-  const Real adf6_x = h6b_x * zw_6 + h6b_y * zdot[6];
+  const Real aax6 = h6b_x * w6pp_y - h6b_y * w5_z;
+  const Real adf6_x = h6b_y * zdot[6] + h6b_x * zw_6;
   const Real adf6_y = h6b_x * zdot[6] - h6b_y * zw_6;
   const Real adf6_z = z2_6 * aax6;
   const Real adn6_x = aKy6 * z2_6 - (S6b_xz * zdot[6] - S6b_yz * zz_6);
   const Real adn6_z = Real(0.006684151967360946) * zdot[6];
   const Real an6c_x = adn6_z + Real(0.088) * adf6_y;
-  const Real af5_y = s5 * adf6_z + (c5 * adf6_x + (h5b_x * zdot[5] - h5b_y * zw_5));
+  const Real af5_y = s5 * adf6_z - (c5 * adf6_x + (h5b_x * zdot[5] - h5b_y * zw_5));
   const Real af5_z = adf5_z + adf6_y;
-  const Real an5_z = Real(0.088) * adf6_z + (aKx6 * z2_6 - (S6b_yz * zdot[6] - (adn5_z - S6b_xz * zz_6)));
-  const Real an5c_x = Real(0.384) * af5_z + (s5 * an6c_x + (c5 * adn6_x + (aKx5 * z2_5 - (S5b_xz * zz_5 +
-      S5b_yz * zdot[5]))));
+  const Real an5_z = Real(0.088) * adf6_z - (aKx6 * z2_6 - (S6b_xz * zz_6 - (adn5_z - S6b_yz * zdot[6])));
+  const Real an5c_x = Real(0.384) * af5_z + (s5 * an6c_x + (c5 * adn6_x + (aKx5 * z2_5 - (S5b_yz * zdot[5] +
+      S5b_xz * zz_5))));
   const Real an5c_y = an5_z + Real(0.384) * af5_y;
-  const Real af4_x = s4 * af5_z - (c4 * af5_y + (h4b_x * zw_4 - h4b_y * zdot[4]));
-  const Real af4_y = s4 * af5_y + (c4 * af5_z - (h4b_x * zdot[4] + h4b_y * zw_4));
-  const Real af4_z = s5 * adf6_x - (c5 * adf6_z + (h5b_y * zdot[5] - (adf4_z - h5b_x * zw_5)));
-  const Real an4_x = s4 * an5c_y + (c4 * an5c_x + (aKy4 * z2_4 - (S4b_xz * zdot[4] + S4b_yz * zz_4)));
-  const Real an4_z = s5 * adn6_x - (c5 * an6c_x - (aKy5 * z2_5 - (S5b_yz * zz_5 - (adn4_z + S5b_xz *
+  const Real af4_x = s4 * af5_z + (c4 * af5_y + (h4b_y * zdot[4] - h4b_x * zw_4));
+  const Real af4_y = s4 * af5_y - (c4 * af5_z - (h4b_x * zdot[4] + h4b_y * zw_4));
+  const Real af4_z = s5 * adf6_x + (c5 * adf6_z - (h5b_x * zw_5 + (adf4_z + h5b_y * zdot[5])));
+  const Real an4_x = s4 * an5c_y - (c4 * an5c_x + (aKy4 * z2_4 - (S4b_xz * zdot[4] + S4b_yz * zz_4)));
+  const Real an4_z = s5 * adn6_x - (c5 * an6c_x + (aKy5 * z2_5 + (S5b_yz * zz_5 - (adn4_z + S5b_xz *
       zdot[5]))));
-  const Real an4c_x = an4_z + Real(0.0825) * af4_y;
-  const Real af3_x = s3 * af4_x - (c3 * af4_z - (h3b_x * zw_3 + h3b_y * zdot[3]));
+  const Real an4c_x = an4_z - Real(0.0825) * af4_y;
+  const Real af3_x = s3 * af4_x - (c3 * af4_z - (h3b_y * zdot[3] + h3b_x * zw_3));
   const Real af3_y = s3 * af4_z + (c3 * af4_x - (h3b_x * zdot[3] - h3b_y * zw_3));
-  const Real af3_z = adf3_z + af4_y;
-  const Real an3_z = Real(0.0825) * af4_z - (s4 * an5c_x - (c4 * an5c_y + (aKx4 * z2_4 - (S4b_yz * zdot[4] -
-      (adn3_z + S4b_xz * zz_4)))));
-  const Real an3c_x = Real(0.316) * af3_z - (s3 * an4c_x - (c3 * an4_x - (aKx3 * z2_3 - (S3b_xz * zz_3 +
-      S3b_yz * zdot[3]))));
+  const Real af3_z = adf3_z - af4_y;
+  const Real an3_z = Real(0.0825) * af4_z - (s4 * an5c_x + (c4 * an5c_y - (aKx4 * z2_4 + (S4b_xz * zz_4 +
+      (adn3_z - S4b_yz * zdot[4])))));
+  const Real an3c_x = Real(0.316) * af3_z - (s3 * an4c_x + (c3 * an4_x + (aKx3 * z2_3 - (S3b_yz * zdot[3] +
+      S3b_xz * zz_3))));
   const Real an3c_y = Real(0.316) * af3_y - (an3_z + Real(0.0825) * af3_x);
-  const Real an2_x = s2 * an3c_y - (c2 * an3c_x + (aKy2 * z2_2 - (S2b_xz * zdot[2] + S2b_yz * zz_2)));
-  const Real an2_z = Real(0.0825) * af3_z - (s3 * an4_x + (c3 * an4c_x + (aKy3 * z2_3 + (S3b_yz * zz_3 +
+  const Real an2_x = s2 * an3c_y - (c2 * an3c_x - (aKy2 * z2_2 + (S2b_xz * zdot[2] + S2b_yz * zz_2)));
+  const Real an2_z = Real(0.0825) * af3_z + (s3 * an4_x - (c3 * an4c_x - (aKy3 * z2_3 - (S3b_yz * zz_3 +
       (adn2_z - S3b_xz * zdot[3])))));
   const Real an0_z = s1 * an2_x - (c1 * an2_z + (aKy1 * z2_1 - (S1b_yz * zz_1 + (adn0_z + S1b_xz *
       zdot[1]))));
-  const Real aQ1 = s2 * an3c_x + (c2 * an3c_y - (aKx2 * z2_2 - (S2b_yz * zdot[2] - (S2b_xz * zz_2 - (adn1_z -
-      (h1b_y * Real(9.81) - (S1b_xz * zdot[0] + state.z[0] * aKy1)))))));
-  const Real aQ2 = an2_z - (state.z[1] * aKx2 + (w2pp_y * aKy2 - (h2b_y * aL1a_y - (S2b_yz * zdot[1] + (S2b_zz
-      * aal2p_x + S2b_xz * aal2p_y)))));
-  const Real aQ3 = an3_z - (w3pp_x * aKx3 + (w2_z * aKy3 + (h3b_y * aa3o_z + (h3b_x * aa3o_x + (S3b_yz *
+  const Real aQ1 = s2 * an3c_x + (c2 * an3c_y - (aKx2 * z2_2 + (S2b_xz * zz_2 - (S2b_yz * zdot[2] + (adn1_z -
+      (h1b_y * Real(9.81) - (state.z[0] * aKy1 + S1b_xz * zdot[0])))))));
+  const Real aQ2 = an2_z + (w2pp_y * aKy2 + (h2b_y * aL1a_y - (S2b_xz * aal2p_y + (S2b_zz * aal2p_x +
+      (state.z[1] * aKx2 + S2b_yz * zdot[1])))));
+  const Real aQ3 = an3_z + (w3pp_x * aKx3 + (w2_z * aKy3 - (h3b_y * aa3o_z + (h3b_x * aa3o_x + (S3b_yz *
       aal3p_x + (S3b_zz * aal3p_y + S3b_xz * aal2o_z))))));
-  const Real aQ4 = an4_z + (w4pp_y * aKy4 + (w3_z * aKx4 + (h4b_y * aa4o_y + (h4b_x * aa4o_z + (S4b_yz *
+  const Real aQ4 = an4_z - (w4pp_y * aKy4 - (w3_z * aKx4 + (h4b_y * aa4o_y + (h4b_x * aa4o_z + (S4b_yz *
       aal3o_z + (S4b_zz * aal4p_x + S4b_xz * aal4p_y))))));
-  const Real aQ5 = an5_z + (w5pp_x * aKx5 - (w4_z * aKy5 + (h5b_y * aa5o_z + (h5b_x * aa5o_x - (S5b_yz *
+  const Real aQ5 = an5_z + (w5pp_x * aKx5 - (w4_z * aKy5 - (h5b_y * aa5o_z + (h5b_x * aa5o_x - (S5b_yz *
       aal5p_x - (S5b_zz * aal5p_y - S5b_xz * aal4o_z))))));
-  const Real aQ6 = adn6_z - (Real(0.006684151967360946) * aal6p_x - (w6pp_y * aKy6 + (w5_z * aKx6 + (h6b_y *
+  const Real aQ6 = adn6_z - (Real(0.006684151967360946) * aal6p_x + (w6pp_y * aKy6 - (w5_z * aKx6 + (h6b_y *
       aa6o_y - (h6b_x * aa6o_z - (S6b_xz * aal6p_y + S6b_yz * aal5o_z))))));
   tau[0] = an0_z;
   tau[1] = aQ1;
   tau[2] = -aQ2;
   tau[3] = aQ3;
   tau[4] = aQ4;
-  tau[5] = aQ5;
+  tau[5] = -aQ5;
   tau[6] = aQ6;
 }
 
@@ -1302,41 +1302,41 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
-  const Real w3pp_x = c2 * w2pp_y - s2 * state.z[1];
+  const Real w3pp_x = s2 * state.z[1] - c2 * w2pp_y;
   const Real w3pp_y = c2 * state.z[1] + s2 * w2pp_y;
   const Real w3_z = w3pp_y - state.z[3];
-  const Real w4pp_x = c3 * w2_z + s3 * w3pp_x;
-  const Real w4pp_y = c3 * w3pp_x - s3 * w2_z;
+  const Real w4pp_x = c3 * w2_z - s3 * w3pp_x;
+  const Real w4pp_y = c3 * w3pp_x + s3 * w2_z;
   const Real w4_z = w4pp_x + state.z[4];
-  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
-  const Real w5pp_y = c4 * w3_z + s4 * w4pp_y;
+  const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
+  const Real w5pp_y = c4 * w3_z - s4 * w4pp_y;
   const Real w5_z = w5pp_y - state.z[5];
-  const Real w6pp_x = c5 * w4_z + s5 * w5pp_x;
-  const Real w6pp_y = c5 * w5pp_x - s5 * w4_z;
+  const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
+  const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
   const Real P0 = S0b_zz * state.z[0] * Real(0.5);
   const Real T0 = state.z[0] * P0;
-  const Real P1 = Real(0.5) * (S1b_zz * state.z[1]) + S1b_xz * state.z[0];
-  const Real P2 = S2b_yz * state.z[1] + (S2b_xz * w2pp_y + (S2b_zz * w2pp_x + Real(0.5) * (S2b_zz *
+  const Real P1 = S1b_xz * state.z[0] + Real(0.5) * (S1b_zz * state.z[1]);
+  const Real P2 = S2b_xz * w2pp_y + (S2b_zz * w2pp_x + (S2b_yz * state.z[1] + Real(0.5) * (S2b_zz *
       state.z[2])));
   const Real v3o_x = Real(0.316) * w3pp_y;
   const Real v3o_z = Real(0.0825) * w3pp_y;
-  const Real P3 = h3b_y * v3o_z + (h3b_x * v3o_x + (S3b_yz * w3pp_x + (S3b_xz * w2_z + (S3b_zz * w3pp_y -
-      Real(0.5) * (S3b_zz * state.z[3])))));
+  const Real P3 = h3b_y * v3o_z + (h3b_x * v3o_x - (S3b_yz * w3pp_x - (S3b_xz * w2_z - (Real(0.5) * (S3b_zz *
+      state.z[3]) - S3b_zz * w3pp_y))));
   const Real v4p_y = c3 * v3o_x - s3 * v3o_z;
   const Real v4o_x = Real(0.0825) * w3_z - (c3 * v3o_z + s3 * v3o_x);
-  const Real v4o_z = Real(0.316) * w3pp_x + Real(0.0825) * (w2_z - w4pp_x);
-  const Real P4 = h4b_y * v4p_y + (h4b_x * v4o_z + (S4b_yz * w3_z + (S4b_xz * w4pp_y + (S4b_zz * w4pp_x +
-      Real(0.5) * (S4b_zz * state.z[4])))));
-  const Real v5o_x = Real(0.384) * w5pp_y + (c4 * v4p_y + s4 * v4o_z);
-  const Real P5 = h5b_y * v4o_x - (h5b_x * v5o_x - (S5b_yz * w5pp_x + (S5b_xz * w4_z - (S5b_zz * w5pp_y -
-      Real(0.5) * (S5b_zz * state.z[5])))));
+  const Real v4o_z = Real(0.316) * w3pp_x - Real(0.0825) * (w2_z - w4pp_x);
+  const Real P4 = h4b_y * v4p_y - (h4b_x * v4o_z - (S4b_yz * w3_z - (S4b_xz * w4pp_y - (Real(0.5) * (S4b_zz *
+      state.z[4]) + S4b_zz * w4pp_x))));
+  const Real v5o_x = Real(0.384) * w5pp_y + (c4 * v4p_y - s4 * v4o_z);
+  const Real P5 = h5b_y * v4o_x - (h5b_x * v5o_x + (S5b_yz * w5pp_x - (S5b_xz * w4_z + (Real(0.5) * (S5b_zz *
+      state.z[5]) - S5b_zz * w5pp_y))));
   const Real v6p_y = c5 * v5o_x + s5 * v4o_x;
-  const Real v6o_z = Real(0.088) * w6pp_x + (Real(0.384) * w5pp_x + (c4 * v4o_z - s4 * v4p_y));
-  const Real P6 = state.z[6] * Real(0.003342075983680473) - (Real(0.006684151967360946) * w6pp_x + (h6b_y *
-      v6p_y + (h6b_x * v6o_z - (S6b_xz * w6pp_y + S6b_yz * w5_z))));
-  const Real T6 = state.z[6] * P6 + (state.z[5] * P5 + (state.z[4] * P4 - (state.z[3] * P3 - (state.z[2] * P2
+  const Real v6o_z = Real(0.088) * w6pp_x - (Real(0.384) * w5pp_x + (c4 * v4o_z + s4 * v4p_y));
+  const Real P6 = Real(0.006684151967360946) * w6pp_x - (state.z[6] * Real(0.003342075983680473) - (h6b_y *
+      v6p_y + (h6b_x * v6o_z + (S6b_xz * w6pp_y - S6b_yz * w5_z))));
+  const Real T6 = state.z[6] * P6 - (state.z[5] * P5 + (state.z[4] * P4 - (state.z[3] * P3 - (state.z[2] * P2
       - (T0 - state.z[1] * P1)))));
-  return T6;
+  return -T6;
 }
 
 template <class Real>

@@ -10,7 +10,7 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // Left out
-// - parameter-only values: values that depend on parameters alone are computed once, with the model (4
+// - parameter-only values: values that depend on parameters alone are computed once, with the model (3
 //   operations of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time
@@ -58,8 +58,8 @@ struct Model {
 
   explicit Model(const Parameters& = {}) noexcept;
 
-  Real bob_S_yy;
-  Real bob_h_y;
+  Real S_yy;
+  Real mr_y;
   Real invD_0;
 };
 

@@ -33,9 +33,9 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
-  bob_S_yy = parameters.m * (parameters.l * parameters.l);
-  bob_h_y = parameters.l * parameters.m;
-  invD_0 = Real(1.0) / bob_S_yy;
+  mr_y = parameters.m * parameters.l;
+  S_yy = parameters.l * mr_y;
+  invD_0 = Real(1.0) / S_yy;
 }
 
 template <class Real>
@@ -49,7 +49,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>&, Real (&M)[1][1]) noexcept {
-  M[0][0] = model.bob_S_yy;
+  M[0][0] = model.S_yy;
 }
 
 template <class Real>
@@ -60,7 +60,7 @@ void k_bar(const Model<Real>&, const State<Real>&, Real (&k)[1]) noexcept {
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
   const Real s0 = detail::sine(state.y[0]);
-  const Real h0b_x = s0 * model.bob_h_y;
+  const Real h0b_x = s0 * model.mr_y;
   const Real q_0 = h0b_x * Real(9.81);
   q[0] = q_0;
 }
@@ -69,7 +69,7 @@ template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
   const Real s0 = detail::sine(state.y[0]);
-  const Real h0b_x = s0 * model.bob_h_y;
+  const Real h0b_x = s0 * model.mr_y;
   const Real bQp0 = h0b_x * Real(9.81);
   const Real y_0 = bQp0 * model.invD_0;
   zdot[0] = -y_0;
@@ -79,16 +79,16 @@ template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
   const Real s0 = detail::sine(state.y[0]);
-  const Real h0b_x = s0 * model.bob_h_y;
+  const Real h0b_x = s0 * model.mr_y;
   const Real aQp0 = h0b_x * Real(9.81);
-  const Real adn0_z = zdot[0] * model.bob_S_yy;
+  const Real adn0_z = zdot[0] * model.S_yy;
   const Real aQ0 = aQp0 + adn0_z;
   tau[0] = aQ0;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real P0 = state.z[0] * model.bob_S_yy * Real(0.5);
+  const Real P0 = state.z[0] * model.S_yy * Real(0.5);
   const Real T0 = state.z[0] * P0;
   return T0;
 }
@@ -96,7 +96,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c0 = detail::cosine(state.y[0]);
-  const Real h0b_y = c0 * model.bob_h_y;
+  const Real h0b_y = c0 * model.mr_y;
   const Real V = h0b_y * Real(9.81);
   return -V;
 }

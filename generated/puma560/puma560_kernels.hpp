@@ -295,7 +295,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kn2c_x = r2_y * kf2_z + (kKy1 * z2_1 - (S1_yz * zz_1 + (s2 * kn3c_y + (c2 * kn3c_x - (S2b_yz *
       zz_2 - kKy2 * z2_2)))));
   const Real kQ1 = r2_y * kf2_x - (r2_x * kf2_y - (kQp1 - kn3c_z));
-  const Real kQ2 = kn3c_z + (state.z[0] * kKy2 - (h2b_y * ka2o_x - (S2b_yz * kal1o_y - h2b_x * ka2o_y)));
+  const Real kQ2 = kn3c_z - (h2b_y * ka2o_x + (h2b_x * ka2o_y - (state.z[0] * kKy2 + S2b_yz * kal1o_y)));
   const Real kQ3 = kn4_x + (w3pp_y * kKy3 + (w2_z * kKx3 - (h3b_y * ka3o_y + (h3b_x * ka3o_z + (S3b_zz *
       kal3p_x - S3b_xz * kal3p_y)))));
   const Real kQ4 = kdn5_y + (Real(0.00064216) * kal4p_y + (w4pp_x * kKx4 - (w3_z * kKy4 - (h4b_x * ka4o_x +
@@ -331,13 +331,13 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real q_2 = input.u[2] + h2b_y * Real(9.81);
   const Real g3p_x = c2 * Real(9.81);
   const Real g3p_y = s2 * Real(9.81);
-  const Real q_3 = input.u[3] - h3b_y * g3p_y;
+  const Real q_3 = h3b_y * g3p_y - input.u[3];
   const Real g4p_x = c3 * g3p_y;
-  const Real q_4 = h4b_y * g3p_x + (input.u[4] + h4b_x * g4p_x);
+  const Real q_4 = input.u[4] + (h4b_x * g4p_x + h4b_y * g3p_x);
   q[0] = -input.u[0];
   q[1] = -q_1;
   q[2] = -q_2;
-  q[3] = -q_3;
+  q[3] = q_3;
   q[4] = -q_4;
   q[5] = -input.u[5];
 }
@@ -538,8 +538,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real H3_2_0 = H5_3_0 * L_3_2 - (p4_2n_x * L_4_2 - (S2b_xz + t437));
   const Real L_3_1 = H5_3_1 * invD_3;
   const Real L_3_0 = H5_3_0 * invD_3;
-  const Real x3_2 = x5_3 * L_3_2 + (b_4 * L_4_2 + (t449 - (input.u[2] + (bn3c_z + (state.z[0] * bKy2 + (h2b_y
-      * ba2o_x + (S2b_yz * bal1o_y - h2b_x * ba2o_y)))))));
+  const Real x3_2 = x5_3 * L_3_2 + (b_4 * L_4_2 + (t449 - (input.u[2] + (bn3c_z + (h2b_y * ba2o_x - (h2b_x *
+      ba2o_y - (state.z[0] * bKy2 + S2b_yz * bal1o_y)))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
   const Real H2_1_1 = H3_2_1 * L_2_1 - (H5_3_1 * L_3_1 + (p4_2n_z * L_4_1 - (J1 - t436)));
@@ -651,7 +651,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aW1w00 = state.z[0] * state.z[0];
   const Real aW1U1_y = zz_1 + aW1w00;
   const Real aW1U2_x = aal1o_y + aal1o_y;
-  const Real aa2o_x = r2_y * zdot[1] + (Real(9.81) - r2_x * zz_1);
+  const Real aa2o_x = r2_x * zz_1 - (Real(9.81) + r2_y * zdot[1]);
   const Real aa2o_y = r2_x * zdot[1] + r2_y * aW1U1_y;
   const Real aKy2 = S2b_xy * state.z[0] - S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
@@ -663,7 +663,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aal2o_y = aal1o_y + state.z[2] * state.z[0];
   const Real aal2o_z = zdot[1] + zdot[2];
   const Real aal3p_x = c2 * zdot[0] - s2 * aal2o_y;
-  const Real aal3p_y = c2 * aal2o_y + s2 * zdot[0];
+  const Real aal3p_y = s2 * zdot[0] + c2 * aal2o_y;
   const Real aL2w12 = w2_z * w3pp_y;
   const Real aL2w00 = w3pp_x * w3pp_x;
   const Real aL2w22 = w2_z * w2_z;
@@ -676,8 +676,8 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL2U1_z = aal3p_x + aL2w12;
   const Real aL2U2_y = aal3p_x - aL2w12;
   const Real aL2U2_z = aL2w00 + aL2w11;
-  const Real aa3o_y = Real(0.15005) * aL2U1_z - (Real(0.0203) * aL2U1_y + (c2 * aa2o_y - s2 * aa2o_x));
-  const Real aa3o_z = Real(0.15005) * aL2U2_z + (Real(0.0203) * aL2U2_y - (r2_x * aW1U2_x - r2_y * zdot[0]));
+  const Real aa3o_y = Real(0.15005) * aL2U1_z - (Real(0.0203) * aL2U1_y + (c2 * aa2o_y + s2 * aa2o_x));
+  const Real aa3o_z = Real(0.15005) * aL2U2_z + (Real(0.0203) * aL2U2_y + (r2_y * zdot[0] - r2_x * aW1U2_x));
   const Real aKx3 = S3b_xz * w3pp_x - (S3b_xx * w3pp_y - S3b_xy * w2_z);
   const Real aKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y - S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
@@ -695,8 +695,8 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL3U0_z = aal4p_y - aL3w02;
   const Real aL3U2_z = aL3w11 + aL3w00;
   const Real aa4o_x = Real(0.4318) * aL3U0_z - (c3 * aa3o_y + s3 * aa3o_z);
-  const Real aa4o_z = Real(0.4318) * aL3U2_z + (Real(0.15005) * aL2U0_z - (Real(0.0203) * aL2U0_y + (c2 *
-      aa2o_x + s2 * aa2o_y)));
+  const Real aa4o_z = Real(0.4318) * aL3U2_z + (Real(0.15005) * aL2U0_z - (Real(0.0203) * aL2U0_y - (c2 *
+      aa2o_x - s2 * aa2o_y)));
   const Real aKx4 = S4b_xx * w3_z + S4b_xy * w4pp_x;
   const Real aKy4 = S4b_xy * w3_z - S4b_yy * w4pp_x;
   const Real z2_4 = Real(2.0) * state.z[4];
@@ -719,24 +719,24 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real an4_z = adn4_z + adn5_y;
   const Real an4c_x = Real(0.4318) * adf4_z - (s4 * adn5_z + (adn4_y + c4 * adn5_x));
   const Real an4c_y = an4_z + Real(0.4318) * adf4_y;
-  const Real af3_x = s3 * adf4_z - (c3 * adf4_y - (h3b_x * zw_3 + h3b_y * zdot[3]));
+  const Real af3_x = s3 * adf4_z - (c3 * adf4_y - (h3b_y * zdot[3] + h3b_x * zw_3));
   const Real af3_y = s3 * adf4_y + (c3 * adf4_z + (h3b_x * zdot[3] - h3b_y * zw_3));
-  const Real af3_z = h4b_y * zdot[4] + (adf3_z + h4b_x * zw_4);
+  const Real af3_z = h4b_x * zw_4 + (adf3_z + h4b_y * zdot[4]);
   const Real an3_z = s4 * adn5_x - (c4 * adn5_z + (adn3_z + adn4_x));
   const Real an3c_x = Real(0.0203) * af3_y + (an3_z - Real(0.15005) * af3_x);
   const Real an3c_y = Real(0.15005) * af3_z + (s3 * an4c_y + (c3 * an4c_x - (aKy3 * z2_3 - (S3b_xz * zdot[3] -
       S3b_yz * zz_3))));
-  const Real af2_x = s2 * af3_x - (c2 * af3_z + (h2b_x * zw_2 + h2b_y * zdot[2]));
+  const Real af2_x = s2 * af3_x - (c2 * af3_z + (h2b_y * zdot[2] + h2b_x * zw_2));
   const Real af2_y = s2 * af3_z + (c2 * af3_x - (h2b_x * zdot[2] - h2b_y * zw_2));
   const Real af2_z = adf2_z + af3_y;
-  const Real an2_z = Real(0.0203) * af3_z + (s3 * an4c_x - (c3 * an4c_y - (aKx3 * z2_3 + (S3b_yz * zdot[3] +
-      (adn2_z + S3b_xz * zz_3)))));
+  const Real an2_z = Real(0.0203) * af3_z + (s3 * an4c_x - (c3 * an4c_y - (aKx3 * z2_3 + (S3b_xz * zz_3 +
+      (adn2_z + S3b_yz * zdot[3])))));
   const Real an0_z = r2_y * af2_z + (aKy1 * z2_1 - (S1_yz * zz_1 - (S1_xz * zdot[1] - (s2 * an3c_y - (c2 *
       an3c_x - (aKy2 * z2_2 - (S2b_yz * zz_2 - (adn0_z - S2b_xz * zdot[2]))))))));
-  const Real aQ1 = r2_y * af2_x - (r2_x * af2_y - (adn1_z - (an2_z + (h1_y * Real(9.81) + (S1_xz * zdot[0] -
-      state.z[0] * aKy1)))));
-  const Real aQ2 = an2_z + (state.z[0] * aKy2 + (h2b_y * aa2o_x - (h2b_x * aa2o_y - (S2b_yz * aal1o_y +
-      (S2b_zz * zdot[1] + S2b_xz * zdot[0])))));
+  const Real aQ1 = r2_y * af2_x - (r2_x * af2_y - (adn1_z - (an2_z + (h1_y * Real(9.81) - (state.z[0] * aKy1 -
+      S1_xz * zdot[0])))));
+  const Real aQ2 = an2_z - (h2b_y * aa2o_x + (h2b_x * aa2o_y - (S2b_yz * aal1o_y + (S2b_zz * zdot[1] +
+      (state.z[0] * aKy2 + S2b_xz * zdot[0])))));
   const Real aQ3 = an3_z - (w3pp_y * aKy3 + (w2_z * aKx3 + (h3b_y * aa3o_y - (h3b_x * aa3o_z + (S3b_yz *
       aal2o_z - (S3b_zz * aal3p_x + S3b_xz * aal3p_y))))));
   const Real aQ4 = an4_z + (Real(0.00064216) * aal4p_y + (w4pp_x * aKx4 - (w3_z * aKy4 - (h4b_x * aa4o_x +
@@ -809,22 +809,22 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w5pp_x = c4 * w3_z - s4 * w4pp_x;
   const Real P0 = S0b_zz * state.z[0] * Real(0.5);
   const Real T0 = state.z[0] * P0;
-  const Real P1 = Real(0.5) * (J1 * state.z[1]) - S1_xz * state.z[0];
+  const Real P1 = S1_xz * state.z[0] - Real(0.5) * (J1 * state.z[1]);
   const Real v2o_x = r2_y * state.z[1];
   const Real v2o_y = r2_x * state.z[1];
   const Real v2o_z = r2_y * state.z[0];
-  const Real P2 = h2b_y * v2o_x - (h2b_x * v2o_y - (S2b_xz * state.z[0] + (S2b_zz * state.z[1] + Real(0.5) *
-      (S2b_zz * state.z[2]))));
+  const Real P2 = h2b_y * v2o_x - (h2b_x * v2o_y - (Real(0.5) * (S2b_zz * state.z[2]) + (S2b_xz * state.z[0] +
+      S2b_zz * state.z[1])));
   const Real v3o_x = Real(0.15005) * w3pp_y - (Real(0.0203) * w2_z + (c2 * v2o_x + s2 * v2o_y));
   const Real v3o_y = Real(0.15005) * w3pp_x - (c2 * v2o_y - s2 * v2o_x);
   const Real v3o_z = v2o_z + Real(0.0203) * w3pp_x;
-  const Real P3 = h3b_y * v3o_y - (h3b_x * v3o_z + (S3b_yz * w2_z - (S3b_xz * w3pp_y + (S3b_zz * w3pp_x +
-      Real(0.5) * (S3b_zz * state.z[3])))));
+  const Real P3 = h3b_y * v3o_y - (h3b_x * v3o_z + (S3b_yz * w2_z - (S3b_xz * w3pp_y + (Real(0.5) * (S3b_zz *
+      state.z[3]) + S3b_zz * w3pp_x))));
   const Real v4o_x = Real(0.4318) * w4pp_y - (c3 * v3o_y + s3 * v3o_z);
-  const Real P4 = state.z[4] * Real(0.00032108) + (Real(0.00064216) * w4pp_y + (h4b_x * v4o_x + h4b_y *
+  const Real P4 = Real(0.00064216) * w4pp_y + (state.z[4] * Real(0.00032108) + (h4b_x * v4o_x + h4b_y *
       v3o_x));
-  const Real P5 = w5pp_x * Real(4e-05) + state.z[5] * Real(2e-05);
-  const Real T5 = state.z[5] * P5 + (state.z[4] * P4 + (state.z[3] * P3 - (state.z[2] * P2 - (T0 + state.z[1]
+  const Real P5 = state.z[5] * Real(2e-05) + w5pp_x * Real(4e-05);
+  const Real T5 = state.z[5] * P5 + (state.z[4] * P4 + (state.z[3] * P3 - (state.z[2] * P2 - (T0 - state.z[1]
       * P1))));
   return T5;
 }

@@ -256,8 +256,8 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kn2c_x = r2_y * kf3c_z + (kKy1 * z2_1 - (S1_yz * zz_1 - (r3_y * kdf3_z + (kKy2 * z2_2 - (S2_yz *
       zz_2 + (s3 * kn4_x - (c3 * kdn5_x - (S3b_yz * zz_3 + kKy3 * z2_3))))))));
   const Real kQ1 = r2_y * kf3c_x + (r2_x * kf3c_y - (kQp1 - kn3c_z));
-  const Real kQ2 = kn3c_z - (state.z[0] * kKy2 + (S2_yz * kal1o_y + (h2_x * ka2o_y + h2_y * ka2o_x)));
-  const Real kQ3 = kn4_y - (state.z[0] * kKy3 - (h3b_y * ka3o_x + (S3b_yz * kal2o_y + h3b_x * ka3o_y)));
+  const Real kQ2 = kn3c_z - (S2_yz * kal1o_y + (h2_y * ka2o_x + (state.z[0] * kKy2 + h2_x * ka2o_y)));
+  const Real kQ3 = kn4_y + (h3b_y * ka3o_x + (h3b_x * ka3o_y - (state.z[0] * kKy3 - S3b_yz * kal2o_y)));
   const Real kQ4 = kdn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 - (S4b_zz * kal4p_x - S4b_xz * kal4p_y)));
   k[0] = kn2c_x;
   k[1] = kQ1;
@@ -441,8 +441,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real H4_3_0 = t289 - (S3b_xz - t272);
   const Real L_4_0 = p4_4N_x * invD_4;
   const Real t294 = b_4 * L_4_3;
-  const Real x4_3 = t294 - (t275 - (input.u[3] - (bn4_y - (state.z[0] * bKy3 - (h3b_y * ba3o_x + (S3b_yz *
-      bal2o_y + h3b_x * ba3o_y))))));
+  const Real x4_3 = t294 - (t275 - (input.u[3] - (bn4_y + (h3b_y * ba3o_x + (h3b_x * ba3o_y - (state.z[0] *
+      bKy3 - S3b_yz * bal2o_y))))));
   const Real invD_3 = Real(1.0) / H4_3_3;
   const Real L_3_2 = H4_3_2 * invD_3;
   const Real H3_2_2 = H4_3_2 * L_3_2 - (t280 + (J2 - t271));
@@ -450,8 +450,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real H3_2_0 = H4_3_0 * L_3_2 - (t289 - (S2_xz - t272));
   const Real L_3_1 = H4_3_1 * invD_3;
   const Real L_3_0 = H4_3_0 * invD_3;
-  const Real x3_2 = x4_3 * L_3_2 - (t294 - (t275 - (input.u[2] + (bn3c_z - (state.z[0] * bKy2 + (S2_yz *
-      bal1o_y + (h2_x * ba2o_y + h2_y * ba2o_x)))))));
+  const Real x3_2 = x4_3 * L_3_2 - (t294 - (t275 - (input.u[2] + (bn3c_z - (S2_yz * bal1o_y + (h2_y * ba2o_x +
+      (state.z[0] * bKy2 + h2_x * ba2o_y)))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
   const Real H2_1_1 = H3_2_1 * L_2_1 - (H4_3_1 * L_3_1 - (t280 + (J1 - t271)));
@@ -574,7 +574,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aal1o_y = state.z[1] * state.z[0];
   const Real aW1w00 = state.z[0] * state.z[0];
   const Real aW1U1_y = zz_1 + aW1w00;
-  const Real aa2o_x = r2_y * zdot[1] - (Real(9.81) + r2_x * zz_1);
+  const Real aa2o_x = r2_x * zz_1 + (Real(9.81) - r2_y * zdot[1]);
   const Real aa2o_y = r2_x * zdot[1] + r2_y * aW1U1_y;
   const Real aKy2 = S2_xy * state.z[0] - S2_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
@@ -587,21 +587,21 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aal2o_z = zdot[1] + zdot[2];
   const Real aW2w22 = w2_z * w2_z;
   const Real aW2U1_y = aW1w00 + aW2w22;
-  const Real aa3o_x = r3_y * aal2o_z + (aa2o_x - r3_x * aW2w22);
+  const Real aa3o_x = r3_y * aal2o_z - (aa2o_x + r3_x * aW2w22);
   const Real aa3o_y = r3_y * aW2U1_y + (aa2o_y + r3_x * aal2o_z);
   const Real aKy3 = S3b_xy * state.z[0] + S3b_yz * w2_z;
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w2_z + w3_z);
   const Real aax3 = h3b_x * state.z[0];
-  const Real adf3_x = h3b_x * zw_3 + h3b_y * zdot[3];
+  const Real adf3_x = h3b_y * zdot[3] + h3b_x * zw_3;
   const Real adf3_y = h3b_x * zdot[3] - h3b_y * zw_3;
   const Real adf3_z = z2_3 * aax3;
   const Real adn3_z = S3b_zz * zdot[3];
   const Real aal3o_y = aal2o_y + state.z[3] * state.z[0];
   const Real aal3o_z = aal2o_z + zdot[3];
   const Real aal4p_x = c3 * zdot[0] - s3 * aal3o_y;
-  const Real aal4p_y = c3 * aal3o_y + s3 * zdot[0];
+  const Real aal4p_y = s3 * zdot[0] + c3 * aal3o_y;
   const Real aKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y + S4b_xy * w3_z);
   const Real aKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
@@ -618,21 +618,21 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real adn5_z = Real(0.0171364731454) * zdot[5];
   const Real an4_x = s4 * adn5_z - (c4 * adn5_y - (aKy4 * z2_4 - (S4b_xz * zdot[4] - S4b_yz * zz_4)));
   const Real an4_z = adn4_z - adn5_x;
-  const Real an3_z = s4 * adn5_y + (c4 * adn5_z - (aKx4 * z2_4 - (S4b_yz * zdot[4] + (adn3_z + S4b_xz *
-      zz_4))));
-  const Real af3c_x = adf3_x + (h2_x * zw_2 + h2_y * zdot[2]);
+  const Real an3_z = s4 * adn5_y + (c4 * adn5_z - (aKx4 * z2_4 - (S4b_xz * zz_4 + (adn3_z + S4b_yz *
+      zdot[4]))));
+  const Real af3c_x = adf3_x + (h2_y * zdot[2] + h2_x * zw_2);
   const Real af3c_y = adf3_y + (h2_x * zdot[2] - h2_y * zw_2);
   const Real af3c_z = adf2_z + adf3_z;
   const Real an3c_z = r3_y * adf3_x - (r3_x * adf3_y + (adn2_z + an3_z));
   const Real an0_z = r2_y * af3c_z + (aKy1 * z2_1 - (S1_yz * zz_1 - (S1_xz * zdot[1] + (r3_y * adf3_z + (aKy2
       * z2_2 - (S2_yz * zz_2 - (S2_xz * zdot[2] + (s3 * an4_x - (c3 * an4_z + (aKy3 * z2_3 + (S3b_yz * zz_3 -
       (adn0_z + S3b_xz * zdot[3]))))))))))));
-  const Real aQ1 = r2_y * af3c_x - (r2_x * af3c_y + (adn1_z - (an3c_z - (h1_y * Real(9.81) - (S1_xz * zdot[0]
-      - state.z[0] * aKy1)))));
-  const Real aQ2 = an3c_z - (state.z[0] * aKy2 + (S2_yz * aal1o_y - (S2_xz * zdot[0] - (J2 * zdot[1] + (h2_x *
-      aa2o_y - h2_y * aa2o_x)))));
-  const Real aQ3 = an3_z - (state.z[0] * aKy3 + (h3b_y * aa3o_x - (h3b_x * aa3o_y + (S3b_yz * aal2o_y +
-      (S3b_zz * aal2o_z - S3b_xz * zdot[0])))));
+  const Real aQ1 = r2_y * af3c_x - (r2_x * af3c_y + (adn1_z - (an3c_z - (h1_y * Real(9.81) + (state.z[0] *
+      aKy1 - S1_xz * zdot[0])))));
+  const Real aQ2 = an3c_z - (S2_yz * aal1o_y + (h2_y * aa2o_x + (h2_x * aa2o_y + (J2 * zdot[1] + (state.z[0] *
+      aKy2 - S2_xz * zdot[0])))));
+  const Real aQ3 = an3_z - (h3b_y * aa3o_x - (h3b_x * aa3o_y + (S3b_yz * aal2o_y + (S3b_zz * aal2o_z -
+      (state.z[0] * aKy3 + S3b_xz * zdot[0])))));
   const Real aQ4 = an4_z - (w4pp_y * aKy4 + (w3_z * aKx4 + (S4b_yz * aal3o_z + (S4b_zz * aal4p_x + S4b_xz *
       aal4p_y))));
   const Real aQ5 = adn5_z + (Real(0.0171364731454) * aal5p_y + (w4_z * aKy5 - w5pp_x * aKx5));
@@ -708,18 +708,18 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w5pp_y = c4 * w3_z - s4 * w4pp_y;
   const Real P0 = S0b_zz * state.z[0] * Real(0.5);
   const Real T0 = state.z[0] * P0;
-  const Real P1 = Real(0.5) * (J1 * state.z[1]) - S1_xz * state.z[0];
+  const Real P1 = S1_xz * state.z[0] - Real(0.5) * (J1 * state.z[1]);
   const Real v2o_x = r2_y * state.z[1];
   const Real v2o_y = r2_x * state.z[1];
-  const Real P2 = S2_xz * state.z[0] - (Real(0.5) * (J2 * state.z[2]) + (J2 * state.z[1] + (h2_x * v2o_y -
-      h2_y * v2o_x)));
+  const Real P2 = h2_y * v2o_x - (h2_x * v2o_y + (Real(0.5) * (J2 * state.z[2]) - (S2_xz * state.z[0] - J2 *
+      state.z[1])));
   const Real v3o_x = v2o_x + r3_y * w2_z;
   const Real v3o_y = v2o_y + r3_x * w2_z;
-  const Real P3 = h3b_y * v3o_x - (h3b_x * v3o_y - (S3b_xz * state.z[0] - (S3b_zz * w2_z + Real(0.5) * (S3b_zz
+  const Real P3 = h3b_y * v3o_x - (h3b_x * v3o_y + (S3b_zz * w2_z - (S3b_xz * state.z[0] - Real(0.5) * (S3b_zz
       * state.z[3]))));
-  const Real P4 = S4b_yz * w3_z + (S4b_xz * w4pp_y + (S4b_zz * w4pp_x - Real(0.5) * (S4b_zz * state.z[4])));
-  const Real P5 = Real(0.0171364731454) * w5pp_y + state.z[5] * Real(0.0085682365727);
-  const Real T5 = state.z[5] * P5 + (state.z[4] * P4 - (state.z[3] * P3 + (state.z[2] * P2 + (T0 - state.z[1]
+  const Real P4 = S4b_yz * w3_z + (S4b_xz * w4pp_y - (Real(0.5) * (S4b_zz * state.z[4]) - S4b_zz * w4pp_x));
+  const Real P5 = state.z[5] * Real(0.0085682365727) + Real(0.0171364731454) * w5pp_y;
+  const Real T5 = state.z[5] * P5 + (state.z[4] * P4 - (state.z[3] * P3 + (state.z[2] * P2 + (T0 + state.z[1]
       * P1))));
   return T5;
 }

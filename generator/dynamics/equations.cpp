@@ -72,7 +72,7 @@ class Derivation {
   std::size_t count() const { return tree_.links.size(); }
 
   Ex bound(const std::string& name, const model::Expression& expression) {
-    return statements_.bind(name, kinematics::to_symbolic(expression, parameters_));
+    return statements_.bind(name, kinematics::to_symbolic(expression, parameters_, statements_));
   }
 
   /// M_ji = (momentum of the composite body i per unit of ż_i) · (axis j), for each ancestor j of i.

@@ -86,8 +86,10 @@ class Lowering {
   std::string key(const Ex& e) {
     if (is_a<GiNaC::numeric>(e)) return fmt::format("#{:a}", to_double(e));
     if (is_a<GiNaC::symbol>(e)) {
-      const Signed s = symbol(ex_to<GiNaC::symbol>(e));
-      return fmt::format("{:08}", s.value.value);
+      // Not through `symbol`: that would number leaves in GiNaC's order.
+      const auto leaf = leaves_.find(ex_to<GiNaC::symbol>(e));
+      if (leaf != leaves_.end()) return fmt::format("{}{:08}", int(leaf->second->kind), leaf->second->index);
+      return fmt::format("v{:08}", lowered_.at(ex_to<GiNaC::symbol>(e)).value.value);
     }
     std::vector<std::string> keys;
     for (std::size_t i = 0; i < e.nops(); ++i) keys.push_back(key(e.op(i)));

@@ -16,11 +16,15 @@ MassMoments operator+(const MassMoments& a, const MassMoments& b) {
   return {a.mass + b.mass, a.first + b.first, a.second + b.second};
 }
 
-MassMoments moved(const MassMoments& moments, const Matrix3& R, const Vector3& r) {
-  const Vector3 h = R * moments.first;
-  const Ex half_mass = moments.mass / 2;
-  return {moments.mass, h + moments.mass * r,
-          R * (moments.second * transpose(R)) + symmetric_outer(r, h + half_mass * r)};
+MassMoments moved(const MassMoments& moments, const Matrix3& R, const Vector3& r, Statements& statements) {
+  const Vector3 h = statements.bind("h", settled(R * moments.first));
+  const Vector3 mr = statements.bind("mr", moments.mass * r);
+  Matrix3 SR = moments.second * transpose(R);
+  for (Vector3& row : SR.rows) row = statements.bind("SR", settled(row));
+  const Matrix3 turned = statements.bind_symmetric("S", settled(R * SR));
+  Matrix3 shift = symmetric_outer(r, h);
+  for (std::size_t i = 0; i < 3; ++i) shift[i] = shift[i] + mr[i] * r;
+  return {moments.mass, statements.bind("h", h + mr), statements.bind_symmetric("S", turned + shift)};
 }
 
 namespace {
@@ -56,7 +60,7 @@ class Builder {
       : mechanism_(mechanism), parameters_(parameters), statements_(statements), options_(options) {}
 
   LinkTree build() {
-    tree_.gravity = to_symbolic(mechanism_.gravity, parameters_);
+    tree_.gravity = to_symbolic(mechanism_.gravity, parameters_, statements_);
     poses_.resize(mechanism_.bodies.size());
     for (model::JointIndex index : model::depth_first(mechanism_)) place_child(mechanism_.joints[index.value]);
     for (std::size_t i = 0; i < mechanism_.bodies.size(); ++i) add_body(mechanism_.bodies[i], poses_[i]);
@@ -69,7 +73,7 @@ class Builder {
   MassMoments& moments_of(std::size_t link) { return link == kGround ? tree_.ground : tree_.links[link].moments; }
 
   Matrix3 rotation(const model::Rotation& rotation, const std::string& name) {
-    return bound(name, rotation_matrix(rotation, parameters_, mechanism_.snap));
+    return bound(name, rotation_matrix(rotation, parameters_, mechanism_.snap, statements_));
   }
 
   Vector3 bound(const std::string& name, const Vector3& value) { return statements_.bind(name, settled(value)); }
@@ -82,7 +86,7 @@ class Builder {
     const BodyPose parent = joint.parent ? poses_[joint.parent->value] : BodyPose{};
     const Matrix3 R_LJ = bound("R_" + joint.name, parent.R_LB * rotation(joint.placement.rotation, "R_" + joint.name));
     const Vector3 r_LJ =
-        bound("r_" + joint.name, parent.r_LB + parent.R_LB * to_symbolic(joint.placement.position, parameters_));
+        bound("r_" + joint.name, parent.r_LB + parent.R_LB * to_symbolic(joint.placement.position, parameters_, statements_));
     BodyPose& child = poses_[joint.child.value];
     if (joint.type == JointType::kFixed) {
       child = {parent.link, R_LJ, r_LJ};
@@ -121,22 +125,23 @@ class Builder {
   }
 
   void add_body(const model::Body& body, const BodyPose& pose) {
-    const Vector3 c = to_symbolic(body.center_of_mass, parameters_);
-    const Ex mass = to_symbolic(body.mass, parameters_);
-    const auto entry = [&](const model::Expression& e) { return to_symbolic(e, parameters_); };
+    const Vector3 c = to_symbolic(body.center_of_mass, parameters_, statements_);
+    const Ex mass = to_symbolic(body.mass, parameters_, statements_);
+    const auto entry = [&](const model::Expression& e) { return to_symbolic(e, parameters_, statements_); };
     const model::Inertia& I = body.inertia;
     const Ex xx = entry(I.xx), yy = entry(I.yy), zz = entry(I.zz);
     const Ex xy = -entry(I.xy), xz = -entry(I.xz), yz = -entry(I.yz);
-    const Matrix3 second = {{{(yy + zz - xx) / 2, xy, xz}, {xy, (xx + zz - yy) / 2, yz}, {xz, yz, (xx + yy - zz) / 2}}};
+    Matrix3 second = {{{(yy + zz - xx) / 2, xy, xz}, {xy, (xx + zz - yy) / 2, yz}, {xz, yz, (xx + yy - zz) / 2}}};
+    second = statements_.bind_symmetric(body.name + "_S", second);
     const Matrix3 R_BI = rotation(body.inertia_axes, "R_" + body.name);
-    MassMoments moments{mass, zero_vector(), R_BI * (second * transpose(R_BI))};
+    MassMoments moments = moved({mass, zero_vector(), second}, R_BI, zero_vector(), statements_);
     if (body.inertia_point == model::InertiaPoint::kCenterOfMass)
-      moments = moved(moments, identity_matrix(), c);
+      moments = moved(moments, identity_matrix(), c, statements_);
     else
       moments.first = mass * c;
     moments = bind_moments(statements_, body.name, moments);
     MassMoments& target = moments_of(pose.link);
-    target = bind_moments(statements_, body.name, target + moved(moments, pose.R_LB, pose.r_LB));
+    target = bind_moments(statements_, body.name, target + moved(moments, pose.R_LB, pose.r_LB, statements_));
   }
 
   /// A revolute joint about z does not move what is symmetric about z: the mass, h_z and S_zz. A prismatic joint does
@@ -153,7 +158,7 @@ class Builder {
     }
     link.moments = kept;
     MassMoments& parent = moments_of(link.parent);
-    parent = bind_moments(statements_, link.name, parent + moved(symmetric, link.R_PL, link.r_PL));
+    parent = bind_moments(statements_, link.name, parent + moved(symmetric, link.R_PL, link.r_PL, statements_));
   }
 
   const Mechanism& mechanism_;

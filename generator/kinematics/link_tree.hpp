@@ -21,7 +21,8 @@ struct MassMoments {
 MassMoments operator+(const MassMoments& a, const MassMoments& b);
 
 /// The same mass distribution seen from another frame, in which this frame has origin `r` and orientation `R`.
-MassMoments moved(const MassMoments& moments, const Matrix3& R, const Vector3& r);
+/// Intermediates are bound.
+MassMoments moved(const MassMoments& moments, const Matrix3& R, const Vector3& r, Statements& statements);
 
 inline constexpr std::size_t kGround = static_cast<std::size_t>(-1);
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "kinematics/statements.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::kinematics {
@@ -33,17 +32,26 @@ Ex snapped(const Ex& entry, const numeric& tolerance) {
   return entry;
 }
 
-/// An expression's value type with the functions that Expression::evaluate looks up by argument.
+/// What rounding a direction or an angle near ±π to double may change.
+const numeric& double_rounding() {
+  static const numeric value = numeric(1, 10).power(15);
+  return value;
+}
+
+/// A bound value with the functions that Expression::evaluate looks up by argument.
 struct Symbolic {
   Ex value;
-  friend Symbolic operator-(const Symbolic& a) { return {-a.value}; }
-  friend Symbolic operator+(const Symbolic& a, const Symbolic& b) { return {a.value + b.value}; }
-  friend Symbolic operator-(const Symbolic& a, const Symbolic& b) { return {a.value - b.value}; }
-  friend Symbolic operator*(const Symbolic& a, const Symbolic& b) { return {a.value * b.value}; }
-  friend Symbolic operator/(const Symbolic& a, const Symbolic& b) { return {a.value / b.value}; }
-  friend Symbolic sqrt(const Symbolic& a) { return {square_root(a.value)}; }
-  friend Symbolic sin(const Symbolic& a) { return {sine(a.value)}; }
-  friend Symbolic cos(const Symbolic& a) { return {cosine(a.value)}; }
+  Statements* statements;
+
+  Symbolic bound(const Ex& result) const { return {statements->bind("expression", result), statements}; }
+  friend Symbolic operator-(const Symbolic& a) { return a.bound(-a.value); }
+  friend Symbolic operator+(const Symbolic& a, const Symbolic& b) { return a.bound(a.value + b.value); }
+  friend Symbolic operator-(const Symbolic& a, const Symbolic& b) { return a.bound(a.value - b.value); }
+  friend Symbolic operator*(const Symbolic& a, const Symbolic& b) { return a.bound(a.value * b.value); }
+  friend Symbolic operator/(const Symbolic& a, const Symbolic& b) { return a.bound(a.value / b.value); }
+  friend Symbolic sqrt(const Symbolic& a) { return a.bound(square_root(a.value)); }
+  friend Symbolic sin(const Symbolic& a) { return a.bound(sine(a.value)); }
+  friend Symbolic cos(const Symbolic& a) { return a.bound(cosine(a.value)); }
 };
 
 }  // namespace
@@ -70,22 +78,24 @@ Ex cosine(const Ex& angle) {
   return is_number(angle) ? numeric_function(angle, [](const cln::cl_F& x) { return cln::cos(x); }) : GiNaC::cos(angle);
 }
 
-Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters) {
+Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters, Statements& statements) {
   std::vector<Symbolic> values;
-  for (const Ex& parameter : parameters) values.push_back({parameter});
-  return expression.evaluate<Symbolic>(values, [](double v) { return Symbolic{exact(v)}; }).value;
+  for (const Ex& parameter : parameters) values.push_back({parameter, &statements});
+  return expression.evaluate<Symbolic>(values, [&](double v) { return Symbolic{exact(v), &statements}; }).value;
 }
 
-Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters) {
-  return {to_symbolic(vector[0], parameters), to_symbolic(vector[1], parameters), to_symbolic(vector[2], parameters)};
+Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters, Statements& statements) {
+  return {to_symbolic(vector[0], parameters, statements), to_symbolic(vector[1], parameters, statements),
+          to_symbolic(vector[2], parameters, statements)};
 }
 
-Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap) {
-  std::array<Ex, 3> c, s;
+Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap,
+                        Statements& statements) {
+  Vector3 c, s;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Ex angle = to_symbolic(rotation.rpy[i], parameters);
-    c[i] = cosine(angle);
-    s[i] = sine(angle);
+    const Ex angle = to_symbolic(rotation.rpy[i], parameters, statements);
+    c[i] = statements.bind("c", snap ? snapped(cosine(angle), double_rounding()) : cosine(angle));
+    s[i] = statements.bind("s", snap ? snapped(sine(angle), double_rounding()) : sine(angle));
   }
   const Matrix3 Rx = {{{1, 0, 0}, {0, c[0], -s[0]}, {0, s[0], c[0]}}};
   const Matrix3 Ry = {{{c[1], 0, s[1]}, {0, 1, 0}, {-s[1], 0, c[1]}}};
@@ -107,11 +117,10 @@ Vector3 settled(const Vector3& value) { return {settled(value[0]), settled(value
 Matrix3 settled(const Matrix3& value) { return {{settled(value[0]), settled(value[1]), settled(value[2])}}; }
 
 Vector3 aligned(const Vector3& direction) {
-  static const numeric kDoubleRounding = numeric(1, 10).power(15);
   Vector3 result;
   int zeros = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = snapped(direction[i], kDoubleRounding);
+    result[i] = snapped(direction[i], double_rounding());
     zeros += result[i].is_zero() ? 1 : 0;
   }
   return zeros == 2 ? result : direction;

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "kinematics/spatial.hpp"
+#include "kinematics/statements.hpp"
 #include "model/mechanism.hpp"
 
 namespace jourdain::kinematics {
@@ -19,12 +19,16 @@ Ex square_root(const Ex& value);
 Ex sine(const Ex& angle);
 Ex cosine(const Ex& angle);
 
-Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters);
-Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters);
+/// Expressions of the model as symbols. Every operation on parameters is bound: GiNaC would pull the common denominator
+/// of all numbers out of a power of a sum, which leaves factors like 1e-49 and 1e49 behind.
+Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters, Statements& statements);
+Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters, Statements& statements);
 
 /// Rotation matrix of roll, pitch, yaw. With `snap`, numeric entries within model::kSnapTolerance of 0 and ±1 become
-/// those exact numbers.
-Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap);
+/// those exact numbers, and so do sines and cosines within 1e-15 (of π/2 rounded to double, say), which keeps the matrix
+/// orthonormal and reaches entries that depend on parameters.
+Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap,
+                        Statements& statements);
 
 /// Removes what only the rounding of kDigits-digit floats left: a float within 1e-45 of 0, 1 or −1 becomes that.
 Ex settled(const Ex& value);

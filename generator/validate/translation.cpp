@@ -22,9 +22,6 @@ namespace {
 using Reference = reference::Reference<long double>;
 using Vector = reference::VectorX<long double>;
 
-/// Share of an entry's natural size that is added to its term sum.
-constexpr long double kNaturalShare = 1e-3L;
-
 /// One point of comparison.
 struct Sample {
   std::vector<double> parameters, y, z, u, zdot;
@@ -83,7 +80,7 @@ class Comparison {
         exact_(equations.statements, [&](kinematics::LeafKind kind, std::size_t i) { return leaf_value(kind, i); }),
         parameters_(sample.parameters.begin(), sample.parameters.end()),
         terms_(Reference(mechanism, parameters_).evaluate(state(), to_vector(sample.u))) {
-    widen_scales();
+    reference::widen_scales(terms_);
   }
 
   void run() {
@@ -107,19 +104,6 @@ class Comparison {
   }
 
   reference::State<long double> state() const { return {0, to_vector(sample_.y), to_vector(sample_.z)}; }
-
-  /// Where every term of an entry vanishes with the same cosine, its term sum says nothing: rounding an angle of size 1
-  /// moves the entry by 1e-16 of its natural size, sqrt(M_ii M_jj). A thousandth of that counts as a term too.
-  void widen_scales() {
-    const Vector size = terms_.M_scale.diagonal().cwiseSqrt();
-    const auto widen = [&](Vector& scale) {
-      const Vector relative = scale.array() / size.array();
-      scale += kNaturalShare * relative.maxCoeff() * size;
-    };
-    widen(terms_.k_scale);
-    widen(terms_.q_scale);
-    terms_.M_scale += kNaturalShare * size * size.transpose();
-  }
 
   static Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
   static Eigen::Index at(int i) { return static_cast<Eigen::Index>(i); }

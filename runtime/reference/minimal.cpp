@@ -265,6 +265,17 @@ Terms<Scalar> Reference<Scalar>::evaluate(const State<Scalar>& state, const Vect
 }
 
 template <class Scalar>
+void widen_scales(Terms<Scalar>& terms) {
+  const Scalar share = Scalar(kNaturalShare);
+  const VectorX<Scalar> size = terms.M_scale.diagonal().cwiseSqrt();
+  for (VectorX<Scalar>* scale : {&terms.k_scale, &terms.q_scale}) {
+    const Scalar relative = (scale->array() / size.array()).maxCoeff();
+    *scale += share * relative * size;
+  }
+  terms.M_scale += share * size * size.transpose();
+}
+
+template <class Scalar>
 VectorX<Scalar> forward_dynamics(const Terms<Scalar>& terms) {
   return terms.M.ldlt().solve(terms.k_bar - terms.q_bar);
 }
@@ -295,6 +306,8 @@ template class Reference<double>;
 template class Reference<long double>;
 template VectorX<double> forward_dynamics(const Terms<double>&);
 template VectorX<long double> forward_dynamics(const Terms<long double>&);
+template void widen_scales(Terms<double>&);
+template void widen_scales(Terms<long double>&);
 template double backward_error(const Terms<double>&, const VectorX<double>&);
 template long double backward_error(const Terms<long double>&, const VectorX<long double>&);
 template double condition(const MatrixX<double>&);

@@ -129,6 +129,15 @@ class Reference {
 extern template class Reference<double>;
 extern template class Reference<long double>;
 
+/// Share of an entry's natural size that `widen_scales` adds to its term sum.
+inline constexpr long double kNaturalShare = 1e-3L;
+
+/// Where every term of an entry vanishes with the same cosine, its term sum says nothing: rounding an angle of size 1
+/// moves the entry by the unit roundoff times its natural size, sqrt(M_ii M_jj) for M and as much for rows of k̄ and q̄,
+/// measured by M_scale. Adds kNaturalShare of that to the scales.
+template <class Scalar>
+void widen_scales(Terms<Scalar>& terms);
+
 /// ż = M⁻¹ (k̄ − q̄) by LDLᵀ of M.
 template <class Scalar>
 VectorX<Scalar> forward_dynamics(const Terms<Scalar>& terms);

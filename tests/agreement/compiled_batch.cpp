@@ -1,0 +1,150 @@
+#include "agreement/compiled_batch.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "compile.hpp"
+#include "support/diagnostics.hpp"
+
+namespace jourdain::tests {
+
+namespace {
+
+using Evaluate = void (*)(const double* p, const double* y, const double* z, const double* u, const double* zdot,
+                          double h, double* results);
+
+/// Generic over Model: functions are found by argument-dependent lookup, sizes are the model's.
+constexpr const char* kDriver = R"(
+template <class Model>
+void evaluate(const Model& model, const double* y, const double* z, const double* u, const double* zdot, double h,
+              double* out) {
+  using Real = typename Model::Scalar;
+  constexpr int n = Model::velocity_count;
+  typename Model::State state = initial_state(model);
+  for (int i = 0; i < n; ++i) state.y[i] = static_cast<Real>(y[i]);
+  for (int i = 0; i < n; ++i) state.z[i] = static_cast<Real>(z[i]);
+  typename Model::Input input{};
+  if constexpr (Model::input_count > 0)
+    for (int i = 0; i < Model::input_count; ++i) input.u[i] = static_cast<Real>(u[i]);
+  static_cast<void>(u);
+  Real M[n][n], v[n], a[n];
+  mass_matrix(model, state, M);
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j) *out++ = M[j][i] == M[i][j] ? static_cast<double>(M[i][j]) : 1e300;
+  k_bar(model, state, v);
+  for (Real x : v) *out++ = static_cast<double>(x);
+  q_bar(model, state, input, v);
+  for (Real x : v) *out++ = static_cast<double>(x);
+  forward_dynamics(model, state, input, v);
+  for (Real x : v) *out++ = static_cast<double>(x);
+  for (int i = 0; i < n; ++i) a[i] = static_cast<Real>(zdot[i]);
+  inverse_dynamics(model, state, a, v);
+  for (Real x : v) *out++ = static_cast<double>(x);
+  *out++ = static_cast<double>(kinetic_energy(model, state));
+  *out++ = static_cast<double>(potential_energy(model, state));
+  rk4_step(model, state, input, static_cast<Real>(h));
+  for (Real x : state.y) *out++ = static_cast<double>(x);
+  for (Real x : state.z) *out++ = static_cast<double>(x);
+}
+)";
+
+std::string driver(const std::vector<EmittedModel>& models, const std::string& real) {
+  std::string text;
+  for (const EmittedModel& model : models) text += fmt::format("#include \"{}_kernels.hpp\"\n", model.name);
+  text += kDriver;
+  for (const EmittedModel& model : models) {
+    std::string assignments;
+    for (std::size_t i = 0; i < model.parameters.size(); ++i)
+      assignments += fmt::format("  parameters.{} = static_cast<{}>(p[{}]);\n", model.parameters[i], real, i);
+    text += fmt::format(
+        "extern \"C\" void evaluate_{0}(const double* p, const double* y, const double* z, const double* u, const double* "
+        "zdot, double h, double* out);\n"
+        "void evaluate_{0}(const double* p, const double* y, const double* z, const double* u, const double* zdot, double "
+        "h, double* out) {{\n  {0}::Parameters<{1}> parameters;\n  static_cast<void>(p);\n{2}"
+        "  evaluate({0}::Model<{1}>(parameters), y, z, u, zdot, h, out);\n}}\n",
+        model.name, real, assignments);
+  }
+  return text;
+}
+
+}  // namespace
+
+EmittedModel emit_model(const Derived& derived, const std::string& name) {
+  CompileOptions options;
+  options.name = name;
+  options.path = name + ".toml";
+  CompiledModel compiled;
+  compiled.functions = emit::with_needed(options.functions);
+  compiled.module = derived.module;
+  validate_and_emit(derived.mechanism, derived.equations, options, compiled);
+  if (!compiled.verdict.accepted()) throw std::runtime_error(compiled.verdict.failures.front());
+  EmittedModel model{name, compiled.files, {}, derived.equations.zdot.size(), derived.mechanism.actuators.size()};
+  for (const model::Parameter& parameter : derived.mechanism.parameters) model.parameters.push_back(parameter.name);
+  return model;
+}
+
+std::vector<std::string> strict_flags() {
+  return {"-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror"};
+}
+
+bool have_compiler(const std::string& compiler) {
+  try {
+    return support::run_process({compiler, "--version"}).status == 0;
+  } catch (const support::EnvironmentError&) {
+    return false;
+  }
+}
+
+CompiledBatch::CompiledBatch(const std::vector<EmittedModel>& models, const std::string& compiler,
+                             const std::string& real, const std::vector<std::string>& optimisation)
+    : models_(models) {
+  const auto in_folder = [&](const std::string& file) { return folder_.path() + "/" + file; };
+  for (const EmittedModel& model : models)
+    for (const emit::File& file : model.files) support::write_file(in_folder(file.name), file.text);
+  support::write_file(in_folder("driver.cpp"), driver(models, real));
+  std::vector<std::string> command = {compiler};
+  for (const std::string& flag : strict_flags()) command.push_back(flag);
+  for (const std::string& flag : optimisation) command.push_back(flag);
+  for (const std::string& rest : {std::string("-fPIC"), std::string("-shared"), in_folder("driver.cpp"),
+                                  std::string("-o"), in_folder("driver.so")})
+    command.push_back(rest);
+  const support::ProcessResult result = support::run_process(command);
+  if (result.status != 0 || !result.output.empty()) throw std::runtime_error(result.output.substr(0, 4000));
+  handle_ = dlopen(in_folder("driver.so").c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle_) throw std::runtime_error(dlerror());
+}
+
+CompiledBatch::~CompiledBatch() {
+  if (handle_) dlclose(handle_);
+}
+
+Evaluation CompiledBatch::evaluate(std::size_t index, const Sample& sample, double h) const {
+  const EmittedModel& model = models_[index];
+  void* symbol = dlsym(handle_, ("evaluate_" + model.name).c_str());
+  if (!symbol) throw std::runtime_error(dlerror());
+  const std::size_t n = model.coordinates;
+  std::vector<double> results(n * (n + 1) / 2 + 6 * n + 2);
+  reinterpret_cast<Evaluate>(symbol)(sample.parameters.data(), sample.y.data(), sample.z.data(), sample.u.data(),
+                                     sample.zdot.data(), h, results.data());
+  const double* at = results.data();
+  const auto take = [&at](std::size_t count) {
+    std::vector<double> values(at, at + count);
+    at += count;
+    return values;
+  };
+  Evaluation e;
+  e.M = take(n * (n + 1) / 2);
+  e.k = take(n);
+  e.q = take(n);
+  e.zdot = take(n);
+  e.tau = take(n);
+  e.kinetic = *at++;
+  e.potential = *at++;
+  e.y_next = take(n);
+  e.z_next = take(n);
+  return e;
+}
+
+}  // namespace jourdain::tests
