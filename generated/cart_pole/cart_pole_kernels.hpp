@@ -116,7 +116,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real zw_1 = state.z[1] * state.z[1];
   const Real adn1_z = zdot[1] * model.S_zz;
   const Real af0_z = h1b_y * zw_1 - (adf0_z + h1b_x * zdot[1]);
-  const Real aQ1 = adn1_z + (h1b_x * zdot[0] - h1b_y * Real(9.8));
+  const Real aQ1 = adn1_z - (h1b_y * Real(9.8) - h1b_x * zdot[0]);
   tau[0] = -af0_z;
   tau[1] = aQ1;
 }
@@ -127,7 +127,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real h1b_x = c1 * model.mr_z;
   const Real P0 = state.z[0] * model.hinge_m * Real(0.5);
   const Real T0 = state.z[0] * P0;
-  const Real P1 = h1b_x * state.z[0] + Real(0.5) * (state.z[1] * model.S_zz);
+  const Real P1 = Real(0.5) * (state.z[1] * model.S_zz) + h1b_x * state.z[0];
   const Real T1 = T0 + state.z[1] * P1;
   return T1;
 }

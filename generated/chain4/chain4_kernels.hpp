@@ -65,11 +65,12 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) 
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
   const Real D3 = c2 * h3b_x + s2 * h3b_y;
+  const Real E3 = D3 + Real(0.3333333333333333);
   const Real h2b_x = c2 * Real(1.5);
   const Real h2b_y = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h2_y = h3b_y + h2b_y;
-  const Real J2 = D3 + D3 + Real(0.3333333333333333) + Real(1.3333333333333333);
+  const Real J2 = D3 + E3 + Real(1.3333333333333333);
   const Real D2 = c1 * h2_x + s1 * h2_y;
   const Real E2 = J2 + D2;
   const Real h1b_x = c1 * Real(2.5);
@@ -81,8 +82,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) 
   const Real E1 = J1 + D1;
   const Real J0 = D1 + E1 + Real(3.3333333333333335);
   const Real p2_1n_z = s0 * h2_y + (E2 + c0 * h2_x);
-  const Real p3_3n_z = D3 + Real(0.3333333333333333);
-  const Real p3_2n_z = s1 * h3b_y + (p3_3n_z + c1 * h3b_x);
+  const Real p3_2n_z = s1 * h3b_y + (E3 + c1 * h3b_x);
   const Real p3_1n_z = s0 * h3b_y + (p3_2n_z + c0 * h3b_x);
   M[0][0] = J0;
   M[0][1] = M[1][0] = E1;
@@ -92,7 +92,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) 
   M[1][2] = M[2][1] = E2;
   M[1][3] = M[3][1] = p3_2n_z;
   M[2][2] = J2;
-  M[2][3] = M[3][2] = p3_3n_z;
+  M[2][3] = M[3][2] = E3;
   M[3][3] = Real(0.3333333333333333);
 }
 
@@ -198,11 +198,12 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
   const Real D3 = c2 * h3b_x + s2 * h3b_y;
+  const Real E3 = D3 + Real(0.3333333333333333);
   const Real h2b_x = c2 * Real(1.5);
   const Real h2b_y = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h2_y = h3b_y + h2b_y;
-  const Real J2 = D3 + D3 + Real(0.3333333333333333) + Real(1.3333333333333333);
+  const Real J2 = D3 + E3 + Real(1.3333333333333333);
   const Real D2 = c1 * h2_x + s1 * h2_y;
   const Real E2 = J2 + D2;
   const Real h1b_x = c1 * Real(2.5);
@@ -216,8 +217,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real h0_x = h1_x + h0b_x;
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
-  const Real p3_3n_z = D3 + Real(0.3333333333333333);
-  const Real p3_2n_z = s1 * h3b_y + (p3_3n_z + c1 * h3b_x);
+  const Real p3_2n_z = s1 * h3b_y + (E3 + c1 * h3b_x);
   const Real p3_1n_z = s0 * h3b_y + (p3_2n_z + c0 * h3b_x);
   const Real bQp0 = h0_x * Real(9.81);
   const Real bW0w22 = state.z[0] * state.z[0];
@@ -245,8 +245,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bf2c_x = bdf1_x + bf3c_x;
   const Real bf2c_y = bdf1_y + bf3c_y;
   const Real bn2c_z = s1 * bf3c_x - (bn3c_z + c1 * bf3c_y);
-  const Real L_3_2 = p3_3n_z * Real(3.0);
-  const Real H3_2_2 = J2 - p3_3n_z * L_3_2;
+  const Real L_3_2 = E3 * Real(3.0);
+  const Real H3_2_2 = J2 - E3 * L_3_2;
   const Real H3_2_1 = E2 - p3_2n_z * L_3_2;
   const Real H3_2_0 = p3_1n_z * L_3_2 - (s0 * h2_y + (E2 + c0 * h2_x));
   const Real L_3_1 = p3_2n_z * Real(3.0);
@@ -342,7 +342,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aQ0 = s0 * af2c_x + (c0 * af2c_y + (adn0_z + (aQp0 + an2c_z)));
   const Real aQ1 = an2c_z + (h1_y * aa1o_x + (J1 * zdot[0] - h1_x * aa1o_y));
   const Real aQ2 = an3c_z + (J2 * aal1o_z - (h2_x * aa2o_y - h2_y * aa2o_x));
-  const Real aQ3 = adn3_z + (Real(0.3333333333333333) * aal2o_z - (h3b_x * aa3o_y - h3b_y * aa3o_x));
+  const Real aQ3 = adn3_z + (h3b_y * aa3o_x + (Real(0.3333333333333333) * aal2o_z - h3b_x * aa3o_y));
   tau[0] = aQ0;
   tau[1] = aQ1;
   tau[2] = aQ2;
@@ -384,14 +384,14 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real T0 = state.z[0] * P0;
   const Real v1o_x = s0 * state.z[0];
   const Real v1o_y = c0 * state.z[0];
-  const Real P1 = h1_y * v1o_x + (h1_x * v1o_y + (J1 * state.z[0] + Real(0.5) * (J1 * state.z[1])));
+  const Real P1 = h1_y * v1o_x + (h1_x * v1o_y + (Real(0.5) * (J1 * state.z[1]) + J1 * state.z[0]));
   const Real v2o_x = v1o_x + s1 * w1_z;
   const Real v2o_y = v1o_y + c1 * w1_z;
   const Real P2 = J2 * w1_z + (h2_y * v2o_x + (Real(0.5) * (J2 * state.z[2]) + h2_x * v2o_y));
   const Real v3o_x = v2o_x + s2 * w2_z;
   const Real v3o_y = v2o_y + c2 * w2_z;
-  const Real P3 = Real(0.3333333333333333) * w2_z + (state.z[3] * Real(0.16666666666666666) + (h3b_x * v3o_y +
-      h3b_y * v3o_x));
+  const Real P3 = h3b_y * v3o_x + (h3b_x * v3o_y + (Real(0.3333333333333333) * w2_z + state.z[3] *
+      Real(0.16666666666666666)));
   const Real T3 = state.z[3] * P3 + (state.z[2] * P2 + (T0 + state.z[1] * P1));
   return T3;
 }

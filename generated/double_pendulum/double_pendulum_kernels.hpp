@@ -194,8 +194,8 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real T0 = state.z[0] * P0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
-  const Real P1 = h1b_y * v1o_x + (h1b_x * v1o_y + (model.S_yy * state.z[0] + Real(0.5) * (model.S_yy *
-      state.z[1])));
+  const Real P1 = h1b_y * v1o_x + (h1b_x * v1o_y + (Real(0.5) * (model.S_yy * state.z[1]) + model.S_yy *
+      state.z[0]));
   const Real T1 = T0 + state.z[1] * P1;
   return T1;
 }

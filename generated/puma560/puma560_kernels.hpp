@@ -85,41 +85,46 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
   const Real S3c_xx = S4b_xx - h4b_x * Real(0.8636) - Real(0.34123495800000003);
-  const Real S3c_xy = h4b_x * Real(0.0203) - (S3b_xz - Real(0.011273199));
+  const Real S3c_xy = S3b_xz - h4b_x * Real(0.0203) - Real(0.011273199);
   const Real S3c_xz = h4b_x * Real(0.15005) + (S3b_yz + Real(0.1384816665));
   const Real S3c_yy = h3b_x * Real(0.0406) - (S3b_xx + Real(0.0167651125));
-  const Real S3c_yz = h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) + (S3b_xy - Real(0.0038075187499999994)));
+  const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
   const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e + s2 * S2b_d;
+  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
   const Real t91 = r2_x * h2b_x;
   const Real D2 = t91 - r2_y * h2b_y;
   const Real E2 = S2b_zz - D2;
-  const Real S1b_t = c1 * Real(0.014198399999999993) + s1 * Real(1.601861202);
+  const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
   const Real J1 = D2 - E2 + Real(1.748114002);
-  const Real S1_xz = s1 * Real(0.6903913435) + (c1 * Real(0.023751) + (S2b_xz + r2_x * h3b_y));
-  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t + (Real(2.0) * t91 + (s2 * S2b_t
-      - (S3c_xx + J1)) + Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
-  const Real p3_3n_x = h3b_y * Real(0.15005) + (S3b_zz - h3b_x * Real(0.0203));
+  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y));
+  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t + (Real(2.0) * t91 - (s2 * S2b_t
+      + (S3c_xx + J1)) + Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
+  const Real p3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
   const Real p3_3F_x = s2 * h3b_y;
   const Real p3_3F_y = c2 * h3b_y;
-  const Real p3_2n_x = r2_y * h3b_x - (c2 * p3_3n_x + s2 * S3b_xz);
+  const Real p3_2l_x = r2_y * h3b_x;
+  const Real p3_2n_x = p3_2l_x + (c2 * p3_3n_x - s2 * S3b_xz);
   const Real p3_2n_z = r2_y * p3_3F_x - (S3b_yz + r2_x * p3_3F_y);
-  const Real p4_4n_y = Real(0.00064216) + Real(0.4318) * h4b_x;
+  const Real p4_4l_y = Real(0.4318) * h4b_x;
+  const Real p4_4n_y = Real(0.00064216) + p4_4l_y;
   const Real p4_4F_x = c3 * h4b_x;
   const Real p4_4F_y = s3 * h4b_x;
   const Real p4_4N_x = s3 * p4_4n_y;
   const Real p4_4N_y = c3 * p4_4n_y;
-  const Real p4_3n_x = Real(0.15005) * p4_4F_x + Real(0.0203) * p4_4F_y;
-  const Real p4_3n_y = p4_4N_x + h4b_y * Real(0.15005);
-  const Real p4_3n_z = p4_4N_y - h4b_y * Real(0.0203);
+  const Real p4_3l_x = Real(0.15005) * p4_4F_x + Real(0.0203) * p4_4F_y;
+  const Real p4_3l_y = h4b_y * Real(0.15005);
+  const Real p4_3l_z = h4b_y * Real(0.0203);
+  const Real p4_3n_y = p4_4N_x + p4_3l_y;
+  const Real p4_3n_z = p4_4N_y - p4_3l_z;
   const Real p4_3F_x = c2 * h4b_y + s2 * p4_4F_x;
   const Real p4_3F_y = c2 * p4_4F_x - s2 * h4b_y;
-  const Real p4_2n_x = r2_y * p4_4F_y + (c2 * p4_3n_x - s2 * p4_3n_y);
+  const Real p4_2l_x = r2_y * p4_4F_y;
+  const Real p4_2n_x = p4_2l_x + (c2 * p4_3l_x - s2 * p4_3n_y);
   const Real p4_2n_z = r2_y * p4_3F_x - (p4_3n_z + r2_x * p4_3F_y);
   const Real p5_5N_x = c4 * Real(4e-05);
   const Real p5_5N_y = s4 * Real(4e-05);
@@ -182,19 +187,19 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real h3b_y = s3 * h4b_y;
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
-  const Real S3c_xy = h4b_x * Real(0.0203) - (S3b_xz - Real(0.011273199));
+  const Real S3c_xy = S3b_xz - h4b_x * Real(0.0203) - Real(0.011273199);
   const Real S3c_xz = h4b_x * Real(0.15005) + (S3b_yz + Real(0.1384816665));
-  const Real S3c_yz = h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) + (S3b_xy - Real(0.0038075187499999994)));
+  const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_d = h3b_x * Real(0.0406) - (S3b_xx + (S4b_xx - h4b_x * Real(0.8636) -
       Real(0.34123495800000003)) + Real(0.0167651125));
   const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = c2 * S2b_e + s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
   const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
-  const Real S1b_t = c1 * Real(0.014198399999999993) + s1 * Real(1.601861202);
-  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x - (S2b_xy + r2_x * h2b_y) - Real(0.0070991999999999965));
+  const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
+  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x + (S2b_xy - r2_x * h2b_y) - Real(0.0070991999999999965));
   const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) + (S2b_yz + r2_y * h3b_y));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
@@ -215,7 +220,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real ka2o_x = r2_x * zz_1;
   const Real ka2o_y = r2_y * kW1U1_y;
   const Real ka2o_z = r2_x * kW1U2_x;
-  const Real kKy2 = S2b_xy * state.z[0] - S2b_yz * state.z[1];
+  const Real kKy2 = S2b_xy * state.z[0] + S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -237,8 +242,8 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kL2U1_z = kal3p_x - kL2w12;
   const Real kL2U2_y = kal3p_x + kL2w12;
   const Real kL2U2_z = kL2w00 + kL2w11;
-  const Real ka3o_y = Real(0.15005) * kL2U1_z + (Real(0.0203) * kL2U1_y + (c2 * ka2o_y + s2 * ka2o_x));
-  const Real ka3o_z = Real(0.15005) * kL2U2_z - (ka2o_z + Real(0.0203) * kL2U2_y);
+  const Real ka3o_y = Real(0.0203) * kL2U1_y + (Real(0.15005) * kL2U1_z + (c2 * ka2o_y + s2 * ka2o_x));
+  const Real ka3o_z = Real(0.0203) * kL2U2_y + (ka2o_z - Real(0.15005) * kL2U2_z);
   const Real kKx3 = S3b_xz * w3pp_x - (S3b_xx * w3pp_y - S3b_xy * w2_z);
   const Real kKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y - S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
@@ -256,8 +261,8 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kL3w00 = w4pp_x * w4pp_x;
   const Real kL3U0_z = kal4p_y - kL3w02;
   const Real kL3U2_z = kL3w11 + kL3w00;
-  const Real ka4o_x = Real(0.4318) * kL3U0_z + (c3 * ka3o_y - s3 * ka3o_z);
-  const Real ka4o_z = Real(0.4318) * kL3U2_z + (Real(0.15005) * kL2U0_z - (Real(0.0203) * kL2w01 - (c2 *
+  const Real ka4o_x = Real(0.4318) * kL3U0_z + (c3 * ka3o_y + s3 * ka3o_z);
+  const Real ka4o_z = Real(0.4318) * kL3U2_z - (Real(0.0203) * kL2w01 - (Real(0.15005) * kL2U0_z + (c2 *
       ka2o_x - s2 * ka2o_y)));
   const Real kKx4 = S4b_xx * w3_z + S4b_xy * w4pp_x;
   const Real kKy4 = S4b_xy * w3_z - S4b_yy * w4pp_x;
@@ -274,7 +279,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kal5p_x = c4 * kal4o_x + s4 * kal4o_y;
   const Real kKx5 = w5pp_y * Real(2e-05);
   const Real kKy5 = w4_z * Real(2e-05);
-  const Real kQp5 = kal5p_x * Real(4e-05) + (w4_z * kKx5 - w5pp_y * kKy5);
+  const Real kQp5 = w5pp_y * kKy5 - (kal5p_x * Real(4e-05) + w4_z * kKx5);
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real kdn5_x = kKy5 * z2_5;
   const Real kdn5_y = kKx5 * z2_5;
@@ -293,19 +298,19 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kf2_y = s2 * kf3_z + (kdf2_y + c2 * kf3_x);
   const Real kf2_z = kdf2_z - kf3_y;
   const Real kn2c_x = r2_y * kf2_z + (kKy1 * z2_1 - (S1_yz * zz_1 + (s2 * kn3c_y + (c2 * kn3c_x - (S2b_yz *
-      zz_2 - kKy2 * z2_2)))));
+      zz_2 + kKy2 * z2_2)))));
   const Real kQ1 = r2_y * kf2_x - (r2_x * kf2_y - (kQp1 - kn3c_z));
-  const Real kQ2 = kn3c_z - (h2b_y * ka2o_x + (h2b_x * ka2o_y - (state.z[0] * kKy2 + S2b_yz * kal1o_y)));
-  const Real kQ3 = kn4_x + (w3pp_y * kKy3 + (w2_z * kKx3 - (h3b_y * ka3o_y + (h3b_x * ka3o_z + (S3b_zz *
+  const Real kQ2 = kn3c_z - (h2b_y * ka2o_x + (h2b_x * ka2o_y + (state.z[0] * kKy2 - S2b_yz * kal1o_y)));
+  const Real kQ3 = kn4_x + (w3pp_y * kKy3 + (w2_z * kKx3 - (h3b_y * ka3o_y - (h3b_x * ka3o_z - (S3b_zz *
       kal3p_x - S3b_xz * kal3p_y)))));
-  const Real kQ4 = kdn5_y + (Real(0.00064216) * kal4p_y + (w4pp_x * kKx4 - (w3_z * kKy4 - (h4b_x * ka4o_x +
-      h4b_y * ka4o_z))));
+  const Real kQ4 = kdn5_y + (w4pp_x * kKx4 - (w3_z * kKy4 - (h4b_y * ka4o_z + (Real(0.00064216) * kal4p_y +
+      h4b_x * ka4o_x))));
   k[0] = kn2c_x;
   k[1] = -kQ1;
   k[2] = kQ2;
   k[3] = -kQ3;
   k[4] = -kQ4;
-  k[5] = kQp5;
+  k[5] = -kQp5;
 }
 
 template <class Real>
@@ -326,18 +331,18 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
   const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
-  const Real h1_y = s1 * Real(0.10439999999999999) + (h2b_y - c1 * Real(3.79559));
-  const Real q_1 = input.u[1] + h1_y * Real(9.81);
-  const Real q_2 = input.u[2] + h2b_y * Real(9.81);
+  const Real h1_y = c1 * Real(3.79559) - (h2b_y + s1 * Real(0.10439999999999999));
+  const Real q_1 = h1_y * Real(9.81) - input.u[1];
+  const Real q_2 = h2b_y * Real(9.81) + input.u[2];
   const Real g3p_x = c2 * Real(9.81);
   const Real g3p_y = s2 * Real(9.81);
-  const Real q_3 = h3b_y * g3p_y - input.u[3];
+  const Real q_3 = input.u[3] - h3b_y * g3p_y;
   const Real g4p_x = c3 * g3p_y;
-  const Real q_4 = input.u[4] + (h4b_x * g4p_x + h4b_y * g3p_x);
+  const Real q_4 = h4b_y * g3p_x + (input.u[4] + h4b_x * g4p_x);
   q[0] = -input.u[0];
-  q[1] = -q_1;
+  q[1] = q_1;
   q[2] = -q_2;
-  q[3] = q_3;
+  q[3] = -q_3;
   q[4] = -q_4;
   q[5] = -input.u[5];
 }
@@ -377,14 +382,14 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
   const Real S3c_xx = S4b_xx - h4b_x * Real(0.8636) - Real(0.34123495800000003);
-  const Real S3c_xy = h4b_x * Real(0.0203) - (S3b_xz - Real(0.011273199));
+  const Real S3c_xy = S3b_xz - h4b_x * Real(0.0203) - Real(0.011273199);
   const Real S3c_xz = h4b_x * Real(0.15005) + (S3b_yz + Real(0.1384816665));
   const Real S3c_yy = h3b_x * Real(0.0406) - (S3b_xx + Real(0.0167651125));
-  const Real S3c_yz = h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) + (S3b_xy - Real(0.0038075187499999994)));
+  const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
   const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e + s2 * S2b_d;
+  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
@@ -393,10 +398,10 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t97 = r2_x * h2b_x;
   const Real D2 = t97 - r2_y * h2b_y;
   const Real E2 = S2b_zz - D2;
-  const Real S1b_t = c1 * Real(0.014198399999999993) + s1 * Real(1.601861202);
-  const Real h1_y = s1 * Real(0.10439999999999999) + (h2b_y - c1 * Real(3.79559));
+  const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
+  const Real h1_y = c1 * Real(3.79559) - (h2b_y + s1 * Real(0.10439999999999999));
   const Real J1 = D2 - E2 + Real(1.748114002);
-  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x - (S2b_xy + r2_x * h2b_y) - Real(0.0070991999999999965));
+  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x + (S2b_xy - r2_x * h2b_y) - Real(0.0070991999999999965));
   const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) + (S2b_yz + r2_y * h3b_y));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
@@ -406,20 +411,25 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real w4pp_y = c3 * w2_z + s3 * w3pp_y;
   const Real w4_z = w4pp_y + state.z[4];
   const Real w5pp_y = c4 * w4pp_x + s4 * w3_z;
-  const Real p3_3n_x = h3b_y * Real(0.15005) + (S3b_zz - h3b_x * Real(0.0203));
+  const Real p3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
   const Real p3_3F_x = s2 * h3b_y;
   const Real p3_3F_y = c2 * h3b_y;
-  const Real p4_4n_y = Real(0.00064216) + Real(0.4318) * h4b_x;
+  const Real p3_2l_x = r2_y * h3b_x;
+  const Real p4_4l_y = Real(0.4318) * h4b_x;
+  const Real p4_4n_y = Real(0.00064216) + p4_4l_y;
   const Real p4_4F_x = c3 * h4b_x;
   const Real p4_4F_y = s3 * h4b_x;
   const Real p4_4N_x = s3 * p4_4n_y;
   const Real p4_4N_y = c3 * p4_4n_y;
-  const Real p4_3n_x = Real(0.15005) * p4_4F_x + Real(0.0203) * p4_4F_y;
-  const Real p4_3n_y = p4_4N_x + h4b_y * Real(0.15005);
-  const Real p4_3n_z = p4_4N_y - h4b_y * Real(0.0203);
+  const Real p4_3l_x = Real(0.15005) * p4_4F_x + Real(0.0203) * p4_4F_y;
+  const Real p4_3l_y = h4b_y * Real(0.15005);
+  const Real p4_3l_z = h4b_y * Real(0.0203);
+  const Real p4_3n_y = p4_4N_x + p4_3l_y;
+  const Real p4_3n_z = p4_4N_y - p4_3l_z;
   const Real p4_3F_x = c2 * h4b_y + s2 * p4_4F_x;
   const Real p4_3F_y = c2 * p4_4F_x - s2 * h4b_y;
-  const Real p4_2n_x = r2_y * p4_4F_y + (c2 * p4_3n_x - s2 * p4_3n_y);
+  const Real p4_2l_x = r2_y * p4_4F_y;
+  const Real p4_2n_x = p4_2l_x + (c2 * p4_3l_x - s2 * p4_3n_y);
   const Real p4_2n_z = r2_y * p4_3F_x - (p4_3n_z + r2_x * p4_3F_y);
   const Real p5_5N_x = c4 * Real(4e-05);
   const Real p5_5N_y = s4 * Real(4e-05);
@@ -436,7 +446,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real ba2o_x = Real(9.81) - r2_x * zz_1;
   const Real ba2o_y = r2_y * bW1U1_y;
   const Real ba2o_z = r2_x * bW1U2_x;
-  const Real bKy2 = S2b_xy * state.z[0] - S2b_yz * state.z[1];
+  const Real bKy2 = S2b_xy * state.z[0] + S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -458,8 +468,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL2U1_z = bal3p_x - bL2w12;
   const Real bL2U2_y = bal3p_x + bL2w12;
   const Real bL2U2_z = bL2w00 + bL2w11;
-  const Real ba3o_y = Real(0.15005) * bL2U1_z + (Real(0.0203) * bL2U1_y + (c2 * ba2o_y - s2 * ba2o_x));
-  const Real ba3o_z = Real(0.15005) * bL2U2_z - (ba2o_z + Real(0.0203) * bL2U2_y);
+  const Real ba3o_y = Real(0.0203) * bL2U1_y + (Real(0.15005) * bL2U1_z + (c2 * ba2o_y - s2 * ba2o_x));
+  const Real ba3o_z = Real(0.0203) * bL2U2_y + (ba2o_z - Real(0.15005) * bL2U2_z);
   const Real bKx3 = S3b_xz * w3pp_x - (S3b_xx * w3pp_y - S3b_xy * w2_z);
   const Real bKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y - S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
@@ -477,8 +487,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL3w00 = w4pp_x * w4pp_x;
   const Real bL3U0_z = bal4p_y - bL3w02;
   const Real bL3U2_z = bL3w11 + bL3w00;
-  const Real ba4o_x = Real(0.4318) * bL3U0_z + (c3 * ba3o_y - s3 * ba3o_z);
-  const Real ba4o_z = Real(0.4318) * bL3U2_z + (Real(0.15005) * bL2U0_z - (Real(0.0203) * bL2w01 + (c2 *
+  const Real ba4o_x = Real(0.4318) * bL3U0_z + (c3 * ba3o_y + s3 * ba3o_z);
+  const Real ba4o_z = Real(0.4318) * bL3U2_z - (Real(0.0203) * bL2w01 - (Real(0.15005) * bL2U0_z - (c2 *
       ba2o_x + s2 * ba2o_y)));
   const Real bKx4 = S4b_xx * w3_z + S4b_xy * w4pp_x;
   const Real bKy4 = S4b_xy * w3_z - S4b_yy * w4pp_x;
@@ -512,21 +522,21 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bf2_x = s2 * bf3_x - (bdf2_x + c2 * bf3_z);
   const Real bf2_y = s2 * bf3_z + (bdf2_y + c2 * bf3_x);
   const Real bf2_z = bdf2_z - bf3_y;
-  const Real b_4 = input.u[4] - (bdn5_y + (Real(0.00064216) * bal4p_y + (w4pp_x * bKx4 - (w3_z * bKy4 - (h4b_x
-      * ba4o_x + h4b_y * ba4o_z)))));
-  const Real b_5 = input.u[5] + (Real(4e-05) * bal5p_x + (w4_z * bKx5 - w5pp_y * bKy5));
+  const Real b_4 = input.u[4] - (bdn5_y + (w4pp_x * bKx4 - (w3_z * bKy4 - (h4b_y * ba4o_z + (Real(0.00064216)
+      * bal4p_y + h4b_x * ba4o_x)))));
+  const Real b_5 = input.u[5] - (w5pp_y * bKy5 - (Real(4e-05) * bal5p_x + w4_z * bKx5));
   const Real L_5_3 = p5_5N_x * Real(24999.999999999996);
   const Real H5_3_3 = S3b_zz - p5_5N_x * L_5_3;
   const Real t426 = p5_4N_y * L_5_3;
   const Real H5_3_2 = S3b_yz + t426;
   const Real H5_3_1 = t426 - (r2_y * p3_3F_x - (S3b_yz + r2_x * p3_3F_y));
-  const Real H5_3_0 = p5_3N_x * L_5_3 + (r2_y * h3b_x - (c2 * p3_3n_x + s2 * S3b_xz));
+  const Real H5_3_0 = p5_3N_x * L_5_3 + (p3_2l_x + (c2 * p3_3n_x - s2 * S3b_xz));
   const Real L_5_2 = p5_4N_y * Real(24999.999999999996);
   const Real t436 = p5_4N_y * L_5_2;
   const Real t437 = p5_3N_x * L_5_2;
   const Real L_5_0 = p5_3N_x * Real(24999.999999999996);
-  const Real x5_3 = b_5 * L_5_3 - (input.u[3] - (bn4_x + (w3pp_y * bKy3 + (w2_z * bKx3 - (h3b_y * ba3o_y +
-      (h3b_x * ba3o_z + (S3b_zz * bal3p_x - S3b_xz * bal3p_y)))))));
+  const Real x5_3 = b_5 * L_5_3 - (input.u[3] - (bn4_x + (w3pp_y * bKy3 + (w2_z * bKx3 - (h3b_y * ba3o_y -
+      (h3b_x * ba3o_z - (S3b_zz * bal3p_x - S3b_xz * bal3p_y)))))));
   const Real t449 = b_5 * L_5_2;
   const Real L_4_2 = p4_3n_z * Real(1557.24430048586);
   const Real L_4_1 = p4_2n_z * Real(1557.24430048586);
@@ -539,22 +549,22 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real L_3_1 = H5_3_1 * invD_3;
   const Real L_3_0 = H5_3_0 * invD_3;
   const Real x3_2 = x5_3 * L_3_2 + (b_4 * L_4_2 + (t449 - (input.u[2] + (bn3c_z + (h2b_y * ba2o_x - (h2b_x *
-      ba2o_y - (state.z[0] * bKy2 + S2b_yz * bal1o_y)))))));
+      ba2o_y + (state.z[0] * bKy2 - S2b_yz * bal1o_y)))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
   const Real H2_1_1 = H3_2_1 * L_2_1 - (H5_3_1 * L_3_1 + (p4_2n_z * L_4_1 - (J1 - t436)));
-  const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 + (p4_2n_x * L_4_1 + (t437 + (s1 * Real(0.6903913435) +
-      (c1 * Real(0.023751) + (S2b_xz + r2_x * h3b_y))))));
+  const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 + (p4_2n_x * L_4_1 + (t437 + (c1 * Real(0.023751) + (s1
+      * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y))))));
   const Real L_2_0 = H3_2_0 * invD_2;
   const Real x2_1 = x3_2 * L_2_1 - (x5_3 * L_3_1 - (b_4 * L_4_1 - (t449 - (input.u[1] - (r2_y * bf2_x - (r2_x
-      * bf2_y + (bn3c_z - (state.z[0] * bKy1 - h1_y * Real(9.81)))))))));
+      * bf2_y + (bn3c_z - (h1_y * Real(9.81) + state.z[0] * bKy1))))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
   const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H5_3_0 * L_3_0 + (p4_2n_x * L_4_0 + (p5_3N_x * L_5_0
-      - (h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t + (Real(2.0) * t97 + (s2 * S2b_t - (S3c_xx + J1)) +
+      - (h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t + (Real(2.0) * t97 - (s2 * S2b_t + (S3c_xx + J1)) +
       Real(0.07312639999999992)) - Real(0.175))) + Real(1.2867895711250001))))));
   const Real x1_0 = x2_1 * L_1_0 - (x3_2 * L_2_0 - (x5_3 * L_3_0 - (b_4 * L_4_0 - (b_5 * L_5_0 - (input.u[0] +
-      (r2_y * bf2_z + (bKy1 * z2_1 - (S1_yz * zz_1 + (s2 * bn3c_y + (c2 * bn3c_x - (S2b_yz * zz_2 - bKy2 *
+      (r2_y * bf2_z + (bKy1 * z2_1 - (S1_yz * zz_1 + (s2 * bn3c_y + (c2 * bn3c_x - (S2b_yz * zz_2 + bKy2 *
       z2_2)))))))))));
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = x1_0 * invD_0;
@@ -611,14 +621,14 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
   const Real S3c_xx = S4b_xx - h4b_x * Real(0.8636) - Real(0.34123495800000003);
-  const Real S3c_xy = h4b_x * Real(0.0203) - (S3b_xz - Real(0.011273199));
+  const Real S3c_xy = S3b_xz - h4b_x * Real(0.0203) - Real(0.011273199);
   const Real S3c_xz = h4b_x * Real(0.15005) + (S3b_yz + Real(0.1384816665));
   const Real S3c_yy = h3b_x * Real(0.0406) - (S3b_xx + Real(0.0167651125));
-  const Real S3c_yz = h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) + (S3b_xy - Real(0.0038075187499999994)));
+  const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
   const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e + s2 * S2b_d;
+  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
@@ -626,13 +636,13 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
   const Real t97 = r2_x * h2b_x;
   const Real D2 = t97 - r2_y * h2b_y;
-  const Real S1b_t = c1 * Real(0.014198399999999993) + s1 * Real(1.601861202);
-  const Real h1_y = s1 * Real(0.10439999999999999) + (h2b_y - c1 * Real(3.79559));
+  const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
+  const Real h1_y = c1 * Real(3.79559) - (h2b_y + s1 * Real(0.10439999999999999));
   const Real J1 = D2 - (S2b_zz - D2) + Real(1.748114002);
-  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x - (S2b_xy + r2_x * h2b_y) - Real(0.0070991999999999965));
-  const Real S1_xz = s1 * Real(0.6903913435) + (c1 * Real(0.023751) + (S2b_xz + r2_x * h3b_y));
+  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x + (S2b_xy - r2_x * h2b_y) - Real(0.0070991999999999965));
+  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y));
   const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) + (S2b_yz + r2_y * h3b_y));
-  const Real S0b_zz = h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t + (Real(2.0) * t97 + (s2 * S2b_t - (S3c_xx
+  const Real S0b_zz = h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t + (Real(2.0) * t97 - (s2 * S2b_t + (S3c_xx
       + J1)) + Real(0.07312639999999992)) - Real(0.175))) + Real(1.2867895711250001);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
@@ -653,7 +663,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aW1U2_x = aal1o_y + aal1o_y;
   const Real aa2o_x = r2_x * zz_1 - (Real(9.81) + r2_y * zdot[1]);
   const Real aa2o_y = r2_x * zdot[1] + r2_y * aW1U1_y;
-  const Real aKy2 = S2b_xy * state.z[0] - S2b_yz * state.z[1];
+  const Real aKy2 = S2b_xy * state.z[0] + S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -676,8 +686,8 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL2U1_z = aal3p_x + aL2w12;
   const Real aL2U2_y = aal3p_x - aL2w12;
   const Real aL2U2_z = aL2w00 + aL2w11;
-  const Real aa3o_y = Real(0.15005) * aL2U1_z - (Real(0.0203) * aL2U1_y + (c2 * aa2o_y + s2 * aa2o_x));
-  const Real aa3o_z = Real(0.15005) * aL2U2_z + (Real(0.0203) * aL2U2_y + (r2_y * zdot[0] - r2_x * aW1U2_x));
+  const Real aa3o_y = Real(0.0203) * aL2U1_y - (Real(0.15005) * aL2U1_z - (c2 * aa2o_y + s2 * aa2o_x));
+  const Real aa3o_z = Real(0.0203) * aL2U2_y + (Real(0.15005) * aL2U2_z + (r2_y * zdot[0] - r2_x * aW1U2_x));
   const Real aKx3 = S3b_xz * w3pp_x - (S3b_xx * w3pp_y - S3b_xy * w2_z);
   const Real aKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y - S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
@@ -694,8 +704,8 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL3w00 = w4pp_x * w4pp_x;
   const Real aL3U0_z = aal4p_y - aL3w02;
   const Real aL3U2_z = aL3w11 + aL3w00;
-  const Real aa4o_x = Real(0.4318) * aL3U0_z - (c3 * aa3o_y + s3 * aa3o_z);
-  const Real aa4o_z = Real(0.4318) * aL3U2_z + (Real(0.15005) * aL2U0_z - (Real(0.0203) * aL2U0_y - (c2 *
+  const Real aa4o_x = Real(0.4318) * aL3U0_z + (c3 * aa3o_y - s3 * aa3o_z);
+  const Real aa4o_z = Real(0.4318) * aL3U2_z - (Real(0.0203) * aL2U0_y - (Real(0.15005) * aL2U0_z + (c2 *
       aa2o_x - s2 * aa2o_y)));
   const Real aKx4 = S4b_xx * w3_z + S4b_xy * w4pp_x;
   const Real aKy4 = S4b_xy * w3_z - S4b_yy * w4pp_x;
@@ -732,16 +742,16 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real an2_z = Real(0.0203) * af3_z + (s3 * an4c_x - (c3 * an4c_y - (aKx3 * z2_3 + (S3b_xz * zz_3 +
       (adn2_z + S3b_yz * zdot[3])))));
   const Real an0_z = r2_y * af2_z + (aKy1 * z2_1 - (S1_yz * zz_1 - (S1_xz * zdot[1] - (s2 * an3c_y - (c2 *
-      an3c_x - (aKy2 * z2_2 - (S2b_yz * zz_2 - (adn0_z - S2b_xz * zdot[2]))))))));
-  const Real aQ1 = r2_y * af2_x - (r2_x * af2_y - (adn1_z - (an2_z + (h1_y * Real(9.81) - (state.z[0] * aKy1 -
-      S1_xz * zdot[0])))));
-  const Real aQ2 = an2_z - (h2b_y * aa2o_x + (h2b_x * aa2o_y - (S2b_yz * aal1o_y + (S2b_zz * zdot[1] +
-      (state.z[0] * aKy2 + S2b_xz * zdot[0])))));
-  const Real aQ3 = an3_z - (w3pp_y * aKy3 + (w2_z * aKx3 + (h3b_y * aa3o_y - (h3b_x * aa3o_z + (S3b_yz *
+      an3c_x + (aKy2 * z2_2 + (S2b_yz * zz_2 - (adn0_z - S2b_xz * zdot[2]))))))));
+  const Real aQ1 = r2_y * af2_x - (r2_x * af2_y - (adn1_z - (an2_z + (S1_xz * zdot[0] - (h1_y * Real(9.81) +
+      state.z[0] * aKy1)))));
+  const Real aQ2 = an2_z - (h2b_y * aa2o_x + (h2b_x * aa2o_y - (S2b_yz * aal1o_y + (S2b_zz * zdot[1] -
+      (state.z[0] * aKy2 - S2b_xz * zdot[0])))));
+  const Real aQ3 = an3_z - (w3pp_y * aKy3 + (w2_z * aKx3 - (h3b_y * aa3o_y + (h3b_x * aa3o_z + (S3b_yz *
       aal2o_z - (S3b_zz * aal3p_x + S3b_xz * aal3p_y))))));
-  const Real aQ4 = an4_z + (Real(0.00064216) * aal4p_y + (w4pp_x * aKx4 - (w3_z * aKy4 - (h4b_x * aa4o_x +
-      h4b_y * aa4o_z))));
-  const Real aQ5 = adn5_z - (aal5p_x * Real(4e-05) + (w4_z * aKx5 - w5pp_y * aKy5));
+  const Real aQ4 = an4_z + (w4pp_x * aKx4 - (w3_z * aKy4 - (h4b_y * aa4o_z + (Real(0.00064216) * aal4p_y +
+      h4b_x * aa4o_x))));
+  const Real aQ5 = adn5_z + (w5pp_y * aKy5 - (aal5p_x * Real(4e-05) + w4_z * aKx5));
   tau[0] = -an0_z;
   tau[1] = aQ1;
   tau[2] = -aQ2;
@@ -782,24 +792,24 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
   const Real S3c_xx = S4b_xx - h4b_x * Real(0.8636) - Real(0.34123495800000003);
-  const Real S3c_xy = h4b_x * Real(0.0203) - (S3b_xz - Real(0.011273199));
+  const Real S3c_xy = S3b_xz - h4b_x * Real(0.0203) - Real(0.011273199);
   const Real S3c_xz = h4b_x * Real(0.15005) + (S3b_yz + Real(0.1384816665));
   const Real S3c_yy = h3b_x * Real(0.0406) - (S3b_xx + Real(0.0167651125));
-  const Real S3c_yz = h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) + (S3b_xy - Real(0.0038075187499999994)));
+  const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
   const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e + s2 * S2b_d;
+  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
   const Real t91 = r2_x * h2b_x;
   const Real D2 = t91 - r2_y * h2b_y;
-  const Real S1b_t = c1 * Real(0.014198399999999993) + s1 * Real(1.601861202);
+  const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
   const Real J1 = D2 - (S2b_zz - D2) + Real(1.748114002);
-  const Real S1_xz = s1 * Real(0.6903913435) + (c1 * Real(0.023751) + (S2b_xz + r2_x * h3b_y));
-  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t + (Real(2.0) * t91 + (s2 * S2b_t
-      - (S3c_xx + J1)) + Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
+  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y));
+  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t + (Real(2.0) * t91 - (s2 * S2b_t
+      + (S3c_xx + J1)) + Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
@@ -809,22 +819,22 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w5pp_x = c4 * w3_z - s4 * w4pp_x;
   const Real P0 = S0b_zz * state.z[0] * Real(0.5);
   const Real T0 = state.z[0] * P0;
-  const Real P1 = S1_xz * state.z[0] - Real(0.5) * (J1 * state.z[1]);
+  const Real P1 = Real(0.5) * (J1 * state.z[1]) - S1_xz * state.z[0];
   const Real v2o_x = r2_y * state.z[1];
   const Real v2o_y = r2_x * state.z[1];
   const Real v2o_z = r2_y * state.z[0];
-  const Real P2 = h2b_y * v2o_x - (h2b_x * v2o_y - (Real(0.5) * (S2b_zz * state.z[2]) + (S2b_xz * state.z[0] +
-      S2b_zz * state.z[1])));
-  const Real v3o_x = Real(0.15005) * w3pp_y - (Real(0.0203) * w2_z + (c2 * v2o_x + s2 * v2o_y));
+  const Real P2 = h2b_y * v2o_x - (h2b_x * v2o_y - (S2b_zz * state.z[1] + (Real(0.5) * (S2b_zz * state.z[2]) +
+      S2b_xz * state.z[0])));
+  const Real v3o_x = Real(0.0203) * w2_z - (Real(0.15005) * w3pp_y - (c2 * v2o_x + s2 * v2o_y));
   const Real v3o_y = Real(0.15005) * w3pp_x - (c2 * v2o_y - s2 * v2o_x);
   const Real v3o_z = v2o_z + Real(0.0203) * w3pp_x;
   const Real P3 = h3b_y * v3o_y - (h3b_x * v3o_z + (S3b_yz * w2_z - (S3b_xz * w3pp_y + (Real(0.5) * (S3b_zz *
       state.z[3]) + S3b_zz * w3pp_x))));
   const Real v4o_x = Real(0.4318) * w4pp_y - (c3 * v3o_y + s3 * v3o_z);
-  const Real P4 = Real(0.00064216) * w4pp_y + (state.z[4] * Real(0.00032108) + (h4b_x * v4o_x + h4b_y *
-      v3o_x));
-  const Real P5 = state.z[5] * Real(2e-05) + w5pp_x * Real(4e-05);
-  const Real T5 = state.z[5] * P5 + (state.z[4] * P4 + (state.z[3] * P3 - (state.z[2] * P2 - (T0 - state.z[1]
+  const Real P4 = h4b_y * v3o_x - (h4b_x * v4o_x + (Real(0.00064216) * w4pp_y + state.z[4] *
+      Real(0.00032108)));
+  const Real P5 = w5pp_x * Real(4e-05) + state.z[5] * Real(2e-05);
+  const Real T5 = state.z[5] * P5 - (state.z[4] * P4 - (state.z[3] * P3 - (state.z[2] * P2 - (T0 + state.z[1]
       * P1))));
   return T5;
 }

@@ -241,7 +241,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kal5p_y = c4 * kal4o_y + s4 * kal4o_x;
   const Real kKx5 = S5b_xx * w4_z + S5b_xy * w5pp_x;
   const Real kKy5 = S5b_xy * w4_z - S5b_yy * w5pp_x;
-  const Real kQp5 = Real(0.0171364731454) * kal5p_y - (w4_z * kKy5 - w5pp_x * kKx5);
+  const Real kQp5 = w5pp_x * kKx5 + (Real(0.0171364731454) * kal5p_y - w4_z * kKy5);
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real kdn5_x = kKy5 * z2_5;
   const Real kdn5_y = kKx5 * z2_5;
@@ -279,13 +279,13 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real h2_y = h3b_y - h2b_y;
   const Real h1b_y = c1 * Real(4.4329225);
   const Real h1_y = h2_y - h1b_y;
-  const Real q_1 = input.u[1] - h1_y * Real(9.81);
-  const Real q_2 = input.u[2] - h2_y * Real(9.81);
-  const Real q_3 = input.u[3] - h3b_y * Real(9.81);
+  const Real q_1 = h1_y * Real(9.81) - input.u[1];
+  const Real q_2 = h2_y * Real(9.81) - input.u[2];
+  const Real q_3 = h3b_y * Real(9.81) - input.u[3];
   q[0] = -input.u[0];
-  q[1] = -q_1;
-  q[2] = -q_2;
-  q[3] = -q_3;
+  q[1] = q_1;
+  q[2] = q_2;
+  q[3] = q_3;
   q[4] = -input.u[4];
   q[5] = -input.u[5];
 }
@@ -425,7 +425,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bn3c_z = r3_y * bdf3_x - (bn4_y - r3_x * bdf3_y);
   const Real b_4 = input.u[4] - (bdn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 - (S4b_zz * bal4p_x - S4b_xz *
       bal4p_y))));
-  const Real b_5 = input.u[5] + (Real(0.0171364731454) * bal5p_y - (w4_z * bKy5 - w5pp_x * bKx5));
+  const Real b_5 = input.u[5] + (w5pp_x * bKx5 + (Real(0.0171364731454) * bal5p_y - w4_z * bKy5));
   const Real L_5_3 = p5_5N_y * Real(58.355064750790525);
   const Real t271 = p5_5N_y * L_5_3;
   const Real t272 = p5_4N_x * L_5_3;
@@ -458,7 +458,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real H2_1_0 = H3_2_0 * L_2_1 - (H4_3_0 * L_3_1 - (t289 + (t272 - (S2_xz - S1b_xz))));
   const Real L_2_0 = H3_2_0 * invD_2;
   const Real x2_1 = x3_2 * L_2_1 - (x4_3 * L_3_1 - (t294 - (t275 - (input.u[1] + (r2_y * bf3c_x + (r2_x *
-      bf3c_y + (bn3c_z - (state.z[0] * bKy1 + h1_y * Real(9.81)))))))));
+      bf3c_y + (bn3c_z - (h1_y * Real(9.81) + state.z[0] * bKy1))))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
   const Real H1_0_0 = Real(2.0) * (t67 + t93) + (H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0 - (p4_4N_x
@@ -627,15 +627,15 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real an0_z = r2_y * af3c_z + (aKy1 * z2_1 - (S1_yz * zz_1 - (S1_xz * zdot[1] + (r3_y * adf3_z + (aKy2
       * z2_2 - (S2_yz * zz_2 - (S2_xz * zdot[2] + (s3 * an4_x - (c3 * an4_z + (aKy3 * z2_3 + (S3b_yz * zz_3 -
       (adn0_z + S3b_xz * zdot[3]))))))))))));
-  const Real aQ1 = r2_y * af3c_x - (r2_x * af3c_y + (adn1_z - (an3c_z - (h1_y * Real(9.81) + (state.z[0] *
-      aKy1 - S1_xz * zdot[0])))));
+  const Real aQ1 = r2_y * af3c_x - (r2_x * af3c_y + (adn1_z - (an3c_z + (S1_xz * zdot[0] - (h1_y * Real(9.81)
+      + state.z[0] * aKy1)))));
   const Real aQ2 = an3c_z - (S2_yz * aal1o_y + (h2_y * aa2o_x + (h2_x * aa2o_y + (J2 * zdot[1] + (state.z[0] *
       aKy2 - S2_xz * zdot[0])))));
   const Real aQ3 = an3_z - (h3b_y * aa3o_x - (h3b_x * aa3o_y + (S3b_yz * aal2o_y + (S3b_zz * aal2o_z -
       (state.z[0] * aKy3 + S3b_xz * zdot[0])))));
   const Real aQ4 = an4_z - (w4pp_y * aKy4 + (w3_z * aKx4 + (S4b_yz * aal3o_z + (S4b_zz * aal4p_x + S4b_xz *
       aal4p_y))));
-  const Real aQ5 = adn5_z + (Real(0.0171364731454) * aal5p_y + (w4_z * aKy5 - w5pp_x * aKx5));
+  const Real aQ5 = adn5_z - (w5pp_x * aKx5 - (Real(0.0171364731454) * aal5p_y + w4_z * aKy5));
   tau[0] = -an0_z;
   tau[1] = -aQ1;
   tau[2] = -aQ2;
@@ -708,18 +708,18 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w5pp_y = c4 * w3_z - s4 * w4pp_y;
   const Real P0 = S0b_zz * state.z[0] * Real(0.5);
   const Real T0 = state.z[0] * P0;
-  const Real P1 = S1_xz * state.z[0] - Real(0.5) * (J1 * state.z[1]);
+  const Real P1 = Real(0.5) * (J1 * state.z[1]) - S1_xz * state.z[0];
   const Real v2o_x = r2_y * state.z[1];
   const Real v2o_y = r2_x * state.z[1];
-  const Real P2 = h2_y * v2o_x - (h2_x * v2o_y + (Real(0.5) * (J2 * state.z[2]) - (S2_xz * state.z[0] - J2 *
-      state.z[1])));
+  const Real P2 = h2_y * v2o_x - (h2_x * v2o_y + (J2 * state.z[1] + (Real(0.5) * (J2 * state.z[2]) - S2_xz *
+      state.z[0])));
   const Real v3o_x = v2o_x + r3_y * w2_z;
   const Real v3o_y = v2o_y + r3_x * w2_z;
-  const Real P3 = h3b_y * v3o_x - (h3b_x * v3o_y + (S3b_zz * w2_z - (S3b_xz * state.z[0] - Real(0.5) * (S3b_zz
-      * state.z[3]))));
+  const Real P3 = h3b_y * v3o_x - (h3b_x * v3o_y + (S3b_zz * w2_z + (Real(0.5) * (S3b_zz * state.z[3]) -
+      S3b_xz * state.z[0])));
   const Real P4 = S4b_yz * w3_z + (S4b_xz * w4pp_y - (Real(0.5) * (S4b_zz * state.z[4]) - S4b_zz * w4pp_x));
-  const Real P5 = state.z[5] * Real(0.0085682365727) + Real(0.0171364731454) * w5pp_y;
-  const Real T5 = state.z[5] * P5 + (state.z[4] * P4 - (state.z[3] * P3 + (state.z[2] * P2 + (T0 + state.z[1]
+  const Real P5 = Real(0.0171364731454) * w5pp_y + state.z[5] * Real(0.0085682365727);
+  const Real T5 = state.z[5] * P5 + (state.z[4] * P4 - (state.z[3] * P3 + (state.z[2] * P2 + (T0 - state.z[1]
       * P1))));
   return T5;
 }

@@ -103,7 +103,8 @@ Wrench to_parent(const LinkTree& tree, const WorkingFrames& frames, std::size_t 
     moved.force = statements.bind(name + "f", link.R_PL * wrench.force);
     moved.moment = link.R_PL * wrench.moment;
   }
-  moved.moment = statements.bind(name + "n", moved.moment + kinematics::cross(frames.offset(i), moved.force));
+  const Vector3 lever = statements.bind(name + "l", kinematics::cross(frames.offset(i), moved.force));
+  moved.moment = statements.bind(name + "n", moved.moment + lever);
   if (link.parallel || link.parent == kGround) return moved;
   return {frames.to_working(link.parent, moved.force, name + "F"),
           frames.to_working(link.parent, moved.moment, name + "N")};

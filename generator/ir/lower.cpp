@@ -5,6 +5,7 @@
 #include <ginac/ginac.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -33,10 +34,19 @@ double to_double(const Ex& number) {
   return cln::double_approx(cln::realpart(ex_to<GiNaC::numeric>(number).to_cl_N()));
 }
 
-/// A factor of a product with its integer or half-integer power, or a term of a sum with its coefficient.
+/// Text that orders operands: the same for an expression and its negative, and for every order of GiNaC's terms.
+struct Key {
+  std::string text;
+  bool negative = false;
+
+  friend bool operator<(const Key& a, const Key& b) { return a.text < b.text; }
+};
+
 struct Operand {
-  std::string key;
+  Key key;
   Ex value;
+
+  friend bool operator<(const Operand& a, const Operand& b) { return a.key < b.key; }
 };
 
 class Lowering {
@@ -82,35 +92,53 @@ class Lowering {
     return builder_.leaf(leaf_kind(it->second->kind), it->second->index);
   }
 
-  /// Text that orders operands; built from values' indices, never from GiNaC's order.
-  std::string key(const Ex& e) {
-    if (is_a<GiNaC::numeric>(e)) return fmt::format("#{:a}", to_double(e));
-    if (is_a<GiNaC::symbol>(e)) {
-      // Not through `symbol`: that would number leaves in GiNaC's order.
-      const auto leaf = leaves_.find(ex_to<GiNaC::symbol>(e));
-      if (leaf != leaves_.end()) return fmt::format("{}{:08}", int(leaf->second->kind), leaf->second->index);
-      return fmt::format("v{:08}", lowered_.at(ex_to<GiNaC::symbol>(e)).value.value);
+  Key key(const Ex& e) {
+    if (is_a<GiNaC::numeric>(e)) return {fmt::format("#{:a}", std::fabs(to_double(e))), to_double(e) < 0};
+    if (is_a<GiNaC::symbol>(e)) return symbol_key(ex_to<GiNaC::symbol>(e));
+    if (is_a<GiNaC::add>(e)) return sum_key(e);
+    if (is_a<GiNaC::mul>(e)) return product_key(e);
+    const Key argument = key(e.op(0));
+    if (is_a<GiNaC::power>(e)) {
+      const bool odd = e.op(1).info(GiNaC::info_flags::odd);
+      return {fmt::format("(^{} {:a})", argument.text, to_double(e.op(1))), odd && argument.negative};
     }
-    std::vector<std::string> keys;
-    for (std::size_t i = 0; i < e.nops(); ++i) keys.push_back(key(e.op(i)));
-    if (is_a<GiNaC::add>(e) || is_a<GiNaC::mul>(e)) std::sort(keys.begin(), keys.end());
-    const char* kind = is_a<GiNaC::add>(e) ? "+" : is_a<GiNaC::mul>(e) ? "*" : is_a<GiNaC::power>(e) ? "^" : "f";
-    return fmt::format("({}{})", kind, fmt::join(keys, " "));
+    const bool is_sine = is_ex_the_function(e, GiNaC::sin);
+    return {fmt::format("({}{})", is_sine ? "sin" : "cos", argument.text), is_sine && argument.negative};
+  }
+
+  /// Not through `symbol`: that would number leaves in GiNaC's order.
+  Key symbol_key(const GiNaC::symbol& s) const {
+    const auto leaf = leaves_.find(s);
+    if (leaf != leaves_.end()) return {fmt::format("{}{:08}", int(leaf->second->kind), leaf->second->index)};
+    const Signed value = lowered_.at(s);
+    return {fmt::format("v{:08}", value.value.value), value.negative};
+  }
+
+  Key sum_key(const Ex& e) {
+    const std::vector<Operand> terms = sorted_operands(e);
+    Key sum{"(", terms[0].key.negative};
+    for (const Operand& term : terms) sum.text += (term.key.negative == sum.negative ? "+" : "-") + term.key.text;
+    sum.text += ")";
+    return sum;
+  }
+
+  Key product_key(const Ex& e) {
+    Key product;
+    std::string separator;
+    for (const Operand& factor : sorted_operands(e)) {
+      product.negative = product.negative != factor.key.negative;
+      if (factor.key.text == "#0x1p+0") continue;  // a mere sign
+      product.text += separator + factor.key.text;
+      separator = "*";
+    }
+    return product;
   }
 
   std::vector<Operand> sorted_operands(const Ex& e) {
     std::vector<Operand> operands;
-    for (std::size_t i = 0; i < e.nops(); ++i) operands.push_back({key(without_coefficient(e.op(i))), e.op(i)});
-    std::sort(operands.begin(), operands.end(),
-              [](const Operand& a, const Operand& b) { return a.key < b.key; });
+    for (std::size_t i = 0; i < e.nops(); ++i) operands.push_back({key(e.op(i)), e.op(i)});
+    std::stable_sort(operands.begin(), operands.end());
     return operands;
-  }
-
-  static Ex without_coefficient(const Ex& term) {
-    if (!is_a<GiNaC::mul>(term)) return term;
-    for (std::size_t i = 0; i < term.nops(); ++i)
-      if (is_a<GiNaC::numeric>(term.op(i))) return term / term.op(i);
-    return term;
   }
 
   Signed lower(const Ex& e) {

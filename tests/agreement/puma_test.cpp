@@ -1,7 +1,8 @@
 // models/puma560.toml against the published outputs of the Puma 560.
 #include <gtest/gtest.h>
 
-#include "shared_data.hpp"
+#include "agreement/judge.hpp"
+#include "agreement/shared_data.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -20,6 +21,27 @@ TEST(Puma560, AgreesWithThePublishedOutputs) {
   EXPECT_LE(normwise_error(-terms.k_bar, puma.c), kTolerance);
   EXPECT_LE(normwise_error(terms.q_bar, puma.g), kTolerance);
   EXPECT_LE(normwise_error(terms.M * puma.qdd - terms.k_bar + terms.q_bar, puma.tau), kTolerance);
+}
+
+TEST(Puma560, ProgramAgreesWithThePublishedOutputs) {
+  if (!std::filesystem::exists(shared_path("reference/puma560.json"))) GTEST_SKIP() << "no reference/puma560.json";
+  const PumaCase puma = read_puma_case();
+  const Derived derived = derive(read_model(model_path("puma560.toml")));
+  const auto list = [](const reference::VectorX<double>& v) { return std::vector<double>(v.begin(), v.end()); };
+  Sample sample{{}, list(puma.q), list(puma.qd), std::vector<double>(derived.mechanism.actuators.size(), 0.0), list(puma.qdd)};
+  const auto vector = [&](const char* function) {
+    const std::vector<double> values = interpreted<double>(derived.module, function, sample);
+    return reference::VectorX<double>(Eigen::Map<const reference::VectorX<double>>(values.data(), Eigen::Index(values.size())));
+  };
+  EXPECT_LE(normwise_error(-vector("k_bar"), puma.c), kTolerance);
+  EXPECT_LE(normwise_error(vector("q_bar"), puma.g), kTolerance);
+  EXPECT_LE(normwise_error(vector("inverse_dynamics"), puma.tau), kTolerance);
+  const reference::VectorX<double> upper = vector("mass_matrix");
+  reference::MatrixX<double> M(6, 6);
+  Eigen::Index k = 0;
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = i; j < 6; ++j) M(i, j) = M(j, i) = upper[k++];
+  EXPECT_LE(normwise_error(M, puma.M), kTolerance);
 }
 
 }  // namespace

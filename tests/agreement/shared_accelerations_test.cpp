@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "shared_data.hpp"
+#include "agreement/compiled_batch.hpp"
+#include "agreement/shared_data.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -26,6 +27,25 @@ double worst_error(const AccelerationCase& given, const model::Mechanism& mechan
         reference.evaluate({.t = 0, .y = order(state.position), .z = order(state.velocity)}, u);
     worst =
         larger_error(worst, normwise_error(reference::forward_dynamics(terms), order(state.acceleration)));
+  }
+  return worst;
+}
+
+/// Largest normwise error over the states of a case, of the accelerations that `compute` gives.
+template <class Compute>
+double worst_over_states(const AccelerationCase& given, const model::Mechanism& mechanism, Compute&& compute) {
+  double worst = 0;
+  for (const AccelerationState& state : given.states) {
+    const auto order = [&](const std::vector<double>& v) { return in_coordinate_order(mechanism, given.joints, v); };
+    const auto list = [](const reference::VectorX<double>& v) { return std::vector<double>(v.begin(), v.end()); };
+    Sample sample;
+    sample.y = list(order(state.position));
+    sample.z = list(order(state.velocity));
+    sample.u = list(in_actuator_order(mechanism, given.joints, state.torque));
+    sample.zdot.resize(sample.z.size(), 0.0);
+    const std::vector<double> zdot = compute(sample);
+    const Eigen::Map<const reference::VectorX<double>> computed(zdot.data(), Eigen::Index(zdot.size()));
+    worst = larger_error(worst, normwise_error(computed, order(state.acceleration)));
   }
   return worst;
 }
@@ -67,6 +87,45 @@ TEST_F(SharedAccelerations, AgreeWithTheReferenceWithSnapping) {
   for (const AccelerationCase& given : cases_)
     EXPECT_LE(worst_error(given, undamped(given), reference::Snap::kAsModel), kSnappedTolerance)
         << given.robot;
+}
+
+TEST_F(SharedAccelerations, AgreeWithInterpreterAndCompiledCode) {
+  fmt::print("{:<18} {:>12} {:>12} {:>12}\n", "robot", "interpreter", "compiled", "no snapping");
+  for (const AccelerationCase& given : cases_) {
+    model::Mechanism mechanism = undamped(given);
+    const Derived derived = derive(mechanism);
+    const auto interpret = [](const Derived& d) {
+      return [&d](const Sample& sample) { return interpreted<double>(d.module, "forward_dynamics", sample); };
+    };
+    const double interpreter = worst_over_states(given, mechanism, interpret(derived));
+    const CompiledBatch batch({emit_model(derived, "robot")}, "g++", "double", {"-O1"});
+    const double compiled = worst_over_states(
+        given, mechanism, [&](const Sample& sample) { return batch.evaluate(0, sample).zdot; });
+    mechanism.snap = false;
+    const Derived unsnapped = derive(mechanism);
+    const double exact = worst_over_states(given, mechanism, interpret(unsnapped));
+    fmt::print("{:<18} {:>12.1e} {:>12.1e} {:>12.1e}\n", given.robot, interpreter, compiled, exact);
+    EXPECT_LE(interpreter, kSnappedTolerance) << given.robot;
+    EXPECT_LE(compiled, kSnappedTolerance) << given.robot;
+    EXPECT_LE(exact, kExactTolerance) << given.robot;
+  }
+}
+
+TEST_F(SharedAccelerations, PandaWithLockedFingersAgreesWithTheReference) {
+  model::ReadOptions options;
+  options.damping = false;
+  options.locked_joints = {"panda_finger_joint1", "panda_finger_joint2"};
+  const Derived derived = derive(read_model(urdf_path("panda"), options));
+  ASSERT_EQ(derived.equations.zdot.size(), 7u);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Sample sample = random_sample(derived.mechanism, seed);
+    const Judge judge(derived, sample);
+    const std::vector<double> zdot = interpreted<double>(derived.module, "forward_dynamics", sample);
+    EXPECT_LE(judge.backward_error(zdot), 1e-14);
+    const reference::VectorX<double> expected = reference::forward_dynamics(judge.terms()).cast<double>();
+    const Eigen::Map<const reference::VectorX<double>> computed(zdot.data(), Eigen::Index(zdot.size()));
+    EXPECT_LE(normwise_error(computed, expected), kExactTolerance);
+  }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench_models.hpp"
+#include "embed/emitted_models.hpp"
 
 namespace {
 
@@ -56,5 +56,5 @@ void measure(const std::string& name) {
 int main() {
   fmt::print("{:<20} {:>10} {:>10} {:>8}   {}\n", "rk4_step, ns", "double", "float", "ratio", "y[0] at the end");
 #define JOURDAIN_MEASURE(name) measure<name::Model<double>, name::Model<float>>(#name);
-  JOURDAIN_BENCH_MODELS(JOURDAIN_MEASURE)
+  JOURDAIN_EMITTED_MODELS(JOURDAIN_MEASURE)
 }

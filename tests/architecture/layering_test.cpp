@@ -1,0 +1,113 @@
+// Data flows in one direction: a file includes its own layer or lower ones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "support/diagnostics.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSource = JOURDAIN_SOURCE_DIR;
+constexpr std::size_t kLongestFile = 400;
+
+std::vector<fs::path> sources(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".cpp" || extension == ".hpp" || extension == ".h") found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Paths in the #include lines of a file.
+std::vector<std::string> includes(const fs::path& file) {
+  static const std::regex line(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<std::string> found;
+  std::istringstream text(support::read_file(file.string()));
+  for (std::string row; std::getline(text, row);)
+    if (std::smatch match; std::regex_search(row, match, line)) found.push_back(match[1]);
+  return found;
+}
+
+std::string first_folder(const std::string& path) {
+  const std::size_t slash = path.find('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+TEST(Layering, GeneratorLayersNeverReachUp) {
+  const std::map<std::string, std::set<std::string>> allowed = {
+      {"support", {"support"}},
+      {"model", {"model", "support"}},
+      {"kinematics", {"kinematics", "model", "support"}},
+      {"dynamics", {"dynamics", "kinematics", "model", "support"}},
+      {"ir", {"ir", "support"}},
+      {"passes", {"passes", "ir", "support"}},
+      {"emit", {"emit", "passes", "ir", "support", "model"}},
+      {"validate", {"validate", "dynamics", "kinematics", "ir", "model", "support", "reference"}},
+  };
+  std::set<std::string> ours = {"commands", "studies"};
+  for (const auto& [layer, lower] : allowed) ours.insert(layer);
+  for (const auto& [layer, lower] : allowed)
+    for (const fs::path& file : sources(fs::path("generator") / layer))
+      for (const std::string& include : includes(file)) {
+        const std::string target = first_folder(include);
+        const bool bridge = layer == "ir" && file.stem() == "lower" && target == "kinematics";
+        EXPECT_TRUE(lower.count(target) || bridge || !ours.count(target))
+            << fs::relative(file, kSource) << " includes " << include;
+      }
+}
+
+TEST(Layering, GinacStaysInDerivationAndItsBridge) {
+  for (const fs::path& file : sources("generator")) {
+    const std::string layer = first_folder(fs::relative(file, kSource / "generator").string());
+    const bool derivation = layer == "kinematics" || layer == "dynamics" || (layer == "ir" && file.stem() == "lower");
+    for (const std::string& include : includes(file))
+      EXPECT_TRUE(derivation || (first_folder(include) != "ginac" && first_folder(include) != "cln"))
+          << fs::relative(file, kSource) << " includes " << include;
+  }
+}
+
+TEST(Layering, RuntimeKnowsOnlyTheModel) {
+  const std::set<std::string> allowed = {"reference", "studies", "jourdain", "model", "support", "Eigen", ""};
+  for (const fs::path& file : sources("runtime"))
+    for (const std::string& include : includes(file))
+      EXPECT_TRUE(allowed.count(first_folder(include))) << fs::relative(file, kSource) << " includes " << include;
+}
+
+TEST(Layering, FilesHoldOneIdea) {
+  for (const char* folder : {"generator", "runtime"})
+    for (const fs::path& file : sources(folder)) {
+      const std::string text = support::read_file(file.string());
+      EXPECT_LE(std::size_t(std::count(text.begin(), text.end(), '\n')), kLongestFile) << fs::relative(file, kSource);
+    }
+}
+
+TEST(Layering, TemplatesUseMathAlone) {
+  for (const auto& entry : fs::directory_iterator(kSource / "templates")) {
+    if (entry.path().filename() == "shim.cpp.in") continue;
+    for (const std::string& include : includes(entry.path()))
+      EXPECT_TRUE(include == "math.h" || include.find('@') == 0) << entry.path().filename() << " includes " << include;
+  }
+}
+
+TEST(Layering, TopLevelHoldsTheAgreedFolders) {
+  const std::set<std::string> agreed = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "dev",
+                                        "generator",      "runtime",           "templates", "models",  "generated",
+                                        "tests",          "build"};
+  for (const auto& entry : fs::directory_iterator(kSource)) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(name[0] == '.' || agreed.count(name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace jourdain::tests

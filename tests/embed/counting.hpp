@@ -1,0 +1,31 @@
+// A number type that counts its operations; emitted code is instantiated with it.
+#pragma once
+
+#include "ir/program.hpp"
+
+namespace jourdain::tests {
+
+/// Counts in a global, because emitted functions know nothing of it.
+inline ir::Operations counted;
+
+struct Counting {
+  double value = 0;
+
+  Counting() = default;
+  explicit Counting(double v) : value(v) {}
+
+  friend Counting operator+(Counting a, Counting b) { return ++counted.add, Counting(a.value + b.value); }
+  friend Counting operator-(Counting a, Counting b) { return ++counted.subtract, Counting(a.value - b.value); }
+  friend Counting operator*(Counting a, Counting b) { return ++counted.multiply, Counting(a.value * b.value); }
+  friend Counting operator/(Counting a, Counting b) { return ++counted.divide, Counting(a.value / b.value); }
+  friend Counting operator-(Counting a) { return ++counted.negate, Counting(-a.value); }
+  friend Counting sqrt(Counting a);
+  friend Counting sin(Counting a);
+  friend Counting cos(Counting a);
+};
+
+Counting sqrt(Counting a);
+Counting sin(Counting a);
+Counting cos(Counting a);
+
+}  // namespace jourdain::tests
