@@ -16,7 +16,8 @@ namespace {
 
 std::vector<ir::Target> vector_targets(const std::string& name, const std::vector<Ex>& values) {
   std::vector<ir::Target> targets;
-  for (std::size_t i = 0; i < values.size(); ++i) targets.push_back({name, static_cast<int>(i), -1, values[i]});
+  for (std::size_t i = 0; i < values.size(); ++i)
+    targets.push_back({name, static_cast<int>(i), -1, values[i]});
   return targets;
 }
 
@@ -64,9 +65,12 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
 
 std::string validation_sentence(const validate::Verdict& verdict) {
   return fmt::format(
-      "{} random states: backward error of M zdot = k_bar - q_bar {:.1e} of the sum of absolute terms against 60-digit "
-      "arithmetic, entries of the functions {:.1e}; symbolic equations against the numeric reference {:.1e}; cond(M) up to {:.1e}",
-      verdict.states, verdict.backward_error, verdict.entry_error, verdict.reference_error, verdict.condition);
+      "{} random states: backward error of M zdot = k_bar - q_bar {:.1e} of the sum of absolute terms "
+      "against 60-digit "
+      "arithmetic, entries of the functions {:.1e}; symbolic equations against the numeric reference {:.1e}; "
+      "cond(M) up to {:.1e}",
+      verdict.states, verdict.backward_error, verdict.entry_error, verdict.reference_error,
+      verdict.condition);
 }
 
 std::vector<std::string> assumptions(const model::Mechanism& mechanism, const CompileOptions& options,
@@ -74,9 +78,10 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
   std::vector<std::string> list = {"bodies are rigid; joints are ideal and without limits"};
   if (!options.damping) list.push_back("joint damping of the description is left out (--no-damping)");
   if (mechanism.snap && verdict.snap_effect > 1e-15)
-    list.push_back(fmt::format(
-        "rotation entries within {:g} of 0 and +-1 are exact; that changes accelerations by {:.1e} at most (norm over norm)",
-        model::kSnapTolerance, verdict.snap_effect));
+    list.push_back(
+        fmt::format("rotation entries within {:g} of 0 and +-1 are exact; that changes accelerations by "
+                    "{:.1e} at most (norm over norm)",
+                    model::kSnapTolerance, verdict.snap_effect));
   return list;
 }
 
@@ -103,7 +108,8 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
   CompiledModel result;
   result.functions = emit::with_needed(options.functions);
   const Equations equations = dynamics::derive_equations(mechanism, options.derivation);
-  passes::Optimised optimised = passes::optimise(lower_functions(equations, result.functions), options.passes_off);
+  passes::Optimised optimised =
+      passes::optimise(lower_functions(equations, result.functions), options.passes_off);
   result.module = std::move(optimised.module);
   result.passes = std::move(optimised.records);
   result.omissions = find_omissions(mechanism, options, result);
@@ -111,8 +117,8 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
   return result;
 }
 
-void validate_and_emit(const model::Mechanism& mechanism, const Equations& equations, const CompileOptions& options,
-                       CompiledModel& result) {
+void validate_and_emit(const model::Mechanism& mechanism, const Equations& equations,
+                       const CompileOptions& options, CompiledModel& result) {
   result.files.clear();
   result.verdict = validate::validate_translation(mechanism, equations, result.module);
   result.assumptions = assumptions(mechanism, options, result.verdict);
@@ -121,8 +127,8 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   text.assumptions = result.assumptions;
   for (const Omission& omission : result.omissions)
     text.left_out.push_back(omission.saved == 0 ? omission.name + ": " + omission.what
-                                                : fmt::format("{}: {} ({} operations of forward_dynamics)", omission.name,
-                                                              omission.what, omission.saved));
+                                                : fmt::format("{}: {} ({} operations of forward_dynamics)",
+                                                              omission.name, omission.what, omission.saved));
   text.validation = validation_sentence(result.verdict);
   text.backward_error = result.verdict.backward_error;
   text.condition = result.verdict.condition;

@@ -14,20 +14,20 @@
 namespace jourdain {
 
 struct CompileOptions {
-  std::string name;                      ///< namespace and file name; empty: made from the model's name
+  std::string name;  ///< namespace and file name; empty: made from the model's name
   std::vector<std::string> functions = emit::function_names();
   dynamics::DerivationOptions derivation;
-  std::vector<std::string> passes_off;   ///< names of passes to leave out
-  std::string path;                      ///< of the description, as printed in the emitted files
-  std::string sha256;                    ///< of the description
-  bool damping = true;                   ///< printed as an assumption when joint damping was switched off on reading
+  std::vector<std::string> passes_off;  ///< names of passes to leave out
+  std::string path;                     ///< of the description, as printed in the emitted files
+  std::string sha256;                   ///< of the description
+  bool damping = true;  ///< printed as an assumption when joint damping was switched off on reading
 };
 
 /// What one simplification saved, counted by switching it off.
 struct Omission {
-  std::string name;     ///< "base inertial parameters", "gravity", …
-  std::string what;     ///< a sentence on what was left out here, and why
-  long saved = 0;       ///< operations of forward_dynamics with it off minus with it on
+  std::string name;  ///< "base inertial parameters", "gravity", …
+  std::string what;  ///< a sentence on what was left out here, and why
+  long saved = 0;    ///< operations of forward_dynamics with it off minus with it on
 };
 
 struct CompiledModel {
@@ -53,6 +53,7 @@ void validate_and_emit(const model::Mechanism& mechanism, const dynamics::Equati
                        const CompileOptions& options, CompiledModel& model);
 
 /// Equations lowered to one program per function, before any pass.
-ir::Module lower_functions(const dynamics::Equations& equations, const std::vector<emit::FunctionInfo>& functions);
+ir::Module lower_functions(const dynamics::Equations& equations,
+                           const std::vector<emit::FunctionInfo>& functions);
 
 }  // namespace jourdain

@@ -1,19 +1,40 @@
 // The command line: parses arguments, runs a command, and maps what went wrong to an exit status.
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
+
+#include <algorithm>
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
 
+namespace {
+
+/// Says so when the first argument is no command; CLI11 would only say that one is missing.
+bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return false;
+  const std::string near = jourdain::support::nearest(argv[1], names);
+  fmt::print(stderr, "error: no command '{}'; {}\n", argv[1],
+             near.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+                          : fmt::format("did you mean '{}'?", near));
+  return true;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace jourdain;
-  CLI::App app("Jourdain compiles the description of a multibody mechanism to C++ that computes its motion.", "jourdain");
+  CLI::App app("Jourdain compiles the description of a multibody mechanism to C++ that computes its motion.",
+               "jourdain");
   app.set_version_flag("--version", fmt::format("jourdain {}", emit::kVersion));
   app.require_subcommand(1);
   int status = commands::kSuccess;
   commands::add_all(app, status);
+  if (is_unknown_command(app, argc, argv)) return commands::kUsage;
   try {
     app.parse(argc, argv);
     return status;
@@ -23,7 +44,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "error: {}\n", error.what());
     return commands::kEnvironment;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}\nPlease report this with the model that shows it.\n", error.what());
+    fmt::print(stderr, "internal error: {}\nPlease report this with the model that shows it.\n",
+               error.what());
     return commands::kInternal;
   }
 }

@@ -20,9 +20,11 @@ const std::vector<Switch>& switches() {
   static const std::vector<Switch> list = {
       {"base inertial parameters", "what a joint's motion does not feel is counted with the parent",
        [](model::Mechanism&, CompileOptions& o) { o.derivation.link_tree.regroup = false; }},
-      {"parallel axes", "consecutive parallel joints share one frame and the sine and cosine of the summed angle",
+      {"parallel axes",
+       "consecutive parallel joints share one frame and the sine and cosine of the summed angle",
        [](model::Mechanism&, CompileOptions& o) { o.derivation.link_tree.share_parallel = false; }},
-      {"sparsity of M", "coordinates of different branches are not coupled; M is factored along branches only",
+      {"sparsity of M",
+       "coordinates of different branches are not coupled; M is factored along branches only",
        [](model::Mechanism&, CompileOptions& o) { o.derivation.branch_sparsity = false; }},
       {"snapped rotations", "rotations by multiples of a right angle are permutations",
        [](model::Mechanism& m, CompileOptions&) { m.snap = false; }},
@@ -44,7 +46,9 @@ std::size_t forward_operations(const ir::Module& module) {
 /// forward_dynamics on its own, with the options given.
 ir::Module forward_module(const model::Mechanism& mechanism, const CompileOptions& options) {
   const auto equations = dynamics::derive_equations(mechanism, options.derivation);
-  return passes::optimise(lower_functions(equations, emit::with_needed({"forward_dynamics"})), options.passes_off).module;
+  return passes::optimise(lower_functions(equations, emit::with_needed({"forward_dynamics"})),
+                          options.passes_off)
+      .module;
 }
 
 /// Joint elements and gravity that the scene does not have: nothing to count, they never came in.

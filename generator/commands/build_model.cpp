@@ -16,14 +16,15 @@ std::string shim(const std::string& name, const std::string& real, bool has_inpu
       emit::template_text("shim.cpp.in"),
       {{"NAME", name},
        {"REAL", real},
-       {"READ_INPUT", has_inputs
-                          ? "for (int i = 0; i < Model::input_count; ++i) input.u[i] = static_cast<Real>(u[i]);"
-                          : "static_cast<void>(u);"}});
+       {"READ_INPUT",
+        has_inputs ? "for (int i = 0; i < Model::input_count; ++i) input.u[i] = static_cast<Real>(u[i]);"
+                   : "static_cast<void>(u);"}});
 }
 
 }  // namespace
 
-studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, const std::string& real) {
+studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled,
+                                 const std::string& real) {
   const support::TemporaryFolder folder;
   const auto in_folder = [&folder](const std::string& file) { return folder.path() + "/" + file; };
   bool has_inputs = false;
@@ -35,13 +36,19 @@ studies::LoadedModel build_model(const std::string& name, const CompiledModel& c
   support::write_file(in_folder("shim.cpp"), shim(name, real, has_inputs));
   const char* chosen = std::getenv("CXX");
   const std::string compiler = chosen && *chosen ? chosen : "c++";
-  const std::vector<std::string> command = {compiler,  "-std=c++17",           "-O2", "-fPIC",
-                                            "-shared", in_folder("shim.cpp"),  in_folder(name + ".cpp"),
-                                            "-o",      in_folder("model.so")};
+  const std::vector<std::string> command = {compiler,
+                                            "-std=c++17",
+                                            "-O2",
+                                            "-fPIC",
+                                            "-shared",
+                                            in_folder("shim.cpp"),
+                                            in_folder(name + ".cpp"),
+                                            "-o",
+                                            in_folder("model.so")};
   const support::ProcessResult result = support::run_process(command);
   if (result.status != 0)
-    throw support::EnvironmentError(fmt::format("'{}' cannot compile the emitted code (exit status {}):\n{}", compiler,
-                                                result.status, result.output.substr(0, 2000)));
+    throw support::EnvironmentError(fmt::format("'{}' cannot compile the emitted code (exit status {}):\n{}",
+                                                compiler, result.status, result.output.substr(0, 2000)));
   return studies::LoadedModel(in_folder("model.so"));
 }
 

@@ -11,6 +11,7 @@ namespace jourdain::commands {
 
 /// Compiles the emitted files with $CXX (default c++) in a temporary folder, which the loaded model does not need any
 /// more. `real` is double or float. Throws EnvironmentError with the compiler's words when that fails.
-studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, const std::string& real);
+studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled,
+                                 const std::string& real);
 
 }  // namespace jourdain::commands

@@ -17,9 +17,10 @@ int run(const ModelArguments& arguments) {
     print_refusal(compiled.verdict);
     return kInternal;
   }
-  fmt::print("ok: {}: {} bodies, {} degrees of freedom, {} inputs; backward error {:.1e}, cond(M) up to {:.1e}\n",
-             loaded->options.name, loaded->mechanism.bodies.size(), model::moving_joints(loaded->mechanism).size(),
-             loaded->mechanism.actuators.size(), compiled.verdict.backward_error, compiled.verdict.condition);
+  fmt::print(
+      "ok: {}: {} bodies, {} degrees of freedom, {} inputs; backward error {:.1e}, cond(M) up to {:.1e}\n",
+      loaded->options.name, loaded->mechanism.bodies.size(), model::moving_joints(loaded->mechanism).size(),
+      loaded->mechanism.actuators.size(), compiled.verdict.backward_error, compiled.verdict.condition);
   return kSuccess;
 }
 
@@ -27,7 +28,8 @@ int run(const ModelArguments& arguments) {
 
 void add_check(CLI::App& app, int& status) {
   auto arguments = std::make_shared<ModelArguments>();
-  CLI::App* command = app.add_subcommand("check", "read, derive and validate; write nothing: jourdain check arm.toml");
+  CLI::App* command =
+      app.add_subcommand("check", "read, derive and validate; write nothing: jourdain check arm.toml");
   arguments->add_to(*command);
   command->callback([arguments, &status] { status = run(*arguments); });
 }

@@ -1,5 +1,5 @@
-#include <CLI/Option.hpp>
 #include <fmt/format.h>
+#include <CLI/Option.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -30,7 +30,8 @@ std::string check_function(const std::string& function) {
 void write_files(const std::string& folder, const std::vector<emit::File>& files) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw support::EnvironmentError(fmt::format("cannot make folder '{}': {}", folder, error.message()));
+  if (error)
+    throw support::EnvironmentError(fmt::format("cannot make folder '{}': {}", folder, error.message()));
   for (const emit::File& file : files)
     support::write_file((std::filesystem::path(folder) / file.name).string(), file.text);
 }
@@ -58,7 +59,8 @@ int run(const Arguments& arguments) {
 
 void add_compile(CLI::App& app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("compile", "emit C++ for a model: jourdain compile arm.toml -o src/arm");
+  CLI::App* command =
+      app.add_subcommand("compile", "emit C++ for a model: jourdain compile arm.toml -o src/arm");
   arguments->model.add_to(*command);
   command->add_option("-o,--output", arguments->folder, "folder to write into")->required();
   command->add_option("--functions", arguments->functions, "functions to emit (default: all)")

@@ -51,20 +51,28 @@ class EquationPrinter {
   }
 
   std::string output_name(const ir::Output& output) const {
-    const std::string base = output.name == "M" ? "M" : latex_ ? "\\bar " + output.name : output.name + "_bar";
-    const std::string at = output.column < 0 ? fmt::format("{}", output.row)
-                                             : fmt::format("{}{}{}", output.row, latex_ ? "," : "][", output.column);
+    const std::string base = output.name == "M" ? "M"
+                             : latex_           ? "\\bar " + output.name
+                                                : output.name + "_bar";
+    const std::string at = output.column < 0
+                               ? fmt::format("{}", output.row)
+                               : fmt::format("{}{}{}", output.row, latex_ ? "," : "][", output.column);
     return latex_ ? fmt::format("{}_{{{}}}", base, at) : fmt::format("{}[{}]", base, at);
   }
 
   std::string leaf(const ir::Node& node) const {
     switch (node.leaf) {
-      case ir::LeafKind::kParameter: return spelt(mechanism_.parameters[node.index].name);
-      case ir::LeafKind::kPosition: return spelt(fmt::format("y{}", node.index));
-      case ir::LeafKind::kVelocity: return spelt(fmt::format("z{}", node.index));
-      case ir::LeafKind::kInput: return spelt(fmt::format("u{}", node.index));
+      case ir::LeafKind::kParameter:
+        return spelt(mechanism_.parameters[node.index].name);
+      case ir::LeafKind::kPosition:
+        return spelt(fmt::format("y{}", node.index));
+      case ir::LeafKind::kVelocity:
+        return spelt(fmt::format("z{}", node.index));
+      case ir::LeafKind::kInput:
+        return spelt(fmt::format("u{}", node.index));
       case ir::LeafKind::kConstant:
-      case ir::LeafKind::kAcceleration: break;
+      case ir::LeafKind::kAcceleration:
+        break;
     }
     JD_CHECK(false, "leaf {}", ir::leaf_name(node.leaf));
     return "";
@@ -81,18 +89,27 @@ class EquationPrinter {
     const auto b = [&](int strength) { return at_least(expression(node.b, false), strength); };
     const std::string function = latex_ ? "\\" : "";
     switch (node.op) {
-      case Op::kLiteral: return {fmt::format("{}", node.literal), node.literal < 0 ? 0 : 2};
-      case Op::kLeaf: return {leaf(node), 2};
-      case Op::kNegate: return {"-" + a(1), 0};
-      case Op::kAdd: return {a(0) + " + " + b(1), 0};
-      case Op::kSubtract: return {a(0) + " - " + b(1), 0};
-      case Op::kMultiply: return {a(1) + (latex_ ? " " : "*") + b(latex_ ? 2 : 1), 1};
+      case Op::kLiteral:
+        return {fmt::format("{}", node.literal), node.literal < 0 ? 0 : 2};
+      case Op::kLeaf:
+        return {leaf(node), 2};
+      case Op::kNegate:
+        return {"-" + a(1), 0};
+      case Op::kAdd:
+        return {a(0) + " + " + b(1), 0};
+      case Op::kSubtract:
+        return {a(0) + " - " + b(1), 0};
+      case Op::kMultiply:
+        return {a(1) + (latex_ ? " " : "*") + b(latex_ ? 2 : 1), 1};
       case Op::kDivide:
         if (latex_) return {fmt::format("\\frac{{{}}}{{{}}}", a(0), b(0)), 2};
         return {a(1) + "/" + b(2), 1};
-      case Op::kSqrt: return {fmt::format(fmt::runtime(latex_ ? "\\sqrt{{{}}}" : "sqrt({})"), a(0)), 2};
-      case Op::kSin: return {fmt::format("{}sin({})", function, a(0)), 2};
-      case Op::kCos: return {fmt::format("{}cos({})", function, a(0)), 2};
+      case Op::kSqrt:
+        return {fmt::format(fmt::runtime(latex_ ? "\\sqrt{{{}}}" : "sqrt({})"), a(0)), 2};
+      case Op::kSin:
+        return {fmt::format("{}sin({})", function, a(0)), 2};
+      case Op::kCos:
+        return {fmt::format("{}cos({})", function, a(0)), 2};
     }
     return {};
   }
@@ -142,10 +159,12 @@ std::string legend(const model::Mechanism& mechanism, bool latex) {
 
 std::string equations_text(const model::Mechanism& mechanism, bool latex) {
   const dynamics::Equations equations = dynamics::derive_equations(mechanism);
-  std::string text = fmt::format("{}{}: M zdot = k_bar - q_bar, dy/dt = z\n", latex ? "% " : "", mechanism.name);
+  std::string text =
+      fmt::format("{}{}: M zdot = k_bar - q_bar, dy/dt = z\n", latex ? "% " : "", mechanism.name);
   text += legend(mechanism, latex);
   if (!latex) text += "\n";
-  if (equations.zdot.size() <= kExpandedCoordinates) text += block("Expanded", expanded(equations, latex), latex);
+  if (equations.zdot.size() <= kExpandedCoordinates)
+    text += block("Expanded", expanded(equations, latex), latex);
   for (const ir::Program& program :
        lower_functions(equations, emit::with_needed({"mass_matrix", "k_bar", "q_bar"})).functions)
     text += block(fmt::format("{} with named intermediates", program.name),

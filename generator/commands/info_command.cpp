@@ -13,9 +13,12 @@ namespace {
 
 const char* type_name(model::JointType type) {
   switch (type) {
-    case model::JointType::kFixed: return "fixed";
-    case model::JointType::kRevolute: return "revolute";
-    case model::JointType::kPrismatic: return "prismatic";
+    case model::JointType::kFixed:
+      return "fixed";
+    case model::JointType::kRevolute:
+      return "revolute";
+    case model::JointType::kPrismatic:
+      return "prismatic";
   }
   return "";
 }
@@ -31,8 +34,9 @@ std::string tree_text(const model::Mechanism& mechanism) {
     depth[joint.child.value] = level;
     text += fmt::format("  {:{}}{} [{}", "", 2 * level, joint.name, type_name(joint.type));
     if (joint.type != model::JointType::kFixed)
-      text += fmt::format(" {} ({:g}, {:g}, {:g}), y[{}]", joint.type == model::JointType::kRevolute ? "about" : "along",
-                          joint.axis[0], joint.axis[1], joint.axis[2], coordinate++);
+      text += fmt::format(" {} ({:g}, {:g}, {:g}), y[{}]",
+                          joint.type == model::JointType::kRevolute ? "about" : "along", joint.axis[0],
+                          joint.axis[1], joint.axis[2], coordinate++);
     text += fmt::format("] -> {}\n", mechanism.bodies[joint.child.value].name);
   }
   return text;
@@ -45,12 +49,14 @@ int run(const ModelArguments& arguments) {
   const CompiledModel compiled = compile(mechanism, loaded->options);
   fmt::print("{}{}{}\n{}", mechanism.name, mechanism.description.empty() ? "" : ": ", mechanism.description,
              tree_text(mechanism));
-  fmt::print("  {} bodies, {} degrees of freedom\n", mechanism.bodies.size(), model::moving_joints(mechanism).size());
+  fmt::print("  {} bodies, {} degrees of freedom\n", mechanism.bodies.size(),
+             model::moving_joints(mechanism).size());
   for (std::size_t i = 0; i < mechanism.actuators.size(); ++i)
     fmt::print("  input u[{}] {} acts on {}\n", i, mechanism.actuators[i].name,
                mechanism.joints[mechanism.actuators[i].joint.value].name);
   for (const model::Parameter& parameter : mechanism.parameters)
-    fmt::print("  parameter {} = {:g} {} {}\n", parameter.name, parameter.value, parameter.unit, parameter.description);
+    fmt::print("  parameter {} = {:g} {} {}\n", parameter.name, parameter.value, parameter.unit,
+               parameter.description);
   fmt::print("{}{}{}{}", operations_table(compiled.module), omissions_text(compiled.omissions),
              passes_text(compiled.passes), verdict_text(compiled.verdict));
   for (const std::string& assumption : compiled.assumptions) fmt::print("  assumes: {}\n", assumption);

@@ -1,11 +1,11 @@
 #include "commands/load.hpp"
 
+#include <fmt/format.h>
+#include <nettle/sha2.h>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <fmt/format.h>
-#include <nettle/sha2.h>
 
 #include <array>
 #include <cstdio>
@@ -68,8 +68,8 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   loaded.options.sha256 = sha256(diagnostics.text());
   loaded.options.damping = read.damping;
   if (arguments.name.empty() && loaded.options.name != loaded.mechanism.name)
-    fmt::print(stderr, "note: model '{}' becomes namespace '{}' (--name chooses another)\n", loaded.mechanism.name,
-               loaded.options.name);
+    fmt::print(stderr, "note: model '{}' becomes namespace '{}' (--name chooses another)\n",
+               loaded.mechanism.name, loaded.options.name);
   return loaded;
 }
 

@@ -7,15 +7,16 @@ namespace jourdain::commands {
 namespace {
 
 std::string operations_row(const std::string& name, const ir::Operations& c) {
-  return fmt::format("  {:<18} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} | {:>5} {:>5} {:>5}\n", name, c.arithmetic(),
-                     c.multiply, c.add, c.subtract, c.divide, c.sqrt, c.negate, c.sin, c.cos);
+  return fmt::format("  {:<18} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} | {:>5} {:>5} {:>5}\n", name,
+                     c.arithmetic(), c.multiply, c.add, c.subtract, c.divide, c.sqrt, c.negate, c.sin, c.cos);
 }
 
 }  // namespace
 
 std::string operations_table(const ir::Module& module) {
-  std::string text = fmt::format("  {:<18} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} | {:>5} {:>5} {:>5}\n", "operations",
-                                 "all", "mul", "add", "sub", "div", "sqrt", "neg", "sin", "cos");
+  std::string text =
+      fmt::format("  {:<18} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} | {:>5} {:>5} {:>5}\n", "operations", "all",
+                  "mul", "add", "sub", "div", "sqrt", "neg", "sin", "cos");
   text += operations_row("Model (once)", ir::count_operations(module.constants));
   for (const ir::Program& program : module.functions)
     text += operations_row(program.name, ir::count_operations(program));
@@ -24,7 +25,8 @@ std::string operations_table(const ir::Module& module) {
 
 std::string verdict_text(const validate::Verdict& v) {
   return fmt::format(
-      "  validated at {} states: backward error {:.1e}, entries {:.1e}, against the reference {:.1e}; cond(M) up to "
+      "  validated at {} states: backward error {:.1e}, entries {:.1e}, against the reference {:.1e}; "
+      "cond(M) up to "
       "{:.1e}\n",
       v.states, v.backward_error, v.entry_error, v.reference_error, v.condition);
 }
@@ -32,16 +34,19 @@ std::string verdict_text(const validate::Verdict& v) {
 std::string passes_text(const std::vector<passes::PassRecord>& passes) {
   const auto effect = [](passes::Effect e) {
     switch (e) {
-      case passes::Effect::kExact: return "exact";
-      case passes::Effect::kReassociating: return "reassociating";
-      case passes::Effect::kAssuming: return "assuming";
+      case passes::Effect::kExact:
+        return "exact";
+      case passes::Effect::kReassociating:
+        return "reassociating";
+      case passes::Effect::kAssuming:
+        return "assuming";
     }
     return "";
   };
   std::string text = "  passes (operations of all functions together)\n";
   for (const passes::PassRecord& pass : passes)
-    text += fmt::format("    {:<18} {:<14} {:>7} -> {}\n", pass.name, effect(pass.effect), pass.operations_before,
-                        pass.operations_after);
+    text += fmt::format("    {:<18} {:<14} {:>7} -> {}\n", pass.name, effect(pass.effect),
+                        pass.operations_before, pass.operations_after);
   return text;
 }
 

@@ -1,7 +1,7 @@
-#include <CLI/Option.hpp>
-#include <CLI/Validators.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -29,7 +29,9 @@ struct Arguments {
   std::vector<double> input;
 };
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 /// A bar on a terminal, once a run has taken a second.
 class Progress {
@@ -73,7 +75,8 @@ struct Trajectory {
 
 class Simulation {
  public:
-  Simulation(const jourdain_model_table& table, const Arguments& arguments) : table_(table), arguments_(arguments) {
+  Simulation(const jourdain_model_table& table, const Arguments& arguments)
+      : table_(table), arguments_(arguments) {
     state_.y.resize(static_cast<std::size_t>(table.position_count));
     state_.z.resize(static_cast<std::size_t>(table.velocity_count));
     table.initial_state(state_.y.data(), state_.z.data());
@@ -87,7 +90,8 @@ class Simulation {
     for (long done = 0; done < steps && state_.finite;) {
       const long block = std::min(arguments_.every, steps - done);
       const auto begin = Clock::now();
-      table_.rk4_steps(&state_.t, state_.y.data(), state_.z.data(), arguments_.input.data(), arguments_.step, block);
+      table_.rk4_steps(&state_.t, state_.y.data(), state_.z.data(), arguments_.input.data(), arguments_.step,
+                       block);
       state_.stepping_time += seconds_since(begin);
       done += block;
       state_.t = static_cast<double>(done) * arguments_.step;
@@ -103,7 +107,8 @@ class Simulation {
   void header(std::string& csv) const {
     csv += "time";
     for (int i = 0; i < table_.position_count; ++i) csv += "," + field(table_.position_names[i]);
-    for (int i = 0; i < table_.velocity_count; ++i) csv += "," + field(fmt::format("{}_velocity", table_.velocity_names[i]));
+    for (int i = 0; i < table_.velocity_count; ++i)
+      csv += "," + field(fmt::format("{}_velocity", table_.velocity_names[i]));
     csv += ",kinetic_energy,potential_energy,total_energy\n";
   }
 
@@ -131,24 +136,26 @@ bool conserves_energy(const model::Mechanism& mechanism, const std::vector<doubl
   return true;
 }
 
-void print_summary(const LoadedMechanism& loaded, const Arguments& arguments, const jourdain_model_table& table,
-                   const Trajectory& end, long steps) {
+void print_summary(const LoadedMechanism& loaded, const Arguments& arguments,
+                   const jourdain_model_table& table, const Trajectory& end, long steps) {
   const double microseconds = end.stepping_time / static_cast<double>(steps) * 1e6;
-  fmt::print("{}: {} steps of {:g} s with RK4 in {}\n", loaded.mechanism.name, steps, arguments.step, arguments.real);
+  fmt::print("{}: {} steps of {:g} s with RK4 in {}\n", loaded.mechanism.name, steps, arguments.step,
+             arguments.real);
   fmt::print("  {:.3g} us a step on average, {:.3g} times faster than real time\n", microseconds,
              arguments.step * 1e6 / microseconds);
   if (conserves_energy(loaded.mechanism, arguments.input))
     fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", end.first_energy, end.largest_drift);
   fmt::print("  at t = {:g} s:\n", end.t);
   for (int i = 0; i < table.position_count; ++i)
-    fmt::print("    {:<24} {:>12.6f}   rate {:>12.6f}\n", table.position_names[i], end.y[static_cast<std::size_t>(i)],
-               end.z[static_cast<std::size_t>(i)]);
+    fmt::print("    {:<24} {:>12.6f}   rate {:>12.6f}\n", table.position_names[i],
+               end.y[static_cast<std::size_t>(i)], end.z[static_cast<std::size_t>(i)]);
 }
 
 int run(Arguments arguments) {
   const double exact_steps = arguments.duration / arguments.step;
   if (!(exact_steps >= 1 && exact_steps <= kLongestRun)) {
-    fmt::print(stderr, "error: --duration {:g} at --step {:g} is {:.3g} steps; between 1 and {:g} are possible\n",
+    fmt::print(stderr,
+               "error: --duration {:g} at --step {:g} is {:.3g} steps; between 1 and {:g} are possible\n",
                arguments.duration, arguments.step, exact_steps, kLongestRun);
     return kUsage;
   }
@@ -156,7 +163,8 @@ int run(Arguments arguments) {
   if (!loaded) return kModelWrong;
   const std::size_t inputs = loaded->mechanism.actuators.size();
   if (!arguments.input.empty() && arguments.input.size() != inputs) {
-    fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n", arguments.input.size(), inputs);
+    fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",
+               arguments.input.size(), inputs);
     return kUsage;
   }
   arguments.input.resize(inputs, 0.0);
@@ -170,8 +178,8 @@ int run(Arguments arguments) {
   std::string csv;
   const Trajectory end = Simulation(model.table(), arguments).run(steps, csv);
   if (!end.finite) {
-    fmt::print(stderr, "error: the state is not finite at t = {:g} s; a step of {:g} s may be too long\n", end.t,
-               arguments.step);
+    fmt::print(stderr, "error: the state is not finite at t = {:g} s; a step of {:g} s may be too long\n",
+               end.t, arguments.step);
     return kModelWrong;
   }
   if (arguments.output == "-") {
@@ -189,16 +197,20 @@ int run(Arguments arguments) {
 
 void add_simulate(CLI::App& app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("simulate", "compile, step with RK4, write CSV: jourdain simulate arm.toml --duration 5");
+  CLI::App* command = app.add_subcommand(
+      "simulate", "compile, step with RK4, write CSV: jourdain simulate arm.toml --duration 5");
   arguments->model.add_to(*command);
-  command->add_option("--duration", arguments->duration, "s")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--duration", arguments->duration, "s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--step", arguments->step, "s")->check(CLI::PositiveNumber)->capture_default_str();
   command->add_option("--every", arguments->every, "write every so many steps")
       ->check(CLI::Range(1L, 1000000000L))
       ->capture_default_str();
-  command->add_option("--output", arguments->output, "CSV file, or - for standard output (default: NAME.csv)");
-  command->add_option("--constant-input", arguments->input, "value of each input, N m or N (default: 0)")->delimiter(',');
+  command->add_option("--output", arguments->output,
+                      "CSV file, or - for standard output (default: NAME.csv)");
+  command->add_option("--constant-input", arguments->input, "value of each input, N m or N (default: 0)")
+      ->delimiter(',');
   command->add_option("--real", arguments->real, "number type")
       ->check(CLI::IsMember({"double", "float"}))
       ->capture_default_str();

@@ -54,11 +54,11 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
     const std::string S = fmt::format("S{}", i), h = fmt::format("h{}", i);
     const MassMoments& own = in_link[i];
     const Ex own_polar = statements.bind(S + "b_zz", own.second[0][0] + own.second[1][1]);
-    const Matrix3 own_second = turned(own.second, own_polar, frames.cosine(i), frames.sine(i), S + "b", statements);
+    const Matrix3 own_second =
+        turned(own.second, own_polar, frames.cosine(i), frames.sine(i), S + "b", statements);
     CompositeBody& body = composites[i];
     body.moments.mass = statements.bind(fmt::format("m{}", i), own.mass + in_working[i].mass);
-    body.moments.first =
-        statements.bind(h, frames.to_working(i, own.first, h + "b") + in_working[i].first);
+    body.moments.first = statements.bind(h, frames.to_working(i, own.first, h + "b") + in_working[i].first);
     body.polar = statements.bind(fmt::format("J{}", i), own_polar + working_polar[i]);
     body.moments.second = statements.bind_symmetric(S, own_second + in_working[i].second);
     if (!in_working[i].second[0][0].is_zero())
@@ -78,12 +78,13 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
     if (link.parallel) {
       const Ex shift = statements.bind(fmt::format("D{}", i), r[0] * middle[0] + r[1] * middle[1]);
       const Ex half = statements.bind(fmt::format("E{}", i), body.polar + shift);
-      working_polar[link.parent] = statements.bind(fmt::format("Jc{}", i), working_polar[link.parent] + half + shift);
+      working_polar[link.parent] =
+          statements.bind(fmt::format("Jc{}", i), working_polar[link.parent] + half + shift);
     }
     target.mass = statements.bind(fmt::format("mc{}", i), target.mass + moved.mass);
     target.first = statements.bind(h + "c", target.first + (moved.first + mr));
-    target.second =
-        statements.bind_symmetric(S + "c", target.second + (moved.second + kinematics::symmetric_outer(r, middle)));
+    target.second = statements.bind_symmetric(
+        S + "c", target.second + (moved.second + kinematics::symmetric_outer(r, middle)));
   }
   return composites;
 }
@@ -114,14 +115,13 @@ std::vector<Wrench> accumulate_wrenches(const LinkTree& tree, const WorkingFrame
                                         const std::vector<Wrench>& own, const std::string& name,
                                         Statements& statements) {
   const std::size_t n = tree.links.size();
-  std::vector<Wrench> in_link(n), total = own;  // children that are not parallel are summed in link axes first
+  std::vector<Wrench> in_link(n),
+      total = own;  // children that are not parallel are summed in link axes first
   for (std::size_t i = n; i-- > 0;) {
     const Link& link = tree.links[i];
     const std::string f = fmt::format("{}f{}", name, i), m = fmt::format("{}n{}", name, i);
-    total[i].force =
-        statements.bind(f, total[i].force + frames.to_working(i, in_link[i].force, f + "b"));
-    total[i].moment =
-        statements.bind(m, total[i].moment + frames.to_working(i, in_link[i].moment, m + "b"));
+    total[i].force = statements.bind(f, total[i].force + frames.to_working(i, in_link[i].force, f + "b"));
+    total[i].moment = statements.bind(m, total[i].moment + frames.to_working(i, in_link[i].moment, m + "b"));
     if (link.parent == kGround) continue;
     Wrench moved = total[i];
     if (!link.parallel) {
@@ -130,8 +130,8 @@ std::vector<Wrench> accumulate_wrenches(const LinkTree& tree, const WorkingFrame
     }
     Wrench& target = link.parallel ? total[link.parent] : in_link[link.parent];
     target.force = statements.bind(f + "c", target.force + moved.force);
-    target.moment =
-        statements.bind(m + "c", target.moment + (moved.moment + kinematics::cross(frames.offset(i), moved.force)));
+    target.moment = statements.bind(
+        m + "c", target.moment + (moved.moment + kinematics::cross(frames.offset(i), moved.force)));
   }
   return total;
 }

@@ -32,7 +32,8 @@ Wrench unit_momentum(const kinematics::Link& link, const CompositeBody& body);
 
 /// Sums of wrenches over subtrees: W_i of the result is that of `own[i]` and of all links outward, about the
 /// origin of link i, in its working frame.
-std::vector<Wrench> accumulate_wrenches(const kinematics::LinkTree& tree, const kinematics::WorkingFrames& frames,
+std::vector<Wrench> accumulate_wrenches(const kinematics::LinkTree& tree,
+                                        const kinematics::WorkingFrames& frames,
                                         const std::vector<Wrench>& own, const std::string& name,
                                         kinematics::Statements& statements);
 

@@ -28,7 +28,8 @@ std::vector<Ex> declare_parameters(const model::Mechanism& mechanism, Statements
 
 std::vector<Ex> declare(LeafKind kind, const char* name, std::size_t count, Statements& statements) {
   std::vector<Ex> symbols;
-  for (std::size_t i = 0; i < count; ++i) symbols.push_back(statements.leaf(kind, i, fmt::format("{}{}", name, i)));
+  for (std::size_t i = 0; i < count; ++i)
+    symbols.push_back(statements.leaf(kind, i, fmt::format("{}{}", name, i)));
   return symbols;
 }
 
@@ -82,8 +83,8 @@ class Derivation {
       Wrench momentum = unit_momentum(tree_.links[i], composites_[i]);
       for (std::size_t j = i;;) {
         const Ex component = tree_.links[j].revolute ? momentum.moment[2] : momentum.force[2];
-        M[i][j] = M[j][i] =
-            statements_.bind(fmt::format("M_{}_{}", j, i), tree_.links[i].sign * tree_.links[j].sign * component);
+        M[i][j] = M[j][i] = statements_.bind(fmt::format("M_{}_{}", j, i),
+                                             tree_.links[i].sign * tree_.links[j].sign * component);
         if (tree_.links[j].parent == kGround) break;
         momentum = to_parent(tree_, frames_, j, momentum, fmt::format("p{}_{}", i, j), statements_);
         j = tree_.links[j].parent;
@@ -106,7 +107,9 @@ class Derivation {
   Ex joint_element(std::size_t i) {
     const model::Joint& joint = mechanism_.joints[joints_[i].value];
     const Ex stretch = statements_.bind(fmt::format("stretch{}", i), y_[i] - bound("rest", joint.rest));
-    return bound("stiffness", joint.stiffness) * stretch + bound("damping", joint.damping) * z_[i];
+    const Ex stiffness = bound("stiffness", joint.stiffness);
+    const Ex damping = bound("damping", joint.damping);
+    return stiffness * stretch + damping * z_[i];
   }
 
   Ex input_sum(std::size_t i) {
@@ -129,8 +132,9 @@ class Derivation {
     for (std::size_t i = 0; i < count(); ++i) {
       const Link& link = tree_.links[i];
       const Vector3& outer = link.parent == kGround ? tree_.gravity : gravity[link.parent];
-      gravity.push_back(link.parent == kGround ? statements_.bind(fmt::format("g{}", i), transpose(link.R_PL) * outer)
-                                               : frames_.from_parent(i, outer, fmt::format("g{}", i)));
+      gravity.push_back(link.parent == kGround
+                            ? statements_.bind(fmt::format("g{}", i), transpose(link.R_PL) * outer)
+                            : frames_.from_parent(i, outer, fmt::format("g{}", i)));
       const Vector3 &h = composites_[i].moments.first, &g = gravity[i];
       const Ex pull = link.revolute ? Ex(h[0] * g[1] - h[1] * g[0]) : Ex(composites_[i].moments.mass * g[2]);
       q.push_back(
@@ -169,8 +173,8 @@ class Derivation {
       Vector3 origin = kinematics::zero_vector();
       if (link.parent != kGround) {
         const bool parallel = link.parallel;
-        const Vector3 omega_P =
-            parallel ? omega_.own[link.parent] : frames_.to_link(link.parent, omega_.own[link.parent], v + "w");
+        const Vector3 omega_P = parallel ? omega_.own[link.parent]
+                                         : frames_.to_link(link.parent, omega_.own[link.parent], v + "w");
         const Vector3 velocity_P =
             parallel ? velocity[link.parent] : frames_.to_link(link.parent, velocity[link.parent], v + "p");
         origin = statements_.bind(v + "o", velocity_P + kinematics::cross(omega_P, frames_.offset(i)));
@@ -180,8 +184,9 @@ class Derivation {
       const Ex own = (link.revolute ? momentum.moment[2] : momentum.force[2]) / 2 * rate_[i];
       const Ex with_parent =
           kinematics::dot(momentum.moment, omega_.parent[i]) + kinematics::dot(momentum.force, origin);
-      energy = statements_.bind(fmt::format("T{}", i),
-                                energy + rate_[i] * statements_.bind(fmt::format("P{}", i), own + with_parent));
+      energy =
+          statements_.bind(fmt::format("T{}", i),
+                           energy + rate_[i] * statements_.bind(fmt::format("P{}", i), own + with_parent));
       if (!link.revolute) origin[2] = statements_.bind(v + "_z", origin[2] + rate_[i]);
       velocity.push_back(origin);
     }
@@ -196,7 +201,8 @@ class Derivation {
       if (link.parent == kGround) {
         const kinematics::MassMoments& moments = composites_[i].moments;
         const std::string name = fmt::format("hg{}", i);
-        first = statements_.bind(name, first + (link.R_PL * moments.first + moments.mass * frames_.offset(i)));
+        first =
+            statements_.bind(name, first + (link.R_PL * moments.first + moments.mass * frames_.offset(i)));
       }
       const model::Joint& joint = mechanism_.joints[joints_[i].value];
       const Ex stretch = statements_.bind(fmt::format("stretch{}", i), y_[i] - bound("rest", joint.rest));

@@ -21,13 +21,13 @@ struct DerivationOptions {
 /// are numbers, leaves or names bound in `statements`. nz = number of moving joints.
 struct Equations {
   kinematics::Statements statements;
-  std::vector<std::vector<Ex>> M;    ///< nz × nz, full and symmetric; entries between different branches are 0
-  std::vector<Ex> k_bar;             ///< Coriolis and centrifugal terms; no gravity
-  std::vector<Ex> q_bar;             ///< gravity, springs, dampers, inputs; a force along z makes it negative
-  std::vector<Ex> zdot;              ///< M⁻¹ (k̄ − q̄)
-  std::vector<Ex> tau;               ///< M ż − k̄ + q̄ at u = 0, with ż a leaf (inverse dynamics)
-  Ex kinetic_energy;                 ///< J
-  Ex potential_energy;               ///< J; gravity (zero at the inertial origin) and joint springs
+  std::vector<std::vector<Ex>> M;  ///< nz × nz, full and symmetric; entries between different branches are 0
+  std::vector<Ex> k_bar;           ///< Coriolis and centrifugal terms; no gravity
+  std::vector<Ex> q_bar;           ///< gravity, springs, dampers, inputs; a force along z makes it negative
+  std::vector<Ex> zdot;            ///< M⁻¹ (k̄ − q̄)
+  std::vector<Ex> tau;             ///< M ż − k̄ + q̄ at u = 0, with ż a leaf (inverse dynamics)
+  Ex kinetic_energy;               ///< J
+  Ex potential_energy;             ///< J; gravity (zero at the inertial origin) and joint springs
   std::vector<Ex> initial_position;  ///< rad or m
   std::vector<Ex> initial_velocity;
 };

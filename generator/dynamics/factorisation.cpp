@@ -10,7 +10,8 @@ using kinematics::Ex;
 using kinematics::kGround;
 
 std::vector<Ex> solve_mass_matrix(const std::vector<std::vector<Ex>>& M, const std::vector<Ex>& b,
-                                  const std::vector<std::size_t>& parent, kinematics::Statements& statements) {
+                                  const std::vector<std::size_t>& parent,
+                                  kinematics::Statements& statements) {
   const std::size_t n = b.size();
   std::vector<std::vector<Ex>> H = M;  // remainder of M
   std::vector<std::vector<Ex>> L(n, std::vector<Ex>(n, 0));

@@ -57,7 +57,8 @@ Harmonics Harmonics::operator*(const Harmonics& other) const {
         difference[i] -= l[i];
       }
       // (c cos k + s sin k)(c' cos l + s' sin l)
-      product.add(sum, half * (a.cosine * b.cosine - a.sine * b.sine), half * (a.sine * b.cosine + a.cosine * b.sine));
+      product.add(sum, half * (a.cosine * b.cosine - a.sine * b.sine),
+                  half * (a.sine * b.cosine + a.cosine * b.sine));
       product.add(difference, half * (a.cosine * b.cosine + a.sine * b.sine),
                   half * (a.sine * b.cosine - a.cosine * b.sine));
     }
@@ -73,7 +74,8 @@ class Expansion {
       values_[leaf.symbol] = Harmonics(leaf.symbol);
       if (leaf.kind == kinematics::LeafKind::kPosition) coordinates_.push_back(leaf.symbol);
     }
-    for (const kinematics::Statement& statement : equations.statements.all()) statements_[statement.name] = statement.value;
+    for (const kinematics::Statement& statement : equations.statements.all())
+      statements_[statement.name] = statement.value;
   }
 
   Harmonics value(const Ex& e) {
@@ -123,7 +125,8 @@ class Expansion {
   }
 
   static Harmonics power(const Harmonics& base, const Ex& exponent) {
-    if (!exponent.info(GiNaC::info_flags::posint)) return Harmonics(GiNaC::pow(only_constant(base), exponent));
+    if (!exponent.info(GiNaC::info_flags::posint))
+      return Harmonics(GiNaC::pow(only_constant(base), exponent));
     Harmonics product = base;
     for (int i = 1; i < ex_to<GiNaC::numeric>(exponent).to_int(); ++i) product = product * base;
     return product;
@@ -169,7 +172,8 @@ Monomial to_monomial(const Ex& term, bool latex) {
   return monomial;
 }
 
-void append_terms(const Ex& coefficient, const std::string& harmonic, bool latex, std::vector<Monomial>& terms) {
+void append_terms(const Ex& coefficient, const std::string& harmonic, bool latex,
+                  std::vector<Monomial>& terms) {
   std::vector<Monomial> list;
   const Ex expanded = coefficient.expand();
   if (expanded.is_zero()) return;
@@ -177,7 +181,8 @@ void append_terms(const Ex& coefficient, const std::string& harmonic, bool latex
     for (std::size_t i = 0; i < expanded.nops(); ++i) list.push_back(to_monomial(expanded.op(i), latex));
   else
     list.push_back(to_monomial(expanded, latex));
-  std::sort(list.begin(), list.end(), [](const Monomial& a, const Monomial& b) { return a.factors < b.factors; });
+  std::sort(list.begin(), list.end(),
+            [](const Monomial& a, const Monomial& b) { return a.factors < b.factors; });
   constexpr double kNothing = 1e-40;  // what cancelled floats of 60 digits leave
   for (Monomial& monomial : list) {
     if (std::fabs(monomial.number) < kNothing) continue;
@@ -221,10 +226,12 @@ std::string to_text(const Harmonics& harmonics, bool latex) {
 
 std::string latex_name(const std::string& name) {
   std::size_t letters = 0;
-  while (letters < name.size() && ((name[letters] >= 'a' && name[letters] <= 'z') || (name[letters] >= 'A' && name[letters] <= 'Z')))
+  while (letters < name.size() &&
+         ((name[letters] >= 'a' && name[letters] <= 'z') || (name[letters] >= 'A' && name[letters] <= 'Z')))
     ++letters;
   if (letters == 0) return fmt::format("\\mathrm{{{}}}", name);
-  const std::string base = letters == 1 ? name.substr(0, 1) : fmt::format("\\mathrm{{{}}}", name.substr(0, letters));
+  const std::string base =
+      letters == 1 ? name.substr(0, 1) : fmt::format("\\mathrm{{{}}}", name.substr(0, letters));
   std::string subscript;
   for (char c : name.substr(letters)) {
     if (c != '_')

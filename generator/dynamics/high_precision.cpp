@@ -24,7 +24,8 @@ cln::cl_R to_real(const GiNaC::numeric& number) {
 HighPrecision::HighPrecision(const kinematics::Statements& statements, const LeafValue& leaf) {
   for (const kinematics::Leaf& l : statements.leaves())
     values_[l.symbol] = to_real(ex_to<GiNaC::numeric>(kinematics::exact(leaf(l.kind, l.index))));
-  for (const kinematics::Statement& statement : statements.all()) values_[statement.name] = value(statement.value);
+  for (const kinematics::Statement& statement : statements.all())
+    values_[statement.name] = value(statement.value);
 }
 
 cln::cl_R HighPrecision::value(const kinematics::Ex& e) const {

@@ -47,9 +47,9 @@ Matrix3 acceleration_gradient(const Vector3& omega, const Vector3& alpha, const 
 
 class InertiaForces {
  public:
-  InertiaForces(const LinkTree& tree, const WorkingFrames& frames, const std::vector<CompositeBody>& composites,
-                const AngularVelocities& omega, const JointMotion& motion, const std::string& name,
-                Statements& statements)
+  InertiaForces(const LinkTree& tree, const WorkingFrames& frames,
+                const std::vector<CompositeBody>& composites, const AngularVelocities& omega,
+                const JointMotion& motion, const std::string& name, Statements& statements)
       : tree_(tree),
         frames_(frames),
         composites_(composites),
@@ -65,13 +65,16 @@ class InertiaForces {
     for (std::size_t i = 0; i < tree_.links.size(); ++i) {
       const Link& link = tree_.links[i];
       const Ex outer = link.revolute ? totals[i].moment[2] : totals[i].force[2];
-      forces.push_back(statements_.bind(fmt::format("{}Q{}", name_, i), link.sign * (outer + from_parent_[i])));
+      forces.push_back(
+          statements_.bind(fmt::format("{}Q{}", name_, i), link.sign * (outer + from_parent_[i])));
     }
     return forces;
   }
 
  private:
-  std::string named(const char* quantity, std::size_t link) const { return fmt::format("{}{}{}", name_, quantity, link); }
+  std::string named(const char* quantity, std::size_t link) const {
+    return fmt::format("{}{}{}", name_, quantity, link);
+  }
 
   /// Acceleration of the link's origin as a point of the parent, in W of the link.
   Vector3 origin_acceleration(std::size_t i) {
@@ -83,7 +86,8 @@ class InertiaForces {
     const std::string from = named(link.parallel ? "W" : "L", p);
     const Vector3 omega = link.parallel ? omega_.own[p] : frames_.to_link(p, omega_.own[p], from + "w");
     const Vector3 alpha = link.parallel ? alpha_[p] : frames_.to_link(p, alpha_[p], from + "al");
-    const Vector3 acceleration = link.parallel ? acceleration_[p] : frames_.to_link(p, acceleration_[p], from + "a");
+    const Vector3 acceleration =
+        link.parallel ? acceleration_[p] : frames_.to_link(p, acceleration_[p], from + "a");
     const Matrix3 U = acceleration_gradient(omega, alpha, from, statements_);
     const Vector3 sum = statements_.bind(a + "o", acceleration + U * frames_.offset(i));
     return link.parallel ? sum : statements_.bind(a, transpose(link.R_PL) * sum);
@@ -92,8 +96,9 @@ class InertiaForces {
   void outward(std::size_t i) {
     const Link& link = tree_.links[i];
     const Vector3& w = omega_.parent[i];
-    const Vector3 alpha = link.parent == kGround ? kinematics::zero_vector()
-                                                 : frames_.from_parent(i, alpha_[link.parent], named("al", i));
+    const Vector3 alpha = link.parent == kGround
+                              ? kinematics::zero_vector()
+                              : frames_.from_parent(i, alpha_[link.parent], named("al", i));
     const Vector3 a = origin_acceleration(i);
     alpha_.push_back(alpha);
     acceleration_.push_back(a);
@@ -115,8 +120,7 @@ class InertiaForces {
     const Ex Ky = statements_.bind(named("Ky", i), w[0] * S[0][1] + w[1] * S[1][1] + w[2] * S[1][2]);
     const Ex gyroscopic = w[1] * Kx - w[0] * Ky;
     from_parent_[i] = statements_.bind(
-        named("Qp", i),
-        dot(momentum.moment, alpha) + (gyroscopic + (h[0] * a[1] - h[1] * a[0])));
+        named("Qp", i), dot(momentum.moment, alpha) + (gyroscopic + (h[0] * a[1] - h[1] * a[0])));
 
     const Ex twice = statements_.bind(fmt::format("z2_{}", i), 2 * rate);
     const Ex square = statements_.bind(fmt::format("zz_{}", i), rate * rate);
@@ -124,11 +128,11 @@ class InertiaForces {
     const Ex axial = statements_.bind(named("ax", i), w[0] * h[0] + w[1] * h[1]);
     relative_[i].force = statements_.bind(
         named("df", i), Vector3{-spin * h[0], -spin * h[1], twice * axial} + acceleration * momentum.force);
-    relative_[i].moment = statements_.bind(named("dn", i), Vector3{twice * Ky + square * S[1][2],
-                                                                   -(twice * Kx + square * S[0][2]), 0} +
-                                                               acceleration * momentum.moment);
-    alpha_[i] = statements_.bind(named("al", i) + "o",
-                                 alpha + Vector3{w[1] * rate, -w[0] * rate, acceleration});
+    relative_[i].moment = statements_.bind(
+        named("dn", i), Vector3{twice * Ky + square * S[1][2], -(twice * Kx + square * S[0][2]), 0} +
+                            acceleration * momentum.moment);
+    alpha_[i] =
+        statements_.bind(named("al", i) + "o", alpha + Vector3{w[1] * rate, -w[0] * rate, acceleration});
   }
 
   void slide(std::size_t i, const Vector3& w, const Vector3& alpha, const Vector3& a) {
@@ -137,8 +141,8 @@ class InertiaForces {
     const Matrix3 U = acceleration_gradient(w, alpha, named("V", i), statements_);
     from_parent_[i] = statements_.bind(named("Qp", i), mass * a[2] + dot(U[2], h));
     const Ex twice = statements_.bind(fmt::format("z2_{}", i), 2 * motion_.rate[i]);
-    const Vector3 coriolis = statements_.bind(
-        named("co", i), Vector3{w[1] * twice, -w[0] * twice, motion_.acceleration[i]});
+    const Vector3 coriolis =
+        statements_.bind(named("co", i), Vector3{w[1] * twice, -w[0] * twice, motion_.acceleration[i]});
     relative_[i].force = statements_.bind(named("df", i), mass * coriolis);
     relative_[i].moment = statements_.bind(named("dn", i), cross(h, coriolis));
     acceleration_[i] = statements_.bind(named("a", i) + "c", a + coriolis);
@@ -159,8 +163,9 @@ class InertiaForces {
 }  // namespace
 
 std::vector<Ex> derive_inertia_forces(const LinkTree& tree, const WorkingFrames& frames,
-                                      const std::vector<CompositeBody>& composites, const AngularVelocities& omega,
-                                      const JointMotion& motion, const std::string& name, Statements& statements) {
+                                      const std::vector<CompositeBody>& composites,
+                                      const AngularVelocities& omega, const JointMotion& motion,
+                                      const std::string& name, Statements& statements) {
   return InertiaForces(tree, frames, composites, omega, motion, name, statements).derive();
 }
 

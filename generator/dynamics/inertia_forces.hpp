@@ -20,7 +20,8 @@ struct AngularVelocities {
   std::vector<Vector3> parent, own;
 };
 
-AngularVelocities derive_angular_velocities(const kinematics::LinkTree& tree, const kinematics::WorkingFrames& frames,
+AngularVelocities derive_angular_velocities(const kinematics::LinkTree& tree,
+                                            const kinematics::WorkingFrames& frames,
                                             const std::vector<Ex>& rate, kinematics::Statements& statements);
 
 /// Generalized forces Σ J_tᵀ m a + J_rᵀ (I ω̇ + ω × I ω), one per coordinate (N m or N).
@@ -31,9 +32,10 @@ AngularVelocities derive_angular_velocities(const kinematics::LinkTree& tree, co
 /// differences that the joints outward of it make on their composite bodies, summed inward as wrenches. The composite
 /// bodies are those of the mass matrix; no force of a single link is computed. Its own difference has no moment
 /// about the axis but q̈ J_zz.
-std::vector<Ex> derive_inertia_forces(const kinematics::LinkTree& tree, const kinematics::WorkingFrames& frames,
-                                      const std::vector<CompositeBody>& composites, const AngularVelocities& omega,
-                                      const JointMotion& motion, const std::string& name,
-                                      kinematics::Statements& statements);
+std::vector<Ex> derive_inertia_forces(const kinematics::LinkTree& tree,
+                                      const kinematics::WorkingFrames& frames,
+                                      const std::vector<CompositeBody>& composites,
+                                      const AngularVelocities& omega, const JointMotion& motion,
+                                      const std::string& name, kinematics::Statements& statements);
 
 }  // namespace jourdain::dynamics

@@ -62,9 +62,11 @@ class BodyPrinter {
     const auto slots = work_slots(statements, part_of, parts);
     body.work_size = slots.size();
     body.parts.resize(parts);
-    for (std::size_t part = 0; part < parts; ++part) print_part(body.parts[part], part, statements, part_of, slots);
+    for (std::size_t part = 0; part < parts; ++part)
+      print_part(body.parts[part], part, statements, part_of, slots);
     for (const ir::Output& output : program_.outputs)
-      if (!stored_.count(output.value)) body.parts.back().lines.push_back(output_(output, expression(output.value, true).text));
+      if (!stored_.count(output.value))
+        body.parts.back().lines.push_back(output_(output, expression(output.value, true).text));
     return body;
   }
 
@@ -165,7 +167,8 @@ class BodyPrinter {
 
   /// Entry of `w` for each value that a later part reads.
   std::map<std::size_t, std::size_t> work_slots(const std::vector<std::size_t>& statements,
-                                                const std::vector<std::size_t>& part_of, std::size_t parts) const {
+                                                const std::vector<std::size_t>& part_of,
+                                                std::size_t parts) const {
     std::map<std::size_t, std::size_t> slots;
     for (std::size_t part = 1; part < parts; ++part)
       for (std::size_t i : needed_in(part, statements, part_of, parts)) slots.try_emplace(i, slots.size());
@@ -173,7 +176,8 @@ class BodyPrinter {
   }
 
   void print_part(Part& part, std::size_t index, const std::vector<std::size_t>& statements,
-                  const std::vector<std::size_t>& part_of, const std::map<std::size_t, std::size_t>& slots) const {
+                  const std::vector<std::size_t>& part_of,
+                  const std::map<std::size_t, std::size_t>& slots) const {
     const std::size_t parts = part_of[statements.empty() ? 0 : statements.back()] + 1;
     if (index > 0)
       for (std::size_t i : needed_in(index, statements, part_of, parts))
@@ -193,7 +197,8 @@ class BodyPrinter {
       return;
     }
     const bool sine_first = program_.nodes[i].op == Op::kSin;
-    const std::string &sine = name_[sine_first ? i : it->second], &cosine = name_[sine_first ? it->second : i];
+    const std::string &sine = name_[sine_first ? i : it->second],
+                      &cosine = name_[sine_first ? it->second : i];
     part.lines.push_back(fmt::format("Real {}, {};", sine, cosine));
     part.lines.push_back(fmt::format("detail::sine_cosine({}, {}, {});",
                                      expression(program_.nodes[i].a, true).text, sine, cosine));
@@ -206,16 +211,26 @@ class BodyPrinter {
     const auto a = [&](Strength strength) { return at_least(expression(node.a, true), strength); };
     const auto b = [&](Strength strength) { return at_least(expression(node.b, true), strength); };
     switch (node.op) {
-      case Op::kLiteral: return {literal_text(node.literal)};
-      case Op::kLeaf: return {leaf_(node.leaf, node.index)};
-      case Op::kNegate: return {"-" + a(Strength::kAtom), Strength::kSum};
-      case Op::kAdd: return {a(Strength::kSum) + " + " + b(Strength::kProduct), Strength::kSum};
-      case Op::kSubtract: return {a(Strength::kSum) + " - " + b(Strength::kProduct), Strength::kSum};
-      case Op::kMultiply: return {a(Strength::kProduct) + " * " + b(Strength::kAtom), Strength::kProduct};
-      case Op::kDivide: return {a(Strength::kProduct) + " / " + b(Strength::kAtom), Strength::kProduct};
-      case Op::kSqrt: return {fmt::format("detail::square_root({})", expression(node.a, true).text)};
-      case Op::kSin: return {fmt::format("detail::sine({})", expression(node.a, true).text)};
-      case Op::kCos: return {fmt::format("detail::cosine({})", expression(node.a, true).text)};
+      case Op::kLiteral:
+        return {literal_text(node.literal)};
+      case Op::kLeaf:
+        return {leaf_(node.leaf, node.index)};
+      case Op::kNegate:
+        return {"-" + a(Strength::kAtom), Strength::kSum};
+      case Op::kAdd:
+        return {a(Strength::kSum) + " + " + b(Strength::kProduct), Strength::kSum};
+      case Op::kSubtract:
+        return {a(Strength::kSum) + " - " + b(Strength::kProduct), Strength::kSum};
+      case Op::kMultiply:
+        return {a(Strength::kProduct) + " * " + b(Strength::kAtom), Strength::kProduct};
+      case Op::kDivide:
+        return {a(Strength::kProduct) + " / " + b(Strength::kAtom), Strength::kProduct};
+      case Op::kSqrt:
+        return {fmt::format("detail::square_root({})", expression(node.a, true).text)};
+      case Op::kSin:
+        return {fmt::format("detail::sine({})", expression(node.a, true).text)};
+      case Op::kCos:
+        return {fmt::format("detail::cosine({})", expression(node.a, true).text)};
     }
     return {};
   }

@@ -23,8 +23,8 @@ struct Part {
 };
 
 struct Body {
-  std::vector<Part> parts;     ///< the last one writes the outputs
-  std::size_t work_size = 0;   ///< entries of `w`; 0 where there is one part
+  std::vector<Part> parts;    ///< the last one writes the outputs
+  std::size_t work_size = 0;  ///< entries of `w`; 0 where there is one part
 };
 
 /// A compiler's time is close to quadratic in the length of a function, so that a part holds at most this many statements.

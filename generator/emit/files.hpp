@@ -18,12 +18,12 @@ struct ParameterText {
 
 /// What the files say about a model beside its programs.
 struct ModelText {
-  std::string name;         ///< namespace and file name
-  std::string title;        ///< the model's own name
+  std::string name;   ///< namespace and file name
+  std::string title;  ///< the model's own name
   std::string description;
-  std::string numbers_from; ///< source of the model's numbers
-  std::string path;         ///< relative path of the description
-  std::string sha256;       ///< of the description
+  std::string numbers_from;                                ///< source of the model's numbers
+  std::string path;                                        ///< relative path of the description
+  std::string sha256;                                      ///< of the description
   std::vector<std::string> positions, velocities, inputs;  ///< names in order
   std::vector<ParameterText> parameters;
   std::vector<std::string> assumptions;  ///< sentences

@@ -17,11 +17,11 @@ enum class Shape {
 struct FunctionInfo {
   std::string name;
   Shape shape = Shape::kVector;
-  std::string result;                ///< name of the array, and of the program's outputs
+  std::string result;  ///< name of the array, and of the program's outputs
   bool takes_input = false;
-  bool takes_acceleration = false;   ///< Real (&zdot)[nz]
-  std::vector<std::string> needs;    ///< functions that its body calls
-  std::string comment;               ///< doc comment, lines separated by '\n'
+  bool takes_acceleration = false;  ///< Real (&zdot)[nz]
+  std::vector<std::string> needs;   ///< functions that its body calls
+  std::string comment;              ///< doc comment, lines separated by '\n'
 };
 
 /// In the order of emission.

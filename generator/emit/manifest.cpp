@@ -10,20 +10,22 @@ namespace {
 
 std::string string_array(const std::vector<std::string>& entries) {
   std::string text;
-  for (const std::string& entry : entries) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", quoted_text(entry));
+  for (const std::string& entry : entries)
+    text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", quoted_text(entry));
   return "[" + text + "]";
 }
 
 std::string operations_object(const ir::Operations& count) {
   return fmt::format(
       R"({{"arithmetic": {}, "add": {}, "sub": {}, "mul": {}, "div": {}, "sqrt": {}, "neg": {}, "sin": {}, "cos": {}}})",
-      count.arithmetic(), count.add, count.subtract, count.multiply, count.divide, count.sqrt, count.negate, count.sin,
-      count.cos);
+      count.arithmetic(), count.add, count.subtract, count.multiply, count.divide, count.sqrt, count.negate,
+      count.sin, count.cos);
 }
 
 }  // namespace
 
-std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions, const ir::Module& module) {
+std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions,
+                     const ir::Module& module) {
   std::string text = "{\n";
   const auto field = [&text](const std::string& key, const std::string& value) {
     text += fmt::format("  \"{}\": {},\n", key, value);

@@ -7,6 +7,7 @@
 
 namespace jourdain::emit {
 
-std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions, const ir::Module& module);
+std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions,
+                     const ir::Module& module);
 
 }  // namespace jourdain::emit

@@ -20,7 +20,8 @@ std::vector<Argument> arguments(const FunctionInfo& function, const std::string&
   if (function.takes_acceleration) list.push_back({"const " + real, "zdot", fmt::format("[{}]", nz)});
   if (step) list.push_back({real, "h", ""});
   if (function.shape == Shape::kVector) list.push_back({real, function.result, fmt::format("[{}]", nz)});
-  if (function.shape == Shape::kMatrix) list.push_back({real, function.result, fmt::format("[{0}][{0}]", nz)});
+  if (function.shape == Shape::kMatrix)
+    list.push_back({real, function.result, fmt::format("[{0}][{0}]", nz)});
   return list;
 }
 

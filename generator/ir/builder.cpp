@@ -77,9 +77,12 @@ Signed Builder::divide(Signed a, Signed b) {
 
 Signed Builder::unary(Op op, Signed a) {
   switch (op) {
-    case Op::kNegate: return -a;
-    case Op::kSin: return {intern({.op = op, .a = a.value}), a.negative};
-    case Op::kCos: return {intern({.op = op, .a = a.value}), false};
+    case Op::kNegate:
+      return -a;
+    case Op::kSin:
+      return {intern({.op = op, .a = a.value}), a.negative};
+    case Op::kCos:
+      return {intern({.op = op, .a = a.value}), false};
     case Op::kSqrt: {
       const ValueId operand = a.negative ? intern({.op = Op::kNegate, .a = a.value}) : a.value;
       return {intern({.op = op, .a = operand}), false};
@@ -89,7 +92,8 @@ Signed Builder::unary(Op op, Signed a) {
     case Op::kAdd:
     case Op::kSubtract:
     case Op::kMultiply:
-    case Op::kDivide: break;
+    case Op::kDivide:
+      break;
   }
   JD_CHECK(false, "{} is not unary", op_name(op));
   return a;
@@ -97,16 +101,23 @@ Signed Builder::unary(Op op, Signed a) {
 
 Signed Builder::apply(const Node& node, Signed a, Signed b) {
   switch (node.op) {
-    case Op::kLiteral: return literal(node.literal);
-    case Op::kLeaf: return leaf(node.leaf, node.index);
-    case Op::kAdd: return add(a, b);
-    case Op::kSubtract: return subtract(a, b);
-    case Op::kMultiply: return multiply(a, b);
-    case Op::kDivide: return divide(a, b);
+    case Op::kLiteral:
+      return literal(node.literal);
+    case Op::kLeaf:
+      return leaf(node.leaf, node.index);
+    case Op::kAdd:
+      return add(a, b);
+    case Op::kSubtract:
+      return subtract(a, b);
+    case Op::kMultiply:
+      return multiply(a, b);
+    case Op::kDivide:
+      return divide(a, b);
     case Op::kNegate:
     case Op::kSqrt:
     case Op::kSin:
-    case Op::kCos: return unary(node.op, a);
+    case Op::kCos:
+      return unary(node.op, a);
   }
   return a;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "ir/builder.hpp"
@@ -21,11 +22,16 @@ using kinematics::Ex;
 
 LeafKind leaf_kind(kinematics::LeafKind kind) {
   switch (kind) {
-    case kinematics::LeafKind::kParameter: return LeafKind::kParameter;
-    case kinematics::LeafKind::kPosition: return LeafKind::kPosition;
-    case kinematics::LeafKind::kVelocity: return LeafKind::kVelocity;
-    case kinematics::LeafKind::kAcceleration: return LeafKind::kAcceleration;
-    case kinematics::LeafKind::kInput: return LeafKind::kInput;
+    case kinematics::LeafKind::kParameter:
+      return LeafKind::kParameter;
+    case kinematics::LeafKind::kPosition:
+      return LeafKind::kPosition;
+    case kinematics::LeafKind::kVelocity:
+      return LeafKind::kVelocity;
+    case kinematics::LeafKind::kAcceleration:
+      return LeafKind::kAcceleration;
+    case kinematics::LeafKind::kInput:
+      return LeafKind::kInput;
   }
   return LeafKind::kParameter;
 }
@@ -117,7 +123,8 @@ class Lowering {
   Key sum_key(const Ex& e) {
     const std::vector<Operand> terms = sorted_operands(e);
     Key sum{"(", terms[0].key.negative};
-    for (const Operand& term : terms) sum.text += (term.key.negative == sum.negative ? "+" : "-") + term.key.text;
+    for (const Operand& term : terms)
+      sum.text += (term.key.negative == sum.negative ? "+" : "-") + term.key.text;
     sum.text += ")";
     return sum;
   }
@@ -162,35 +169,47 @@ class Lowering {
 
   /// Symbolic factors in order, then the numeric one, then the denominator.
   Signed product(const Ex& e) {
-    Signed numerator = builder_.literal(1), denominator = builder_.literal(1);
+    std::optional<Signed> numerator, denominator;
+    const auto multiply = [this](std::optional<Signed>& side, Signed factor) {
+      side = side ? builder_.multiply(*side, factor) : factor;
+    };
     Ex coefficient = 1;
     for (const Operand& factor : sorted_operands(e)) {
       if (is_a<GiNaC::numeric>(factor.value))
         coefficient = coefficient * factor.value;
       else if (is_a<GiNaC::power>(factor.value) && factor.value.op(1).info(GiNaC::info_flags::negative))
-        denominator = builder_.multiply(denominator, power(factor.value.op(0), -factor.value.op(1)));
+        multiply(denominator, power(factor.value.op(0), -factor.value.op(1)));
       else
-        numerator = builder_.multiply(numerator, lower(factor.value));
+        multiply(numerator, lower(factor.value));
     }
-    numerator = builder_.multiply(numerator, builder_.literal(to_double(coefficient)));
-    return builder_.divide(numerator, denominator);
+    const double number = to_double(coefficient);
+    if (!numerator)
+      numerator = builder_.literal(number);
+    else if (std::fabs(number) != 1)
+      numerator = builder_.multiply(*numerator, builder_.literal(number));
+    else if (number < 0)
+      numerator = -*numerator;
+    return denominator ? builder_.divide(*numerator, *denominator) : *numerator;
   }
 
   Signed power(const Ex& base, const Ex& exponent) {
     JD_CHECK(is_a<GiNaC::numeric>(exponent), "exponent is not a number");
-    if (ex_to<GiNaC::numeric>(exponent).is_negative())
-      return builder_.divide(builder_.literal(1), power(base, -exponent));
+    if (ex_to<GiNaC::numeric>(exponent).is_negative()) {
+      const Signed denominator = power(base, -exponent);
+      return builder_.divide(builder_.literal(1), denominator);
+    }
     const Ex twice = 2 * exponent;
     JD_CHECK(ex_to<GiNaC::numeric>(twice).is_integer(), "exponent {}", to_double(exponent));
     const int halves = ex_to<GiNaC::numeric>(twice).to_int();
     const Signed value = lower(base);
-    Signed result = halves % 2 ? builder_.unary(Op::kSqrt, value) : builder_.literal(1);
+    std::optional<Signed> result;
+    if (halves % 2) result = builder_.unary(Op::kSqrt, value);
     Signed square = value;  // value^(2^k)
     for (int n = halves / 2; n > 0; n /= 2) {
-      if (n % 2) result = builder_.multiply(result, square);
+      if (n % 2) result = result ? builder_.multiply(*result, square) : square;
       if (n > 1) square = builder_.multiply(square, square);
     }
-    return result;
+    return result ? *result : builder_.literal(1);
   }
 
   const kinematics::Statements& statements_;
@@ -203,7 +222,8 @@ class Lowering {
 
 }  // namespace
 
-Program lower(const kinematics::Statements& statements, const std::vector<Target>& targets, std::string name) {
+Program lower(const kinematics::Statements& statements, const std::vector<Target>& targets,
+              std::string name) {
   return Lowering(statements, targets).run(targets, std::move(name));
 }
 

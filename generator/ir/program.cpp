@@ -9,43 +9,62 @@ namespace jourdain::ir {
 int operand_count(Op op) {
   switch (op) {
     case Op::kLiteral:
-    case Op::kLeaf: return 0;
+    case Op::kLeaf:
+      return 0;
     case Op::kNegate:
     case Op::kSqrt:
     case Op::kSin:
-    case Op::kCos: return 1;
+    case Op::kCos:
+      return 1;
     case Op::kAdd:
     case Op::kSubtract:
     case Op::kMultiply:
-    case Op::kDivide: return 2;
+    case Op::kDivide:
+      return 2;
   }
   return 0;
 }
 
 const char* op_name(Op op) {
   switch (op) {
-    case Op::kLiteral: return "literal";
-    case Op::kLeaf: return "leaf";
-    case Op::kNegate: return "neg";
-    case Op::kAdd: return "add";
-    case Op::kSubtract: return "sub";
-    case Op::kMultiply: return "mul";
-    case Op::kDivide: return "div";
-    case Op::kSqrt: return "sqrt";
-    case Op::kSin: return "sin";
-    case Op::kCos: return "cos";
+    case Op::kLiteral:
+      return "literal";
+    case Op::kLeaf:
+      return "leaf";
+    case Op::kNegate:
+      return "neg";
+    case Op::kAdd:
+      return "add";
+    case Op::kSubtract:
+      return "sub";
+    case Op::kMultiply:
+      return "mul";
+    case Op::kDivide:
+      return "div";
+    case Op::kSqrt:
+      return "sqrt";
+    case Op::kSin:
+      return "sin";
+    case Op::kCos:
+      return "cos";
   }
   return "";
 }
 
 const char* leaf_name(LeafKind kind) {
   switch (kind) {
-    case LeafKind::kParameter: return "parameter";
-    case LeafKind::kConstant: return "constant";
-    case LeafKind::kPosition: return "y";
-    case LeafKind::kVelocity: return "z";
-    case LeafKind::kAcceleration: return "zdot";
-    case LeafKind::kInput: return "u";
+    case LeafKind::kParameter:
+      return "parameter";
+    case LeafKind::kConstant:
+      return "constant";
+    case LeafKind::kPosition:
+      return "y";
+    case LeafKind::kVelocity:
+      return "z";
+    case LeafKind::kAcceleration:
+      return "zdot";
+    case LeafKind::kInput:
+      return "u";
   }
   return "";
 }
@@ -54,15 +73,32 @@ Operations count_operations(const Program& program) {
   Operations count;
   for (const Node& node : program.nodes) switch (node.op) {
       case Op::kLiteral:
-      case Op::kLeaf: break;
-      case Op::kNegate: ++count.negate; break;
-      case Op::kAdd: ++count.add; break;
-      case Op::kSubtract: ++count.subtract; break;
-      case Op::kMultiply: ++count.multiply; break;
-      case Op::kDivide: ++count.divide; break;
-      case Op::kSqrt: ++count.sqrt; break;
-      case Op::kSin: ++count.sin; break;
-      case Op::kCos: ++count.cos; break;
+      case Op::kLeaf:
+        break;
+      case Op::kNegate:
+        ++count.negate;
+        break;
+      case Op::kAdd:
+        ++count.add;
+        break;
+      case Op::kSubtract:
+        ++count.subtract;
+        break;
+      case Op::kMultiply:
+        ++count.multiply;
+        break;
+      case Op::kDivide:
+        ++count.divide;
+        break;
+      case Op::kSqrt:
+        ++count.sqrt;
+        break;
+      case Op::kSin:
+        ++count.sin;
+        break;
+      case Op::kCos:
+        ++count.cos;
+        break;
     }
   return count;
 }
@@ -108,19 +144,37 @@ std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leav
     const auto a = [&] { return v[node.a.value]; };
     const auto b = [&] { return v[node.b.value]; };
     switch (node.op) {
-      case Op::kLiteral: v.push_back(static_cast<Real>(node.literal)); break;
+      case Op::kLiteral:
+        v.push_back(static_cast<Real>(node.literal));
+        break;
       case Op::kLeaf:
         JD_CHECK(node.index < leaves[node.leaf].size(), "{}[{}]", leaf_name(node.leaf), node.index);
         v.push_back(leaves[node.leaf][node.index]);
         break;
-      case Op::kNegate: v.push_back(-a()); break;
-      case Op::kAdd: v.push_back(a() + b()); break;
-      case Op::kSubtract: v.push_back(a() - b()); break;
-      case Op::kMultiply: v.push_back(a() * b()); break;
-      case Op::kDivide: v.push_back(a() / b()); break;
-      case Op::kSqrt: v.push_back(std::sqrt(a())); break;
-      case Op::kSin: v.push_back(std::sin(a())); break;
-      case Op::kCos: v.push_back(std::cos(a())); break;
+      case Op::kNegate:
+        v.push_back(-a());
+        break;
+      case Op::kAdd:
+        v.push_back(a() + b());
+        break;
+      case Op::kSubtract:
+        v.push_back(a() - b());
+        break;
+      case Op::kMultiply:
+        v.push_back(a() * b());
+        break;
+      case Op::kDivide:
+        v.push_back(a() / b());
+        break;
+      case Op::kSqrt:
+        v.push_back(std::sqrt(a()));
+        break;
+      case Op::kSin:
+        v.push_back(std::sin(a()));
+        break;
+      case Op::kCos:
+        v.push_back(std::cos(a()));
+        break;
     }
   }
   std::vector<Real> results;

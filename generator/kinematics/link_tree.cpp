@@ -62,7 +62,8 @@ class Builder {
   LinkTree build() {
     tree_.gravity = to_symbolic(mechanism_.gravity, parameters_, statements_);
     poses_.resize(mechanism_.bodies.size());
-    for (model::JointIndex index : model::depth_first(mechanism_)) place_child(mechanism_.joints[index.value]);
+    for (model::JointIndex index : model::depth_first(mechanism_))
+      place_child(mechanism_.joints[index.value]);
     for (std::size_t i = 0; i < mechanism_.bodies.size(); ++i) add_body(mechanism_.bodies[i], poses_[i]);
     if (options_.regroup)
       for (std::size_t i = tree_.links.size(); i-- > 0;) regroup(tree_.links[i]);
@@ -70,13 +71,17 @@ class Builder {
   }
 
  private:
-  MassMoments& moments_of(std::size_t link) { return link == kGround ? tree_.ground : tree_.links[link].moments; }
+  MassMoments& moments_of(std::size_t link) {
+    return link == kGround ? tree_.ground : tree_.links[link].moments;
+  }
 
   Matrix3 rotation(const model::Rotation& rotation, const std::string& name) {
     return bound(name, rotation_matrix(rotation, parameters_, mechanism_.snap, statements_));
   }
 
-  Vector3 bound(const std::string& name, const Vector3& value) { return statements_.bind(name, settled(value)); }
+  Vector3 bound(const std::string& name, const Vector3& value) {
+    return statements_.bind(name, settled(value));
+  }
 
   Matrix3 bound(const std::string& name, const Matrix3& value) {
     return {{bound(name + "_x", value[0]), bound(name + "_y", value[1]), bound(name + "_z", value[2])}};
@@ -84,9 +89,11 @@ class Builder {
 
   void place_child(const model::Joint& joint) {
     const BodyPose parent = joint.parent ? poses_[joint.parent->value] : BodyPose{};
-    const Matrix3 R_LJ = bound("R_" + joint.name, parent.R_LB * rotation(joint.placement.rotation, "R_" + joint.name));
+    const Matrix3 R_LJ =
+        bound("R_" + joint.name, parent.R_LB * rotation(joint.placement.rotation, "R_" + joint.name));
     const Vector3 r_LJ =
-        bound("r_" + joint.name, parent.r_LB + parent.R_LB * to_symbolic(joint.placement.position, parameters_, statements_));
+        bound("r_" + joint.name,
+              parent.r_LB + parent.R_LB * to_symbolic(joint.placement.position, parameters_, statements_));
     BodyPose& child = poses_[joint.child.value];
     if (joint.type == JointType::kFixed) {
       child = {parent.link, R_LJ, r_LJ};
@@ -131,7 +138,8 @@ class Builder {
     const model::Inertia& I = body.inertia;
     const Ex xx = entry(I.xx), yy = entry(I.yy), zz = entry(I.zz);
     const Ex xy = -entry(I.xy), xz = -entry(I.xz), yz = -entry(I.yz);
-    Matrix3 second = {{{(yy + zz - xx) / 2, xy, xz}, {xy, (xx + zz - yy) / 2, yz}, {xz, yz, (xx + yy - zz) / 2}}};
+    Matrix3 second = {
+        {{(yy + zz - xx) / 2, xy, xz}, {xy, (xx + zz - yy) / 2, yz}, {xz, yz, (xx + yy - zz) / 2}}};
     second = statements_.bind_symmetric(body.name + "_S", second);
     const Matrix3 R_BI = rotation(body.inertia_axes, "R_" + body.name);
     MassMoments moments = moved({mass, zero_vector(), second}, R_BI, zero_vector(), statements_);
@@ -158,7 +166,8 @@ class Builder {
     }
     link.moments = kept;
     MassMoments& parent = moments_of(link.parent);
-    parent = bind_moments(statements_, link.name, parent + moved(symmetric, link.R_PL, link.r_PL, statements_));
+    parent =
+        bind_moments(statements_, link.name, parent + moved(symmetric, link.R_PL, link.r_PL, statements_));
   }
 
   const Mechanism& mechanism_;

@@ -33,9 +33,9 @@ struct Link {
   bool revolute = true;
   std::size_t parent = kGround;  ///< link, or kGround
   int sign = 1;
-  bool parallel = false;         ///< z is parallel to the parent's z, and R_PL the identity
-  Matrix3 R_PL;                  ///< orientation in the parent's link frame P at y = 0
-  Vector3 r_PL;                  ///< origin in P at y = 0; orthogonal to z (revolute) or zero (prismatic)
+  bool parallel = false;  ///< z is parallel to the parent's z, and R_PL the identity
+  Matrix3 R_PL;           ///< orientation in the parent's link frame P at y = 0
+  Vector3 r_PL;           ///< origin in P at y = 0; orthogonal to z (revolute) or zero (prismatic)
   MassMoments moments;
 };
 
@@ -46,12 +46,12 @@ struct LinkTree {
 };
 
 struct LinkTreeOptions {
-  bool regroup = true;         ///< move to the parent what a joint's motion does not feel (base inertial parameters)
+  bool regroup = true;  ///< move to the parent what a joint's motion does not feel (base inertial parameters)
   bool share_parallel = true;  ///< parallel consecutive revolute joints share one non-rotating frame
 };
 
 /// `parameters` are the symbols of the mechanism's parameters, in order. Values that depend on parameters are bound.
-LinkTree build_link_tree(const model::Mechanism& mechanism, std::span<const Ex> parameters, Statements& statements,
-                         const LinkTreeOptions& options);
+LinkTree build_link_tree(const model::Mechanism& mechanism, std::span<const Ex> parameters,
+                         Statements& statements, const LinkTreeOptions& options);
 
 }  // namespace jourdain::kinematics

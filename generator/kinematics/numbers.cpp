@@ -70,18 +70,24 @@ Ex exact(double value) {
 
 Ex sine(const Ex& angle) {
   if (angle.is_zero()) return 0;
-  return is_number(angle) ? numeric_function(angle, [](const cln::cl_F& x) { return cln::sin(x); }) : GiNaC::sin(angle);
+  return is_number(angle) ? numeric_function(angle, [](const cln::cl_F& x) { return cln::sin(x); })
+                          : GiNaC::sin(angle);
 }
 
 Ex cosine(const Ex& angle) {
   if (angle.is_zero()) return 1;
-  return is_number(angle) ? numeric_function(angle, [](const cln::cl_F& x) { return cln::cos(x); }) : GiNaC::cos(angle);
+  return is_number(angle) ? numeric_function(angle, [](const cln::cl_F& x) { return cln::cos(x); })
+                          : GiNaC::cos(angle);
 }
 
 Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters, Statements& statements) {
   std::vector<Symbolic> values;
   for (const Ex& parameter : parameters) values.push_back({parameter, &statements});
-  return expression.evaluate<Symbolic>(values, [&](double v) { return Symbolic{exact(v), &statements}; }).value;
+  return expression.evaluate<Symbolic>(values,
+                                       [&](double v) {
+                                         return Symbolic{exact(v), &statements};
+                                       })
+      .value;
 }
 
 Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters, Statements& statements) {

@@ -27,8 +27,12 @@ inline Vector3 zero_vector() { return {0, 0, 0}; }
 inline Matrix3 zero_matrix() { return {{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}; }
 inline Matrix3 identity_matrix() { return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
 
-inline Vector3 operator+(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline Vector3 operator-(const Vector3& a, const Vector3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vector3 operator+(const Vector3& a, const Vector3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vector3 operator-(const Vector3& a, const Vector3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 inline Vector3 operator*(const Ex& a, const Vector3& b) { return {a * b[0], a * b[1], a * b[2]}; }
 
 inline Vector3 operator*(const Matrix3& A, const Vector3& b) {

@@ -22,18 +22,31 @@ using ParameterIndex = support::Index<struct ParameterTag>;
 /// double once, on reading. Exact identities are applied: 1*x = x, x+0 = x, 0*x = 0, -(-x) = x, x^1 = x, x^0 = 1.
 class Expression {
  public:
-  enum class Op { kLiteral, kParameter, kNegate, kAdd, kSubtract, kMultiply, kDivide, kPower, kSqrt, kSin, kCos };
+  enum class Op {
+    kLiteral,
+    kParameter,
+    kNegate,
+    kAdd,
+    kSubtract,
+    kMultiply,
+    kDivide,
+    kPower,
+    kSqrt,
+    kSin,
+    kCos
+  };
   struct Node {
     Op op = Op::kLiteral;
-    double value = 0;          ///< kLiteral
+    double value = 0;               ///< kLiteral
     ParameterIndex parameter = {};  ///< kParameter
-    int exponent = 0;          ///< kPower: integer exponent
-    std::size_t left = 0;      ///< operand (unary) or left operand
+    int exponent = 0;               ///< kPower: integer exponent
+    std::size_t left = 0;           ///< operand (unary) or left operand
     std::size_t right = 0;
   };
 
   Expression() : Expression(0.0) {}
-  Expression(double value) : nodes_{Node{.op = Op::kLiteral, .value = value}} {}  // NOLINT: numbers are expressions
+  Expression(double value)
+      : nodes_{Node{.op = Op::kLiteral, .value = value}} {}  // NOLINT: numbers are expressions
   static Expression parameter(ParameterIndex index);
   static Expression unary(Op op, const Expression& operand);
   static Expression binary(Op op, const Expression& left, const Expression& right);
@@ -87,16 +100,28 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal) const {
   values.reserve(nodes_.size());
   for (const Node& node : nodes_) {
     switch (node.op) {
-      case Op::kLiteral: values.push_back(literal(node.value)); break;
+      case Op::kLiteral:
+        values.push_back(literal(node.value));
+        break;
       case Op::kParameter:
         JD_CHECK(node.parameter.value < parameters.size(), "parameter {}", node.parameter.value);
         values.push_back(parameters[node.parameter.value]);
         break;
-      case Op::kNegate: values.push_back(T(-values[node.left])); break;
-      case Op::kAdd: values.push_back(T(values[node.left] + values[node.right])); break;
-      case Op::kSubtract: values.push_back(T(values[node.left] - values[node.right])); break;
-      case Op::kMultiply: values.push_back(T(values[node.left] * values[node.right])); break;
-      case Op::kDivide: values.push_back(T(values[node.left] / values[node.right])); break;
+      case Op::kNegate:
+        values.push_back(T(-values[node.left]));
+        break;
+      case Op::kAdd:
+        values.push_back(T(values[node.left] + values[node.right]));
+        break;
+      case Op::kSubtract:
+        values.push_back(T(values[node.left] - values[node.right]));
+        break;
+      case Op::kMultiply:
+        values.push_back(T(values[node.left] * values[node.right]));
+        break;
+      case Op::kDivide:
+        values.push_back(T(values[node.left] / values[node.right]));
+        break;
       case Op::kPower: {
         T product = literal(1.0);
         for (int i = 0; i < (node.exponent < 0 ? -node.exponent : node.exponent); ++i)
@@ -104,9 +129,15 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal) const {
         values.push_back(node.exponent < 0 ? T(literal(1.0) / product) : product);
         break;
       }
-      case Op::kSqrt: values.push_back(T(sqrt(values[node.left]))); break;
-      case Op::kSin: values.push_back(T(sin(values[node.left]))); break;
-      case Op::kCos: values.push_back(T(cos(values[node.left]))); break;
+      case Op::kSqrt:
+        values.push_back(T(sqrt(values[node.left])));
+        break;
+      case Op::kSin:
+        values.push_back(T(sin(values[node.left])));
+        break;
+      case Op::kCos:
+        values.push_back(T(cos(values[node.left])));
+        break;
     }
   }
   return values.back();

@@ -47,12 +47,13 @@ enum class InertiaPoint { kCenterOfMass, kOrigin };
 
 struct Body {
   std::string name;
-  Expression mass;                ///< kg
-  Vector3 center_of_mass;         ///< m, in the body frame
-  Inertia inertia;                ///< about `inertia_point`, in the axes `inertia_axes`
+  Expression mass;         ///< kg
+  Vector3 center_of_mass;  ///< m, in the body frame
+  Inertia inertia;         ///< about `inertia_point`, in the axes `inertia_axes`
   InertiaPoint inertia_point = InertiaPoint::kCenterOfMass;
-  Rotation inertia_axes;          ///< orientation of the inertia's axes in the body frame
-  bool lumped = false;            ///< published parameter set that need not be one rigid body's (no triangle inequality)
+  Rotation inertia_axes;  ///< orientation of the inertia's axes in the body frame
+  bool lumped =
+      false;  ///< published parameter set that need not be one rigid body's (no triangle inequality)
   SourceRange where = {};
   SourceRange mass_where = {};     ///< of the mass (or of what it follows from); line 0: use `where`
   SourceRange inertia_where = {};  ///< of the inertia or shape; line 0: use `where`
@@ -66,13 +67,13 @@ struct Joint {
   JointType type = JointType::kFixed;
   std::optional<BodyIndex> parent;  ///< none: the world (inertial frame)
   BodyIndex child;
-  Placement placement;              ///< joint frame in the parent body's frame, at coordinate zero
+  Placement placement;                  ///< joint frame in the parent body's frame, at coordinate zero
   std::array<double, 3> axis{0, 0, 1};  ///< in the joint frame, not normalised; as read
-  Expression stiffness;             ///< N m/rad or N/m; force −stiffness (y − rest)
-  Expression rest;                  ///< rad or m
-  Expression damping;               ///< N m s/rad or N s/m; force −damping z
-  Expression initial_position;      ///< rad or m
-  Expression initial_velocity;      ///< rad/s or m/s
+  Expression stiffness;                 ///< N m/rad or N/m; force −stiffness (y − rest)
+  Expression rest;                      ///< rad or m
+  Expression damping;                   ///< N m s/rad or N s/m; force −damping z
+  Expression initial_position;          ///< rad or m
+  Expression initial_velocity;          ///< rad/s or m/s
   SourceRange where = {};
   SourceRange child_where = {};  ///< of the child's name; line 0: use `where`
   SourceRange axis_where = {};   ///< of the axis; line 0: use `where`

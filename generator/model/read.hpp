@@ -12,9 +12,9 @@ namespace jourdain::model {
 enum class RootJoint { kFixed, kFree };
 
 struct ReadOptions {
-  RootJoint root = RootJoint::kFixed;      ///< URDF only
+  RootJoint root = RootJoint::kFixed;           ///< URDF only
   std::vector<std::string> locked_joints = {};  ///< become fixed joints at coordinate zero
-  bool damping = true;                     ///< URDF: import <dynamics damping>
+  bool damping = true;                          ///< URDF: import <dynamics damping>
   bool snap = true;
 };
 
@@ -34,6 +34,7 @@ std::optional<Mechanism> read_urdf(support::Diagnostics& diagnostics, const Read
 /// What a reader cannot see line by line: two parents, cycles, bodies without a joint, negative mass, inertia that is
 /// indefinite or violates the triangle inequality (after merging bodies joined by fixed joints), zero axes, more
 /// than one root. `triangle` is the severity of a triangle violation (URDF: warning).
-void check_mechanism(const Mechanism& mechanism, support::Diagnostics& diagnostics, support::Severity triangle);
+void check_mechanism(const Mechanism& mechanism, support::Diagnostics& diagnostics,
+                     support::Severity triangle);
 
 }  // namespace jourdain::model

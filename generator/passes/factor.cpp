@@ -117,7 +117,8 @@ class Factoring {
 
   Signed plain_sum(const std::vector<Term>& terms) {
     Signed sum = signed_copy(terms[0].value, terms[0].negative);
-    for (std::size_t i = 1; i < terms.size(); ++i) sum = builder_.add(sum, signed_copy(terms[i].value, terms[i].negative));
+    for (std::size_t i = 1; i < terms.size(); ++i)
+      sum = builder_.add(sum, signed_copy(terms[i].value, terms[i].negative));
     return sum;
   }
 

@@ -40,17 +40,24 @@ class Hoisting {
   Program split(const Program& function) {
     Builder body;
     std::vector<Copy> copy(function.nodes.size());
-    const auto inside = [&](ValueId id) { return copy[id.value].fixed ? read(body, copy[id.value].value) : copy[id.value].value; };
+    const auto inside = [&](ValueId id) {
+      return copy[id.value].fixed ? read(body, copy[id.value].value) : copy[id.value].value;
+    };
     for (std::size_t i = 0; i < function.nodes.size(); ++i) {
       const Node& node = function.nodes[i];
       const int operands = ir::operand_count(node.op);
-      const bool fixed = (operands == 0 && (node.op == Op::kLiteral || node.leaf == LeafKind::kParameter)) ||
-                         (operands >= 1 && copy[node.a.value].fixed && (operands == 1 || copy[node.b.value].fixed));
+      const bool fixed =
+          (operands == 0 && (node.op == Op::kLiteral || node.leaf == LeafKind::kParameter)) ||
+          (operands >= 1 && copy[node.a.value].fixed && (operands == 1 || copy[node.b.value].fixed));
       if (fixed)
         copy[i] = {constants_.apply(node, copy[node.a.value].value, copy[node.b.value].value), true};
-      else
-        copy[i] = {body.apply(node, operands >= 1 ? inside(node.a) : Signed{}, operands == 2 ? inside(node.b) : Signed{}), false};
-      if (!function.labels[i].empty()) (fixed ? constants_ : body).label(copy[i].value.value, function.labels[i]);
+      else {
+        const Signed a = operands >= 1 ? inside(node.a) : Signed{};  // in order: reading may add a leaf
+        const Signed b = operands == 2 ? inside(node.b) : Signed{};
+        copy[i] = {body.apply(node, a, b), false};
+      }
+      if (!function.labels[i].empty())
+        (fixed ? constants_ : body).label(copy[i].value.value, function.labels[i]);
     }
     for (const ir::Output& output : function.outputs)
       body.output(output.name, output.row, output.column, inside(output.value));

@@ -14,7 +14,8 @@ enum class Effect { kExact, kReassociating, kAssuming };
 struct PassRecord {
   std::string name;
   Effect effect = Effect::kExact;
-  std::size_t operations_before = 0, operations_after = 0;  ///< arithmetic, all functions and constants together
+  std::size_t operations_before = 0,
+              operations_after = 0;  ///< arithmetic, all functions and constants together
 };
 
 struct Optimised {

@@ -20,7 +20,8 @@ class EnvironmentError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-[[noreturn]] inline void fail_check(const char* condition, const char* file, int line, const std::string& operands) {
+[[noreturn]] inline void fail_check(const char* condition, const char* file, int line,
+                                    const std::string& operands) {
   const std::string path = file;
   const auto slash = path.find_last_of('/');
   throw InternalError(fmt::format("{}:{}: '{}' does not hold{}{}",
@@ -31,6 +32,7 @@ class EnvironmentError : public std::runtime_error {
 }  // namespace jourdain::support
 
 /// JD_CHECK(condition, "format {}", operands...): throws InternalError with the operands printed.
-#define JD_CHECK(condition, ...)                                                                           \
-  ((condition) ? void(0)                                                                                   \
-               : ::jourdain::support::fail_check(#condition, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__)))
+#define JD_CHECK(condition, ...) \
+  ((condition)                   \
+       ? void(0)                 \
+       : ::jourdain::support::fail_check(#condition, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__)))

@@ -46,7 +46,8 @@ std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t 
     Sample sample;
     for (const model::Parameter& parameter : mechanism.parameters)
       sample.parameters.push_back(parameter.value * (k == 0 ? 1.0 : uniform(0.9, 1.1)));
-    const Reference start(mechanism, std::vector<long double>(sample.parameters.begin(), sample.parameters.end()));
+    const Reference start(mechanism,
+                          std::vector<long double>(sample.parameters.begin(), sample.parameters.end()));
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const bool revolute = mechanism.joints[joints[i].value].type == model::JointType::kRevolute;
       const Eigen::Index row = static_cast<Eigen::Index>(i);
@@ -77,7 +78,8 @@ class Comparison {
         module_(module),
         sample_(sample),
         verdict_(verdict),
-        exact_(equations.statements, [&](kinematics::LeafKind kind, std::size_t i) { return leaf_value(kind, i); }),
+        exact_(equations.statements,
+               [&](kinematics::LeafKind kind, std::size_t i) { return leaf_value(kind, i); }),
         parameters_(sample.parameters.begin(), sample.parameters.end()),
         terms_(Reference(mechanism, parameters_).evaluate(state(), to_vector(sample.u))) {
     reference::widen_scales(terms_);
@@ -88,17 +90,23 @@ class Comparison {
     measure_snapping();
     const std::vector<double> constants = interpret_constants();
     for (const ir::Program& program : module_.functions) compare_program(program, constants);
-    verdict_.condition = std::max(verdict_.condition, static_cast<double>(reference::condition<long double>(terms_.M)));
+    verdict_.condition =
+        std::max(verdict_.condition, static_cast<double>(reference::condition<long double>(terms_.M)));
   }
 
  private:
   double leaf_value(kinematics::LeafKind kind, std::size_t i) const {
     switch (kind) {
-      case kinematics::LeafKind::kParameter: return sample_.parameters[i];
-      case kinematics::LeafKind::kPosition: return sample_.y[i];
-      case kinematics::LeafKind::kVelocity: return sample_.z[i];
-      case kinematics::LeafKind::kAcceleration: return sample_.zdot[i];
-      case kinematics::LeafKind::kInput: return sample_.u[i];
+      case kinematics::LeafKind::kParameter:
+        return sample_.parameters[i];
+      case kinematics::LeafKind::kPosition:
+        return sample_.y[i];
+      case kinematics::LeafKind::kVelocity:
+        return sample_.z[i];
+      case kinematics::LeafKind::kAcceleration:
+        return sample_.zdot[i];
+      case kinematics::LeafKind::kInput:
+        return sample_.u[i];
     }
     return 0;
   }
@@ -110,25 +118,30 @@ class Comparison {
 
   /// |value − expected| in units of `scale`. Where both are not numbers they agree; where one is, they do not.
   static double error(double value, double expected, long double scale) {
-    if (std::isnan(value) || std::isnan(expected)) return std::isnan(value) == std::isnan(expected) ? 0 : INFINITY;
+    if (std::isnan(value) || std::isnan(expected))
+      return std::isnan(value) == std::isnan(expected) ? 0 : INFINITY;
     const double difference = std::fabs(value - expected);
     return difference == 0 ? 0 : static_cast<double>(difference / scale);
   }
 
   void record(double& worst, double measured, double limit, const std::string& what) {
-    if (!(measured <= limit)) verdict_.failures.push_back(fmt::format("{} is off by {:.2g} of its term sum", what, measured));
+    if (!(measured <= limit))
+      verdict_.failures.push_back(fmt::format("{} is off by {:.2g} of its term sum", what, measured));
     if (measured > worst) worst = measured;
   }
 
   void compare_with_reference() {
     const std::size_t n = equations_.zdot.size();
-    const auto compare = [&](const kinematics::Ex& value, long double expected, long double scale, const std::string& what) {
-      record(verdict_.reference_error, error(to_double(exact_.value(value)), static_cast<double>(expected), scale), kTolerance,
+    const auto compare = [&](const kinematics::Ex& value, long double expected, long double scale,
+                             const std::string& what) {
+      record(verdict_.reference_error,
+             error(to_double(exact_.value(value)), static_cast<double>(expected), scale), kTolerance,
              what + " of the symbolic equations against the numeric reference");
     };
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j)
-        compare(equations_.M[i][j], terms_.M(at(i), at(j)), terms_.M_scale(at(i), at(j)), fmt::format("M[{}][{}]", i, j));
+        compare(equations_.M[i][j], terms_.M(at(i), at(j)), terms_.M_scale(at(i), at(j)),
+                fmt::format("M[{}][{}]", i, j));
       compare(equations_.k_bar[i], terms_.k_bar[at(i)], terms_.k_scale[at(i)], fmt::format("k_bar[{}]", i));
       compare(equations_.q_bar[i], terms_.q_bar[at(i)], terms_.q_scale[at(i)], fmt::format("q_bar[{}]", i));
     }
@@ -146,12 +159,15 @@ class Comparison {
 
   void measure_snapping() {
     if (!mechanism_.snap) return;
-    const auto unsnapped = Reference(mechanism_, parameters_, reference::Snap::kOff).evaluate(state(), to_vector(sample_.u));
-    const Vector a = reference::forward_dynamics<long double>(terms_), b = reference::forward_dynamics<long double>(unsnapped);
+    const auto unsnapped =
+        Reference(mechanism_, parameters_, reference::Snap::kOff).evaluate(state(), to_vector(sample_.u));
+    const Vector a = reference::forward_dynamics<long double>(terms_),
+                 b = reference::forward_dynamics<long double>(unsnapped);
     const long double norm = b.norm();
     const double effect = norm > 0 ? static_cast<double>((a - b).norm() / norm) : 0;
     if (!(effect <= kSnapEffect))
-      verdict_.failures.push_back(fmt::format("snapping rotations changes the accelerations by {:.2g}; use --no-snap", effect));
+      verdict_.failures.push_back(
+          fmt::format("snapping rotations changes the accelerations by {:.2g}; use --no-snap", effect));
     verdict_.snap_effect = std::max(verdict_.snap_effect, effect);
   }
 
@@ -182,17 +198,20 @@ class Comparison {
   }
 
   /// What an output of a program should be, and the sum of its absolute terms.
-  std::pair<kinematics::Ex, long double> expectation(const std::string& function, const ir::Output& output) const {
+  std::pair<kinematics::Ex, long double> expectation(const std::string& function,
+                                                     const ir::Output& output) const {
     const std::size_t i = static_cast<std::size_t>(std::max(output.row, 0));
     if (function == "mass_matrix")
-      return {equations_.M[i][static_cast<std::size_t>(output.column)], terms_.M_scale(at(i), at(output.column))};
+      return {equations_.M[i][static_cast<std::size_t>(output.column)],
+              terms_.M_scale(at(i), at(output.column))};
     if (function == "k_bar") return {equations_.k_bar[i], terms_.k_scale[at(i)]};
     if (function == "q_bar") return {equations_.q_bar[i], terms_.q_scale[at(i)]};
     if (function == "inverse_dynamics") return {equations_.tau[i], torque_scale()[at(i)]};
     if (function == "kinetic_energy") return {equations_.kinetic_energy, kinetic_scale()};
     if (function == "potential_energy") return {equations_.potential_energy, potential_scale()};
     JD_CHECK(function == "initial_state", "no expectation for '{}'", function);
-    const kinematics::Ex& start = output.name == "y" ? equations_.initial_position[i] : equations_.initial_velocity[i];
+    const kinematics::Ex& start =
+        output.name == "y" ? equations_.initial_position[i] : equations_.initial_velocity[i];
     return {start, std::fabs(to_double(exact_.value(start)))};
   }
 
@@ -228,8 +247,8 @@ class Comparison {
 
 }  // namespace
 
-Verdict validate_translation(const model::Mechanism& mechanism, const Equations& equations, const ir::Module& module,
-                             std::size_t states) {
+Verdict validate_translation(const model::Mechanism& mechanism, const Equations& equations,
+                             const ir::Module& module, std::size_t states) {
   Verdict verdict;
   verdict.states = states;
   for (const Sample& sample : draw_samples(mechanism, states))

@@ -12,8 +12,8 @@ namespace jourdain::tests {
 
 namespace {
 
-using Evaluate = void (*)(const double* p, const double* y, const double* z, const double* u, const double* zdot,
-                          double h, double* results);
+using Evaluate = void (*)(const double* p, const double* y, const double* z, const double* u,
+                          const double* zdot, double h, double* results);
 
 /// Generic over Model: functions are found by argument-dependent lookup, sizes are the model's.
 constexpr const char* kDriver = R"(
@@ -59,9 +59,11 @@ std::string driver(const std::vector<EmittedModel>& models, const std::string& r
     for (std::size_t i = 0; i < model.parameters.size(); ++i)
       assignments += fmt::format("  parameters.{} = static_cast<{}>(p[{}]);\n", model.parameters[i], real, i);
     text += fmt::format(
-        "extern \"C\" void evaluate_{0}(const double* p, const double* y, const double* z, const double* u, const double* "
+        "extern \"C\" void evaluate_{0}(const double* p, const double* y, const double* z, const double* u, "
+        "const double* "
         "zdot, double h, double* out);\n"
-        "void evaluate_{0}(const double* p, const double* y, const double* z, const double* u, const double* zdot, double "
+        "void evaluate_{0}(const double* p, const double* y, const double* z, const double* u, const double* "
+        "zdot, double "
         "h, double* out) {{\n  {0}::Parameters<{1}> parameters;\n  static_cast<void>(p);\n{2}"
         "  evaluate({0}::Model<{1}>(parameters), y, z, u, zdot, h, out);\n}}\n",
         model.name, real, assignments);
@@ -80,13 +82,16 @@ EmittedModel emit_model(const Derived& derived, const std::string& name) {
   compiled.module = derived.module;
   validate_and_emit(derived.mechanism, derived.equations, options, compiled);
   if (!compiled.verdict.accepted()) throw std::runtime_error(compiled.verdict.failures.front());
-  EmittedModel model{name, compiled.files, {}, derived.equations.zdot.size(), derived.mechanism.actuators.size()};
-  for (const model::Parameter& parameter : derived.mechanism.parameters) model.parameters.push_back(parameter.name);
+  EmittedModel model{
+      name, compiled.files, {}, derived.equations.zdot.size(), derived.mechanism.actuators.size()};
+  for (const model::Parameter& parameter : derived.mechanism.parameters)
+    model.parameters.push_back(parameter.name);
   return model;
 }
 
 std::vector<std::string> strict_flags() {
-  return {"-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror"};
+  return {"-std=c++17",         "-Wall",  "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow",
+          "-Wdouble-promotion", "-Werror"};
 }
 
 bool have_compiler(const std::string& compiler) {
@@ -126,8 +131,8 @@ Evaluation CompiledBatch::evaluate(std::size_t index, const Sample& sample, doub
   if (!symbol) throw std::runtime_error(dlerror());
   const std::size_t n = model.coordinates;
   std::vector<double> results(n * (n + 1) / 2 + 6 * n + 2);
-  reinterpret_cast<Evaluate>(symbol)(sample.parameters.data(), sample.y.data(), sample.z.data(), sample.u.data(),
-                                     sample.zdot.data(), h, results.data());
+  reinterpret_cast<Evaluate>(symbol)(sample.parameters.data(), sample.y.data(), sample.z.data(),
+                                     sample.u.data(), sample.zdot.data(), h, results.data());
   const double* at = results.data();
   const auto take = [&at](std::size_t count) {
     std::vector<double> values(at, at + count);

@@ -50,8 +50,8 @@ void check(const std::string& compiler, std::uint64_t first) {
       }
     }
   }
-  fmt::print("{}: backward error double {:.1e} float {:.1e}, forward over cond(M) {:.1e} and {:.1e}\n", compiler,
-             backward[0], backward[1], forward[0], forward[1]);
+  fmt::print("{}: backward error double {:.1e} float {:.1e}, forward over cond(M) {:.1e} and {:.1e}\n",
+             compiler, backward[0], backward[1], forward[0], forward[1]);
 }
 
 TEST(CompiledCode, AgreesBitByBitWithTheInterpreterUnderGcc) { check("g++", 0); }

@@ -23,11 +23,16 @@ VectorX<long double> to_vector(const std::vector<double>& values) {
 
 double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::size_t i) {
   switch (kind) {
-    case kinematics::LeafKind::kParameter: return sample.parameters[i];
-    case kinematics::LeafKind::kPosition: return sample.y[i];
-    case kinematics::LeafKind::kVelocity: return sample.z[i];
-    case kinematics::LeafKind::kAcceleration: return sample.zdot[i];
-    case kinematics::LeafKind::kInput: return sample.u[i];
+    case kinematics::LeafKind::kParameter:
+      return sample.parameters[i];
+    case kinematics::LeafKind::kPosition:
+      return sample.y[i];
+    case kinematics::LeafKind::kVelocity:
+      return sample.z[i];
+    case kinematics::LeafKind::kAcceleration:
+      return sample.zdot[i];
+    case kinematics::LeafKind::kInput:
+      return sample.u[i];
   }
   return 0;
 }
@@ -40,7 +45,8 @@ double relative(double value, double exact, long double scale) {
 reference::Terms<long double> reference_terms(const Derived& derived, const Sample& sample) {
   const std::vector<long double> parameters(sample.parameters.begin(), sample.parameters.end());
   const reference::Reference<long double> reference(derived.mechanism, parameters);
-  auto terms = reference.evaluate({.t = 0, .y = to_vector(sample.y), .z = to_vector(sample.z)}, to_vector(sample.u));
+  auto terms =
+      reference.evaluate({.t = 0, .y = to_vector(sample.y), .z = to_vector(sample.z)}, to_vector(sample.u));
   reference::widen_scales(terms);
   return terms;
 }
@@ -66,7 +72,9 @@ Sample random_sample(const model::Mechanism& mechanism, std::uint64_t seed, bool
 
 template <class Real>
 std::vector<Real> interpreted(const ir::Module& module, const std::string& name, const Sample& sample) {
-  const auto cast = [](const std::vector<double>& values) { return std::vector<Real>(values.begin(), values.end()); };
+  const auto cast = [](const std::vector<double>& values) {
+    return std::vector<Real>(values.begin(), values.end());
+  };
   ir::LeafValues<Real> leaves;
   leaves[LeafKind::kParameter] = cast(sample.parameters);
   leaves[LeafKind::kConstant] = ir::interpret(module.constants, leaves);

@@ -26,7 +26,8 @@ ir::Program& forward_dynamics(Derived& derived) {
 }
 
 TEST(Mutation, NothingPlantedIsAccepted) {
-  for (const char* model : {"double_pendulum.toml", "panda.toml"}) EXPECT_FALSE(refuses(derive(read_model(model_path(model)))));
+  for (const char* model : {"double_pendulum.toml", "panda.toml"})
+    EXPECT_FALSE(refuses(derive(read_model(model_path(model)))));
 }
 
 TEST(Mutation, ASignFlippedInKBarIsRefused) {
@@ -86,7 +87,8 @@ TEST(Mutation, ASumTurnedIntoADifferenceIsRefused) {
       ir::Node& node = mutant.module.functions[f].nodes[i];
       if (node.op != ir::Op::kAdd) continue;
       // M and the kinetic energy are even in y1: y0 - y1 for y0 + y1 is no error there.
-      const bool even = correct.module.functions[f].name == "mass_matrix" || correct.module.functions[f].name == "kinetic_energy";
+      const bool even = correct.module.functions[f].name == "mass_matrix" ||
+                        correct.module.functions[f].name == "kinetic_energy";
       if (even && correct.module.functions[f].labels[i] == "angle1") continue;
       node.op = ir::Op::kSubtract;
       EXPECT_TRUE(refuses(mutant)) << mutant.module.functions[f].name << " value " << i;

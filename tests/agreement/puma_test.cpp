@@ -24,14 +24,22 @@ TEST(Puma560, AgreesWithThePublishedOutputs) {
 }
 
 TEST(Puma560, ProgramAgreesWithThePublishedOutputs) {
-  if (!std::filesystem::exists(shared_path("reference/puma560.json"))) GTEST_SKIP() << "no reference/puma560.json";
+  if (!std::filesystem::exists(shared_path("reference/puma560.json")))
+    GTEST_SKIP() << "no reference/puma560.json";
   const PumaCase puma = read_puma_case();
   const Derived derived = derive(read_model(model_path("puma560.toml")));
-  const auto list = [](const reference::VectorX<double>& v) { return std::vector<double>(v.begin(), v.end()); };
-  Sample sample{{}, list(puma.q), list(puma.qd), std::vector<double>(derived.mechanism.actuators.size(), 0.0), list(puma.qdd)};
+  const auto list = [](const reference::VectorX<double>& v) {
+    return std::vector<double>(v.begin(), v.end());
+  };
+  Sample sample{{},
+                list(puma.q),
+                list(puma.qd),
+                std::vector<double>(derived.mechanism.actuators.size(), 0.0),
+                list(puma.qdd)};
   const auto vector = [&](const char* function) {
     const std::vector<double> values = interpreted<double>(derived.module, function, sample);
-    return reference::VectorX<double>(Eigen::Map<const reference::VectorX<double>>(values.data(), Eigen::Index(values.size())));
+    return reference::VectorX<double>(
+        Eigen::Map<const reference::VectorX<double>>(values.data(), Eigen::Index(values.size())));
   };
   EXPECT_LE(normwise_error(-vector("k_bar"), puma.c), kTolerance);
   EXPECT_LE(normwise_error(vector("q_bar"), puma.g), kTolerance);

@@ -35,11 +35,13 @@ TEST(RandomTrees, AgreeInInterpreterReferenceAndSixtyDigits) {
     const std::vector<double> zdot = interpreted<double>(derived.module, "forward_dynamics", sample);
     Worst& w = worst[tree_class(seed)];
     ++w.trees;
-    const double backward = judge.backward_error(zdot), forward = judge.forward_error(zdot) / judge.condition();
+    const double backward = judge.backward_error(zdot),
+                 forward = judge.forward_error(zdot) / judge.condition();
     double entries = judge.mass_matrix_error(interpreted<double>(derived.module, "mass_matrix", sample));
     entries = larger_error(entries, judge.k_bar_error(interpreted<double>(derived.module, "k_bar", sample)));
     entries = larger_error(entries, judge.q_bar_error(interpreted<double>(derived.module, "q_bar", sample)));
-    entries = larger_error(entries, judge.torque_error(interpreted<double>(derived.module, "inverse_dynamics", sample)));
+    entries = larger_error(
+        entries, judge.torque_error(interpreted<double>(derived.module, "inverse_dynamics", sample)));
     const auto from_reference = reference::forward_dynamics(judge.terms()).cast<double>().eval();
     const double reference =
         judge.forward_error({from_reference.begin(), from_reference.end()}) / judge.condition();
@@ -53,12 +55,13 @@ TEST(RandomTrees, AgreeInInterpreterReferenceAndSixtyDigits) {
     w.reference = std::max(w.reference, reference);
     w.condition = std::max(w.condition, judge.condition());
   }
-  constexpr const char* kNames[] = {"aligned", "parallel", "massless", "mass ratios", "parameters", "general"};
-  fmt::print("{:<12} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "class", "trees", "backward", "fwd/cond", "entries",
-             "reference", "cond(M)");
+  constexpr const char* kNames[] = {"aligned",     "parallel",   "massless",
+                                    "mass ratios", "parameters", "general"};
+  fmt::print("{:<12} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "class", "trees", "backward", "fwd/cond",
+             "entries", "reference", "cond(M)");
   for (const auto& [tree, w] : worst)
-    fmt::print("{:<12} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e}\n", kNames[static_cast<int>(tree)], w.trees,
-               w.backward, w.forward, w.entries, w.reference, w.condition);
+    fmt::print("{:<12} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e}\n", kNames[static_cast<int>(tree)],
+               w.trees, w.backward, w.forward, w.entries, w.reference, w.condition);
 }
 
 TEST(RandomTrees, GiveTheSameEquationsWithEverySimplificationOff) {

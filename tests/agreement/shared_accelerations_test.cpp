@@ -33,11 +33,16 @@ double worst_error(const AccelerationCase& given, const model::Mechanism& mechan
 
 /// Largest normwise error over the states of a case, of the accelerations that `compute` gives.
 template <class Compute>
-double worst_over_states(const AccelerationCase& given, const model::Mechanism& mechanism, Compute&& compute) {
+double worst_over_states(const AccelerationCase& given, const model::Mechanism& mechanism,
+                         Compute&& compute) {
   double worst = 0;
   for (const AccelerationState& state : given.states) {
-    const auto order = [&](const std::vector<double>& v) { return in_coordinate_order(mechanism, given.joints, v); };
-    const auto list = [](const reference::VectorX<double>& v) { return std::vector<double>(v.begin(), v.end()); };
+    const auto order = [&](const std::vector<double>& v) {
+      return in_coordinate_order(mechanism, given.joints, v);
+    };
+    const auto list = [](const reference::VectorX<double>& v) {
+      return std::vector<double>(v.begin(), v.end());
+    };
     Sample sample;
     sample.y = list(order(state.position));
     sample.z = list(order(state.velocity));

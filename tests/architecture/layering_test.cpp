@@ -69,7 +69,8 @@ TEST(Layering, GeneratorLayersNeverReachUp) {
 TEST(Layering, GinacStaysInDerivationAndItsBridge) {
   for (const fs::path& file : sources("generator")) {
     const std::string layer = first_folder(fs::relative(file, kSource / "generator").string());
-    const bool derivation = layer == "kinematics" || layer == "dynamics" || (layer == "ir" && file.stem() == "lower");
+    const bool derivation =
+        layer == "kinematics" || layer == "dynamics" || (layer == "ir" && file.stem() == "lower");
     for (const std::string& include : includes(file))
       EXPECT_TRUE(derivation || (first_folder(include) != "ginac" && first_folder(include) != "cln"))
           << fs::relative(file, kSource) << " includes " << include;
@@ -80,14 +81,16 @@ TEST(Layering, RuntimeKnowsOnlyTheModel) {
   const std::set<std::string> allowed = {"reference", "studies", "jourdain", "model", "support", "Eigen", ""};
   for (const fs::path& file : sources("runtime"))
     for (const std::string& include : includes(file))
-      EXPECT_TRUE(allowed.count(first_folder(include))) << fs::relative(file, kSource) << " includes " << include;
+      EXPECT_TRUE(allowed.count(first_folder(include)))
+          << fs::relative(file, kSource) << " includes " << include;
 }
 
 TEST(Layering, FilesHoldOneIdea) {
   for (const char* folder : {"generator", "runtime"})
     for (const fs::path& file : sources(folder)) {
       const std::string text = support::read_file(file.string());
-      EXPECT_LE(std::size_t(std::count(text.begin(), text.end(), '\n')), kLongestFile) << fs::relative(file, kSource);
+      EXPECT_LE(std::size_t(std::count(text.begin(), text.end(), '\n')), kLongestFile)
+          << fs::relative(file, kSource);
     }
 }
 
@@ -95,14 +98,15 @@ TEST(Layering, TemplatesUseMathAlone) {
   for (const auto& entry : fs::directory_iterator(kSource / "templates")) {
     if (entry.path().filename() == "shim.cpp.in") continue;
     for (const std::string& include : includes(entry.path()))
-      EXPECT_TRUE(include == "math.h" || include.find('@') == 0) << entry.path().filename() << " includes " << include;
+      EXPECT_TRUE(include == "math.h" || include.find('@') == 0)
+          << entry.path().filename() << " includes " << include;
   }
 }
 
 TEST(Layering, TopLevelHoldsTheAgreedFolders) {
-  const std::set<std::string> agreed = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "dev",
-                                        "generator",      "runtime",           "templates", "models",  "generated",
-                                        "tests",          "build"};
+  const std::set<std::string> agreed = {
+      "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE",   "dev",   "generator",
+      "runtime",        "templates",         "models",    "generated", "tests", "build"};
   for (const auto& entry : fs::directory_iterator(kSource)) {
     const std::string name = entry.path().filename().string();
     EXPECT_TRUE(name[0] == '.' || agreed.count(name)) << name;

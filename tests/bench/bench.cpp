@@ -54,7 +54,8 @@ void measure(const std::string& name) {
 }  // namespace
 
 int main() {
-  fmt::print("{:<20} {:>10} {:>10} {:>8}   {}\n", "rk4_step, ns", "double", "float", "ratio", "y[0] at the end");
+  fmt::print("{:<20} {:>10} {:>10} {:>8}   {}\n", "rk4_step, ns", "double", "float", "ratio",
+             "y[0] at the end");
 #define JOURDAIN_MEASURE(name) measure<name::Model<double>, name::Model<float>>(#name);
   JOURDAIN_EMITTED_MODELS(JOURDAIN_MEASURE)
 }

@@ -15,8 +15,12 @@ struct Counting {
   explicit Counting(double v) : value(v) {}
 
   friend Counting operator+(Counting a, Counting b) { return ++counted.add, Counting(a.value + b.value); }
-  friend Counting operator-(Counting a, Counting b) { return ++counted.subtract, Counting(a.value - b.value); }
-  friend Counting operator*(Counting a, Counting b) { return ++counted.multiply, Counting(a.value * b.value); }
+  friend Counting operator-(Counting a, Counting b) {
+    return ++counted.subtract, Counting(a.value - b.value);
+  }
+  friend Counting operator*(Counting a, Counting b) {
+    return ++counted.multiply, Counting(a.value * b.value);
+  }
   friend Counting operator/(Counting a, Counting b) { return ++counted.divide, Counting(a.value / b.value); }
   friend Counting operator-(Counting a) { return ++counted.negate, Counting(-a.value); }
   friend Counting sqrt(Counting a);

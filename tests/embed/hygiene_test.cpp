@@ -27,8 +27,8 @@ std::string source(const std::string& model) {
   return fmt::format("{}/generated/{}/{}.cpp", JOURDAIN_SOURCE_DIR, model, model);
 }
 
-support::ProcessResult compile(const std::string& compiler, const std::string& input, const std::string& object,
-                               const std::vector<std::string>& more = {"-c"}) {
+support::ProcessResult compile(const std::string& compiler, const std::string& input,
+                               const std::string& object, const std::vector<std::string>& more = {"-c"}) {
   std::vector<std::string> command = {compiler, "-O2"};
   for (const std::string& flag : strict_flags()) command.push_back(flag);
   command.insert(command.end(), more.begin(), more.end());
@@ -40,12 +40,13 @@ support::ProcessResult compile(const std::string& compiler, const std::string& i
 std::vector<std::pair<char, std::string>> symbols(const std::string& object) {
   std::istringstream lines(support::run_process({"nm", "-P", object}).output);
   std::vector<std::pair<char, std::string>> found;
-  for (std::string name, type, rest; lines >> name >> type && std::getline(lines, rest);) found.emplace_back(type[0], name);
+  for (std::string name, type, rest; lines >> name >> type && std::getline(lines, rest);)
+    found.emplace_back(type[0], name);
   return found;
 }
 
 TEST(EmittedCode, CompilesCleanAndNeedsNothingButElementaryFunctions) {
-  const std::set<std::string> allowed = {"sin",  "cos",  "sincos",  "sqrt",   "sinf",
+  const std::set<std::string> allowed = {"sin",  "cos",   "sincos",  "sqrt",   "sinf",
                                          "cosf", "sqrtf", "sincosf", "memcpy", "memset"};
   const support::TemporaryFolder folder;
   ASSERT_EQ(emitted_models().size(), 7u);
@@ -69,11 +70,12 @@ TEST(EmittedCode, InFloatNeverTouchesDouble) {
   const support::TemporaryFolder folder;
   const std::string unit = folder.path() + "/float.cpp", object = folder.path() + "/float.o";
   for (const std::string& model : emitted_models()) {
-    support::write_file(unit, fmt::format("#include \"{0}_kernels.hpp\"\n"
-                                          "template struct {0}::Model<float>;\n"
-                                          "template void {0}::rk4_step(const {0}::Model<float>&, {0}::State<float>&, const "
-                                          "{0}::Input<float>&, float) noexcept;\n",
-                                          model));
+    support::write_file(
+        unit, fmt::format("#include \"{0}_kernels.hpp\"\n"
+                          "template struct {0}::Model<float>;\n"
+                          "template void {0}::rk4_step(const {0}::Model<float>&, {0}::State<float>&, const "
+                          "{0}::Input<float>&, float) noexcept;\n",
+                          model));
     const std::string include = fmt::format("-I{}/generated/{}", JOURDAIN_SOURCE_DIR, model);
     ASSERT_EQ(compile("g++", unit, object, {"-c", include}).status, 0);
     const std::string assembly = support::run_process({"objdump", "-d", object}).output;
@@ -81,7 +83,8 @@ TEST(EmittedCode, InFloatNeverTouchesDouble) {
     for (const char* instruction : {"mulsd", "addsd", "subsd", "divsd", "cvtss2sd", "mulpd", "addpd"})
       EXPECT_EQ(assembly.find(instruction), std::string::npos) << model << " uses " << instruction;
     for (const auto& [type, name] : symbols(object))
-      EXPECT_FALSE(type == 'U' && (name == "sin" || name == "cos" || name == "sincos")) << model << " needs " << name;
+      EXPECT_FALSE(type == 'U' && (name == "sin" || name == "cos" || name == "sincos"))
+          << model << " needs " << name;
   }
 }
 

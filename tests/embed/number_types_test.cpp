@@ -42,14 +42,30 @@ struct Pack {
     for (std::size_t i = 0; i < 4; ++i) r.v[i] = f(i);
     return r;
   }
-  friend Pack operator+(const Pack& a, const Pack& b) { return each([&](std::size_t i) { return a.v[i] + b.v[i]; }); }
-  friend Pack operator-(const Pack& a, const Pack& b) { return each([&](std::size_t i) { return a.v[i] - b.v[i]; }); }
-  friend Pack operator*(const Pack& a, const Pack& b) { return each([&](std::size_t i) { return a.v[i] * b.v[i]; }); }
-  friend Pack operator/(const Pack& a, const Pack& b) { return each([&](std::size_t i) { return a.v[i] / b.v[i]; }); }
-  friend Pack operator-(const Pack& a) { return each([&](std::size_t i) { return -a.v[i]; }); }
-  friend Pack sin(const Pack& a) { return each([&](std::size_t i) { return std::sin(a.v[i]); }); }
-  friend Pack cos(const Pack& a) { return each([&](std::size_t i) { return std::cos(a.v[i]); }); }
-  friend Pack sqrt(const Pack& a) { return each([&](std::size_t i) { return std::sqrt(a.v[i]); }); }
+  friend Pack operator+(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.v[i] + b.v[i]; });
+  }
+  friend Pack operator-(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.v[i] - b.v[i]; });
+  }
+  friend Pack operator*(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.v[i] * b.v[i]; });
+  }
+  friend Pack operator/(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.v[i] / b.v[i]; });
+  }
+  friend Pack operator-(const Pack& a) {
+    return each([&](std::size_t i) { return -a.v[i]; });
+  }
+  friend Pack sin(const Pack& a) {
+    return each([&](std::size_t i) { return std::sin(a.v[i]); });
+  }
+  friend Pack cos(const Pack& a) {
+    return each([&](std::size_t i) { return std::cos(a.v[i]); });
+  }
+  friend Pack sqrt(const Pack& a) {
+    return each([&](std::size_t i) { return std::sqrt(a.v[i]); });
+  }
 };
 
 template <class Model>
@@ -61,16 +77,15 @@ typename Model::State after(int steps) {
   return state;
 }
 
-TEST(NumberTypes, PacksOfFourGiveTheBitsOfDouble) {
-#define JOURDAIN_COMPARE_PACK(name)                                          \
-  {                                                                          \
-    const auto one = after<::name::Model<double>>(20);                       \
-    const auto four = after<::name::Model<Pack>>(20);                        \
-    for (int i = 0; i < ::name::Model<>::position_count; ++i)                \
+TEST(NumberTypes, PacksOfFourGiveTheBitsOfDouble){
+#define JOURDAIN_COMPARE_PACK(name)                                             \
+  {                                                                             \
+    const auto one = after<::name::Model<double>>(20);                          \
+    const auto four = after<::name::Model<Pack>>(20);                           \
+    for (int i = 0; i < ::name::Model<>::position_count; ++i)                   \
       for (double v : four.y[i].v) EXPECT_EQ(v, one.y[i]) << #name << " " << i; \
   }
-  JOURDAIN_EMITTED_MODELS(JOURDAIN_COMPARE_PACK)
-}
+    JOURDAIN_EMITTED_MODELS(JOURDAIN_COMPARE_PACK)}
 
 TEST(NumberTypes, DualNumbersGiveTheGradientOfThePotential) {
   // dV/dy_0 of the Panda arm is q_bar without inputs.
@@ -84,19 +99,18 @@ TEST(NumberTypes, DualNumbersGiveTheGradientOfThePotential) {
   }
 }
 
-TEST(NumberTypes, LongDoubleAndFloatAgreeWithDouble) {
-#define JOURDAIN_COMPARE_LENGTHS(name)                                                                  \
-  {                                                                                                     \
-    const auto d = after<::name::Model<double>>(10);                                                    \
-    const auto l = after<::name::Model<long double>>(10);                                               \
-    const auto f = after<::name::Model<float>>(10);                                                     \
-    for (int i = 0; i < ::name::Model<>::position_count; ++i) {                                         \
-      EXPECT_NEAR(d.y[i], double(l.y[i]), 1e-13) << #name;                                              \
-      EXPECT_NEAR(d.y[i], double(f.y[i]), 1e-4) << #name;                                               \
-    }                                                                                                   \
+TEST(NumberTypes, LongDoubleAndFloatAgreeWithDouble){
+#define JOURDAIN_COMPARE_LENGTHS(name)                          \
+  {                                                             \
+    const auto d = after<::name::Model<double>>(10);            \
+    const auto l = after<::name::Model<long double>>(10);       \
+    const auto f = after<::name::Model<float>>(10);             \
+    for (int i = 0; i < ::name::Model<>::position_count; ++i) { \
+      EXPECT_NEAR(d.y[i], double(l.y[i]), 1e-13) << #name;      \
+      EXPECT_NEAR(d.y[i], double(f.y[i]), 1e-4) << #name;       \
+    }                                                           \
   }
-  JOURDAIN_EMITTED_MODELS(JOURDAIN_COMPARE_LENGTHS)
-}
+    JOURDAIN_EMITTED_MODELS(JOURDAIN_COMPARE_LENGTHS)}
 
 TEST(State, CopiesGoOnInTwoThreadsWithTheSameBits) {
   const panda::Model<> model;

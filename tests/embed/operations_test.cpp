@@ -75,8 +75,8 @@ TEST(Operations, StayAtTheBestThatWasReached) {
 }
 
 TEST(Operations, UseOneSineAndCosineAJointAtMost) {
-#define JOURDAIN_CHECK_PAIRS(name)                                                    \
-  for (const auto& [function, c] : count_functions<::name::Model<Counting>>()) {     \
+#define JOURDAIN_CHECK_PAIRS(name)                                                       \
+  for (const auto& [function, c] : count_functions<::name::Model<Counting>>()) {         \
     EXPECT_LE(c.sin, std::size_t(::name::Model<>::velocity_count)) << #name << function; \
     EXPECT_LE(c.cos, std::size_t(::name::Model<>::velocity_count)) << #name << function; \
   }

@@ -42,7 +42,9 @@ std::string difference(const std::string& expected, const std::string& actual) {
       ++line;
       begin = i + 1;
     }
-  const auto rest = [begin](const std::string& text) { return text.substr(begin, text.find('\n', begin) - begin); };
+  const auto rest = [begin](const std::string& text) {
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
   return fmt::format("line {}\n- {}\n+ {}", line, rest(expected), rest(actual));
 }
 
@@ -50,7 +52,8 @@ void expect_same_folder(const fs::path& expected, const fs::path& actual) {
   for (const auto& entry : fs::directory_iterator(actual)) {
     const fs::path other = expected / entry.path().filename();
     ASSERT_TRUE(fs::exists(other)) << other.filename() << " is missing; ./dev regenerate writes it";
-    const std::string was = support::read_file(other.string()), is = support::read_file(entry.path().string());
+    const std::string was = support::read_file(other.string()),
+                      is = support::read_file(entry.path().string());
     EXPECT_TRUE(was == is) << other.filename() << " differs in " << difference(was, is);
   }
 }

@@ -1,0 +1,157 @@
+// The command line as its users meet it: exit statuses, messages, files.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "support/diagnostics.hpp"
+#include "support/process.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs `jourdain` from the project's root.
+support::ProcessResult jourdain(std::vector<std::string> arguments) {
+  std::vector<std::string> command = {"env", "-C", JOURDAIN_SOURCE_DIR, JOURDAIN_BINARY};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return support::run_process(command);
+}
+
+void expect(const support::ProcessResult& result, int status, const std::string& part) {
+  EXPECT_EQ(result.status, status) << result.output;
+  EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
+}
+
+std::size_t files_in(const fs::path& folder) {
+  return fs::exists(folder) ? std::size_t(std::distance(fs::directory_iterator(folder), {})) : 0;
+}
+
+TEST(CommandLine, ExitStatusSaysWhoIsWrong) {
+  const support::TemporaryFolder folder;
+  expect(jourdain({"compile", "models/nothing.toml", "-o", folder.path()}), 3, "models/nothing.toml");
+  expect(jourdain({"compile", "models", "-o", folder.path()}), 3, "folder");
+  expect(jourdain({"compile", "models/panda.toml", "-o", folder.path(), "--functions", "mass_matrx"}), 2,
+         "did you mean 'mass_matrix'");
+  expect(jourdain({"compile", "models/panda.toml", "-o", folder.path(), "--name", "namespace"}), 2,
+         "reserved");
+  expect(jourdain({"compile", "models/panda.toml", "-o", folder.path(), "--name", "a b"}), 2, "identifier");
+  expect(jourdain({"frobnicate"}), 2, "frobnicate");
+  expect(jourdain({}), 2, "subcommand");
+  expect(jourdain({"--version"}), 0, "jourdain 0.1.0");
+  expect(jourdain({"compile", "--help"}), 0, "--functions");
+  EXPECT_EQ(files_in(folder.path()), 0u);
+}
+
+TEST(CommandLine, AFolderThatCannotBeMadeIsTheEnvironmentsFault) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/file";
+  support::write_file(file, "in the way");
+  expect(jourdain({"compile", "models/pendulum.toml", "-o", file + "/inside"}), 3, "inside");
+}
+
+TEST(Compile, WritesFourFiles) {
+  const support::TemporaryFolder folder;
+  expect(jourdain({"compile", "models/pendulum.toml", "-o", folder.path() + "/new/p", "--name", "swing"}), 0,
+         "1 degree of freedom");
+  for (const char* file : {"swing.hpp", "swing_kernels.hpp", "swing.cpp", "swing.json"})
+    EXPECT_TRUE(fs::exists(fs::path(folder.path()) / "new/p" / file)) << file;
+}
+
+TEST(Compile, EmitsOnlyWhatWasAskedFor) {
+  const support::TemporaryFolder folder;
+  expect(jourdain({"compile", "models/pendulum.toml", "-o", folder.path(), "--functions", "rk4_step",
+                   "--explain"}),
+         0, "hoist");
+  const std::string header = support::read_file(folder.path() + "/pendulum.hpp");
+  EXPECT_NE(header.find("void forward_dynamics"), std::string::npos);
+  EXPECT_NE(header.find("void rk4_step"), std::string::npos);
+  EXPECT_EQ(header.find("void mass_matrix"), std::string::npos);
+  EXPECT_EQ(header.find("initial_state("), std::string::npos);
+}
+
+TEST(Compile, AWrongModelWritesNothing) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/wrong.toml", out = folder.path() + "/out";
+  support::write_file(
+      model,
+      "[model]\nname = \"wrong\"\n[[body]]\nname = \"a\"\nmass = -1\n[[joint]]\nname = \"j\"\n"
+      "type = \"revolute\"\nparent = \"world\"\nchild = \"a\"\n");
+  expect(jourdain({"compile", model, "-o", out}), 1, "wrong.toml:5:8: error");
+  EXPECT_EQ(files_in(out), 0u);
+}
+
+TEST(Compile, AJointThatMovesNoInertiaIsNamed) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/light.toml";
+  support::write_file(
+      model,
+      "[model]\nname = \"light\"\n[[body]]\nname = \"a\"\nmass = 0\n[[joint]]\nname = \"idle\"\n"
+      "type = \"revolute\"\nparent = \"world\"\nchild = \"a\"\n");
+  expect(jourdain({"check", model}), 1, "joint 'idle' moves no inertia");
+}
+
+TEST(Check, SaysOkInOneLine) {
+  const support::ProcessResult result = jourdain({"check", "models/panda.toml"});
+  expect(result, 0, "ok: panda: ");
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1);
+}
+
+TEST(Info, ShowsTreeOperationsAndOmissions) {
+  const support::ProcessResult result = jourdain({"info", "models/cart_pole.toml"});
+  for (const char* part :
+       {"slide [prismatic along (1, 0, 0), y[0]] -> cart", "2 degrees of freedom", "input u[0] push",
+        "parameter pole_mass = 0.1 kg", "forward_dynamics", "left out", "hoist", "assumes: "})
+    expect(result, 0, part);
+}
+
+TEST(Equations, PrintTheSameTextOnEveryRun) {
+  const support::ProcessResult first = jourdain({"equations", "models/double_pendulum.toml", "--latex"});
+  expect(first, 0, "2 l_{1} l_{2} m_{2} \\cos(y_{1})");
+  EXPECT_EQ(jourdain({"equations", "models/double_pendulum.toml", "--latex"}).output, first.output);
+  expect(jourdain({"equations", "models/panda.toml"}), 0, "M[0][6] = ");
+}
+
+TEST(Simulate, WritesAHeaderAndARowForEachInterval) {
+  const support::TemporaryFolder folder;
+  const std::string csv = folder.path() + "/p.csv";
+  expect(jourdain({"simulate", "models/pendulum.toml", "--duration", "1", "--step", "0.001", "--every", "100",
+                   "--output", csv}),
+         0, "1000 steps");
+  std::istringstream lines(support::read_file(csv));
+  std::string header, row, last;
+  std::getline(lines, header);
+  EXPECT_EQ(header, "time,pivot,pivot_velocity,kinetic_energy,potential_energy,total_energy");
+  int rows = 0;
+  for (; std::getline(lines, row); ++rows) last = row;
+  EXPECT_EQ(rows, 11);
+  EXPECT_EQ(last.substr(0, 2), "1,");
+  EXPECT_NEAR(std::stod(last.substr(last.rfind(',') + 1)), 0, 1e-9);  // released level with the pivot
+}
+
+TEST(Simulate, StopsWhenTheStateIsNoLongerFinite) {
+  const support::TemporaryFolder folder;
+  const std::string csv = folder.path() + "/p.csv";
+  expect(jourdain({"simulate", "models/panda.toml", "--duration", "1000", "--step", "5", "--output", csv}), 1,
+         "not finite");
+  EXPECT_FALSE(fs::exists(csv));
+  expect(jourdain({"simulate", "models/panda.toml", "--duration", "1", "--step", "2", "--output", csv}), 2,
+         "steps");
+  expect(jourdain({"simulate", "models/panda.toml", "--constant-input", "1,2", "--output", csv}), 2,
+         "7 inputs");
+}
+
+TEST(Simulate, NeedsACompiler) {
+  const support::TemporaryFolder folder;
+  const support::ProcessResult result =
+      support::run_process({"env", "-C", JOURDAIN_SOURCE_DIR, "CXX=no-such-compiler", JOURDAIN_BINARY,
+                            "simulate", "models/pendulum.toml", "--output", folder.path() + "/p.csv"});
+  expect(result, 3, "no-such-compiler");
+}
+
+}  // namespace
+}  // namespace jourdain::tests

@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "agreement/judge.hpp"
+#include "agreement/shared_data.hpp"
+#include "emit/body.hpp"
+#include "emit/layout.hpp"
+#include "emit/names.hpp"
+#include "emit/templates.hpp"
+#include "support/check.hpp"
+
+namespace jourdain::emit {
+namespace {
+
+TEST(Names, AreIdentifiersThatDiffer) {
+  Names names({"state"});
+  EXPECT_EQ(names.unique("w3_x", "t0"), "w3_x");
+  EXPECT_EQ(names.unique("w3_x", "t0"), "w3_x_2");
+  EXPECT_EQ(names.unique("state", "t0"), "state_2");
+  EXPECT_EQ(names.unique("", "t0"), "t0");
+  EXPECT_EQ(names.unique("double", "t0"), "double_value");
+  EXPECT_EQ(names.unique("a.b/c", "t0"), "a_b_c");
+  EXPECT_EQ(names.unique("x; system(\"rm\"); //", "t0"), "x_system_rm_");
+  EXPECT_EQ(names.unique("__x", "t0"), "v_x");
+  EXPECT_EQ(names.unique("3d", "t0"), "v3d");
+}
+
+TEST(Text, CannotLeaveCommentsOrStrings) {
+  EXPECT_EQ(comment_text("a\nint main() {} \\"), "a?int main() {} ?");
+  EXPECT_EQ(quoted_text("a\"b\\c\n"), "a\\\"b\\\\c?");
+}
+
+TEST(Literals, AreTheShortestThatReadBack) {
+  EXPECT_EQ(literal_text(0.1), "Real(0.1)");
+  EXPECT_EQ(literal_text(2), "Real(2.0)");
+  EXPECT_EQ(literal_text(1e22), "Real(1e+22)");
+  for (const double x : {1.0 / 3, 9.81, 1.7976931348623157e308, 5e-324}) {
+    const std::string text = literal_text(x);
+    EXPECT_EQ(std::strtod(text.c_str() + 5, nullptr), x) << text;
+  }
+}
+
+TEST(Layout, BreaksLongLinesAtSpaces) {
+  std::string line = "const Real x = a";
+  for (int i = 0; i < 60; ++i) line += " + b";
+  const std::string text = wrapped(line + ";", 2);
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+    EXPECT_LE(end - begin, 110u);
+  EXPECT_TRUE(mentions("f(state.y[0])", "state"));
+  EXPECT_FALSE(mentions("f(my_state, model.state)", "state"));
+}
+
+TEST(Templates, FillEveryHole) {
+  EXPECT_EQ(fill("a @X@ b @X@@Y@", {{"X", "1"}, {"Y", "@Z@"}}), "a 1 b 1@Z@");
+  EXPECT_THROW(fill("@X@", {}), support::InternalError);
+  EXPECT_THROW(template_text("nothing.in"), support::InternalError);
+}
+
+TEST(Body, IsCutIntoPartsOfTheWantedLength) {
+  const tests::Derived panda = tests::derive(tests::read_model(tests::model_path("panda.toml")));
+  for (const ir::Program& program : panda.module.functions) {
+    if (program.name != "forward_dynamics") continue;
+    const auto leaf = [](ir::LeafKind kind, std::size_t i) {
+      return std::string(ir::leaf_name(kind)) + std::to_string(i);
+    };
+    const auto output = [](const ir::Output& o, const std::string& value) {
+      return "zdot" + std::to_string(o.row) + " = " + value;
+    };
+    const Body whole = print_body(program, Names({}), leaf, output),
+               parts = print_body(program, Names({}), leaf, output, {}, 100);
+    EXPECT_EQ(whole.parts.size(), 1u);
+    EXPECT_EQ(whole.work_size, 0u);
+    EXPECT_GT(parts.parts.size(), 4u);
+    EXPECT_GT(parts.work_size, 0u);
+    std::multiset<std::string> statements, expected;
+    for (const std::string& line : whole.parts[0].lines) expected.insert(line);
+    for (const Part& part : parts.parts) {
+      std::size_t own = 0;
+      for (const std::string& line : part.lines) {
+        if (line.find("w[") != std::string::npos) continue;
+        statements.insert(line);
+        ++own;
+      }
+      EXPECT_LE(own, 120u);
+    }
+    EXPECT_EQ(statements, expected);
+  }
+}
+
+}  // namespace
+}  // namespace jourdain::emit

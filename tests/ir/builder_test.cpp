@@ -1,0 +1,76 @@
+#include "ir/builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace jourdain::ir {
+namespace {
+
+TEST(Builder, SharesProductsAcrossOutputs) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1);
+  b.output("q", 0, -1, b.add(b.multiply(x, y), x));
+  b.output("q", 1, -1, b.multiply(y, x));
+  EXPECT_EQ(print(b.finish("shared")),
+            "program shared\n"
+            "%0 = y[0]\n"
+            "%1 = y[1]\n"
+            "%2 = mul %0 %1\n"
+            "%3 = add %0 %2\n"
+            "q[0] := %3\n"
+            "q[1] := %2\n");
+}
+
+TEST(Builder, MovesSignsOutward) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1);
+  const Signed difference = b.subtract(y, x), sine = b.unary(Op::kSin, -y);
+  b.output("q", 0, -1, b.multiply(difference, -sine));
+  EXPECT_EQ(print(b.finish("signs")),
+            "program signs\n"
+            "%0 = y[0]\n"
+            "%1 = y[1]\n"
+            "%2 = sub %0 %1\n"
+            "%3 = sin %1\n"
+            "%4 = mul %2 %3\n"
+            "%5 = neg %4\n"
+            "q[0] := %5\n");
+}
+
+TEST(Builder, SimplifiesZeroOneAndEqualOperands) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kVelocity, 0), zero = b.literal(0), one = b.literal(1);
+  EXPECT_EQ(b.add(x, zero).value, x.value);
+  EXPECT_EQ(b.multiply(one, x).value, x.value);
+  EXPECT_TRUE(b.is_literal(b.multiply(x, zero), 0));
+  EXPECT_TRUE(b.is_literal(b.subtract(x, x), 0));
+  EXPECT_TRUE(b.is_literal(b.add(b.literal(2), b.literal(-5)), -3));
+  EXPECT_EQ(b.divide(x, one).value, x.value);
+  EXPECT_TRUE(b.multiply(b.literal(-1), x).negative);
+}
+
+TEST(Interpreter, ComputesEveryOperation) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), u = b.leaf(LeafKind::kInput, 0);
+  b.output("r", 0, -1, b.divide(b.unary(Op::kSqrt, x), u));
+  b.output("r", 1, -1, -b.unary(Op::kCos, b.subtract(x, u)));
+  const Program program = b.finish("all");
+  LeafValues<double> leaves;
+  leaves[LeafKind::kPosition] = {4};
+  leaves[LeafKind::kInput] = {0.5};
+  EXPECT_EQ(interpret(program, leaves), (std::vector<double>{4.0, -std::cos(3.5)}));
+  const Operations count = count_operations(program);
+  EXPECT_EQ(count.arithmetic(), 3u);
+  EXPECT_EQ(count.negate, 1u);
+  EXPECT_EQ(count.cos, 1u);
+}
+
+TEST(Interpreter, AssertsThatLeavesAreThere) {
+  Builder b;
+  b.output("r", 0, -1, b.leaf(LeafKind::kInput, 3));
+  EXPECT_THROW(interpret(b.finish("leaf"), LeafValues<double>{}), support::InternalError);
+}
+
+}  // namespace
+}  // namespace jourdain::ir

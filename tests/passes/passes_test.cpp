@@ -1,0 +1,114 @@
+// Every pass on random programs: what it promises, what it keeps, and that a second run changes nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ir/builder.hpp"
+#include "passes/factor.hpp"
+#include "passes/hoist.hpp"
+#include "passes/pipeline.hpp"
+#include "passes/random_program.hpp"
+#include "passes/rewrite.hpp"
+
+namespace jourdain::passes {
+namespace {
+
+using ir::Builder;
+using ir::LeafKind;
+using ir::Program;
+using ir::Signed;
+using tests::random_leaves;
+using tests::random_program;
+
+constexpr std::uint64_t kPrograms = 300;
+
+std::size_t operations(const Program& program) { return ir::count_operations(program).arithmetic(); }
+
+TEST(Factor, MultipliesACommonFactorOnce) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1),
+               z = b.leaf(LeafKind::kPosition, 2);
+  b.output("r", -1, -1, b.subtract(b.multiply(x, y), b.multiply(x, z)));
+  EXPECT_EQ(print(factor(b.finish("p"))),
+            "program p\n%0 = y[0]\n%1 = y[1]\n%2 = y[2]\n%3 = sub %1 %2\n%4 = mul %0 %3\nr := %4\n");
+}
+
+TEST(Factor, LeavesProductsAloneThatOthersUse) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1),
+               z = b.leaf(LeafKind::kPosition, 2);
+  const Signed xy = b.multiply(x, y), xz = b.multiply(x, z);
+  b.output("r", 0, -1, b.add(xy, xz));
+  b.output("r", 1, -1, xy);
+  b.output("r", 2, -1, xz);
+  EXPECT_EQ(operations(factor(b.finish("p"))), 3u);
+}
+
+TEST(Factor, NeverAddsOperationsAndKeepsValuesToRounding) {
+  std::size_t saved = 0;
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
+    const Program before = random_program(seed), after = factor(before);
+    ASSERT_LE(operations(after), operations(remove_dead_code(before))) << print(before);
+    saved += operations(remove_dead_code(before)) - operations(after);
+    const auto leaves = random_leaves(seed);
+    const auto expected = ir::interpret(before, leaves), actual = ir::interpret(after, leaves);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      ASSERT_NEAR(actual[i], expected[i], 1e-9 * (1 + std::fabs(expected[i]))) << print(before);
+  }
+  EXPECT_GT(saved, 0u);
+}
+
+TEST(RemoveDeadCode, GivesTheSameBits) {
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
+    const Program before = random_program(seed), after = remove_dead_code(before);
+    ASSERT_EQ(ir::interpret(after, random_leaves(seed)), ir::interpret(before, random_leaves(seed)))
+        << print(before);
+    const std::vector<std::size_t> uses = ir::use_counts(after);
+    for (std::size_t i = 0; i < uses.size(); ++i) ASSERT_GT(uses[i], 0u) << print(after);
+  }
+}
+
+ir::Module module_of(const Program& program) { return {{}, {program}}; }
+
+TEST(Hoist, LeavesNoOperationOnParametersAloneAndGivesTheSameBits) {
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
+    const Program before = random_program(seed);
+    const ir::Module after = hoist(module_of(before));
+    const Program& function = after.functions[0];
+    std::vector<bool> fixed(function.nodes.size());
+    for (std::size_t i = 0; i < function.nodes.size(); ++i) {
+      const ir::Node& node = function.nodes[i];
+      const int operands = ir::operand_count(node.op);
+      fixed[i] = operands == 0 ? node.op == ir::Op::kLiteral || node.leaf == LeafKind::kConstant
+                               : fixed[node.a.value] && (operands == 1 || fixed[node.b.value]);
+      ASSERT_FALSE(operands > 0 && fixed[i] && node.op != ir::Op::kNegate) << print(function);
+      ASSERT_FALSE(node.op == ir::Op::kLeaf && node.leaf == LeafKind::kParameter);
+    }
+    auto leaves = random_leaves(seed);
+    const auto expected = ir::interpret(before, leaves);
+    leaves[LeafKind::kConstant] = ir::interpret(after.constants, leaves);
+    ASSERT_EQ(ir::interpret(function, leaves), expected) << print(before);
+  }
+}
+
+TEST(Passes, AreIdempotent) {
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
+    const Program clean = remove_dead_code(random_program(seed));
+    EXPECT_EQ(print(remove_dead_code(clean)), print(clean));
+    const Program factored = factor(clean);
+    EXPECT_EQ(operations(factor(factored)), operations(factor(factor(factored))));
+    const Program hoisted = hoist(module_of(clean)).functions[0];
+    EXPECT_EQ(operations(hoist(module_of(hoisted)).functions[0]), operations(hoisted));
+  }
+}
+
+TEST(Pipeline, RecordsWhatEachPassDid) {
+  const Optimised result = optimise(module_of(random_program(7)));
+  ASSERT_EQ(result.records.size(), 3u);
+  EXPECT_EQ(result.records.back().name, "hoist");
+  EXPECT_EQ(result.records.back().operations_after, arithmetic(result.module));
+  EXPECT_EQ(optimise(module_of(random_program(7)), {"factor"}).records.size(), 2u);
+}
+
+}  // namespace
+}  // namespace jourdain::passes
