@@ -6,12 +6,13 @@
 
 #include "agreement/compiled_batch.hpp"
 #include "agreement/shared_data.hpp"
+#include "properties/effort.hpp"
 #include "properties/random_tree.hpp"
 
 namespace jourdain::tests {
 namespace {
 
-constexpr std::uint64_t kTrees = 60, kTreesPerUnit = 6;
+constexpr std::uint64_t kTrees = cases(60), kTreesPerUnit = 6;
 constexpr double kBackward = 1e-13;
 constexpr double kForward = 1e-14;
 // Roundings of float are 2^29 times those of double.

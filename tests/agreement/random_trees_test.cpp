@@ -7,13 +7,14 @@
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
 #include "compile.hpp"
+#include "properties/effort.hpp"
 #include "properties/random_tree.hpp"
 #include "properties/to_toml.hpp"
 
 namespace jourdain::tests {
 namespace {
 
-constexpr std::uint64_t kTrees = 320;
+constexpr std::uint64_t kTrees = cases(320);
 // Backward error of M ż = k̄ − q̄ in double, of the sum of absolute terms: some hundred roundings of 1.1e-16.
 constexpr double kBackward = 1e-13;
 // Forward error of ż over cond(M).
@@ -65,7 +66,7 @@ TEST(RandomTrees, AgreeInInterpreterReferenceAndSixtyDigits) {
 }
 
 TEST(RandomTrees, GiveTheSameEquationsWithEverySimplificationOff) {
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(60); ++seed) {
     const model::Mechanism mechanism = random_tree(seed);
     const Derived with = derive(mechanism);
     const Sample sample = random_sample(mechanism, seed);
@@ -87,7 +88,7 @@ TEST(RandomTrees, GiveTheSameEquationsWithEverySimplificationOff) {
 }
 
 TEST(RandomTrees, AreAcceptedByTheCompiler) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(40); ++seed) {
     const CompiledModel compiled = compile(random_tree(seed), {});
     EXPECT_TRUE(compiled.verdict.accepted()) << seed << ": " << compiled.verdict.failures.front();
     EXPECT_EQ(compiled.files.size(), 4u);

@@ -116,6 +116,23 @@ TEST_F(SharedAccelerations, AgreeWithInterpreterAndCompiledCode) {
   }
 }
 
+TEST_F(SharedAccelerations, TakeAsFewOperationsAsEver) {
+  const auto operations = [](const std::string& robot, const std::string& function) {
+    model::ReadOptions options;
+    options.damping = false;
+    if (robot == "panda") options.locked_joints = {"panda_finger_joint1", "panda_finger_joint2"};
+    for (const ir::Program& program : derive(read_model(urdf_path(robot), options)).module.functions)
+      if (program.name == function) return ir::count_operations(program).arithmetic();
+    return std::size_t(0);
+  };
+  EXPECT_EQ(operations("ur5", "forward_dynamics"), 375u);
+  EXPECT_EQ(operations("ur5", "mass_matrix"), 82u);
+  EXPECT_EQ(operations("panda", "forward_dynamics"), 1003u);
+  EXPECT_EQ(operations("panda", "mass_matrix"), 319u);
+  EXPECT_EQ(operations("hyq", "forward_dynamics"), 605u);
+  EXPECT_EQ(operations("talos_reduced", "forward_dynamics"), 5716u);
+}
+
 TEST_F(SharedAccelerations, PandaWithLockedFingersAgreesWithTheReference) {
   model::ReadOptions options;
   options.damping = false;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -30,11 +29,14 @@ std::vector<fs::path> sources(const fs::path& folder) {
 
 /// Paths in the #include lines of a file.
 std::vector<std::string> includes(const fs::path& file) {
-  static const std::regex line(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   std::vector<std::string> found;
   std::istringstream text(support::read_file(file.string()));
-  for (std::string row; std::getline(text, row);)
-    if (std::smatch match; std::regex_search(row, match, line)) found.push_back(match[1]);
+  for (std::string row; std::getline(text, row);) {
+    const std::size_t open = row.find_first_of("<\"");
+    if (!row.starts_with("#include") || open == std::string::npos) continue;
+    const std::size_t close = row.find_first_of(">\"", open + 1);
+    found.push_back(row.substr(open + 1, close - open - 1));
+  }
   return found;
 }
 

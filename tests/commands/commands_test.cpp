@@ -47,6 +47,24 @@ TEST(CommandLine, ExitStatusSaysWhoIsWrong) {
   EXPECT_EQ(files_in(folder.path()), 0u);
 }
 
+TEST(CommandLine, EveryMalformedModelEndsWithStatusOne) {
+  int models = 0;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(JOURDAIN_SOURCE_DIR) / "tests/diagnostics/cases")) {
+    fs::path expected = entry.path();
+    if (expected.extension() == ".expected") continue;
+    expected.replace_extension(".expected");
+    const bool wrong = support::read_file(expected.string()).find(" error: ") != std::string::npos;
+    const bool options = support::read_file(entry.path().string()).find("options:") != std::string::npos;
+    if (!wrong || options) continue;
+    const support::ProcessResult result = jourdain({"check", entry.path().string()});
+    EXPECT_EQ(result.status, 1) << entry.path().filename() << "\n" << result.output;
+    EXPECT_NE(result.output.find(" error: "), std::string::npos) << entry.path().filename();
+    ++models;
+  }
+  EXPECT_GT(models, 100);
+}
+
 TEST(CommandLine, AFolderThatCannotBeMadeIsTheEnvironmentsFault) {
   const support::TemporaryFolder folder;
   const std::string file = folder.path() + "/file";
