@@ -112,7 +112,7 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
       passes::optimise(lower_functions(equations, result.functions), options.passes_off);
   result.module = std::move(optimised.module);
   result.passes = std::move(optimised.records);
-  result.omissions = find_omissions(mechanism, options, result);
+  result.omissions = find_omissions(mechanism, options, equations, result);
   validate_and_emit(mechanism, equations, options, result);
   return result;
 }

@@ -13,6 +13,7 @@ struct Switch {
   const char* name;
   const char* what;
   std::function<void(model::Mechanism&, CompileOptions&)> off;
+  bool only_pass = false;  ///< needs no other derivation
 };
 
 /// Simplifications that can be switched off one by one.
@@ -29,9 +30,9 @@ const std::vector<Switch>& switches() {
       {"snapped rotations", "rotations by multiples of a right angle are permutations",
        [](model::Mechanism& m, CompileOptions&) { m.snap = false; }},
       {"common factors", "factors that several terms of a sum share are multiplied once",
-       [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("factor"); }},
+       [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("factor"); }, true},
       {"parameter-only values", "values that depend on parameters alone are computed once, with the model",
-       [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("hoist"); }},
+       [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("hoist"); }, true},
   };
   return list;
 }
@@ -43,12 +44,13 @@ std::size_t forward_operations(const ir::Module& module) {
   return 0;
 }
 
-/// forward_dynamics on its own, with the options given.
-ir::Module forward_module(const model::Mechanism& mechanism, const CompileOptions& options) {
-  const auto equations = dynamics::derive_equations(mechanism, options.derivation);
-  return passes::optimise(lower_functions(equations, emit::with_needed({"forward_dynamics"})),
-                          options.passes_off)
-      .module;
+/// forward_dynamics on its own, before any pass.
+ir::Module forward_module(const dynamics::Equations& equations) {
+  return lower_functions(equations, emit::with_needed({"forward_dynamics"}));
+}
+
+std::size_t optimised_operations(const ir::Module& module, const CompileOptions& options) {
+  return forward_operations(passes::optimise(module, options.passes_off).module);
 }
 
 /// Joint elements and gravity that the scene does not have: nothing to count, they never came in.
@@ -79,14 +81,17 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
 }  // namespace
 
 std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const CompileOptions& options,
-                                     const CompiledModel& compiled) {
-  const long with = static_cast<long>(forward_operations(forward_module(mechanism, options)));
+                                     const dynamics::Equations& equations, const CompiledModel& compiled) {
+  const ir::Module lowered = forward_module(equations);
+  const long with = static_cast<long>(optimised_operations(lowered, options));
   std::vector<Omission> list;
   for (const Switch& s : switches()) {
     model::Mechanism other = mechanism;
     CompileOptions changed = options;
     s.off(other, changed);
-    const long without = static_cast<long>(forward_operations(forward_module(other, changed)));
+    const ir::Module module =
+        s.only_pass ? lowered : forward_module(dynamics::derive_equations(other, changed.derivation));
+    const long without = static_cast<long>(optimised_operations(module, changed));
     if (without != with) list.push_back({s.name, s.what, without - with});
   }
   for (const Omission& omission : absent(mechanism, compiled)) list.push_back(omission);

@@ -7,8 +7,9 @@
 
 namespace jourdain {
 
-/// Each saving is counted: the operations of forward_dynamics with the simplification off minus those of `compiled`.
+/// Each saving is counted: the operations of forward_dynamics with the simplification off minus those with all on.
+/// `equations` are the mechanism's with `options.derivation`.
 std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const CompileOptions& options,
-                                     const CompiledModel& compiled);
+                                     const dynamics::Equations& equations, const CompiledModel& compiled);
 
 }  // namespace jourdain

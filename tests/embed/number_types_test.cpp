@@ -8,7 +8,6 @@
 #include "embed/emitted_models.hpp"
 
 namespace jourdain::tests {
-namespace {
 
 /// Value and derivative with respect to one seed variable.
 struct Dual {
@@ -67,6 +66,8 @@ struct Pack {
     return each([&](std::size_t i) { return std::sqrt(a.v[i]); });
   }
 };
+
+namespace {
 
 template <class Model>
 typename Model::State after(int steps) {
