@@ -231,12 +231,12 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kal2o_y = kal1o_y + state.z[2] * state.z[0];
   const Real kal3p_x = s2 * kal2o_y;
   const Real kal3p_y = c2 * kal2o_y;
-  const Real kL2w12 = w2_z * w3pp_y;
   const Real kL2w00 = w3pp_x * w3pp_x;
-  const Real kL2w22 = w2_z * w2_z;
+  const Real kL2w01 = w3pp_x * w3pp_y;
   const Real kL2w02 = w2_z * w3pp_x;
   const Real kL2w11 = w3pp_y * w3pp_y;
-  const Real kL2w01 = w3pp_x * w3pp_y;
+  const Real kL2w12 = w2_z * w3pp_y;
+  const Real kL2w22 = w2_z * w2_z;
   const Real kL2U0_z = kal3p_y - kL2w02;
   const Real kL2U1_y = kL2w00 + kL2w22;
   const Real kL2U1_z = kal3p_x - kL2w12;
@@ -256,11 +256,11 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kal3o_x = kal3p_y - w2_z * state.z[3];
   const Real kal3o_y = w3pp_y * state.z[3];
   const Real kal4p_y = c3 * kal3o_y + s3 * kal3o_x;
+  const Real kL3w00 = w4pp_x * w4pp_x;
   const Real kL3w02 = w3_z * w4pp_x;
   const Real kL3w11 = w4pp_y * w4pp_y;
-  const Real kL3w00 = w4pp_x * w4pp_x;
   const Real kL3U0_z = kal4p_y - kL3w02;
-  const Real kL3U2_z = kL3w11 + kL3w00;
+  const Real kL3U2_z = kL3w00 + kL3w11;
   const Real ka4o_x = Real(0.4318) * kL3U0_z + (c3 * ka3o_y + s3 * ka3o_z);
   const Real ka4o_z = Real(0.4318) * kL3U2_z - (Real(0.0203) * kL2w01 - (Real(0.15005) * kL2U0_z + (c2 *
       ka2o_x - s2 * ka2o_y)));
@@ -457,12 +457,12 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bal2o_y = bal1o_y + state.z[2] * state.z[0];
   const Real bal3p_x = s2 * bal2o_y;
   const Real bal3p_y = c2 * bal2o_y;
-  const Real bL2w12 = w2_z * w3pp_y;
   const Real bL2w00 = w3pp_x * w3pp_x;
-  const Real bL2w22 = w2_z * w2_z;
+  const Real bL2w01 = w3pp_x * w3pp_y;
   const Real bL2w02 = w2_z * w3pp_x;
   const Real bL2w11 = w3pp_y * w3pp_y;
-  const Real bL2w01 = w3pp_x * w3pp_y;
+  const Real bL2w12 = w2_z * w3pp_y;
+  const Real bL2w22 = w2_z * w2_z;
   const Real bL2U0_z = bal3p_y - bL2w02;
   const Real bL2U1_y = bL2w00 + bL2w22;
   const Real bL2U1_z = bal3p_x - bL2w12;
@@ -482,11 +482,11 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bal3o_x = bal3p_y - w2_z * state.z[3];
   const Real bal3o_y = w3pp_y * state.z[3];
   const Real bal4p_y = c3 * bal3o_y + s3 * bal3o_x;
+  const Real bL3w00 = w4pp_x * w4pp_x;
   const Real bL3w02 = w3_z * w4pp_x;
   const Real bL3w11 = w4pp_y * w4pp_y;
-  const Real bL3w00 = w4pp_x * w4pp_x;
   const Real bL3U0_z = bal4p_y - bL3w02;
-  const Real bL3U2_z = bL3w11 + bL3w00;
+  const Real bL3U2_z = bL3w00 + bL3w11;
   const Real ba4o_x = Real(0.4318) * bL3U0_z + (c3 * ba3o_y + s3 * ba3o_z);
   const Real ba4o_z = Real(0.4318) * bL3U2_z - (Real(0.0203) * bL2w01 - (Real(0.15005) * bL2U0_z - (c2 *
       ba2o_x + s2 * ba2o_y)));
@@ -674,12 +674,12 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aal2o_z = zdot[1] + zdot[2];
   const Real aal3p_x = c2 * zdot[0] - s2 * aal2o_y;
   const Real aal3p_y = s2 * zdot[0] + c2 * aal2o_y;
-  const Real aL2w12 = w2_z * w3pp_y;
   const Real aL2w00 = w3pp_x * w3pp_x;
-  const Real aL2w22 = w2_z * w2_z;
+  const Real aL2w01 = w3pp_x * w3pp_y;
   const Real aL2w02 = w2_z * w3pp_x;
   const Real aL2w11 = w3pp_y * w3pp_y;
-  const Real aL2w01 = w3pp_x * w3pp_y;
+  const Real aL2w12 = w2_z * w3pp_y;
+  const Real aL2w22 = w2_z * w2_z;
   const Real aL2U0_y = aal2o_z + aL2w01;
   const Real aL2U0_z = aal3p_y - aL2w02;
   const Real aL2U1_y = aL2w00 + aL2w22;
@@ -699,11 +699,11 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aal3o_x = aal3p_y - w2_z * state.z[3];
   const Real aal3o_y = aal2o_z + w3pp_y * state.z[3];
   const Real aal4p_y = c3 * aal3o_y + s3 * aal3o_x;
+  const Real aL3w00 = w4pp_x * w4pp_x;
   const Real aL3w02 = w3_z * w4pp_x;
   const Real aL3w11 = w4pp_y * w4pp_y;
-  const Real aL3w00 = w4pp_x * w4pp_x;
   const Real aL3U0_z = aal4p_y - aL3w02;
-  const Real aL3U2_z = aL3w11 + aL3w00;
+  const Real aL3U2_z = aL3w00 + aL3w11;
   const Real aa4o_x = Real(0.4318) * aL3U0_z + (c3 * aa3o_y - s3 * aa3o_z);
   const Real aa4o_z = Real(0.4318) * aL3U2_z - (Real(0.0203) * aL2U0_y - (Real(0.15005) * aL2U0_z + (c2 *
       aa2o_x - s2 * aa2o_y)));

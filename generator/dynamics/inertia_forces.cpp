@@ -30,16 +30,17 @@ namespace {
 /// U = [α] + [ω][ω], so that points of a body at x from its origin have the acceleration a + U x.
 Matrix3 acceleration_gradient(const Vector3& omega, const Vector3& alpha, const std::string& name,
                               Statements& statements) {
-  const auto product = [&](std::size_t i, std::size_t j) {
-    return statements.bind(fmt::format("{}w{}{}", name, i, j), omega[i] * omega[j]);
-  };
+  Matrix3 products;  // ω ωᵀ, bound in a fixed order
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j)
+      products[i][j] = products[j][i] =
+          statements.bind(fmt::format("{}w{}{}", name, i, j), omega[i] * omega[j]);
   Matrix3 U;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    U[i][i] = -product(j, j) - product(k, k);
-    const std::size_t low = j < k ? j : k, high = j < k ? k : j;
-    U[j][k] = product(low, high) - alpha[i];
-    U[k][j] = product(low, high) + alpha[i];
+    U[i][i] = -products[j][j] - products[k][k];
+    U[j][k] = products[j][k] - alpha[i];
+    U[k][j] = products[j][k] + alpha[i];
   }
   for (std::size_t i = 0; i < 3; ++i) U[i] = statements.bind(fmt::format("{}U{}", name, i), U[i]);
   return U;
