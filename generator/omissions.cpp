@@ -59,13 +59,15 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
   list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
   list.push_back({"t", "nothing depends on time", 0});
   const auto none = [&](auto member) {
-    return std::all_of(mechanism.joints.begin(), mechanism.joints.end(),
-                       [member](const model::Joint& joint) { return (joint.*member).is_zero(); });
+    return std::all_of(mechanism.joints.begin(), mechanism.joints.end(), [member](const model::Joint& joint) {
+      return std::all_of(joint.coordinates.begin(), joint.coordinates.end(),
+                         [member](const model::Coordinate& c) { return (c.*member).is_zero(); });
+    });
   };
   const model::Vector3& g = mechanism.gravity;
   if (g[0].is_zero() && g[1].is_zero() && g[2].is_zero()) list.push_back({"gravity", "zero", 0});
-  if (none(&model::Joint::stiffness)) list.push_back({"springs", "none", 0});
-  if (none(&model::Joint::damping)) list.push_back({"dampers", "none", 0});
+  if (none(&model::Coordinate::stiffness)) list.push_back({"springs", "none", 0});
+  if (none(&model::Coordinate::damping)) list.push_back({"dampers", "none", 0});
   if (mechanism.actuators.empty()) list.push_back({"inputs", "none", 0});
   if (mechanism.parameters.empty()) list.push_back({"parameters", "all numbers are baked in", 0});
   std::string missing;

@@ -19,6 +19,20 @@ const char* type_name(model::JointType type) {
       return "revolute";
     case model::JointType::kPrismatic:
       return "prismatic";
+    case model::JointType::kScrew:
+      return "screw";
+    case model::JointType::kCylindrical:
+      return "cylindrical";
+    case model::JointType::kUniversal:
+      return "universal";
+    case model::JointType::kPlanar:
+      return "planar";
+    case model::JointType::kSpherical:
+      return "spherical";
+    case model::JointType::kFree:
+      return "free";
+    case model::JointType::kCurve:
+      return "curve";
   }
   return "";
 }

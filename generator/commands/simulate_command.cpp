@@ -130,7 +130,8 @@ class Simulation {
 
 bool conserves_energy(const model::Mechanism& mechanism, const std::vector<double>& input) {
   for (const model::Joint& joint : mechanism.joints)
-    if (!joint.damping.is_zero()) return false;
+    for (const model::Coordinate& coordinate : joint.coordinates)
+      if (!coordinate.damping.is_zero()) return false;
   for (double u : input)
     if (u != 0) return false;
   return true;

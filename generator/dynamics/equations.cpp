@@ -62,8 +62,8 @@ class Derivation {
     equations.potential_energy = potential_energy();
     for (model::JointIndex index : joints_) {
       const model::Joint& joint = mechanism_.joints[index.value];
-      equations.initial_position.push_back(bound("y_initial", joint.initial_position));
-      equations.initial_velocity.push_back(bound("z_initial", joint.initial_velocity));
+      equations.initial_position.push_back(bound("y_initial", joint.coordinates[0].initial_position));
+      equations.initial_velocity.push_back(bound("z_initial", joint.coordinates[0].initial_velocity));
     }
     equations.statements = std::move(statements_);
     return equations;
@@ -106,9 +106,10 @@ class Derivation {
   /// Springs and dampers of the joints, as part of q̄.
   Ex joint_element(std::size_t i) {
     const model::Joint& joint = mechanism_.joints[joints_[i].value];
-    const Ex stretch = statements_.bind(fmt::format("stretch{}", i), y_[i] - bound("rest", joint.rest));
-    const Ex stiffness = bound("stiffness", joint.stiffness);
-    const Ex damping = bound("damping", joint.damping);
+    const Ex stretch =
+        statements_.bind(fmt::format("stretch{}", i), y_[i] - bound("rest", joint.coordinates[0].rest));
+    const Ex stiffness = bound("stiffness", joint.coordinates[0].stiffness);
+    const Ex damping = bound("damping", joint.coordinates[0].damping);
     return stiffness * stretch + damping * z_[i];
   }
 
@@ -205,8 +206,9 @@ class Derivation {
             statements_.bind(name, first + (link.R_PL * moments.first + moments.mass * frames_.offset(i)));
       }
       const model::Joint& joint = mechanism_.joints[joints_[i].value];
-      const Ex stretch = statements_.bind(fmt::format("stretch{}", i), y_[i] - bound("rest", joint.rest));
-      springs = springs + bound("half_stiffness", joint.stiffness) / 2 * stretch * stretch;
+      const Ex stretch =
+          statements_.bind(fmt::format("stretch{}", i), y_[i] - bound("rest", joint.coordinates[0].rest));
+      springs = springs + bound("half_stiffness", joint.coordinates[0].stiffness) / 2 * stretch * stretch;
     }
     return statements_.bind("V", springs - kinematics::dot(tree_.gravity, first));
   }

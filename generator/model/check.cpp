@@ -52,9 +52,10 @@ class NumberCheck {
     values(joint.placement.position, joint.where, "position " + name);
     values(joint.placement.rotation.rpy, first_known(joint.placement.rotation.where, joint.where),
            "rpy " + name);
-    values({joint.stiffness, joint.rest, joint.damping}, joint.where, "stiffness, rest or damping " + name);
-    values({joint.initial_position, joint.initial_velocity, Expression(0.0)}, joint.where,
-           "initial state " + name);
+    for (const Coordinate& c : joint.coordinates) {
+      values({c.stiffness, c.rest, c.damping}, joint.where, "stiffness, rest or damping " + name);
+      values({c.initial_position, c.initial_velocity, Expression(0.0)}, joint.where, "initial state " + name);
+    }
     if (joint.type == JointType::kFixed) return;
     const SourceRange where = first_known(joint.axis_where, joint.where);
     const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);

@@ -1,5 +1,7 @@
 #include "model/expression.hpp"
 
+#include <algorithm>
+
 namespace jourdain::model {
 
 namespace {
@@ -23,6 +25,7 @@ double folded(const std::vector<Node>& nodes, const Node& operation) {
   switch (operation.op) {
     case Op::kLiteral:
     case Op::kParameter:
+    case Op::kVariable:
       break;
     case Op::kNegate:
       return -value(operation.left);
@@ -59,6 +62,16 @@ Expression Expression::parameter(ParameterIndex index) {
   Expression result;
   result.nodes_ = {Node{.op = Op::kParameter, .parameter = index}};
   return result;
+}
+
+Expression Expression::variable(const Variable& variable) {
+  Expression result;
+  result.nodes_ = {Node{.op = Op::kVariable, .variable = variable}};
+  return result;
+}
+
+bool Expression::has_no_variable() const {
+  return std::none_of(nodes_.begin(), nodes_.end(), [](const Node& n) { return n.op == Op::kVariable; });
 }
 
 double Expression::constant() const {

@@ -16,15 +16,35 @@ namespace jourdain::model {
 
 using ParameterIndex = support::Index<struct ParameterTag>;
 
-/// A number that may depend on tunable parameters. Operands come before their operator, the last node is the value;
+/// A quantity that changes as the mechanism moves. What an expression may refer to depends on where it stands.
+struct Variable {
+  enum class Kind {
+    kTime,           ///< t, s
+    kPosition,       ///< scalar coordinate `component` of joint `index`, prescribed ones too
+    kVelocity,       ///< its rate
+    kInput,          ///< u[index]
+    kFramePosition,  ///< component x, y, z of the origin of frame `index`, inertial frame, m
+    kFrameVelocity,  ///< its velocity, inertial frame, m/s
+    kFrameSpin,      ///< component of the frame's angular velocity, in its own axes, rad/s
+    kArgument  ///< what the expression is a function of: a curve's coordinate; a spring's length (0), rate (1)
+  };
+  Kind kind = Kind::kTime;
+  std::size_t index = 0;
+  std::size_t component = 0;
+
+  bool operator==(const Variable&) const = default;
+};
+
+/// A number that may depend on tunable parameters and on variables. Operands come before their operator, the last node is the value;
 /// a node may be the operand of several.
-/// Subexpressions without parameters are folded to one double on construction: a model's numbers are rounded to
+/// Subexpressions without either are folded to one double on construction: a model's numbers are rounded to
 /// double once, on reading. Exact identities are applied: 1*x = x, x+0 = x, 0*x = 0, -(-x) = x, x^1 = x, x^0 = 1.
 class Expression {
  public:
   enum class Op {
     kLiteral,
     kParameter,
+    kVariable,
     kNegate,
     kAdd,
     kSubtract,
@@ -39,6 +59,7 @@ class Expression {
     Op op = Op::kLiteral;
     double value = 0;               ///< kLiteral
     ParameterIndex parameter = {};  ///< kParameter
+    Variable variable = {};         ///< kVariable
     int exponent = 0;               ///< kPower: integer exponent
     std::size_t left = 0;           ///< operand (unary) or left operand
     std::size_t right = 0;
@@ -48,6 +69,7 @@ class Expression {
   Expression(double value)
       : nodes_{Node{.op = Op::kLiteral, .value = value}} {}  // NOLINT: numbers are expressions
   static Expression parameter(ParameterIndex index);
+  static Expression variable(const Variable& variable);
   static Expression unary(Op op, const Expression& operand);
   static Expression binary(Op op, const Expression& left, const Expression& right);
   static Expression power(const Expression& base, int exponent);
@@ -55,16 +77,25 @@ class Expression {
   static Expression tangent(const Expression& operand);
 
   bool is_constant() const { return nodes_.size() == 1 && nodes_[0].op == Op::kLiteral; }
-  /// The value of an expression without parameters.
+  /// Refers to no variable.
+  bool has_no_variable() const;
+  /// The value of an expression without parameters and variables.
   double constant() const;
   bool is_zero() const { return is_constant() && constant() == 0; }
   const std::vector<Node>& nodes() const { return nodes_; }
 
   /// Value in the arithmetic of `T` (double, long double, GiNaC::ex, …) with the given parameter values; `sqrt`,
   /// `sin`, `cos` are found by argument-dependent lookup (the standard ones for built-in types). `literal` turns a
-  /// double into a T.
+  /// double into a T, `variable` a Variable.
+  template <class T, class Literal, class VariableValue>
+  T evaluate(std::span<const T> parameters, Literal&& literal, VariableValue&& variable) const;
+  /// Without variables.
   template <class T, class Literal>
-  T evaluate(std::span<const T> parameters, Literal&& literal) const;
+  T evaluate(std::span<const T> parameters, Literal&& literal) const {
+    return evaluate<T>(parameters, literal, [](const Variable&) -> T {
+      throw support::InternalError("an expression without variables has one");
+    });
+  }
   template <class T>
   T evaluate(std::span<const T> parameters) const {
     return evaluate<T>(parameters, [](double v) { return T(v); });
@@ -91,8 +122,8 @@ inline constexpr int kMaximumExpressionDepth = 100;
 std::variant<Expression, ExpressionError> parse_expression(std::string_view text,
                                                            const std::vector<std::string>& parameter_names);
 
-template <class T, class Literal>
-T Expression::evaluate(std::span<const T> parameters, Literal&& literal) const {
+template <class T, class Literal, class VariableValue>
+T Expression::evaluate(std::span<const T> parameters, Literal&& literal, VariableValue&& variable) const {
   using std::cos;
   using std::sin;
   using std::sqrt;
@@ -106,6 +137,9 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal) const {
       case Op::kParameter:
         JD_CHECK(node.parameter.value < parameters.size(), "parameter {}", node.parameter.value);
         values.push_back(parameters[node.parameter.value]);
+        break;
+      case Op::kVariable:
+        values.push_back(T(variable(node.variable)));
         break;
       case Op::kNegate:
         values.push_back(T(-values[node.left]));

@@ -17,8 +17,7 @@ using support::shown;
 
 void lock(Mechanism& mechanism, std::size_t j) {
   Joint& joint = mechanism.joints[j];
-  joint.type = JointType::kFixed;
-  joint.stiffness = joint.rest = joint.damping = joint.initial_position = joint.initial_velocity = 0.0;
+  joint.set_type(JointType::kFixed);
   std::erase_if(mechanism.actuators,
                 [&](const Actuator& actuator) { return actuator.joint == JointIndex(j); });
 }

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/expression.hpp"
@@ -59,30 +61,162 @@ struct Body {
   SourceRange inertia_where = {};  ///< of the inertia or shape; line 0: use `where`
 };
 
-enum class JointType { kFixed, kRevolute, kPrismatic };
+enum class JointType {
+  kFixed,
+  kRevolute,
+  kPrismatic,
+  kScrew,        ///< turns about `axis` by y and moves along it by `pitch` y
+  kCylindrical,  ///< (angle about `axis`, displacement along it)
+  kUniversal,    ///< (angle about `axis`, then angle about `second_axis`, which is fixed in the turned frame)
+  kPlanar,  ///< (displacements along the two directions of `plane_axes`, then angle about the normal `axis`)
+  kSpherical,  ///< unit quaternion (w, x, y, z), child to joint frame; z: angular velocity relative to the parent,
+               ///< child components
+  kFree,       ///< parent is the world, no placement: position, quaternion; z: velocity of the child's origin
+               ///< (inertial frame), ω (child components)
+  kCurve       ///< the child's origin is at `curve`(y) in the joint frame; the child does not turn
+};
 
-/// A joint; the child body's frame is the joint frame, moved by the joint's coordinate about or along `axis`.
+/// One scalar coordinate of a joint. Force on it: −stiffness (y − rest) − damping z − friction z/√(z² + friction_speed²).
+struct Coordinate {
+  std::string
+      name;  ///< of the entry in y and z: the joint's name, for several coordinates "<joint>_<suffix>"
+  bool angular = true;               ///< rad, otherwise m
+  Expression stiffness;              ///< N m/rad or N/m
+  Expression rest;                   ///< rad or m
+  Expression damping;                ///< N m s/rad or N s/m
+  Expression friction;               ///< Coulomb friction, N m or N
+  Expression friction_speed = 1e-3;  ///< speed over which its sign is smoothed, rad/s or m/s
+  Expression initial_position;       ///< rad or m
+  Expression initial_velocity;       ///< rad/s or m/s
+  std::optional<Expression>
+      motion;  ///< of time and parameters: the coordinate is prescribed, no part of y and z
+  SourceRange motion_where = {};
+};
+
+/// Suffixes of the coordinates' names and whether they are angles, in order; one without suffix for joints with one
+/// coordinate, none for fixed, spherical and free joints.
+struct CoordinateKind {
+  std::string_view suffix;
+  bool angular = true;
+};
+std::span<const CoordinateKind> coordinate_kinds(JointType type);
+
+/// A joint; the child body's frame is the joint frame, moved by the joint's coordinates.
 struct Joint {
   std::string name;
   JointType type = JointType::kFixed;
   std::optional<BodyIndex> parent;  ///< none: the world (inertial frame)
   BodyIndex child;
-  Placement placement;                  ///< joint frame in the parent body's frame, at coordinate zero
-  std::array<double, 3> axis{0, 0, 1};  ///< in the joint frame, not normalised; as read
-  Expression stiffness;                 ///< N m/rad or N/m; force −stiffness (y − rest)
-  Expression rest;                      ///< rad or m
-  Expression damping;                   ///< N m s/rad or N s/m; force −damping z
-  Expression initial_position;          ///< rad or m
-  Expression initial_velocity;          ///< rad/s or m/s
+  Placement placement;                         ///< joint frame in the parent body's frame, at coordinate zero
+  std::array<double, 3> axis{0, 0, 1};         ///< in the joint frame, not normalised; as read
+  std::array<double, 3> second_axis{1, 0, 0};  ///< universal; in the frame turned about `axis`
+  Expression pitch;                            ///< screw, m/rad
+  Vector3 curve;                               ///< curve, m: functions of argument 0
+  std::vector<Coordinate> coordinates;         ///< as `coordinate_kinds` says
+  std::array<Expression, 4> initial_orientation{1.0, 0.0, 0.0, 0.0};  ///< spherical, free: (w, x, y, z)
+  Vector3 initial_spin;                                               ///< spherical, free: ω, rad/s
+  Expression spin_damping;          ///< spherical: moment −spin_damping ω, N m s/rad
+  Vector3 initial_origin;           ///< free: m, inertial frame
+  Vector3 initial_origin_velocity;  ///< free: m/s, inertial frame
   SourceRange where = {};
   SourceRange child_where = {};  ///< of the child's name; line 0: use `where`
   SourceRange axis_where = {};   ///< of the axis; line 0: use `where`
+
+  /// Sets the type and makes the coordinates that belong to it, all values zero, named after the joint.
+  void set_type(JointType new_type);
 };
 
-/// A generalized force on one joint's coordinate, given at run time.
+/// The two directions in which a planar joint with unit normal `n` slides, orthogonal to it and each other: the next
+/// two axes of the joint frame where the normal is one of them, otherwise (e_z × n)/|e_z × n| and n × that.
+std::array<std::array<double, 3>, 2> plane_axes(const std::array<double, 3>& unit_normal);
+
+using FrameIndex = support::Index<struct FrameTag>;
+
+/// A named frame fixed to a body or to the world; springs, loads and outputs refer to it.
+struct Frame {
+  std::string name;
+  std::optional<BodyIndex> body;  ///< none: the world
+  Placement placement;            ///< in the body's frame
+  SourceRange where = {};
+};
+
+/// A generalized force on one scalar coordinate, given at run time: gear_ratio times the input. The rotor adds
+/// gear_ratio² rotor_inertia to the mass matrix (its gyroscopic coupling is neglected).
 struct Actuator {
+  std::string name;  ///< of the input
+  JointIndex joint;
+  std::size_t coordinate = 0;  ///< of the joint
+  Expression gear_ratio = 1.0;
+  Expression rotor_inertia;  ///< kg m² (kg along a prismatic coordinate), before the gear
+  SourceRange where = {};
+};
+
+/// An input that only expressions use.
+struct Input {
+  std::string name;
+  std::string unit;
+  std::string description;
+  SourceRange where = {};
+};
+
+enum class LoadAxes { kFrame, kWorld };
+
+/// A force at the origin of a frame and a free moment on its body. Components are expressions of time, coordinates,
+/// velocities, inputs and frames.
+struct Load {
+  std::string name;
+  FrameIndex frame;
+  LoadAxes axes = LoadAxes::kFrame;
+  Vector3 force;   ///< N
+  Vector3 moment;  ///< N m
+  SourceRange where = {};
+};
+
+/// A spring-damper between the origins of two frames on different bodies. Tension (pulls the ends together), N:
+/// stiffness (l − free_length) + damping dl/dt + law(l, dl/dt), with l = √(|Δr|² + kLengthSmoothing²).
+struct Spring {
+  std::string name;
+  FrameIndex from, to;
+  Expression stiffness;                 ///< N/m
+  Expression damping;                   ///< N s/m
+  Expression free_length;               ///< m
+  Expression law;                       ///< of arguments 0 (length, m) and 1 (rate, m/s); N
+  std::optional<Expression> potential;  ///< of argument 0: energy of the law's conservative part, J
+  SourceRange where = {};
+};
+
+/// Keeps the direction of a point-to-point force defined at zero length, m.
+inline constexpr double kLengthSmoothing = 1e-9;
+
+/// A generalized force on one scalar coordinate: an expression of time, coordinates, velocities, inputs and frames.
+struct CoordinateForce {
   std::string name;
   JointIndex joint;
+  std::size_t coordinate = 0;
+  Expression force;  ///< N m or N; positive pushes forward
+  SourceRange where = {};
+};
+
+enum class OutputKind {
+  kPose,          ///< position (m, inertial frame) and rotation matrix (frame to inertial) of a frame
+  kVelocity,      ///< v (inertial frame) and ω (frame components) of a frame
+  kAcceleration,  ///< a (inertial frame) and ω̇ (frame components) of a frame
+  kJacobian,  ///< J_t, J_r (3 × nz) and v̄, ω̄, ā, ζ̄ of a frame: v = J_t z + v̄, a = J_t ż + ā, ω and ω̇ alike
+  kReaction,  ///< force and moment that a joint transmits to its child (everything, drives and joint springs
+              ///< too), at the child's origin, child components
+  kDrive,     ///< force or torque that a prescribed coordinate's motion needs
+  kKineticEnergy,    ///< J
+  kPotentialEnergy,  ///< J
+  kExpression        ///< any expression of time, coordinates, velocities, inputs and frames
+};
+
+struct Output {
+  std::string name;  ///< a C++ identifier
+  OutputKind kind = OutputKind::kExpression;
+  FrameIndex frame;            ///< kPose to kJacobian
+  JointIndex joint;            ///< kReaction, kDrive
+  std::size_t coordinate = 0;  ///< kDrive
+  Expression value;            ///< kExpression
   SourceRange where = {};
 };
 
@@ -94,7 +228,13 @@ struct Mechanism {
   std::vector<Parameter> parameters;
   std::vector<Body> bodies;
   std::vector<Joint> joints;  ///< as declared
+  std::vector<Frame> frames;
   std::vector<Actuator> actuators;
+  std::vector<Input> inputs;
+  std::vector<Load> loads;
+  std::vector<Spring> springs;
+  std::vector<CoordinateForce> coordinate_forces;
+  std::vector<Output> outputs;
   /// Constant rotation matrices whose entries lie within kSnapTolerance of 0 or ±1 are read as those exact values.
   bool snap = true;
 };
@@ -105,7 +245,7 @@ inline constexpr double kSnapTolerance = 1e-9;
 /// the coordinates (joints of type kFixed have none). The mechanism must have passed `check_mechanism`.
 std::vector<JointIndex> depth_first(const Mechanism& mechanism);
 
-/// Those of `depth_first` that have a coordinate: entry i belongs to y[i] and z[i].
+/// Those of `depth_first` that are not fixed.
 std::vector<JointIndex> moving_joints(const Mechanism& mechanism);
 
 }  // namespace jourdain::model

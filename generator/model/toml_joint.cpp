@@ -49,10 +49,10 @@ class JointReader {
     if (!table_.has("type")) table_.missing("type", "revolute, prismatic or fixed");
     const auto type = table_.choice("type", {"fixed", "revolute", "prismatic"});
     if (!type || !table_.has("type")) {
-      joint.type = JointType::kRevolute;
+      joint.set_type(JointType::kRevolute);
       return false;
     }
-    joint.type = static_cast<JointType>(*type);
+    joint.set_type(static_cast<JointType>(*type));
     return true;
   }
 
@@ -83,11 +83,13 @@ class JointReader {
   void read_motion(Joint& joint) {
     joint.axis = table_.constant_vector("axis", joint.axis);
     joint.axis_where = table_.where("axis");
-    joint.stiffness = table_.number("stiffness");
-    joint.rest = table_.number("rest");
-    joint.damping = table_.number("damping");
-    joint.initial_position = table_.number("initial_position");
-    joint.initial_velocity = table_.number("initial_velocity");
+    for (Coordinate& coordinate : joint.coordinates) {
+      coordinate.stiffness = table_.number("stiffness");
+      coordinate.rest = table_.number("rest");
+      coordinate.damping = table_.number("damping");
+      coordinate.initial_position = table_.number("initial_position");
+      coordinate.initial_velocity = table_.number("initial_velocity");
+    }
     if (joint.type != JointType::kFixed) return;
     for (const char* key : kMotionKeys)
       if (table_.has(key)) table_.error(key, fmt::format("{} is fixed and has no '{}'", table_.what(), key));
@@ -126,7 +128,10 @@ std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
     if (!joint) continue;
     if (joints[*joint].type == JointType::kFixed)
       table.error("joint", fmt::format("joint '{}' is fixed and takes no force", shown(*joint_name)));
-    Actuator actuator{table.text("name").value_or(*joint_name), JointIndex(*joint), table.where("joint")};
+    Actuator actuator{.name = table.text("name").value_or(*joint_name),
+                      .joint = JointIndex(*joint),
+                      .rotor_inertia = 0.0,
+                      .where = table.where("joint")};
     if (table.has("name")) actuator.where = table.where("name");
     if (table.has("name")) check_identifier(file, actuator.where, "actuator", actuator.name);
     if (is_new_name(file, actuator.where, "actuators", actuator.name, actuators))

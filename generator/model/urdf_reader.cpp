@@ -110,7 +110,7 @@ class UrdfReader {
     joint.name = name.value_or("");
     joint.where = file_.value(element, "name");
     const std::optional<JointType> type = joint_type(element, joint.name);
-    joint.type = type.value_or(JointType::kFixed);
+    joint.set_type(type.value_or(JointType::kFixed));
     joint.parent = end(element, "parent", joint);
     const std::optional<BodyIndex> child = end(element, "child", joint);
     joint.placement = file_.origin(element);
@@ -121,7 +121,10 @@ class UrdfReader {
     }
     joint.child = *child;
     if (joint.type != JointType::kFixed)
-      mechanism_.actuators.push_back({joint.name, JointIndex(mechanism_.joints.size()), joint.where});
+      mechanism_.actuators.push_back({.name = joint.name,
+                                      .joint = JointIndex(mechanism_.joints.size()),
+                                      .rotor_inertia = 0.0,
+                                      .where = joint.where});
     mechanism_.joints.push_back(std::move(joint));
   }
 
@@ -175,7 +178,7 @@ class UrdfReader {
     if (const XmlElement* dynamics = file_.child(element, "dynamics")) {
       const double damping = file_.number(*dynamics, "damping", 0);
       const double friction = file_.number(*dynamics, "friction", 0);
-      if (options_.damping) joint.damping = damping;
+      if (options_.damping) joint.coordinates[0].damping = damping;
       if (friction != 0 && !locked && ++joints_with_friction_ == 1) {
         first_friction_ = joint.name;
         first_friction_where_ = file_.value(*dynamics, "friction");

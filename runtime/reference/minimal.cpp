@@ -80,6 +80,7 @@ typename Reference<Scalar>::Joint Reference<Scalar>::joint_value(const model::Jo
                                                                  std::span<const Scalar> parameters,
                                                                  bool snap) {
   const auto value = [&](const model::Expression& expression) { return expression.evaluate(parameters); };
+  const model::Coordinate coordinate = joint.coordinates.empty() ? model::Coordinate() : joint.coordinates[0];
   const Vector3<Scalar> axis{Scalar(joint.axis[0]), Scalar(joint.axis[1]), Scalar(joint.axis[2])};
   return {.type = joint.type,
           .parent = joint.parent ? std::ptrdiff_t(joint.parent->value) : -1,
@@ -88,11 +89,11 @@ typename Reference<Scalar>::Joint Reference<Scalar>::joint_value(const model::Jo
           .R_PJ = rotation_value(joint.placement.rotation, parameters, snap),
           .p_PJ = vector_value(joint.placement.position, parameters),
           .axis = axis.stableNormalized(),
-          .stiffness = value(joint.stiffness),
-          .rest = value(joint.rest),
-          .damping = value(joint.damping),
-          .initial_position = value(joint.initial_position),
-          .initial_velocity = value(joint.initial_velocity)};
+          .stiffness = value(coordinate.stiffness),
+          .rest = value(coordinate.rest),
+          .damping = value(coordinate.damping),
+          .initial_position = value(coordinate.initial_position),
+          .initial_velocity = value(coordinate.initial_velocity)};
 }
 
 template <class Scalar>

@@ -12,7 +12,7 @@ Mechanism welded(std::vector<Body> bodies, const Vector3& offset = {}) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Joint joint;
     joint.name = "j" + std::to_string(i);
-    joint.type = i == 0 ? JointType::kRevolute : JointType::kFixed;
+    joint.set_type(i == 0 ? JointType::kRevolute : JointType::kFixed);
     if (i > 0) {
       joint.parent = BodyIndex(i - 1);
       joint.placement.position = offset;
@@ -120,7 +120,7 @@ TEST(DepthFirst, ListsParentsBeforeChildrenAndSiblingsAsDeclared) {
   mechanism.bodies.resize(5);
   const auto add = [&](std::optional<std::size_t> parent, std::size_t child, JointType type) {
     Joint joint;
-    joint.type = type;
+    joint.set_type(type);
     if (parent) joint.parent = BodyIndex(*parent);
     joint.child = BodyIndex(child);
     mechanism.joints.push_back(joint);

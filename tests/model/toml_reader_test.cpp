@@ -118,11 +118,11 @@ TEST(ReadToml, TakesAJointAndItsActuator) {
   EXPECT_EQ(value(m, hinge.placement.position[1]), 0.5);
   EXPECT_DOUBLE_EQ(hinge.placement.rotation.rpy[0].constant(), 1.5707963267948966);
   EXPECT_DOUBLE_EQ(hinge.axis[0], 0.70710678118654752);
-  EXPECT_EQ(hinge.stiffness.constant(), 5);
-  EXPECT_EQ(hinge.rest.constant(), 0.1);
-  EXPECT_EQ(hinge.damping.constant(), 0.2);
-  EXPECT_EQ(hinge.initial_position.constant(), 0.3);
-  EXPECT_EQ(hinge.initial_velocity.constant(), 0.4);
+  EXPECT_EQ(hinge.coordinates[0].stiffness.constant(), 5);
+  EXPECT_EQ(hinge.coordinates[0].rest.constant(), 0.1);
+  EXPECT_EQ(hinge.coordinates[0].damping.constant(), 0.2);
+  EXPECT_EQ(hinge.coordinates[0].initial_position.constant(), 0.3);
+  EXPECT_EQ(hinge.coordinates[0].initial_velocity.constant(), 0.4);
   ASSERT_EQ(m.actuators.size(), 1u);
   EXPECT_EQ(m.actuators[0].name, "motor");
   EXPECT_EQ(m.actuators[0].joint, JointIndex(0));
@@ -177,7 +177,7 @@ TEST(ReadToml, LocksJoints) {
       read_cleanly(bodies + hinge("a") + hinge("b", "a") + "stiffness = 4\n[[actuator]]\njoint = \"to_b\"\n",
                    {.locked_joints = {"to_b"}});
   EXPECT_EQ(m.joints[1].type, JointType::kFixed);
-  EXPECT_TRUE(m.joints[1].stiffness.is_zero());
+  EXPECT_TRUE(m.joints[1].coordinates.empty());
   EXPECT_TRUE(m.actuators.empty());
   EXPECT_EQ(moving_joints(m).size(), 1u);
 }

@@ -73,7 +73,7 @@ TEST(ReadUrdf, TakesJointsAndActuatesThoseThatMove) {
   EXPECT_EQ(m.joints[0].axis, (std::array<double, 3>{1, 0, 0}));
   EXPECT_EQ(m.joints[0].placement.position[2].constant(), 3);
   EXPECT_EQ(m.joints[0].placement.rotation.rpy[0].constant(), 0.1);
-  EXPECT_EQ(m.joints[0].damping.constant(), 0.5);
+  EXPECT_EQ(m.joints[0].coordinates[0].damping.constant(), 0.5);
   EXPECT_EQ(m.joints[1].type, JointType::kPrismatic);
   EXPECT_EQ(m.joints[1].axis, (std::array<double, 3>{0, -1, 0}));
   EXPECT_EQ(m.joints[2].type, JointType::kFixed);
@@ -92,7 +92,7 @@ TEST(ReadUrdf, FixesTheRootToTheWorld) {
 }
 
 TEST(ReadUrdf, LeavesDampingOutOnRequest) {
-  EXPECT_TRUE(read_cleanly(kArm, {.damping = false}).joints[0].damping.is_zero());
+  EXPECT_TRUE(read_cleanly(kArm, {.damping = false}).joints[0].coordinates[0].damping.is_zero());
 }
 
 TEST(ReadUrdf, LocksJoints) {

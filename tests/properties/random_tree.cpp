@@ -201,7 +201,7 @@ class Draw {
   model::Joint joint(std::size_t child) {
     model::Joint joint;
     joint.name = fmt::format("joint{}", child);
-    joint.type = joint_type(child);
+    joint.set_type(joint_type(child));
     joint.parent = parent_of(child);
     joint.child = model::BodyIndex(child);
     if (random_.chance(0.8))
@@ -213,11 +213,11 @@ class Draw {
       joint.axis = {0, 0, 1};
       return joint;
     }
-    if (random_.chance(0.3)) joint.stiffness = tuned(random_.uniform(0, 50));
-    if (random_.chance(0.3)) joint.rest = tuned(random_.uniform(-1, 1));
-    if (random_.chance(0.3)) joint.damping = tuned(random_.uniform(0, 2));
-    joint.initial_position = tuned(random_.uniform(-1, 1));
-    joint.initial_velocity = random_.uniform(-1, 1);
+    if (random_.chance(0.3)) joint.coordinates[0].stiffness = tuned(random_.uniform(0, 50));
+    if (random_.chance(0.3)) joint.coordinates[0].rest = tuned(random_.uniform(-1, 1));
+    if (random_.chance(0.3)) joint.coordinates[0].damping = tuned(random_.uniform(0, 2));
+    joint.coordinates[0].initial_position = tuned(random_.uniform(-1, 1));
+    joint.coordinates[0].initial_velocity = random_.uniform(-1, 1);
     return joint;
   }
 

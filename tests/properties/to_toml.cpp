@@ -40,6 +40,8 @@ class Writer {
         return fmt::format("({})", number(node.value));
       case Expression::Op::kParameter:
         return mechanism_.parameters[node.parameter.value].name;
+      case Expression::Op::kVariable:
+        return "t";
       case Expression::Op::kNegate:
         return fmt::format("(-{})", side(node.left));
       case Expression::Op::kAdd:
@@ -92,11 +94,13 @@ class Writer {
     text_ += fmt::format("position = {}\nrpy = {}\n", vector(joint.placement.position),
                          vector(joint.placement.rotation.rpy));
     if (joint.type == model::JointType::kFixed) return;
-    text_ += fmt::format("axis = [{}, {}, {}]\nstiffness = {}\nrest = {}\ndamping = {}\n",
-                         number(joint.axis[0]), number(joint.axis[1]), number(joint.axis[2]),
-                         value(joint.stiffness), value(joint.rest), value(joint.damping));
-    text_ += fmt::format("initial_position = {}\ninitial_velocity = {}\n", value(joint.initial_position),
-                         value(joint.initial_velocity));
+    text_ +=
+        fmt::format("axis = [{}, {}, {}]\nstiffness = {}\nrest = {}\ndamping = {}\n", number(joint.axis[0]),
+                    number(joint.axis[1]), number(joint.axis[2]), value(joint.coordinates[0].stiffness),
+                    value(joint.coordinates[0].rest), value(joint.coordinates[0].damping));
+    text_ += fmt::format("initial_position = {}\ninitial_velocity = {}\n",
+                         value(joint.coordinates[0].initial_position),
+                         value(joint.coordinates[0].initial_velocity));
   }
 
   const model::Mechanism& mechanism_;

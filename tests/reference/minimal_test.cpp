@@ -33,7 +33,7 @@ model::Mechanism point_mass_chain(const std::vector<double>& masses, const std::
     body.center_of_mass = {0.0, -lengths[i], 0.0};
     mechanism.bodies.push_back(body);
     model::Joint joint;
-    joint.type = JointType::kRevolute;
+    joint.set_type(JointType::kRevolute);
     joint.child = model::BodyIndex(i);
     if (i > 0) {
       joint.parent = model::BodyIndex(i - 1);
@@ -132,9 +132,9 @@ TEST(MinimalReference, GivesTheCartPoleAccelerations) {
   mechanism.bodies[1].center_of_mass = {0.0, 0.0, l};
   mechanism.bodies[1].inertia.xx = mechanism.bodies[1].inertia.yy = mp * l * l / 3;
   mechanism.joints.resize(2);
-  mechanism.joints[0].type = JointType::kPrismatic;
+  mechanism.joints[0].set_type(JointType::kPrismatic);
   mechanism.joints[0].axis = {3, 0, 0};
-  mechanism.joints[1].type = JointType::kRevolute;
+  mechanism.joints[1].set_type(JointType::kRevolute);
   mechanism.joints[1].axis = {0, 0.5, 0};
   mechanism.joints[1].parent = model::BodyIndex(0);
   mechanism.joints[1].child = model::BodyIndex(1);
@@ -154,9 +154,9 @@ TEST(MinimalReference, GivesTheCartPoleAccelerations) {
 TEST(MinimalReference, HoldsSpringsDampersAndInputsWithTheSignsOfTheDesign) {
   model::Mechanism mechanism = point_mass_chain({1}, {1});
   mechanism.gravity = {};
-  mechanism.joints[0].stiffness = 10.0;
-  mechanism.joints[0].rest = 0.5;
-  mechanism.joints[0].damping = 3.0;
+  mechanism.joints[0].coordinates[0].stiffness = 10.0;
+  mechanism.joints[0].coordinates[0].rest = 0.5;
+  mechanism.joints[0].coordinates[0].damping = 3.0;
   mechanism.actuators.resize(1);
   const VectorX<double> u = VectorX<double>::Constant(1, 7);
   const Terms<double> terms = Reference<double>(mechanism).evaluate(state_of({0.7}, {2.0}), u);
@@ -264,7 +264,7 @@ TEST(MinimalReference, EnergyChangesByThePowerOfInputsAndDampers) {
     Long power = 0;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const Long rate = random.z[Eigen::Index(i)];
-      const model::Expression& damping = random.mechanism.joints[joints[i].value].damping;
+      const model::Expression& damping = random.mechanism.joints[joints[i].value].coordinates[0].damping;
       power -= rate * rate * damping.evaluate<Long>(parameters);
       for (std::size_t a = 0; a < random.mechanism.actuators.size(); ++a)
         if (random.mechanism.actuators[a].joint == joints[i]) power += rate * random.u[Eigen::Index(a)];

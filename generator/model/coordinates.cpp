@@ -1,0 +1,122 @@
+#include "model/coordinates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace jourdain::model {
+
+namespace {
+
+constexpr CoordinateKind kAngle[] = {{"", true}};
+constexpr CoordinateKind kDisplacement[] = {{"", false}};
+constexpr CoordinateKind kCylindrical[] = {{"angle", true}, {"slide", false}};
+constexpr CoordinateKind kUniversal[] = {{"first", true}, {"second", true}};
+constexpr CoordinateKind kPlanar[] = {{"x", false}, {"y", false}, {"angle", true}};
+
+bool depends_on_time(const Expression& expression) {
+  return std::any_of(expression.nodes().begin(), expression.nodes().end(), [](const Expression::Node& node) {
+    return node.op == Expression::Op::kVariable && node.variable.kind == Variable::Kind::kTime;
+  });
+}
+
+bool depends_on_time(const Mechanism& mechanism) {
+  for (const Joint& joint : mechanism.joints)
+    for (const Coordinate& coordinate : joint.coordinates)
+      if (coordinate.motion) return true;
+  for (const Load& load : mechanism.loads)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (depends_on_time(load.force[i]) || depends_on_time(load.moment[i])) return true;
+  for (const CoordinateForce& force : mechanism.coordinate_forces)
+    if (depends_on_time(force.force)) return true;
+  return false;
+}
+
+/// Appends "<joint>_<suffix>" for each suffix.
+void add_names(std::vector<std::string>& names, const Joint& joint,
+               std::initializer_list<const char*> suffixes) {
+  for (const char* suffix : suffixes) names.push_back(fmt::format("{}_{}", joint.name, suffix));
+}
+
+}  // namespace
+
+std::span<const CoordinateKind> coordinate_kinds(JointType type) {
+  switch (type) {
+    case JointType::kFixed:
+    case JointType::kSpherical:
+    case JointType::kFree:
+      return {};
+    case JointType::kRevolute:
+    case JointType::kScrew:
+      return kAngle;
+    case JointType::kPrismatic:
+    case JointType::kCurve:
+      return kDisplacement;
+    case JointType::kCylindrical:
+      return kCylindrical;
+    case JointType::kUniversal:
+      return kUniversal;
+    case JointType::kPlanar:
+      return kPlanar;
+  }
+  return {};
+}
+
+void Joint::set_type(JointType new_type) {
+  type = new_type;
+  coordinates.clear();
+  for (const CoordinateKind& kind : coordinate_kinds(type)) {
+    Coordinate coordinate;
+    coordinate.name = kind.suffix.empty() ? name : fmt::format("{}_{}", name, kind.suffix);
+    coordinate.angular = kind.angular;
+    coordinates.push_back(coordinate);
+  }
+}
+
+std::array<std::array<double, 3>, 2> plane_axes(const std::array<double, 3>& n) {
+  if (n[2] == 1) return {{{1, 0, 0}, {0, 1, 0}}};
+  if (n[0] == 1) return {{{0, 1, 0}, {0, 0, 1}}};
+  if (n[1] == 1) return {{{0, 0, 1}, {1, 0, 0}}};
+  if (n[2] == -1) return {{{1, 0, 0}, {0, -1, 0}}};
+  const double rho = std::hypot(n[0], n[1]);
+  const std::array<double, 3> e{-n[1] / rho, n[0] / rho, 0};
+  return {{e, {-n[2] * e[1], n[2] * e[0], n[0] * e[1] - n[1] * e[0]}}};
+}
+
+CoordinateLayout lay_out_coordinates(const Mechanism& mechanism) {
+  CoordinateLayout layout;
+  layout.joints.resize(mechanism.joints.size());
+  for (const JointIndex index : depth_first(mechanism)) {
+    const Joint& joint = mechanism.joints[index.value];
+    JointEntries& entries = layout.joints[index.value];
+    entries.first_position = layout.position_names.size();
+    entries.first_velocity = layout.velocity_names.size();
+    for (const Coordinate& coordinate : joint.coordinates) {
+      entries.position.emplace_back();
+      entries.velocity.emplace_back();
+      if (coordinate.motion) continue;
+      entries.position.back() = layout.position_names.size();
+      entries.velocity.back() = layout.velocity_names.size();
+      layout.position_names.push_back(coordinate.name);
+      layout.velocity_names.push_back(coordinate.name);
+    }
+    if (joint.type == JointType::kFree) {
+      add_names(layout.position_names, joint, {"x", "y", "z"});
+      add_names(layout.velocity_names, joint, {"vx", "vy", "vz"});
+    }
+    if (joint.type == JointType::kFree || joint.type == JointType::kSpherical) {
+      layout.quaternions.push_back(layout.position_names.size());
+      add_names(layout.position_names, joint, {"qw", "qx", "qy", "qz"});
+      add_names(layout.velocity_names, joint, {"wx", "wy", "wz"});
+    }
+    entries.position_count = layout.position_names.size() - entries.first_position;
+    entries.velocity_count = layout.velocity_names.size() - entries.first_velocity;
+  }
+  for (const Actuator& actuator : mechanism.actuators) layout.input_names.push_back(actuator.name);
+  for (const Input& input : mechanism.inputs) layout.input_names.push_back(input.name);
+  layout.rheonomic = depends_on_time(mechanism);
+  return layout;
+}
+
+}  // namespace jourdain::model

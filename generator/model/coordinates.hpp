@@ -1,0 +1,36 @@
+// Where each joint's coordinates sit in y and z.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/mechanism.hpp"
+
+namespace jourdain::model {
+
+/// Entries of one joint in y and z. Prescribed coordinates have none.
+struct JointEntries {
+  std::size_t first_position = 0, position_count = 0;
+  std::size_t first_velocity = 0, velocity_count = 0;
+  /// For each scalar coordinate its entry in y, and in z.
+  std::vector<std::optional<std::size_t>> position, velocity;
+};
+
+/// Coordinates joint by joint in the order of `depth_first`, each joint's in its own order: scalar coordinates that are
+/// not prescribed; spherical: quaternion w x y z, and ω; free: position and quaternion, v and ω.
+/// Inputs: those of the actuators, then `Mechanism::inputs`.
+struct CoordinateLayout {
+  std::vector<JointEntries> joints;  ///< by JointIndex
+  std::vector<std::string> position_names, velocity_names, input_names;
+  std::vector<std::size_t> quaternions;  ///< entry in y of each quaternion's w
+  bool rheonomic = false;                ///< some coordinate is prescribed, or some force depends on time
+
+  std::size_t position_count() const { return position_names.size(); }
+  std::size_t velocity_count() const { return velocity_names.size(); }
+  std::size_t input_count() const { return input_names.size(); }
+};
+
+CoordinateLayout lay_out_coordinates(const Mechanism& mechanism);
+
+}  // namespace jourdain::model
