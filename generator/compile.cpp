@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ir/lower.hpp"
+#include "model/coordinates.hpp"
 #include "model/names.hpp"
 #include "omissions.hpp"
 #include "reference/massless.hpp"
@@ -30,8 +31,24 @@ std::vector<ir::Target> matrix_targets(const std::vector<std::vector<Ex>>& M) {
   return targets;
 }
 
+std::vector<ir::Target> output_targets(const Equations& equations) {
+  std::vector<ir::Target> targets;
+  for (std::size_t k = 0; k < equations.outputs.size(); ++k)
+    for (const dynamics::OutputValues& member : equations.outputs[k]) {
+      const std::string name = equations.output_names[k] + (member.member.empty() ? "" : "." + member.member);
+      for (std::size_t i = 0; i < member.values.size(); ++i) {
+        const int entry = static_cast<int>(i);
+        targets.push_back({name, member.rows > 1 ? entry / member.columns : -1,
+                           member.is_matrix ? entry % member.columns : -1, member.values[i]});
+      }
+    }
+  return targets;
+}
+
 /// What each emitted function computes.
 std::vector<ir::Target> targets_of(const std::string& function, const Equations& equations) {
+  if (function == "position_rate") return vector_targets("ydot", equations.ydot);
+  if (function == "outputs") return output_targets(equations);
   if (function == "mass_matrix") return matrix_targets(equations.M);
   if (function == "k_bar") return vector_targets("k", equations.k_bar);
   if (function == "q_bar") return vector_targets("q", equations.q_bar);
@@ -45,6 +62,51 @@ std::vector<ir::Target> targets_of(const std::string& function, const Equations&
   return targets;
 }
 
+/// What an output is, in words.
+std::string describe(const model::Mechanism& mechanism, const model::Output& output) {
+  const auto frame = [&] { return mechanism.frames[output.frame.value].name; };
+  const auto joint = [&] { return mechanism.joints[output.joint.value].name; };
+  switch (output.kind) {
+    case model::OutputKind::kPose:
+      return fmt::format("Position (inertial frame) and rotation matrix (frame to inertial) of '{}'.", frame());
+    case model::OutputKind::kVelocity:
+      return fmt::format("Velocity (inertial frame) and angular velocity (frame components) of '{}'.", frame());
+    case model::OutputKind::kAcceleration:
+      return fmt::format(
+          "Acceleration (inertial frame) and angular acceleration (frame components) of '{}'.", frame());
+    case model::OutputKind::kJacobian:
+      return fmt::format(
+          "Jacobians of '{}': v = J_t z + v_bar, a = J_t zdot + a_bar (inertial frame); omega = J_r z + omega_bar, "
+          "omega_dot = J_r zdot + zeta_bar (frame components).",
+          frame());
+    case model::OutputKind::kReaction:
+      return fmt::format("What joint '{}' transmits to its child, at the child's origin, child components.",
+                         joint());
+    case model::OutputKind::kDrive:
+      return fmt::format("Force or torque that the prescribed motion of '{}' needs.",
+                         mechanism.joints[output.joint.value].coordinates[output.coordinate].name);
+    case model::OutputKind::kKineticEnergy:
+      return "Kinetic energy, J.";
+    case model::OutputKind::kPotentialEnergy:
+      return "Potential energy, J.";
+    case model::OutputKind::kExpression:
+      return "Expression of the model description.";
+  }
+  return "";
+}
+
+std::vector<emit::OutputDeclaration> output_texts(const model::Mechanism& mechanism, const Equations& equations) {
+  std::vector<emit::OutputDeclaration> texts;
+  for (std::size_t k = 0; k < mechanism.outputs.size(); ++k) {
+    emit::OutputDeclaration& text = texts.emplace_back();
+    text.name = mechanism.outputs[k].name;
+    text.comment = describe(mechanism, mechanism.outputs[k]);
+    for (const dynamics::OutputValues& member : equations.outputs[k])
+      text.members.push_back({member.member, member.rows, member.columns, member.is_matrix});
+  }
+  return texts;
+}
+
 emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptions& options) {
   emit::ModelText text;
   text.name = options.name.empty() ? model::cpp_name(mechanism.name) : options.name;
@@ -53,11 +115,12 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.numbers_from = mechanism.source;
   text.path = options.path;
   text.sha256 = options.sha256;
-  for (model::JointIndex joint : model::moving_joints(mechanism)) {
-    text.positions.push_back(mechanism.joints[joint.value].name);
-    text.velocities.push_back(mechanism.joints[joint.value].name);
-  }
-  for (const model::Actuator& actuator : mechanism.actuators) text.inputs.push_back(actuator.name);
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  text.positions = layout.position_names;
+  text.velocities = layout.velocity_names;
+  text.inputs = layout.input_names;
+  text.quaternions = layout.quaternions;
+  text.rheonomic = layout.rheonomic;
   for (const model::Parameter& parameter : mechanism.parameters)
     text.parameters.push_back({parameter.name, parameter.value, parameter.unit, parameter.description});
   return text;
@@ -96,6 +159,11 @@ ir::Module lower_functions(const Equations& equations, const std::vector<emit::F
   return module;
 }
 
+emit::SceneShape shape_of(const model::Mechanism& mechanism) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  return {layout.position_count(), layout.velocity_count(), layout.quaternions.size(), mechanism.outputs.size()};
+}
+
 void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   for (model::JointIndex index : reference::massless_joints(mechanism)) {
     const model::Joint& joint = mechanism.joints[index.value];
@@ -106,13 +174,19 @@ void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diag
 
 CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& options) {
   CompiledModel result;
-  result.functions = emit::with_needed(options.functions);
-  const Equations equations = dynamics::derive_equations(mechanism, options.derivation);
+  result.shape = shape_of(mechanism);
+  result.input_count = model::lay_out_coordinates(mechanism).input_count();
+  result.functions = emit::with_needed(options.functions, result.shape);
+  CompileOptions chosen = options;
+  if (options.derivation.articulated.empty())
+    result.articulation = choose_articulation(mechanism, options.derivation);
+  chosen.derivation.articulated = result.articulation.links;
+  const Equations equations = dynamics::derive_equations(mechanism, chosen.derivation);
   passes::Optimised optimised =
       passes::optimise(lower_functions(equations, result.functions), options.passes_off);
   result.module = std::move(optimised.module);
   result.passes = std::move(optimised.records);
-  result.omissions = find_omissions(mechanism, options, equations, result);
+  result.omissions = find_omissions(mechanism, chosen, equations, result);
   validate_and_emit(mechanism, equations, options, result);
   return result;
 }
@@ -124,6 +198,7 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   result.assumptions = assumptions(mechanism, options, result.verdict);
   if (!result.verdict.accepted()) return;
   emit::ModelText text = model_text(mechanism, options);
+  text.outputs = output_texts(mechanism, equations);
   text.assumptions = result.assumptions;
   for (const Omission& omission : result.omissions)
     text.left_out.push_back(omission.saved == 0 ? omission.name + ": " + omission.what

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "articulation.hpp"
 #include "dynamics/equations.hpp"
 #include "emit/files.hpp"
 #include "model/mechanism.hpp"
@@ -31,6 +32,9 @@ struct Omission {
 };
 
 struct CompiledModel {
+  emit::SceneShape shape;
+  std::size_t input_count = 0;
+  Articulation articulation;
   std::vector<emit::FunctionInfo> functions;
   ir::Module module;
   std::vector<passes::PassRecord> passes;
@@ -51,6 +55,8 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
 /// fills in `model.files`; otherwise they stay empty.
 void validate_and_emit(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                        const CompileOptions& options, CompiledModel& model);
+
+emit::SceneShape shape_of(const model::Mechanism& mechanism);
 
 /// Equations lowered to one program per function, before any pass.
 ir::Module lower_functions(const dynamics::Equations& equations,

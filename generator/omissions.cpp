@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "model/coordinates.hpp"
+
 namespace jourdain {
 
 namespace {
@@ -24,9 +26,6 @@ const std::vector<Switch>& switches() {
       {"parallel axes",
        "consecutive parallel joints share one frame and the sine and cosine of the summed angle",
        [](model::Mechanism&, CompileOptions& o) { o.derivation.link_tree.share_parallel = false; }},
-      {"sparsity of M",
-       "coordinates of different branches are not coupled; M is factored along branches only",
-       [](model::Mechanism&, CompileOptions& o) { o.derivation.branch_sparsity = false; }},
       {"snapped rotations", "rotations by multiples of a right angle are permutations",
        [](model::Mechanism& m, CompileOptions&) { m.snap = false; }},
       {"common factors", "factors that several terms of a sum share are multiplied once",
@@ -40,13 +39,12 @@ const std::vector<Switch>& switches() {
 std::size_t forward_operations(const ir::Module& module) {
   for (const ir::Program& program : module.functions)
     if (program.name == "forward_dynamics") return ir::count_operations(program).arithmetic();
-  JD_CHECK(false, "no forward_dynamics");
   return 0;
 }
 
 /// forward_dynamics on its own, before any pass.
-ir::Module forward_module(const dynamics::Equations& equations) {
-  return lower_functions(equations, emit::with_needed({"forward_dynamics"}));
+ir::Module forward_module(const dynamics::Equations& equations, const emit::SceneShape& shape) {
+  return lower_functions(equations, emit::with_needed({"forward_dynamics"}, shape));
 }
 
 std::size_t optimised_operations(const ir::Module& module, const CompileOptions& options) {
@@ -56,8 +54,9 @@ std::size_t optimised_operations(const ir::Module& module, const CompileOptions&
 /// Joint elements and gravity that the scene does not have: nothing to count, they never came in.
 std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledModel& compiled) {
   std::vector<Omission> list;
-  list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
-  list.push_back({"t", "nothing depends on time", 0});
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  if (layout.quaternions.empty()) list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
+  if (!layout.rheonomic) list.push_back({"t", "nothing depends on time", 0});
   const auto none = [&](auto member) {
     return std::all_of(mechanism.joints.begin(), mechanism.joints.end(), [member](const model::Joint& joint) {
       return std::all_of(joint.coordinates.begin(), joint.coordinates.end(),
@@ -68,7 +67,7 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
   if (g[0].is_zero() && g[1].is_zero() && g[2].is_zero()) list.push_back({"gravity", "zero", 0});
   if (none(&model::Coordinate::stiffness)) list.push_back({"springs", "none", 0});
   if (none(&model::Coordinate::damping)) list.push_back({"dampers", "none", 0});
-  if (mechanism.actuators.empty()) list.push_back({"inputs", "none", 0});
+  if (layout.input_count() == 0) list.push_back({"inputs", "none", 0});
   if (mechanism.parameters.empty()) list.push_back({"parameters", "all numbers are baked in", 0});
   std::string missing;
   for (const emit::FunctionInfo& function : emit::all_functions()) {
@@ -84,7 +83,7 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
 
 std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const CompileOptions& options,
                                      const dynamics::Equations& equations, const CompiledModel& compiled) {
-  const ir::Module lowered = forward_module(equations);
+  const ir::Module lowered = forward_module(equations, compiled.shape);
   const long with = static_cast<long>(optimised_operations(lowered, options));
   std::vector<Omission> list;
   for (const Switch& s : switches()) {
@@ -92,7 +91,7 @@ std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const Co
     CompileOptions changed = options;
     s.off(other, changed);
     const ir::Module module =
-        s.only_pass ? lowered : forward_module(dynamics::derive_equations(other, changed.derivation));
+        s.only_pass ? lowered : forward_module(dynamics::derive_equations(other, changed.derivation), compiled.shape);
     const long without = static_cast<long>(optimised_operations(module, changed));
     if (without != with) list.push_back({s.name, s.what, without - with});
   }

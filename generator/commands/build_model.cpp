@@ -11,14 +11,19 @@ namespace jourdain::commands {
 
 namespace {
 
-std::string shim(const std::string& name, const std::string& real, bool has_inputs) {
+/// Arrays of length zero are no members of the emitted structs.
+std::string shim(const std::string& name, const std::string& real, const CompiledModel& compiled) {
+  const auto copy = [](std::size_t count, const char* line) { return std::string(count > 0 ? line : ""); };
+  const emit::SceneShape& shape = compiled.shape;
   return emit::fill(
       emit::template_text("shim.cpp.in"),
       {{"NAME", name},
        {"REAL", real},
-       {"READ_INPUT",
-        has_inputs ? "for (int i = 0; i < Model::input_count; ++i) input.u[i] = static_cast<Real>(u[i]);"
-                   : "static_cast<void>(u);"}});
+       {"READ_STATE", copy(shape.positions, "  to_model(state.y, y, Model::position_count);\n") +
+                          copy(shape.velocities, "  to_model(state.z, z, Model::velocity_count);\n")},
+       {"WRITE_STATE", copy(shape.positions, "  from_model(state.y, y, Model::position_count);\n") +
+                           copy(shape.velocities, "  from_model(state.z, z, Model::velocity_count);\n")},
+       {"READ_INPUT", copy(compiled.input_count, "  to_model(input.u, u, Model::input_count);\n")}});
 }
 
 }  // namespace
@@ -27,13 +32,9 @@ studies::LoadedModel build_model(const std::string& name, const CompiledModel& c
                                  const std::string& real) {
   const support::TemporaryFolder folder;
   const auto in_folder = [&folder](const std::string& file) { return folder.path() + "/" + file; };
-  bool has_inputs = false;
-  for (const emit::File& file : compiled.files) {
-    support::write_file(in_folder(file.name), file.text);
-    has_inputs = has_inputs || file.text.find("Real u[") != std::string::npos;
-  }
+  for (const emit::File& file : compiled.files) support::write_file(in_folder(file.name), file.text);
   support::write_file(in_folder("model_table.h"), emit::template_text("model_table.h"));
-  support::write_file(in_folder("shim.cpp"), shim(name, real, has_inputs));
+  support::write_file(in_folder("shim.cpp"), shim(name, real, compiled));
   const char* chosen = std::getenv("CXX");
   const std::string compiler = chosen && *chosen ? chosen : "c++";
   const std::vector<std::string> command = {compiler,

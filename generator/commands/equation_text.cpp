@@ -70,6 +70,8 @@ class EquationPrinter {
         return spelt(fmt::format("z{}", node.index));
       case ir::LeafKind::kInput:
         return spelt(fmt::format("u{}", node.index));
+      case ir::LeafKind::kTime:
+        return "t";
       case ir::LeafKind::kConstant:
       case ir::LeafKind::kAcceleration:
         break;
@@ -166,7 +168,7 @@ std::string equations_text(const model::Mechanism& mechanism, bool latex) {
   if (equations.zdot.size() <= kExpandedCoordinates)
     text += block("Expanded", expanded(equations, latex), latex);
   for (const ir::Program& program :
-       lower_functions(equations, emit::with_needed({"mass_matrix", "k_bar", "q_bar"})).functions)
+       lower_functions(equations, emit::with_needed({"mass_matrix", "k_bar", "q_bar"}, shape_of(mechanism))).functions)
     text += block(fmt::format("{} with named intermediates", program.name),
                   EquationPrinter(program, mechanism, latex).print(), latex);
   return text;

@@ -114,8 +114,8 @@ class Simulation {
 
   /// Total energy, J.
   double row(std::string& csv) const {
-    const double kinetic = table_.kinetic_energy(state_.y.data(), state_.z.data());
-    const double potential = table_.potential_energy(state_.y.data(), state_.z.data());
+    const double kinetic = table_.kinetic_energy(state_.t, state_.y.data(), state_.z.data());
+    const double potential = table_.potential_energy(state_.t, state_.y.data(), state_.z.data());
     csv += fmt::format("{}", state_.t);
     for (double value : state_.y) csv += fmt::format(",{}", value);
     for (double value : state_.z) csv += fmt::format(",{}", value);

@@ -43,7 +43,8 @@ Matrix3 turned(const Matrix3& S, const Ex& polar, const Ex& c, const Ex& s, cons
 }  // namespace
 
 std::vector<CompositeBody> derive_composites(const LinkTree& tree, const WorkingFrames& frames,
-                                             Statements& statements) {
+                                             Statements& statements,
+                                             const std::function<bool(std::size_t link)>& joins) {
   const std::size_t n = tree.links.size();
   std::vector<MassMoments> in_link(n), in_working(n);  // sums over the link's body and children so far
   std::vector<Ex> working_polar(n, 0);
@@ -59,25 +60,28 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
     CompositeBody& body = composites[i];
     body.moments.mass = statements.bind(fmt::format("m{}", i), own.mass + in_working[i].mass);
     body.moments.first = statements.bind(h, frames.to_working(i, own.first, h + "b") + in_working[i].first);
-    body.polar = statements.bind(fmt::format("J{}", i), own_polar + working_polar[i]);
+    body.J_zz = statements.bind(fmt::format("J{}", i), own_polar + working_polar[i]);
     body.moments.second = statements.bind_symmetric(S, own_second + in_working[i].second);
     if (!in_working[i].second[0][0].is_zero())
-      body.moments.second[1][1] = statements.bind(S + "_yy", body.polar - body.moments.second[0][0]);
-    if (link.parent == kGround) continue;
+      body.moments.second[1][1] = statements.bind(S + "_yy", body.J_zz - body.moments.second[0][0]);
+    const Matrix3& second = body.moments.second;
+    body.J_xx = statements.bind(fmt::format("Jx{}", i), second[1][1] + second[2][2]);
+    body.J_yy = statements.bind(fmt::format("Jy{}", i), second[0][0] + second[2][2]);
+    if (link.parent == kGround || !joins(i)) continue;
 
     const Vector3& r = frames.offset(i);
     const std::string at_parent = fmt::format("at{}", i);
     MassMoments moved = body.moments;
     if (!link.parallel) {
-      moved.first = statements.bind(h + at_parent, link.R_PL * moved.first);
-      moved.second = rotated(link.R_PL, moved.second, S + at_parent, statements);
+      moved.first = statements.bind(h + at_parent, frames.rotation(i) * moved.first);
+      moved.second = rotated(frames.rotation(i), moved.second, S + at_parent, statements);
     }
     const Vector3 mr = statements.bind(h + "r", moved.mass * r);
     const Vector3 middle = statements.bind(h + "k", moved.first + Ex(GiNaC::numeric(1, 2)) * mr);
     MassMoments& target = link.parallel ? in_working[link.parent] : in_link[link.parent];
     if (link.parallel) {
       const Ex shift = statements.bind(fmt::format("D{}", i), r[0] * middle[0] + r[1] * middle[1]);
-      const Ex half = statements.bind(fmt::format("E{}", i), body.polar + shift);
+      const Ex half = statements.bind(fmt::format("E{}", i), body.J_zz + shift);
       working_polar[link.parent] =
           statements.bind(fmt::format("Jc{}", i), working_polar[link.parent] + half + shift);
     }
@@ -89,11 +93,38 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
   return composites;
 }
 
-Wrench unit_momentum(const Link& link, const CompositeBody& body) {
+std::vector<Column> derive_columns(const Link& link, const kinematics::LinkState& state,
+                                   const WorkingFrames& frames, std::size_t index) {
+  std::vector<Column> columns;
+  if (!link.has_quaternion()) {
+    Column& column = columns.emplace_back();
+    column.entry = state.entry;
+    if (link.turns_about_z()) column.twist.angular[2] = link.sign;
+    for (std::size_t k = 0; k < 3; ++k) column.twist.linear[k] = link.sign * frames.direction(index)[k];
+    return columns;
+  }
+  const std::size_t count = state.column_count(link);
+  for (std::size_t c = 0; c < count; ++c) {
+    Column& column = columns.emplace_back();
+    column.entry = *state.entry + c;
+    const bool translation = c + 3 < count;
+    (translation ? column.twist.linear : column.twist.angular)[c % 3] = 1;
+  }
+  return columns;
+}
+
+Wrench momentum(const CompositeBody& body, const Twist& twist) {
   const Vector3& h = body.moments.first;
-  const auto& S = body.moments.second;
-  if (link.revolute) return {{-h[1], h[0], 0}, {-S[0][2], -S[1][2], body.polar}};
-  return {{0, 0, body.moments.mass}, {h[1], -h[0], 0}};
+  const Matrix3& S = body.moments.second;
+  const Vector3 &w = twist.angular, &v = twist.linear;
+  const Vector3 spin = {body.J_xx * w[0] - S[0][1] * w[1] - S[0][2] * w[2],
+                        body.J_yy * w[1] - S[0][1] * w[0] - S[1][2] * w[2],
+                        body.J_zz * w[2] - S[0][2] * w[0] - S[1][2] * w[1]};
+  return {body.moments.mass * v + kinematics::cross(w, h), kinematics::cross(h, v) + spin};
+}
+
+Ex power(const Wrench& wrench, const Twist& twist) {
+  return kinematics::dot(wrench.force, twist.linear) + kinematics::dot(wrench.moment, twist.angular);
 }
 
 Wrench to_parent(const LinkTree& tree, const WorkingFrames& frames, std::size_t i, const Wrench& wrench,
@@ -101,8 +132,8 @@ Wrench to_parent(const LinkTree& tree, const WorkingFrames& frames, std::size_t 
   const Link& link = tree.links[i];
   Wrench moved = wrench;
   if (!link.parallel) {
-    moved.force = statements.bind(name + "f", link.R_PL * wrench.force);
-    moved.moment = link.R_PL * wrench.moment;
+    moved.force = statements.bind(name + "f", frames.rotation(i) * wrench.force);
+    moved.moment = frames.rotation(i) * wrench.moment;
   }
   const Vector3 lever = statements.bind(name + "l", kinematics::cross(frames.offset(i), moved.force));
   moved.moment = statements.bind(name + "n", moved.moment + lever);
@@ -125,8 +156,8 @@ std::vector<Wrench> accumulate_wrenches(const LinkTree& tree, const WorkingFrame
     if (link.parent == kGround) continue;
     Wrench moved = total[i];
     if (!link.parallel) {
-      moved.force = statements.bind(f + "p", link.R_PL * moved.force);
-      moved.moment = statements.bind(m + "p", link.R_PL * moved.moment);
+      moved.force = statements.bind(f + "p", frames.rotation(i) * moved.force);
+      moved.moment = statements.bind(m + "p", frames.rotation(i) * moved.moment);
     }
     Wrench& target = link.parallel ? total[link.parent] : in_link[link.parent];
     target.force = statements.bind(f + "c", target.force + moved.force);

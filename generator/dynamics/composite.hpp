@@ -1,6 +1,8 @@
 // Composite bodies: a link with everything outward of it, seen as one rigid body at the current coordinates.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "kinematics/working_frames.hpp"
@@ -19,16 +21,37 @@ struct Wrench {
 /// Mass moments of a link and all links outward of it, about the link's origin, in its working frame.
 struct CompositeBody {
   kinematics::MassMoments moments;
-  Ex polar;  ///< S_xx + S_yy = J_zz, the moment of inertia about the joint axis
+  Ex J_xx, J_yy, J_zz;  ///< moments of inertia; J_zz = S_xx + S_yy is that about the axis of a turn
 };
 
-/// One per link, inward by recursion.
+/// One per link, inward by recursion. Links that `joins` is false for are left out of their parents, with what is
+/// outward of them.
 std::vector<CompositeBody> derive_composites(const kinematics::LinkTree& tree,
                                              const kinematics::WorkingFrames& frames,
-                                             kinematics::Statements& statements);
+                                             kinematics::Statements& statements,
+                                             const std::function<bool(std::size_t link)>& joins);
 
-/// Momentum of the composite body per unit of the link's joint velocity, about the link's origin, in W.
-Wrench unit_momentum(const kinematics::Link& link, const CompositeBody& body);
+/// Velocity field `linear` + `angular` × x of a rigid motion, x from the link's origin.
+struct Twist {
+  Vector3 angular = kinematics::zero_vector();
+  Vector3 linear = kinematics::zero_vector();
+};
+
+/// Motion of a link relative to its parent per unit of one velocity, in W.
+struct Column {
+  Twist twist;
+  std::optional<std::size_t> entry;  ///< in z; none where the coordinate is prescribed
+};
+
+/// One per scalar coordinate, three for a ball, six (translations along W, then rotations) for a free link.
+std::vector<Column> derive_columns(const kinematics::Link& link, const kinematics::LinkState& state,
+                                   const kinematics::WorkingFrames& frames, std::size_t index);
+
+/// Momentum of the composite body moving as `twist`, about the link's origin, in W.
+Wrench momentum(const CompositeBody& body, const Twist& twist);
+
+/// Power of a wrench on a twist, both in the same axes and about the same point.
+Ex power(const Wrench& wrench, const Twist& twist);
 
 /// Sums of wrenches over subtrees: W_i of the result is that of `own[i]` and of all links outward, about the
 /// origin of link i, in its working frame.

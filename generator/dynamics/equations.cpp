@@ -2,227 +2,291 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/composite.hpp"
-#include "dynamics/factorisation.hpp"
-#include "dynamics/inertia_forces.hpp"
-#include "kinematics/numbers.hpp"
+#include "dynamics/accelerations.hpp"
+#include "dynamics/applied_forces.hpp"
+#include "dynamics/energy.hpp"
+#include "dynamics/outputs.hpp"
+#include "dynamics/scene.hpp"
+#include "dynamics/solver.hpp"
+#include "support/check.hpp"
 
 namespace jourdain::dynamics {
 
 using kinematics::kGround;
-using kinematics::Leaf;
-using kinematics::LeafKind;
 using kinematics::Link;
-using kinematics::LinkTree;
-using kinematics::Statements;
-using kinematics::WorkingFrames;
+using kinematics::LinkKind;
 
 namespace {
 
-std::vector<Ex> declare_parameters(const model::Mechanism& mechanism, Statements& statements) {
-  std::vector<Ex> symbols;
-  for (std::size_t i = 0; i < mechanism.parameters.size(); ++i)
-    symbols.push_back(statements.leaf(LeafKind::kParameter, i, mechanism.parameters[i].name));
-  return symbols;
-}
+using Matrix = std::vector<std::vector<Ex>>;
 
-std::vector<Ex> declare(LeafKind kind, const char* name, std::size_t count, Statements& statements) {
-  std::vector<Ex> symbols;
-  for (std::size_t i = 0; i < count; ++i)
-    symbols.push_back(statements.leaf(kind, i, fmt::format("{}{}", name, i)));
-  return symbols;
-}
-
-/// The derivation of one tree. Members are the stages' results, filled in by the constructor in order.
+/// The derivation of one tree.
 class Derivation {
  public:
   Derivation(const model::Mechanism& mechanism, const DerivationOptions& options)
       : mechanism_(mechanism),
         options_(options),
-        joints_(model::moving_joints(mechanism)),
-        parameters_(declare_parameters(mechanism, statements_)),
-        y_(declare(LeafKind::kPosition, "y", joints_.size(), statements_)),
-        z_(declare(LeafKind::kVelocity, "z", joints_.size(), statements_)),
-        zdot_(declare(LeafKind::kAcceleration, "zdot", joints_.size(), statements_)),
-        u_(declare(LeafKind::kInput, "u", mechanism.actuators.size(), statements_)),
-        tree_(kinematics::build_link_tree(mechanism, parameters_, statements_, options.link_tree)),
-        frames_(tree_, y_, statements_),
-        composites_(derive_composites(tree_, frames_, statements_)) {}
+        scene_(mechanism, options.link_tree),
+        statements_(scene_.statements),
+        count_(scene_.layout.velocity_count()) {}
 
   Equations derive() {
     Equations equations;
-    for (std::size_t i = 0; i < count(); ++i) rate_.push_back(tree_.links[i].sign * z_[i]);
-    omega_ = derive_angular_velocities(tree_, frames_, rate_, statements_);
+    const AppliedForces applied = derive_applied_forces(scene_, Inputs::kGiven);
+    if (options_.accelerations_only) {
+      equations.zdot = accelerations(applied);
+      equations.statements = std::move(scene_.statements);
+      return equations;
+    }
+    equations.ydot = position_rate();
     equations.M = mass_matrix();
     equations.k_bar = k_bar();
-    equations.q_bar = q_bar();
-    equations.zdot = accelerations(equations.M);
+    equations.q_bar = q_bar(applied);
+    equations.zdot = accelerations(applied);
     equations.tau = inverse_dynamics();
-    equations.kinetic_energy = kinetic_energy();
-    equations.potential_energy = potential_energy();
-    for (model::JointIndex index : joints_) {
-      const model::Joint& joint = mechanism_.joints[index.value];
-      equations.initial_position.push_back(bound("y_initial", joint.coordinates[0].initial_position));
-      equations.initial_velocity.push_back(bound("z_initial", joint.coordinates[0].initial_velocity));
-    }
-    equations.statements = std::move(statements_);
+    equations.kinetic_energy = derive_kinetic_energy(scene_);
+    equations.potential_energy = derive_potential_energy(scene_);
+    set_initial_state(equations);
+    for (const model::Output& output : mechanism_.outputs) equations.output_names.push_back(output.name);
+    equations.outputs = derive_outputs(scene_, equations, applied);
+    equations.statements = std::move(scene_.statements);
     return equations;
   }
 
  private:
-  std::size_t count() const { return tree_.links.size(); }
-
-  Ex bound(const std::string& name, const model::Expression& expression) {
-    return statements_.bind(name, kinematics::to_symbolic(expression, parameters_, statements_));
+  static std::string named(const char* quantity, std::size_t i, std::size_t j) {
+    return fmt::format("{}_{}_{}", quantity, i, j);
   }
 
-  /// M_ji = (momentum of the composite body i per unit of ż_i) · (axis j), for each ancestor j of i.
-  std::vector<std::vector<Ex>> mass_matrix() {
-    std::vector<std::vector<Ex>> M(count(), std::vector<Ex>(count(), 0));
-    for (std::size_t i = 0; i < count(); ++i) {
-      Wrench momentum = unit_momentum(tree_.links[i], composites_[i]);
-      for (std::size_t j = i;;) {
-        const Ex component = tree_.links[j].revolute ? momentum.moment[2] : momentum.force[2];
-        M[i][j] = M[j][i] = statements_.bind(fmt::format("M_{}_{}", j, i),
-                                             tree_.links[i].sign * tree_.links[j].sign * component);
-        if (tree_.links[j].parent == kGround) break;
-        momentum = to_parent(tree_, frames_, j, momentum, fmt::format("p{}_{}", i, j), statements_);
-        j = tree_.links[j].parent;
+  /// Z z; quaternions q̇ = ½ q ⊗ (0, ω).
+  std::vector<Ex> position_rate() {
+    if (scene_.layout.quaternions.empty()) return {};
+    std::vector<Ex> ydot(scene_.layout.position_count());
+    for (std::size_t i = 0; i < scene_.link_count(); ++i) {
+      const Link& link = scene_.tree.links[i];
+      const kinematics::LinkState& state = scene_.states[i];
+      const model::JointEntries& entries = scene_.layout.joints[link.joint.value];
+      if (!link.has_quaternion()) {
+        if (state.entry) ydot[*entries.position[link.coordinate]] = link.sign * state.rate;
+        continue;
       }
+      const bool free = link.kind == LinkKind::kFree;
+      for (std::size_t k = 0; free && k < 3; ++k) ydot[entries.first_position + k] = state.velocity[k];
+      const std::size_t first = entries.first_position + (free ? 3 : 0);
+      const auto& q = state.quaternion;
+      Vector3 half;
+      for (std::size_t k = 0; k < 3; ++k)
+        half[k] = statements_.bind(named("half", i, k), state.spin[k] / 2);
+      ydot[first] = -(q[1] * half[0] + q[2] * half[1] + q[3] * half[2]);
+      ydot[first + 1] = q[0] * half[0] + q[2] * half[2] - q[3] * half[1];
+      ydot[first + 2] = q[0] * half[1] + q[3] * half[0] - q[1] * half[2];
+      ydot[first + 3] = q[0] * half[2] + q[1] * half[1] - q[2] * half[0];
+      for (std::size_t k = 0; k < 4; ++k) ydot[first + k] = statements_.bind(named("qdot", i, k), ydot[first + k]);
+    }
+    return ydot;
+  }
+
+  /// Momentum of the composite body of each column, and its power on the columns inward of it; v of a free link is in
+  /// the inertial frame. Both triangles are filled.
+  std::vector<std::vector<Ex>> mass_matrix() {
+    Matrix M(count_, std::vector<Ex>(count_, 0));
+    for (std::size_t i = 0; i < scene_.link_count(); ++i)
+      for (const Column& column : scene_.columns[i]) {
+        if (!column.entry) continue;
+        Wrench moving = momentum(scene_.composites[i], column.twist);
+        moving.force = statements_.bind(named("pf", i, *column.entry), moving.force);
+        moving.moment = statements_.bind(named("pn", i, *column.entry), moving.moment);
+        for (std::size_t j = i; j != kGround; j = scene_.tree.links[j].parent) {
+          const std::string name = named("p", *column.entry, j);
+          const bool free = scene_.tree.links[j].kind == LinkKind::kFree;
+          const Wrench seen = free ? to_external(scene_, j, moving, name) : moving;
+          for (const Column& row : scene_.columns[j])
+            if (row.entry && *row.entry <= *column.entry)
+              M[*row.entry][*column.entry] = M[*column.entry][*row.entry] =
+                  statements_.bind(named("M", *row.entry, *column.entry), power(seen, row.twist));
+          if (scene_.tree.links[j].parent != kGround)
+            moving = to_parent(scene_.tree, scene_.frames, j, moving, name, statements_);
+        }
+      }
+    for (std::size_t i = 0; i < scene_.link_count(); ++i)
+      if (scene_.tree.links[i].kind == LinkKind::kFree) replace_free_block(M, i);
+    for (const model::Actuator& actuator : mechanism_.actuators) {
+      if (actuator.rotor_inertia.is_zero()) continue;
+      const std::size_t e = *scene_.states[scene_.link_of(actuator.joint, actuator.coordinate)].entry;
+      M[e][e] = statements_.bind(named("Mr", e, e), M[e][e] + reflected_inertia(scene_, actuator));
     }
     return M;
   }
 
-  /// Generalized inertia forces; gravity counts as one where `gravity` is set, ż where `accelerated`.
-  std::vector<Ex> inertia_forces(const std::string& name, bool gravity, bool accelerated) {
-    JointMotion motion;
-    motion.rate = rate_;
-    motion.ground_acceleration = gravity ? Ex(-1) * tree_.gravity : kinematics::zero_vector();
-    for (std::size_t i = 0; i < count(); ++i)
-      motion.acceleration.push_back(accelerated ? Ex(tree_.links[i].sign * zdot_[i]) : Ex(0));
-    return derive_inertia_forces(tree_, frames_, composites_, omega_, motion, name, statements_);
+  /// The block of a free link's own velocities: m 1, R (ω × h) with h from the child's origin, and J about that origin.
+  void replace_free_block(Matrix& M, std::size_t i) {
+    const std::size_t first = *scene_.states[i].entry;
+    const CompositeBody& body = scene_.composites[i];
+    const Vector3& d = scene_.tree.links[i].shift;
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c) M[first + r][first + c] = r == c ? body.moments.mass : Ex(0);
+    for (std::size_t c = 0; c < 3; ++c) {
+      Vector3 axis = kinematics::zero_vector();
+      axis[c] = 1;
+      const std::string name = named("pfree", i, c);
+      const Wrench moving = momentum(body, {axis, kinematics::cross(axis, d)});
+      const Wrench seen = to_external(scene_, i, {statements_.bind(name + "f", moving.force), moving.moment}, name);
+      for (std::size_t r = 0; r < 3; ++r) {
+        M[first + r][first + 3 + c] = M[first + 3 + c][first + r] = seen.force[r];
+        if (r <= c) M[first + 3 + r][first + 3 + c] = M[first + 3 + c][first + 3 + r] = seen.moment[r];
+      }
+    }
   }
 
-  /// Springs and dampers of the joints, as part of q̄.
-  Ex joint_element(std::size_t i) {
-    const model::Joint& joint = mechanism_.joints[joints_[i].value];
-    const Ex stretch =
-        statements_.bind(fmt::format("stretch{}", i), y_[i] - bound("rest", joint.coordinates[0].rest));
-    const Ex stiffness = bound("stiffness", joint.coordinates[0].stiffness);
-    const Ex damping = bound("damping", joint.coordinates[0].damping);
-    return stiffness * stretch + damping * z_[i];
+  InertiaForces inertia_forces(const std::string& name, const std::vector<Ex>& zdot, Gravity gravity) {
+    return derive_inertia_forces(scene_.tree, scene_.frames, scene_.states, scene_.composites, scene_.omega,
+                                 joint_accelerations(scene_, zdot, gravity, name), name, statements_);
   }
 
-  Ex input_sum(std::size_t i) {
-    Ex sum = 0;
-    for (std::size_t k = 0; k < u_.size(); ++k)
-      if (mechanism_.actuators[k].joint == joints_[i]) sum = sum + u_[k];
-    return sum;
+  std::vector<Wrench> no_wrenches() const { return std::vector<Wrench>(scene_.link_count()); }
+
+  std::vector<std::vector<Ex>> generalized(const InertiaForces& inertia, const std::vector<Wrench>& applied,
+                                           const std::string& name) {
+    return derive_generalized_forces(scene_.tree, scene_.frames, scene_.columns, inertia, applied, name,
+                                     statements_);
+  }
+
+  /// Rows per link and column as rows of z; those of free links in external coordinates.
+  std::vector<Ex> external_rows(std::vector<std::vector<Ex>> rows, const std::string& name) {
+    std::vector<Ex> result(count_);
+    for (std::size_t i = 0; i < scene_.link_count(); ++i) {
+      if (!scene_.states[i].entry) continue;
+      if (scene_.tree.links[i].kind == LinkKind::kFree) {
+        const Wrench seen = to_external(
+            scene_, i, {{rows[i][0], rows[i][1], rows[i][2]}, {rows[i][3], rows[i][4], rows[i][5]}},
+            fmt::format("{}ext{}", name, i));
+        for (std::size_t k = 0; k < 3; ++k) {
+          rows[i][k] = seen.force[k];
+          rows[i][k + 3] = seen.moment[k];
+        }
+      }
+      for (std::size_t c = 0; c < rows[i].size(); ++c) result[*scene_.states[i].entry + c] = rows[i][c];
+    }
+    return result;
   }
 
   std::vector<Ex> k_bar() {
-    std::vector<Ex> k = inertia_forces("k", false, false);
+    std::vector<Ex> k =
+        external_rows(generalized(inertia_forces("k", {}, Gravity::kNone), no_wrenches(), "k"), "k");
     for (Ex& entry : k) entry = -entry;
     return k;
   }
 
-  /// Gravity on composite bodies, springs, dampers and inputs.
-  std::vector<Ex> q_bar() {
+  /// What the applied forces do along each column, in internal coordinates, without gravity.
+  std::vector<std::vector<Ex>> pushes(const AppliedForces& applied, const std::string& name) {
+    std::vector<std::vector<Ex>> rows = applied.along;
+    const std::vector<Wrench> totals =
+        accumulate_wrenches(scene_.tree, scene_.frames, applied.on_link, name + "load", statements_);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t c = 0; c < rows[i].size(); ++c)
+        rows[i][c] = statements_.bind(named("load", i, c),
+                                      rows[i][c] + power(totals[i], scene_.columns[i][c].twist));
+    return rows;
+  }
+
+  std::vector<Ex> q_bar(const AppliedForces& applied) {
+    std::vector<Ex> q = external_rows(pushes(applied, "q"), "q");
     std::vector<Vector3> gravity;
-    std::vector<Ex> q;
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Link& link = tree_.links[i];
-      const Vector3& outer = link.parent == kGround ? tree_.gravity : gravity[link.parent];
-      gravity.push_back(link.parent == kGround
-                            ? statements_.bind(fmt::format("g{}", i), transpose(link.R_PL) * outer)
-                            : frames_.from_parent(i, outer, fmt::format("g{}", i)));
-      const Vector3 &h = composites_[i].moments.first, &g = gravity[i];
-      const Ex pull = link.revolute ? Ex(h[0] * g[1] - h[1] * g[0]) : Ex(composites_[i].moments.mass * g[2]);
-      q.push_back(
-          statements_.bind(fmt::format("q_{}", i), -link.sign * pull + joint_element(i) - input_sum(i)));
+    for (std::size_t i = 0; i < scene_.link_count(); ++i) {
+      const Link& link = scene_.tree.links[i];
+      const Vector3& outer = link.parent == kGround ? scene_.tree.gravity : gravity[link.parent];
+      gravity.push_back(scene_.frames.from_parent(i, outer, fmt::format("g{}", i)));
+      if (!scene_.states[i].entry) continue;
+      const CompositeBody& body = scene_.composites[i];
+      const Wrench weight{body.moments.mass * gravity[i], kinematics::cross(body.moments.first, gravity[i])};
+      Wrench seen = weight;
+      if (link.kind == LinkKind::kFree) {
+        seen.force = body.moments.mass * scene_.tree.gravity;
+        seen.moment = weight.moment + kinematics::cross(link.shift, weight.force);
+      }
+      for (const Column& column : scene_.columns[i])
+        q[*column.entry] = statements_.bind(fmt::format("q_{}", *column.entry),
+                                            -power(seen, column.twist) - q[*column.entry]);
     }
     return q;
   }
 
-  /// M⁻¹ (k̄ − q̄), with gravity as an inertia force: that costs less than k̄ and q̄ apart.
-  std::vector<Ex> accelerations(const std::vector<std::vector<Ex>>& M) {
-    std::vector<Ex> b = inertia_forces("b", true, false);
-    std::vector<std::size_t> parent;
-    for (std::size_t i = 0; i < count(); ++i) {
-      b[i] = statements_.bind(fmt::format("b_{}", i), input_sum(i) - joint_element(i) - b[i]);
-      const std::size_t previous = i == 0 ? kGround : i - 1;
-      parent.push_back(options_.branch_sparsity ? tree_.links[i].parent : previous);
-    }
-    return solve_mass_matrix(M, b, parent, statements_);
+  /// M⁻¹ (k̄ − q̄), with gravity as an inertia force: that costs less than k̄ and q̄ apart. A free link is solved in
+  /// its own axes, falling with gravity.
+  std::vector<Ex> accelerations(const AppliedForces& applied) {
+    const std::vector<std::vector<Ex>> inertia =
+        generalized(inertia_forces("b", {}, Gravity::kAsAcceleration), applied.on_link, "b");
+    std::vector<Ex> b(count_);
+    for (std::size_t i = 0; i < scene_.link_count(); ++i)
+      for (std::size_t c = 0; c < scene_.columns[i].size(); ++c)
+        if (const auto entry = scene_.columns[i][c].entry)
+          b[*entry] = statements_.bind(fmt::format("b_{}", *entry), applied.along[i][c] - inertia[i][c]);
+    ArticulatedLinks articulated = options_.articulated;
+    if (articulated.empty()) articulated.assign(scene_.link_count(), false);
+    for (std::size_t i = 0; i < scene_.link_count(); ++i)
+      if (scene_.tree.links[i].kind == LinkKind::kFree) articulated[i] = true;
+    std::vector<Ex> zdot = solve_accelerations(scene_, articulated, b);
+    for (std::size_t i = 0; i < scene_.link_count(); ++i)
+      if (scene_.tree.links[i].kind == LinkKind::kFree) turn_free_acceleration(zdot, i);
+    return zdot;
+  }
+
+  void turn_free_acceleration(std::vector<Ex>& zdot, std::size_t i) {
+    const std::size_t first = *scene_.states[i].entry;
+    const Vector3 spin = {zdot[first + 3], zdot[first + 4], zdot[first + 5]};
+    const Vector3 at_origin = statements_.bind(
+        fmt::format("ao{}", i),
+        Vector3{zdot[first], zdot[first + 1], zdot[first + 2]} - shift_acceleration(scene_, i, spin));
+    const Vector3 turned = statements_.bind(fmt::format("vdot{}", i), scene_.frames.rotation(i) * at_origin);
+    for (std::size_t k = 0; k < 3; ++k)
+      zdot[first + k] = statements_.bind(fmt::format("zdot_{}", first + k), turned[k] + scene_.tree.gravity[k]);
   }
 
   std::vector<Ex> inverse_dynamics() {
-    std::vector<Ex> tau = inertia_forces("a", true, true);
-    for (std::size_t i = 0; i < count(); ++i)
-      tau[i] = statements_.bind(fmt::format("tau_{}", i), tau[i] + joint_element(i));
+    const AppliedForces applied = derive_applied_forces(scene_, Inputs::kZero);
+    std::vector<std::vector<Ex>> rows = generalized(
+        inertia_forces("a", scene_.leaves.zdot, Gravity::kAsAcceleration), applied.on_link, "a");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t c = 0; c < rows[i].size(); ++c)
+        rows[i][c] = statements_.bind(named("tau", i, c), rows[i][c] - applied.along[i][c]);
+    std::vector<Ex> tau = external_rows(rows, "a");
+    for (const model::Actuator& actuator : mechanism_.actuators) {
+      if (actuator.rotor_inertia.is_zero()) continue;
+      const std::size_t e = *scene_.states[scene_.link_of(actuator.joint, actuator.coordinate)].entry;
+      tau[e] = statements_.bind(fmt::format("taur_{}", e),
+                                tau[e] + reflected_inertia(scene_, actuator) * scene_.leaves.zdot[e]);
+    }
     return tau;
   }
 
-  /// ½ ∫ |Σ v_i|² dm with v_i the velocity field of joint i on its composite body: each joint's own half square and
-  /// its product with the velocity of the parent.
-  Ex kinetic_energy() {
-    std::vector<Vector3> velocity;  // of the link's origin, in W
-    Ex energy = 0;
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Link& link = tree_.links[i];
-      const std::string v = fmt::format("v{}", i);
-      Vector3 origin = kinematics::zero_vector();
-      if (link.parent != kGround) {
-        const bool parallel = link.parallel;
-        const Vector3 omega_P = parallel ? omega_.own[link.parent]
-                                         : frames_.to_link(link.parent, omega_.own[link.parent], v + "w");
-        const Vector3 velocity_P =
-            parallel ? velocity[link.parent] : frames_.to_link(link.parent, velocity[link.parent], v + "p");
-        origin = statements_.bind(v + "o", velocity_P + kinematics::cross(omega_P, frames_.offset(i)));
-        if (!parallel) origin = statements_.bind(v, transpose(link.R_PL) * origin);
+  void set_initial_state(Equations& equations) {
+    std::vector<Ex>&y = equations.initial_position, &z = equations.initial_velocity;
+    const auto push = [&](std::vector<Ex>& list, const model::Expression& value) {
+      list.push_back(scene_.value(&list == &y ? "y_initial" : "z_initial", value));
+    };
+    for (model::JointIndex index : model::moving_joints(mechanism_)) {
+      const model::Joint& joint = mechanism_.joints[index.value];
+      for (const model::Coordinate& coordinate : joint.coordinates) {
+        if (coordinate.motion) continue;
+        push(y, coordinate.initial_position);
+        push(z, coordinate.initial_velocity);
       }
-      const Wrench momentum = unit_momentum(link, composites_[i]);
-      const Ex own = (link.revolute ? momentum.moment[2] : momentum.force[2]) / 2 * rate_[i];
-      const Ex with_parent =
-          kinematics::dot(momentum.moment, omega_.parent[i]) + kinematics::dot(momentum.force, origin);
-      energy =
-          statements_.bind(fmt::format("T{}", i),
-                           energy + rate_[i] * statements_.bind(fmt::format("P{}", i), own + with_parent));
-      if (!link.revolute) origin[2] = statements_.bind(v + "_z", origin[2] + rate_[i]);
-      velocity.push_back(origin);
+      if (joint.type == model::JointType::kFree)
+        for (std::size_t k = 0; k < 3; ++k) {
+          push(y, joint.initial_origin[k]);
+          push(z, joint.initial_origin_velocity[k]);
+        }
+      if (joint.type != model::JointType::kFree && joint.type != model::JointType::kSpherical) continue;
+      for (const model::Expression& component : joint.initial_orientation) push(y, component);
+      for (const model::Expression& component : joint.initial_spin) push(z, component);
     }
-    return energy;
-  }
-
-  Ex potential_energy() {
-    Vector3 first = tree_.ground.first;
-    Ex springs = 0;
-    for (std::size_t i = 0; i < count(); ++i) {
-      const Link& link = tree_.links[i];
-      if (link.parent == kGround) {
-        const kinematics::MassMoments& moments = composites_[i].moments;
-        const std::string name = fmt::format("hg{}", i);
-        first =
-            statements_.bind(name, first + (link.R_PL * moments.first + moments.mass * frames_.offset(i)));
-      }
-      const model::Joint& joint = mechanism_.joints[joints_[i].value];
-      const Ex stretch =
-          statements_.bind(fmt::format("stretch{}", i), y_[i] - bound("rest", joint.coordinates[0].rest));
-      springs = springs + bound("half_stiffness", joint.coordinates[0].stiffness) / 2 * stretch * stretch;
-    }
-    return statements_.bind("V", springs - kinematics::dot(tree_.gravity, first));
   }
 
   const model::Mechanism& mechanism_;
   DerivationOptions options_;
-  std::vector<model::JointIndex> joints_;
-  Statements statements_;
-  std::vector<Ex> parameters_, y_, z_, zdot_, u_;
-  LinkTree tree_;
-  WorkingFrames frames_;
-  std::vector<CompositeBody> composites_;
-  std::vector<Ex> rate_;
-  AngularVelocities omega_;
+  Scene scene_;
+  kinematics::Statements& statements_;
+  std::size_t count_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // M(y), k̄ and q̄ of a tree, symbolically: composite bodies inward, rates and gravity outward, wrenches inward.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kinematics/link_tree.hpp"
@@ -14,22 +15,34 @@ using kinematics::Ex;
 /// Simplifications that the derivation may use; each can be switched off to count what it saves.
 struct DerivationOptions {
   kinematics::LinkTreeOptions link_tree;
-  bool branch_sparsity = true;  ///< factor M visiting ancestors only
+  std::vector<bool> articulated;   ///< see ArticulatedLinks; empty: none but free links
+  bool accelerations_only = false;  ///< nothing but zdot
+};
+
+/// One requested output; entries are numbered row by row.
+struct OutputValues {
+  std::string member;  ///< of the output's struct ("position"), or empty where the output is a scalar
+  int rows = 1, columns = 1;
+  bool is_matrix = false;  ///< otherwise a vector or a scalar
+  std::vector<Ex> values;
 };
 
 /// The symbolic equations of motion M ż = k̄ − q̄ (design section 1; printed signs) and what belongs to them. Entries
-/// are numbers, leaves or names bound in `statements`. nz = number of moving joints.
+/// are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout.
 struct Equations {
   kinematics::Statements statements;
+  std::vector<Ex> ydot;            ///< Z z; empty where ẏ = z
   std::vector<std::vector<Ex>> M;  ///< nz × nz, full and symmetric; entries between different branches are 0
-  std::vector<Ex> k_bar;           ///< Coriolis and centrifugal terms; no gravity
-  std::vector<Ex> q_bar;           ///< gravity, springs, dampers, inputs; a force along z makes it negative
+  std::vector<Ex> k_bar;           ///< Coriolis, centrifugal and rheonomic terms; no gravity
+  std::vector<Ex> q_bar;           ///< applied forces; a force along z makes it negative
   std::vector<Ex> zdot;            ///< M⁻¹ (k̄ − q̄)
   std::vector<Ex> tau;             ///< M ż − k̄ + q̄ at u = 0, with ż a leaf (inverse dynamics)
   Ex kinetic_energy;               ///< J
-  Ex potential_energy;             ///< J; gravity (zero at the inertial origin) and joint springs
-  std::vector<Ex> initial_position;  ///< rad or m
+  Ex potential_energy;             ///< J; gravity (zero at the inertial origin), joint springs and springs
+  std::vector<Ex> initial_position;
   std::vector<Ex> initial_velocity;
+  std::vector<std::string> output_names;
+  std::vector<std::vector<OutputValues>> outputs;  ///< for each output of the mechanism its members
 };
 
 Equations derive_equations(const model::Mechanism& mechanism, const DerivationOptions& options = {});

@@ -6,13 +6,15 @@ namespace jourdain::dynamics {
 
 using kinematics::kGround;
 using kinematics::Link;
+using kinematics::LinkKind;
 using kinematics::LinkTree;
 using kinematics::Matrix3;
 using kinematics::Statements;
 using kinematics::WorkingFrames;
 
 AngularVelocities derive_angular_velocities(const LinkTree& tree, const WorkingFrames& frames,
-                                            const std::vector<Ex>& rate, Statements& statements) {
+                                            const std::vector<kinematics::LinkState>& states,
+                                            Statements& statements) {
   AngularVelocities omega;
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     const Link& link = tree.links[i];
@@ -20,7 +22,9 @@ AngularVelocities derive_angular_velocities(const LinkTree& tree, const WorkingF
     omega.parent.push_back(link.parent == kGround ? kinematics::zero_vector()
                                                   : frames.from_parent(i, omega.own[link.parent], w + "p"));
     omega.own.push_back(omega.parent[i]);
-    if (link.revolute) omega.own[i][2] = statements.bind(w + "_z", omega.parent[i][2] + rate[i]);
+    if (link.turns_about_z())
+      omega.own[i][2] = statements.bind(w + "_z", omega.parent[i][2] + states[i].rate);
+    if (link.has_quaternion()) omega.own[i] = statements.bind(w, omega.parent[i] + states[i].spin);
   }
   return omega;
 }
@@ -46,30 +50,28 @@ Matrix3 acceleration_gradient(const Vector3& omega, const Vector3& alpha, const 
   return U;
 }
 
-class InertiaForces {
+Vector3 product(const Matrix3& S, const Vector3& w, const std::string& name, Statements& statements) {
+  return statements.bind(name, S * w);
+}
+
+class Recursion {
  public:
-  InertiaForces(const LinkTree& tree, const WorkingFrames& frames,
-                const std::vector<CompositeBody>& composites, const AngularVelocities& omega,
-                const JointMotion& motion, const std::string& name, Statements& statements)
+  Recursion(const LinkTree& tree, const WorkingFrames& frames,
+            const std::vector<kinematics::LinkState>& states, const std::vector<CompositeBody>& composites,
+            const AngularVelocities& omega, const JointAccelerations& accelerations, const std::string& name,
+            Statements& statements)
       : tree_(tree),
         frames_(frames),
+        states_(states),
         composites_(composites),
         omega_(omega),
-        motion_(motion),
+        accelerations_(accelerations),
         name_(name),
         statements_(statements) {}
 
-  std::vector<Ex> derive() {
+  InertiaForces derive() {
     for (std::size_t i = 0; i < tree_.links.size(); ++i) outward(i);
-    const std::vector<Wrench> totals = accumulate_wrenches(tree_, frames_, relative_, name_, statements_);
-    std::vector<Ex> forces;
-    for (std::size_t i = 0; i < tree_.links.size(); ++i) {
-      const Link& link = tree_.links[i];
-      const Ex outer = link.revolute ? totals[i].moment[2] : totals[i].force[2];
-      forces.push_back(
-          statements_.bind(fmt::format("{}Q{}", name_, i), link.sign * (outer + from_parent_[i])));
-    }
-    return forces;
+    return std::move(result_);
   }
 
  private:
@@ -81,8 +83,9 @@ class InertiaForces {
   Vector3 origin_acceleration(std::size_t i) {
     const Link& link = tree_.links[i];
     const std::string a = named("a", i);
+    if (link.kind == LinkKind::kFree) return kinematics::zero_vector();
     if (link.parent == kGround)
-      return statements_.bind(a, transpose(link.R_PL) * motion_.ground_acceleration);
+      return statements_.bind(a, transpose(frames_.rotation(i)) * accelerations_.ground);
     const std::size_t p = link.parent;
     const std::string from = named(link.parallel ? "W" : "L", p);
     const Vector3 omega = link.parallel ? omega_.own[p] : frames_.to_link(p, omega_.own[p], from + "w");
@@ -91,83 +94,193 @@ class InertiaForces {
         link.parallel ? acceleration_[p] : frames_.to_link(p, acceleration_[p], from + "a");
     const Matrix3 U = acceleration_gradient(omega, alpha, from, statements_);
     const Vector3 sum = statements_.bind(a + "o", acceleration + U * frames_.offset(i));
-    return link.parallel ? sum : statements_.bind(a, transpose(link.R_PL) * sum);
+    return link.parallel ? sum : statements_.bind(a, transpose(frames_.rotation(i)) * sum);
   }
 
   void outward(std::size_t i) {
     const Link& link = tree_.links[i];
-    const Vector3& w = omega_.parent[i];
-    const Vector3 alpha = link.parent == kGround
-                              ? kinematics::zero_vector()
-                              : frames_.from_parent(i, alpha_[link.parent], named("al", i));
-    const Vector3 a = origin_acceleration(i);
-    alpha_.push_back(alpha);
-    acceleration_.push_back(a);
-    relative_.emplace_back();
-    from_parent_.emplace_back();
-    if (link.revolute)
-      turn(i, w, alpha, a);
-    else
-      slide(i, w, alpha, a);
+    alpha_.push_back(link.parent == kGround ? kinematics::zero_vector()
+                                            : frames_.from_parent(i, alpha_[link.parent], named("al", i)));
+    acceleration_.push_back(origin_acceleration(i));
+    result_.relative.emplace_back();
+    result_.from_parent.emplace_back();
+    switch (link.kind) {
+      case LinkKind::kTurn:
+        turn(i);
+        break;
+      case LinkKind::kSlide:
+      case LinkKind::kCurve:
+        slide(i);
+        break;
+      case LinkKind::kScrew:
+        screw(i);
+        break;
+      case LinkKind::kBall:
+        roll(i);
+        break;
+      case LinkKind::kFree:
+        fly(i);
+        break;
+    }
   }
 
-  void turn(std::size_t i, const Vector3& w, const Vector3& alpha, const Vector3& a) {
-    const Ex &rate = motion_.rate[i], &acceleration = motion_.acceleration[i];
+  Ex scalar_acceleration(std::size_t i) {
+    return statements_.bind(named("qdd", i), states_[i].acceleration + accelerations_.scalar[i]);
+  }
+
+  void turn(std::size_t i) {
+    const Vector3 &w = omega_.parent[i], alpha = alpha_[i], a = acceleration_[i];
+    const Ex rate = states_[i].rate, acceleration = scalar_acceleration(i);
     const Vector3& h = composites_[i].moments.first;
     const Matrix3& S = composites_[i].moments.second;
-    const Wrench momentum = unit_momentum(tree_.links[i], composites_[i]);
+    const Wrench unit = momentum(composites_[i], {{0, 0, 1}, kinematics::zero_vector()});
     // Rows of S ω_p serve the parent's gyroscopic moment about z and the moment of the relative field.
     const Ex Kx = statements_.bind(named("Kx", i), w[0] * S[0][0] + w[1] * S[0][1] + w[2] * S[0][2]);
     const Ex Ky = statements_.bind(named("Ky", i), w[0] * S[0][1] + w[1] * S[1][1] + w[2] * S[1][2]);
     const Ex gyroscopic = w[1] * Kx - w[0] * Ky;
-    from_parent_[i] = statements_.bind(
-        named("Qp", i), dot(momentum.moment, alpha) + (gyroscopic + (h[0] * a[1] - h[1] * a[0])));
+    const Ex along = statements_.bind(
+        named("Qp", i), dot(unit.moment, alpha) + (gyroscopic + (h[0] * a[1] - h[1] * a[0])));
+    result_.from_parent[i] = {tree_.links[i].sign * along};
 
     const Ex twice = statements_.bind(fmt::format("z2_{}", i), 2 * rate);
     const Ex square = statements_.bind(fmt::format("zz_{}", i), rate * rate);
     const Ex spin = statements_.bind(fmt::format("zw_{}", i), rate * (w[2] + omega_.own[i][2]));
     const Ex axial = statements_.bind(named("ax", i), w[0] * h[0] + w[1] * h[1]);
-    relative_[i].force = statements_.bind(
-        named("df", i), Vector3{-spin * h[0], -spin * h[1], twice * axial} + acceleration * momentum.force);
-    relative_[i].moment = statements_.bind(
+    result_.relative[i].force = statements_.bind(
+        named("df", i), Vector3{-spin * h[0], -spin * h[1], twice * axial} + acceleration * unit.force);
+    result_.relative[i].moment = statements_.bind(
         named("dn", i), Vector3{twice * Ky + square * S[1][2], -(twice * Kx + square * S[0][2]), 0} +
-                            acceleration * momentum.moment);
+                            acceleration * unit.moment);
     alpha_[i] =
         statements_.bind(named("al", i) + "o", alpha + Vector3{w[1] * rate, -w[0] * rate, acceleration});
   }
 
-  void slide(std::size_t i, const Vector3& w, const Vector3& alpha, const Vector3& a) {
-    const Ex& mass = composites_[i].moments.mass;
+  /// Along `direction`, of the parent's field.
+  Ex parent_pull(std::size_t i, const Vector3& direction, const Vector3& alpha, const Vector3& a) {
+    const Matrix3 U = acceleration_gradient(omega_.parent[i], alpha, named("V", i), statements_);
+    Ex along = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (direction[k].is_zero()) continue;
+      const Ex pull = statements_.bind(fmt::format("{}{}", named("Qp", i), k),
+                                       composites_[i].moments.mass * a[k] +
+                                           dot(U[k], composites_[i].moments.first));
+      along = along + direction[k] * pull;
+    }
+    return statements_.bind(named("Qp", i), along);
+  }
+
+  /// Δa on the composite body; returns Δa.
+  Vector3 translate(std::size_t i, Wrench& relative) {
+    const Vector3& w = omega_.parent[i];
+    const Ex rate = states_[i].rate;
+    const Ex twice = statements_.bind(fmt::format("z2_{}", i), 2 * rate);
+    Vector3 change = scalar_acceleration(i) * frames_.direction(i);
+    if (tree_.links[i].kind == LinkKind::kCurve) {
+      const Ex square = statements_.bind(fmt::format("zz_{}", i), rate * rate);
+      change = change + square * frames_.curvature(i);
+    }
+    const Vector3 turned = statements_.bind(named("cd", i), cross(w, frames_.direction(i)));
+    const Vector3 coriolis = statements_.bind(named("co", i), twice * turned + change);
+    relative.force = relative.force + composites_[i].moments.mass * coriolis;
+    relative.moment = relative.moment + cross(composites_[i].moments.first, coriolis);
+    relative = {statements_.bind(named("df", i) + "t", relative.force),
+                statements_.bind(named("dn", i) + "t", relative.moment)};
+    return coriolis;
+  }
+
+  void slide(std::size_t i) {
+    const Vector3 a = acceleration_[i];
+    result_.from_parent[i] = {tree_.links[i].sign * parent_pull(i, frames_.direction(i), alpha_[i], a)};
+    acceleration_[i] = statements_.bind(named("a", i) + "c", a + translate(i, result_.relative[i]));
+  }
+
+  void screw(std::size_t i) {
+    const Vector3 alpha = alpha_[i], a = acceleration_[i];
+    turn(i);
+    const Ex along = parent_pull(i, frames_.direction(i), alpha, a);
+    result_.from_parent[i][0] =
+        statements_.bind(named("Qp", i) + "s", result_.from_parent[i][0] + tree_.links[i].sign * along);
+    acceleration_[i] = statements_.bind(named("a", i) + "c", a + translate(i, result_.relative[i]));
+  }
+
+  /// ΔU of a rotation with all components: force w (u·h) − (u·w) h, moment −w × S u, and those of dw/dt.
+  void rotate(std::size_t i) {
+    const Vector3 &w = states_[i].spin, &w_p = omega_.parent[i];
     const Vector3& h = composites_[i].moments.first;
-    const Matrix3 U = acceleration_gradient(w, alpha, named("V", i), statements_);
-    from_parent_[i] = statements_.bind(named("Qp", i), mass * a[2] + dot(U[2], h));
-    const Ex twice = statements_.bind(fmt::format("z2_{}", i), 2 * motion_.rate[i]);
-    const Vector3 coriolis =
-        statements_.bind(named("co", i), Vector3{w[1] * twice, -w[0] * twice, motion_.acceleration[i]});
-    relative_[i].force = statements_.bind(named("df", i), mass * coriolis);
-    relative_[i].moment = statements_.bind(named("dn", i), cross(h, coriolis));
-    acceleration_[i] = statements_.bind(named("a", i) + "c", a + coriolis);
+    const Matrix3& S = composites_[i].moments.second;
+    const Vector3 u = statements_.bind(named("u", i), w + Ex(2) * w_p);
+    const Vector3 Su = product(S, u, named("Su", i), statements_);
+    const Ex uh = statements_.bind(named("uh", i), dot(u, h));
+    const Ex uw = statements_.bind(named("uw", i), dot(u, w));
+    const Wrench accelerated =
+        momentum(composites_[i], {accelerations_.spin[i], kinematics::zero_vector()});
+    result_.relative[i].force =
+        statements_.bind(named("df", i), uh * w - uw * h + accelerated.force);
+    result_.relative[i].moment = statements_.bind(named("dn", i), cross(Su, w) + accelerated.moment);
+    const Vector3 change = statements_.bind(named("cw", i), cross(w_p, w));
+    alpha_[i] = statements_.bind(named("al", i) + "o", alpha_[i] + change + accelerations_.spin[i]);
+  }
+
+  void roll(std::size_t i) {
+    const Vector3& w = omega_.parent[i];
+    const Vector3& h = composites_[i].moments.first;
+    const Vector3 K = product(composites_[i].moments.second, w, named("K", i), statements_);
+    const Wrench turned = momentum(composites_[i], {alpha_[i], kinematics::zero_vector()});
+    const Vector3 moment = statements_.bind(
+        named("Qp", i), turned.moment + cross(K, w) + cross(h, acceleration_[i]));
+    result_.from_parent[i] = {moment[0], moment[1], moment[2]};
+    rotate(i);
+  }
+
+  void fly(std::size_t i) {
+    result_.from_parent[i].assign(6, 0);
+    rotate(i);
+    const Vector3& a = accelerations_.linear[i];
+    acceleration_[i] = a;
+    Wrench& relative = result_.relative[i];
+    relative.force = statements_.bind(named("df", i) + "t", relative.force + composites_[i].moments.mass * a);
+    relative.moment =
+        statements_.bind(named("dn", i) + "t", relative.moment + cross(composites_[i].moments.first, a));
   }
 
   const LinkTree& tree_;
   const WorkingFrames& frames_;
+  const std::vector<kinematics::LinkState>& states_;
   const std::vector<CompositeBody>& composites_;
   const AngularVelocities& omega_;
-  const JointMotion& motion_;
+  const JointAccelerations& accelerations_;
   std::string name_;
   Statements& statements_;
   std::vector<Vector3> alpha_, acceleration_;  // of the link at its origin, in W
-  std::vector<Wrench> relative_;               // of the field that the joint adds, on the composite body
-  std::vector<Ex> from_parent_;                // along the joint, of the parent's field on the composite body
+  InertiaForces result_;
 };
 
 }  // namespace
 
-std::vector<Ex> derive_inertia_forces(const LinkTree& tree, const WorkingFrames& frames,
-                                      const std::vector<CompositeBody>& composites,
-                                      const AngularVelocities& omega, const JointMotion& motion,
-                                      const std::string& name, Statements& statements) {
-  return InertiaForces(tree, frames, composites, omega, motion, name, statements).derive();
+InertiaForces derive_inertia_forces(const LinkTree& tree, const WorkingFrames& frames,
+                                    const std::vector<kinematics::LinkState>& states,
+                                    const std::vector<CompositeBody>& composites,
+                                    const AngularVelocities& omega, const JointAccelerations& accelerations,
+                                    const std::string& name, Statements& statements) {
+  return Recursion(tree, frames, states, composites, omega, accelerations, name, statements).derive();
+}
+
+std::vector<std::vector<Ex>> derive_generalized_forces(
+    const LinkTree& tree, const WorkingFrames& frames, const std::vector<std::vector<Column>>& columns,
+    const InertiaForces& inertia, const std::vector<Wrench>& applied, const std::string& name,
+    Statements& statements) {
+  std::vector<Wrench> own = inertia.relative;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    own[i].force = statements.bind(fmt::format("{}ef{}", name, i), own[i].force - applied[i].force);
+    own[i].moment = statements.bind(fmt::format("{}en{}", name, i), own[i].moment - applied[i].moment);
+  }
+  const std::vector<Wrench> totals = accumulate_wrenches(tree, frames, own, name, statements);
+  std::vector<std::vector<Ex>> forces(own.size());
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (std::size_t c = 0; c < columns[i].size(); ++c)
+      forces[i].push_back(statements.bind(fmt::format("{}Q{}_{}", name, i, c),
+                                          power(totals[i], columns[i][c].twist) + inertia.from_parent[i][c]));
+  return forces;
 }
 
 }  // namespace jourdain::dynamics

@@ -16,6 +16,19 @@ struct ParameterText {
   std::string description;
 };
 
+/// Members of an output; a scalar has one without a name.
+struct OutputMember {
+  std::string name;
+  int rows = 1, columns = 1;
+  bool is_matrix = false;
+};
+
+struct OutputDeclaration {
+  std::string name;
+  std::string comment;
+  std::vector<OutputMember> members;
+};
+
 /// What the files say about a model beside its programs.
 struct ModelText {
   std::string name;   ///< namespace and file name
@@ -25,6 +38,9 @@ struct ModelText {
   std::string path;                                        ///< relative path of the description
   std::string sha256;                                      ///< of the description
   std::vector<std::string> positions, velocities, inputs;  ///< names in order
+  std::vector<std::size_t> quaternions;                    ///< entry in y of each quaternion's w
+  bool rheonomic = false;
+  std::vector<OutputDeclaration> outputs;
   std::vector<ParameterText> parameters;
   std::vector<std::string> assumptions;  ///< sentences
   std::vector<std::string> left_out;     ///< sentences

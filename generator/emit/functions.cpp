@@ -14,6 +14,14 @@ const std::vector<FunctionInfo>& all_functions() {
        false,
        {},
        "The state that the model description starts from, at t = 0."},
+      {"position_rate",
+       Shape::kRate,
+       "ydot",
+       false,
+       false,
+       {},
+       "dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have "
+       "their\nvelocity."},
       {"mass_matrix",
        Shape::kMatrix,
        "M",
@@ -27,15 +35,14 @@ const std::vector<FunctionInfo>& all_functions() {
        false,
        false,
        {},
-       "Coriolis and centrifugal terms k_bar(y, z); no gravity."},
+       "Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity."},
       {"q_bar",
        Shape::kVector,
        "q",
        true,
        false,
        {},
-       "Applied forces q_bar(y, z, u): gravity, springs, dampers, inputs. Sign as in M zdot = k_bar - "
-       "q_bar:\n"
+       "Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:\n"
        "a force that pushes a coordinate forward makes its entry negative."},
       {"forward_dynamics",
        Shape::kVector,
@@ -61,12 +68,19 @@ const std::vector<FunctionInfo>& all_functions() {
        false,
        {},
        "Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J."},
+      {"outputs",
+       Shape::kOutputs,
+       "",
+       true,
+       false,
+       {},
+       "The outputs that the model description asks for."},
       {"rk4_step",
        Shape::kStep,
        "",
        true,
        false,
-       {"forward_dynamics"},
+       {"position_rate", "forward_dynamics"},
        "One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the "
        "step.\n"
        "Four calls of forward_dynamics."},
@@ -80,13 +94,30 @@ std::vector<std::string> function_names() {
   return names;
 }
 
-std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted) {
+bool has_function(const FunctionInfo& function, const SceneShape& shape) {
+  switch (function.shape) {
+    case Shape::kState:
+    case Shape::kScalar:
+    case Shape::kStep:
+      return true;
+    case Shape::kVector:
+    case Shape::kMatrix:
+      return shape.velocities > 0;
+    case Shape::kRate:
+      return shape.quaternions > 0;
+    case Shape::kOutputs:
+      return shape.outputs > 0;
+  }
+  return false;
+}
+
+std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, const SceneShape& shape) {
   std::set<std::string> names(wanted.begin(), wanted.end());
   for (const FunctionInfo& function : all_functions())
     if (names.count(function.name)) names.insert(function.needs.begin(), function.needs.end());
   std::vector<FunctionInfo> chosen;
   for (const FunctionInfo& function : all_functions())
-    if (names.count(function.name)) chosen.push_back(function);
+    if (names.count(function.name) && has_function(function, shape)) chosen.push_back(function);
   return chosen;
 }
 

@@ -9,8 +9,10 @@ namespace jourdain::emit {
 enum class Shape {
   kState,   ///< returns a State
   kScalar,  ///< returns a Real
-  kVector,  ///< fills Real (&)[nz]
-  kMatrix,  ///< fills Real (&)[nz][nz]
+  kVector,   ///< fills Real (&)[nz]
+  kRate,     ///< fills Real (&)[ny]
+  kMatrix,   ///< fills Real (&)[nz][nz]
+  kOutputs,  ///< fills an Outputs
   kStep     ///< advances a State; its body is a template file, not a program
 };
 
@@ -24,13 +26,22 @@ struct FunctionInfo {
   std::string comment;              ///< doc comment, lines separated by '\n'
 };
 
+/// What decides whether a function has anything to compute, and its arguments' bounds.
+struct SceneShape {
+  std::size_t positions = 0, velocities = 0, quaternions = 0, outputs = 0;
+};
+
+/// Whether a scene of this shape has the function: vectors and matrices of length zero are left out, the rate of the
+/// positions where it is z, outputs where there are none.
+bool has_function(const FunctionInfo& function, const SceneShape& shape);
+
 /// In the order of emission.
 const std::vector<FunctionInfo>& all_functions();
 
 /// Names of all functions; what is emitted unless the user says otherwise.
 std::vector<std::string> function_names();
 
-/// `wanted` with the functions they need, in the order of emission.
-std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted);
+/// `wanted` with the functions they need, in the order of emission, as far as the scene has them.
+std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, const SceneShape& shape);
 
 }  // namespace jourdain::emit

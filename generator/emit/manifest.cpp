@@ -46,11 +46,14 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
   field("position_count", fmt::format("{}", model.positions.size()));
   field("velocity_count", fmt::format("{}", model.velocities.size()));
   field("input_count", fmt::format("{}", model.inputs.size()));
+  field("output_count", fmt::format("{}", model.outputs.size()));
   field("parameter_count", fmt::format("{}", model.parameters.size()));
   field("positions", string_array(model.positions));
   field("velocities", string_array(model.velocities));
   field("inputs", string_array(model.inputs));
-  field("outputs", "[]");
+  std::vector<std::string> outputs;
+  for (const OutputDeclaration& output : model.outputs) outputs.push_back(output.name);
+  field("outputs", string_array(outputs));
   field("parameters", string_array(parameters));
   field("parameter_values", "[" + values + "]");
   field("functions", string_array(names));

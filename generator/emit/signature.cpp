@@ -11,7 +11,9 @@ std::string Argument::text(bool named) const {
   return named ? type + " " + name : type;
 }
 
-std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real, std::size_t nz) {
+std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real,
+                                const SceneShape& scene) {
+  const std::size_t nz = scene.velocities;
   std::vector<Argument> list = {{fmt::format("const Model<{}>&", real), "model", ""}};
   if (function.shape == Shape::kState) return list;
   const bool step = function.shape == Shape::kStep;
@@ -20,18 +22,21 @@ std::vector<Argument> arguments(const FunctionInfo& function, const std::string&
   if (function.takes_acceleration) list.push_back({"const " + real, "zdot", fmt::format("[{}]", nz)});
   if (step) list.push_back({real, "h", ""});
   if (function.shape == Shape::kVector) list.push_back({real, function.result, fmt::format("[{}]", nz)});
+  if (function.shape == Shape::kRate)
+    list.push_back({real, function.result, fmt::format("[{}]", scene.positions)});
+  if (function.shape == Shape::kOutputs) list.push_back({fmt::format("Outputs<{}>&", real), "result", ""});
   if (function.shape == Shape::kMatrix)
     list.push_back({real, function.result, fmt::format("[{0}][{0}]", nz)});
   return list;
 }
 
-std::string signature(const FunctionInfo& function, const std::string& real, std::size_t nz,
+std::string signature(const FunctionInfo& function, const std::string& real, const SceneShape& scene,
                       const std::string* body) {
   const std::string result = function.shape == Shape::kState    ? fmt::format("State<{}> ", real)
                              : function.shape == Shape::kScalar ? real + " "
                                                                 : "void ";
   std::string text;
-  for (const Argument& argument : arguments(function, real, nz))
+  for (const Argument& argument : arguments(function, real, scene))
     text += (text.empty() ? "" : ", ") + argument.text(!body || mentions(*body, argument.name));
   return result + function.name + "(" + text + ") noexcept";
 }

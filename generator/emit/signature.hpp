@@ -15,11 +15,11 @@ struct Argument {
   std::string text(bool named) const;
 };
 
-/// For number type `real` and `nz` generalized velocities.
-std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real, std::size_t nz);
+/// For number type `real`.
+std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real, const SceneShape& scene);
 
 /// Without the closing semicolon. Arguments that `body` does not use are left unnamed; without a body all are named.
-std::string signature(const FunctionInfo& function, const std::string& real, std::size_t nz,
+std::string signature(const FunctionInfo& function, const std::string& real, const SceneShape& scene,
                       const std::string* body = nullptr);
 
 }  // namespace jourdain::emit

@@ -32,6 +32,8 @@ LeafKind leaf_kind(kinematics::LeafKind kind) {
       return LeafKind::kAcceleration;
     case kinematics::LeafKind::kInput:
       return LeafKind::kInput;
+    case kinematics::LeafKind::kTime:
+      return LeafKind::kTime;
   }
   return LeafKind::kParameter;
 }

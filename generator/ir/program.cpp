@@ -65,6 +65,8 @@ const char* leaf_name(LeafKind kind) {
       return "zdot";
     case LeafKind::kInput:
       return "u";
+    case LeafKind::kTime:
+      return "t";
   }
   return "";
 }

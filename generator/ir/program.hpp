@@ -27,8 +27,16 @@ enum class Op : std::uint8_t {
 };
 
 /// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed once.
-enum class LeafKind : std::uint8_t { kParameter, kConstant, kPosition, kVelocity, kAcceleration, kInput };
-inline constexpr std::size_t kLeafKinds = 6;
+enum class LeafKind : std::uint8_t {
+  kParameter,
+  kConstant,
+  kPosition,
+  kVelocity,
+  kAcceleration,
+  kInput,
+  kTime
+};
+inline constexpr std::size_t kLeafKinds = 7;
 
 struct Node {
   Op op = Op::kLiteral;

@@ -1,15 +1,14 @@
 #include "kinematics/link_tree.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <utility>
 
-#include <optional>
-
+#include "kinematics/joint_steps.hpp"
 #include "kinematics/numbers.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::kinematics {
 
-using model::JointType;
 using model::Mechanism;
 
 MassMoments operator+(const MassMoments& a, const MassMoments& b) {
@@ -34,13 +33,6 @@ MassMoments bind_moments(Statements& statements, const std::string& name, const 
           statements.bind_symmetric(name + "_S", settled(moments.second))};
 }
 
-/// Where a body's frame B sits: rigidly in link frame L of `link` (or in the inertial frame).
-struct BodyPose {
-  std::size_t link = kGround;
-  Matrix3 R_LB = identity_matrix();
-  Vector3 r_LB = zero_vector();
-};
-
 /// Orientation of a frame with z along the unit vector `z`: a permutation of the axes where z lies on one, otherwise
 /// x in the parent's xy plane (one entry of the matrix is zero).
 Matrix3 frame_along(const Vector3& z) {
@@ -61,10 +53,12 @@ class Builder {
 
   LinkTree build() {
     tree_.gravity = to_symbolic(mechanism_.gravity, parameters_, statements_);
-    poses_.resize(mechanism_.bodies.size());
-    for (model::JointIndex index : model::depth_first(mechanism_))
-      place_child(mechanism_.joints[index.value]);
-    for (std::size_t i = 0; i < mechanism_.bodies.size(); ++i) add_body(mechanism_.bodies[i], poses_[i]);
+    tree_.bodies.resize(mechanism_.bodies.size());
+    for (model::JointIndex index : model::depth_first(mechanism_)) place_child(index);
+    for (std::size_t i = 0; i < mechanism_.bodies.size(); ++i)
+      add_body(mechanism_.bodies[i], tree_.bodies[i]);
+    for (std::size_t i = 0; i < tree_.links.size(); ++i)
+      if (tree_.links[i].kind == LinkKind::kFree && is_leaf(i)) move_to_center_of_mass(i);
     if (options_.regroup)
       for (std::size_t i = tree_.links.size(); i-- > 0;) regroup(tree_.links[i]);
     return std::move(tree_);
@@ -87,48 +81,101 @@ class Builder {
     return {{bound(name + "_x", value[0]), bound(name + "_y", value[1]), bound(name + "_z", value[2])}};
   }
 
-  void place_child(const model::Joint& joint) {
-    const BodyPose parent = joint.parent ? poses_[joint.parent->value] : BodyPose{};
-    const Matrix3 R_LJ =
-        bound("R_" + joint.name, parent.R_LB * rotation(joint.placement.rotation, "R_" + joint.name));
-    const Vector3 r_LJ =
-        bound("r_" + joint.name,
-              parent.r_LB + parent.R_LB * to_symbolic(joint.placement.position, parameters_, statements_));
-    BodyPose& child = poses_[joint.child.value];
-    if (joint.type == JointType::kFixed) {
-      child = {parent.link, R_LJ, r_LJ};
-      return;
+  void place_child(model::JointIndex index) {
+    const model::Joint& joint = mechanism_.joints[index.value];
+    BodyPose pose = joint.parent ? tree_.bodies[joint.parent->value] : BodyPose{};
+    const Matrix3 R_BJ = rotation(joint.placement.rotation, "R_" + joint.name);
+    const Vector3 r_BJ = to_symbolic(joint.placement.position, parameters_, statements_);
+    pose.r_LB = bound("r_" + joint.name, pose.r_LB + pose.R_LB * r_BJ);
+    pose.R_LB = bound("R_" + joint.name, pose.R_LB * R_BJ);
+    for (const JointStep& step : joint_steps(joint)) {
+      Link link = make_link(step, joint, pose);
+      link.joint = index;
+      const BodyPose from = pose;
+      pose.link = tree_.links.size();
+      pose.R_LB = bound("R_" + link.name, transpose(link.R_PL) * from.R_LB);
+      pose.r_LB = bound("r_" + link.name, transpose(link.R_PL) * (from.r_LB - link.r_PL));
+      tree_.links.push_back(link);
     }
-    const Link link = make_link(joint, parent.link, R_LJ, r_LJ);
-    child.link = tree_.links.size();
-    child.R_LB = bound("R_" + joint.name, transpose(link.R_PL) * R_LJ);
-    child.r_LB = bound("r_" + joint.name, transpose(link.R_PL) * (r_LJ - link.r_PL));
-    tree_.links.push_back(link);
+    tree_.bodies[joint.child.value] = pose;
+  }
+
+  /// `pose` is that of the frame that the step moves, in the parent link.
+  Link make_link(const JointStep& step, const model::Joint& joint, const BodyPose& pose) {
+    Link link;
+    link.name = joint.coordinates.empty() ? joint.name : joint.coordinates[step.coordinate].name;
+    link.kind = step.kind;
+    link.coordinate = step.coordinate;
+    link.parent = pose.link;
+    link.R_PL = identity_matrix();
+    link.r_PL = pose.r_LB;
+    switch (step.kind) {
+      case LinkKind::kFree:
+        break;
+      case LinkKind::kBall:
+        link.R_PL = pose.R_LB;
+        break;
+      case LinkKind::kCurve:
+        link.R_PJ = pose.R_LB;
+        link.parallel = options_.share_parallel && pose.link != kGround;
+        break;
+      case LinkKind::kTurn:
+      case LinkKind::kSlide:
+      case LinkKind::kScrew:
+        link.pitch = to_symbolic(joint.pitch, parameters_, statements_);
+        align(link, step.axis, pose);
+        break;
+    }
+    return link;
   }
 
   /// Chooses the link frame: z on the axis, pointing along the parent's positive axes where it is aligned with one.
-  Link make_link(const model::Joint& joint, std::size_t parent, const Matrix3& R_LJ, const Vector3& r_LJ) {
-    Link link;
-    link.name = joint.name;
-    link.revolute = joint.type == JointType::kRevolute;
-    link.parent = parent;
-    Vector3 z = bound("axis_" + joint.name, R_LJ * unit_vector(joint.axis));
+  void align(Link& link, const std::array<double, 3>& axis, const BodyPose& pose) {
+    Vector3 z = bound("axis_" + link.name, pose.R_LB * unit_vector(axis));
     if (mechanism_.snap) z = aligned(z);
     if (z[0].is_equal(-1) || z[1].is_equal(-1) || z[2].is_equal(-1)) {
       link.sign = -1;
       z = Ex(-1) * z;
     }
     const bool numeric = is_number(z[0]) && is_number(z[1]) && is_number(z[2]);
-    link.R_PL = numeric ? frame_along(z) : R_LJ * frame_along(unit_vector(joint.axis));
-    link.R_PL = bound("R_" + joint.name, link.R_PL);
-    link.parallel = options_.share_parallel && parent != kGround && z[2].is_equal(1);
-    if (link.revolute) {
-      const Ex along = statements_.bind("d_" + joint.name, dot(z, r_LJ));
-      link.r_PL = bound("r_" + joint.name, r_LJ - along * z);
-    } else {
+    link.R_PL = numeric ? frame_along(z) : pose.R_LB * frame_along(unit_vector(axis));
+    link.R_PL = bound("R_" + link.name, link.R_PL);
+    link.parallel = options_.share_parallel && pose.link != kGround && z[2].is_equal(1);
+    if (link.kind == LinkKind::kSlide) {
       link.r_PL = zero_vector();
+      return;
     }
-    return link;
+    const Ex along = statements_.bind("d_" + link.name, dot(z, pose.r_LB));
+    link.r_PL = bound("r_" + link.name, pose.r_LB - along * z);
+  }
+
+  bool is_leaf(std::size_t i) const {
+    return std::none_of(tree_.links.begin(), tree_.links.end(),
+                        [i](const Link& link) { return link.parent == i; });
+  }
+
+  /// Moves the origin of a link without outward links to its centre of mass, where M is block diagonal.
+  void move_to_center_of_mass(std::size_t i) {
+    Link& link = tree_.links[i];
+    const MassMoments& about_origin = link.moments;
+    if (about_origin.mass.is_zero()) return;
+    const Ex inverse = statements_.bind("inverse_mass", 1 / about_origin.mass);
+    link.shift = bound("c_" + link.name, inverse * about_origin.first);
+    Matrix3 second = about_origin.second;
+    for (std::size_t k = 0; k < 3; ++k)
+      second[k] = second[k] - about_origin.first[k] * link.shift;
+    link.moments = {about_origin.mass, zero_vector(), bind_second(link.name, second)};
+    for (std::size_t b = 0; b < tree_.bodies.size(); ++b) {
+      BodyPose& pose = tree_.bodies[b];
+      if (pose.link != i) continue;
+      pose.r_LB = bound("r_" + link.name, pose.r_LB - link.shift);
+      tree_.body_moments[b] =
+          moved(tree_.body_moments[b], identity_matrix(), Ex(-1) * link.shift, statements_);
+    }
+  }
+
+  Matrix3 bind_second(const std::string& name, const Matrix3& second) {
+    return statements_.bind_symmetric(name + "_S", settled(second));
   }
 
   void add_body(const model::Body& body, const BodyPose& pose) {
@@ -148,33 +195,45 @@ class Builder {
     else
       moments.first = mass * c;
     moments = bind_moments(statements_, body.name, moments);
+    tree_.body_moments.push_back(
+        bind_moments(statements_, body.name, moved(moments, pose.R_LB, pose.r_LB, statements_)));
     MassMoments& target = moments_of(pose.link);
-    target = bind_moments(statements_, body.name, target + moved(moments, pose.R_LB, pose.r_LB, statements_));
+    target = bind_moments(statements_, body.name, target + tree_.body_moments.back());
   }
 
-  /// A revolute joint about z does not move what is symmetric about z: the mass, h_z and S_zz. A prismatic joint does
-  /// not turn anything: its whole second moment counts as the parent's (design section 2, base inertial parameters).
+  /// Moves to the parent what the joint's motion does not feel (design section 2, base inertial parameters): of a turn
+  /// about z what is symmetric about z (mass, h_z and S_zz); of a ball the mass at its centre; of a slide or curve, which
+  /// turn nothing, the whole second moment; of a screw S_zz.
   void regroup(Link& link) {
-    MassMoments kept = link.moments, symmetric;
-    if (link.revolute) {
-      symmetric.mass = kept.mass;
-      symmetric.first[2] = kept.first[2];
-      symmetric.second[2][2] = kept.second[2][2];
-      kept.mass = kept.first[2] = kept.second[2][2] = 0;
-    } else {
-      std::swap(symmetric.second, kept.second);
+    MassMoments kept = link.moments, moving;
+    switch (link.kind) {
+      case LinkKind::kTurn:
+        std::swap(moving.mass, kept.mass);
+        std::swap(moving.first[2], kept.first[2]);
+        std::swap(moving.second[2][2], kept.second[2][2]);
+        break;
+      case LinkKind::kScrew:
+        std::swap(moving.second[2][2], kept.second[2][2]);
+        break;
+      case LinkKind::kSlide:
+      case LinkKind::kCurve:
+        std::swap(moving.second, kept.second);
+        break;
+      case LinkKind::kBall:
+        std::swap(moving.mass, kept.mass);
+        break;
+      case LinkKind::kFree:
+        return;
     }
     link.moments = kept;
     MassMoments& parent = moments_of(link.parent);
-    parent =
-        bind_moments(statements_, link.name, parent + moved(symmetric, link.R_PL, link.r_PL, statements_));
+    parent = bind_moments(statements_, link.name, parent + moved(moving, link.R_PL, link.r_PL, statements_));
   }
 
   const Mechanism& mechanism_;
   std::span<const Ex> parameters_;
   Statements& statements_;
   LinkTreeOptions options_;
-  std::vector<BodyPose> poses_;
   LinkTree tree_;
 };
 

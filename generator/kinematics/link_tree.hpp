@@ -26,23 +26,51 @@ MassMoments moved(const MassMoments& moments, const Matrix3& R, const Vector3& r
 
 inline constexpr std::size_t kGround = static_cast<std::size_t>(-1);
 
-/// A moving body. Its frame L has z on the joint axis (reversed where `sign` is −1), so that the link rotates by
-/// sign·y about z or moves by sign·y along z.
+/// What one link adds to the motion of its parent; every joint is a chain of these (`joint_steps`).
+enum class LinkKind {
+  kTurn,   ///< rotates by sign·y about z
+  kSlide,  ///< moves by sign·y along z
+  kScrew,  ///< both: rotates by sign·y about z and moves by pitch·sign·y along it
+  kCurve,  ///< its origin moves on a space curve, without turning
+  kBall,   ///< rotates by a quaternion
+  kFree    ///< moves and rotates freely in the inertial frame
+};
+
+/// A moving body. Its frame L has z on the joint axis (reversed where `sign` is −1) of a turn, slide or screw.
 struct Link {
   std::string name;
-  bool revolute = true;
+  LinkKind kind = LinkKind::kTurn;
+  model::JointIndex joint;
+  std::size_t coordinate = 0;    ///< scalar coordinate of the joint (turn, slide, screw, curve)
   std::size_t parent = kGround;  ///< link, or kGround
   int sign = 1;
   bool parallel = false;  ///< z is parallel to the parent's z, and R_PL the identity
   Matrix3 R_PL;           ///< orientation in the parent's link frame P at y = 0
-  Vector3 r_PL;           ///< origin in P at y = 0; orthogonal to z (revolute) or zero (prismatic)
+  Vector3 r_PL;           ///< origin in P at y = 0; orthogonal to z (turn) or zero (slide)
+  Ex pitch = 0;           ///< screw, m/rad
+  Matrix3 R_PJ;           ///< curve: joint frame, in which the curve is given, in P
+  /// Free: origin of L from the child's origin, child axes. A lone body's is its centre of mass, others' zero.
+  Vector3 shift = zero_vector();
   MassMoments moments;
+
+  bool turns_about_z() const { return kind == LinkKind::kTurn || kind == LinkKind::kScrew; }
+  bool moves_along_z() const { return kind == LinkKind::kSlide || kind == LinkKind::kScrew; }
+  bool has_quaternion() const { return kind == LinkKind::kBall || kind == LinkKind::kFree; }
+};
+
+/// Where a body's frame B sits: rigidly in link frame L of `link` (or in the inertial frame).
+struct BodyPose {
+  std::size_t link = kGround;
+  Matrix3 R_LB = identity_matrix();
+  Vector3 r_LB = zero_vector();
 };
 
 struct LinkTree {
-  std::vector<Link> links;  ///< link i belongs to y[i], z[i]; parents first
+  std::vector<Link> links;  ///< in the order of the coordinates; parents first
   MassMoments ground;       ///< what is fixed to the inertial frame
   Vector3 gravity;
+  std::vector<BodyPose> bodies;  ///< by BodyIndex
+  std::vector<MassMoments> body_moments;  ///< by BodyIndex, about the origin of the body's link, before regrouping
 };
 
 struct LinkTreeOptions {

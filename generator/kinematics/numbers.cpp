@@ -54,6 +54,57 @@ struct Symbolic {
   friend Symbolic cos(const Symbolic& a) { return a.bound(cosine(a.value)); }
 };
 
+/// A Taylor with the functions that Expression::evaluate looks up by argument.
+struct Jet {
+  Taylor at;
+  Statements* statements;
+
+  Jet bound(const Ex& value, const Ex& first, const Ex& second) const {
+    const Ex v = statements->bind("expression", value);
+    const Ex d = statements->bind("derivative", first);
+    return {{v, d, statements->bind("derivative", second)}, statements};
+  }
+  /// f(this) for a function with value f and derivatives df, ddf there, all bound.
+  Jet chained(const Ex& f, const Ex& df, const Ex& ddf) const {
+    const Ex square = statements->bind("derivative", at.first * at.first);
+    return bound(f, df * at.first, ddf * square + df * at.second);
+  }
+  friend Jet operator-(const Jet& a) { return a.bound(-a.at.value, -a.at.first, -a.at.second); }
+  friend Jet operator+(const Jet& a, const Jet& b) {
+    return a.bound(a.at.value + b.at.value, a.at.first + b.at.first, a.at.second + b.at.second);
+  }
+  friend Jet operator-(const Jet& a, const Jet& b) {
+    return a.bound(a.at.value - b.at.value, a.at.first - b.at.first, a.at.second - b.at.second);
+  }
+  friend Jet operator*(const Jet& a, const Jet& b) {
+    return a.bound(
+        a.at.value * b.at.value, a.at.first * b.at.value + a.at.value * b.at.first,
+        a.at.second * b.at.value + 2 * a.at.first * b.at.first + a.at.value * b.at.second);
+  }
+  friend Jet operator/(const Jet& a, const Jet& b) {
+    const Ex inverse = a.statements->bind("inverse", 1 / b.at.value);
+    const Ex square = a.statements->bind("inverse", inverse * inverse);
+    const Ex cube = a.statements->bind("inverse", 2 * square * inverse);
+    return a * b.chained(inverse, -square, cube);
+  }
+  friend Jet sqrt(const Jet& a) {
+    const Ex root = a.statements->bind("root", square_root(a.at.value));
+    const Ex slope = a.statements->bind("root", Ex(GiNaC::numeric(1, 2)) / root);
+    const Ex curvature = a.statements->bind("root", -slope / (2 * a.at.value));
+    return a.chained(root, slope, curvature);
+  }
+  friend Jet sin(const Jet& a) {
+    const Ex s = a.statements->bind("s", sine(a.at.value));
+    const Ex c = a.statements->bind("c", cosine(a.at.value));
+    return a.chained(s, c, -s);
+  }
+  friend Jet cos(const Jet& a) {
+    const Ex s = a.statements->bind("s", sine(a.at.value));
+    const Ex c = a.statements->bind("c", cosine(a.at.value));
+    return a.chained(c, -s, -c);
+  }
+};
+
 }  // namespace
 
 Ex square_root(const Ex& value) {
@@ -81,13 +132,35 @@ Ex cosine(const Ex& angle) {
 }
 
 Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters, Statements& statements) {
+  return to_symbolic(expression, parameters, statements, [](const model::Variable&) -> Ex {
+    throw support::InternalError("a variable where only parameters may be");
+  });
+}
+
+Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters, Statements& statements,
+               const VariableValue& variable) {
+  const auto symbolic = [&statements](const Ex& value) { return Symbolic{value, &statements}; };
   std::vector<Symbolic> values;
-  for (const Ex& parameter : parameters) values.push_back({parameter, &statements});
-  return expression.evaluate<Symbolic>(values,
-                                       [&](double v) {
-                                         return Symbolic{exact(v), &statements};
-                                       })
+  for (const Ex& parameter : parameters) values.push_back(symbolic(parameter));
+  return expression
+      .evaluate<Symbolic>(
+          values, [&](double v) { return symbolic(exact(v)); },
+          [&](const model::Variable& v) { return symbolic(variable(v)); })
       .value;
+}
+
+Taylor differentiated(const model::Expression& expression, const Ex& variable, std::span<const Ex> parameters,
+                      Statements& statements) {
+  const auto constant = [&statements](const Ex& value) { return Jet{{value, 0, 0}, &statements}; };
+  std::vector<Jet> values;
+  for (const Ex& parameter : parameters) values.push_back(constant(parameter));
+  return expression
+      .evaluate<Jet>(
+          values, [&](double v) { return constant(exact(v)); },
+          [&](const model::Variable&) {
+            return Jet{{variable, 1, 0}, &statements};
+          })
+      .at;
 }
 
 Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters, Statements& statements) {

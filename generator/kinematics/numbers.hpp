@@ -1,6 +1,7 @@
 // From the doubles of a model file to exact symbolic numbers.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "kinematics/statements.hpp"
@@ -23,6 +24,21 @@ Ex cosine(const Ex& angle);
 /// of all numbers out of a power of a sum, which leaves factors like 1e-49 and 1e49 behind.
 Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters, Statements& statements);
 Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters, Statements& statements);
+
+/// Value of a variable of an expression.
+using VariableValue = std::function<Ex(const model::Variable&)>;
+Ex to_symbolic(const model::Expression& expression, std::span<const Ex> parameters, Statements& statements,
+               const VariableValue& variable);
+
+/// A function of one variable with its first two derivatives.
+struct Taylor {
+  Ex value, first, second;
+};
+
+/// `expression` as a function of its only variable, whose value is `variable`; every operation is bound, derivatives
+/// follow the rules of differentiation operation by operation.
+Taylor differentiated(const model::Expression& expression, const Ex& variable, std::span<const Ex> parameters,
+                      Statements& statements);
 
 /// Rotation matrix of roll, pitch, yaw. With `snap`, numeric entries within model::kSnapTolerance of 0 and ±1 become
 /// those exact numbers, and so do sines and cosines within 1e-15 (of π/2 rounded to double, say), which keeps the matrix

@@ -6,31 +6,80 @@
 
 namespace jourdain::kinematics {
 
-WorkingFrames::WorkingFrames(const LinkTree& tree, const std::vector<Ex>& y, Statements& statements)
+namespace {
+
+/// Rotation matrix of a unit quaternion (w, x, y, z) without division: 1 − 2(y² + z²), 2(xy − wz), …
+Matrix3 quaternion_matrix(const std::array<Ex, 4>& q, const std::string& name, Statements& statements) {
+  const auto twice = [&](std::size_t a, std::size_t b) {
+    return statements.bind(fmt::format("{}{}{}", name, a, b), 2 * (q[a] * q[b]));
+  };
+  const Ex xx = twice(1, 1), yy = twice(2, 2), zz = twice(3, 3);
+  const Ex xy = twice(1, 2), xz = twice(1, 3), yz = twice(2, 3);
+  const Ex wx = twice(0, 1), wy = twice(0, 2), wz = twice(0, 3);
+  Matrix3 R = {{{1 - yy - zz, xy - wz, xz + wy}, {xy + wz, 1 - xx - zz, yz - wx}, {xz - wy, yz + wx, 1 - xx - yy}}};
+  for (std::size_t i = 0; i < 3; ++i) R[i] = statements.bind(fmt::format("{}r{}", name, i), R[i]);
+  return R;
+}
+
+}  // namespace
+
+WorkingFrames::WorkingFrames(const LinkTree& tree, const std::vector<LinkState>& states,
+                             Statements& statements)
     : tree_(tree), statements_(statements) {
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     const Link& link = tree.links[i];
-    const Ex previous = link.parallel ? angle_[link.parent] : Ex(0);
-    const Ex turned = link.revolute ? Ex(link.sign * y[i]) : Ex(0);
-    angle_.push_back(statements.bind(fmt::format("angle{}", i), previous + turned));
-    if (!link.revolute && link.parallel) {
-      cosine_.push_back(cosine_[link.parent]);
-      sine_.push_back(sine_[link.parent]);
-    } else if (!link.parallel && link.sign < 0) {
-      cosine_.push_back(statements.bind(fmt::format("c{}", i), kinematics::cosine(-angle_[i])));
-      sine_.push_back(-statements.bind(fmt::format("s{}", i), kinematics::sine(-angle_[i])));
-    } else {
-      cosine_.push_back(statements.bind(fmt::format("c{}", i), kinematics::cosine(angle_[i])));
-      sine_.push_back(statements.bind(fmt::format("s{}", i), kinematics::sine(angle_[i])));
+    set_angle(i, states[i]);
+    Matrix3 R = link.R_PL;
+    if (link.has_quaternion()) {
+      R = R * quaternion_matrix(states[i].quaternion, fmt::format("q{}", i), statements);
+      for (std::size_t k = 0; k < 3; ++k) R[k] = statements.bind(fmt::format("R{}_{}", i, k), R[k]);
     }
-    const std::string name = fmt::format("r{}", i);
-    Vector3 offset = link.parallel ? to_working(link.parent, link.r_PL, name) : link.r_PL;
-    if (!link.revolute) {
-      const Ex travel = link.sign * y[i];
-      for (std::size_t k = 0; k < 3; ++k) offset[k] = offset[k] + link.R_PL[k][2] * travel;
-    }
-    offset_.push_back(statements.bind(name, offset));
+    rotation_.push_back(R);
+    set_translation(i, states[i]);
   }
+}
+
+void WorkingFrames::set_angle(std::size_t i, const LinkState& state) {
+  const Link& link = tree_.links[i];
+  const Ex previous = link.parallel ? angle_[link.parent] : Ex(0);
+  const Ex turned = link.turns_about_z() ? state.position : Ex(0);
+  angle_.push_back(statements_.bind(fmt::format("angle{}", i), previous + turned));
+  if (!link.turns_about_z() && link.parallel) {
+    cosine_.push_back(cosine_[link.parent]);
+    sine_.push_back(sine_[link.parent]);
+  } else if (!link.parallel && link.sign < 0) {
+    cosine_.push_back(statements_.bind(fmt::format("c{}", i), kinematics::cosine(-angle_[i])));
+    sine_.push_back(-statements_.bind(fmt::format("s{}", i), kinematics::sine(-angle_[i])));
+  } else {
+    cosine_.push_back(statements_.bind(fmt::format("c{}", i), kinematics::cosine(angle_[i])));
+    sine_.push_back(statements_.bind(fmt::format("s{}", i), kinematics::sine(angle_[i])));
+  }
+}
+
+void WorkingFrames::set_translation(std::size_t i, const LinkState& state) {
+  const Link& link = tree_.links[i];
+  const std::string name = fmt::format("r{}", i);
+  Vector3 offset = link.r_PL;
+  Vector3 direction = zero_vector(), curvature = zero_vector();
+  if (link.kind == LinkKind::kCurve) {
+    offset = statements_.bind(name + "c", offset + link.R_PJ * state.place);
+    direction = statements_.bind(name + "d", link.R_PJ * state.slope);
+    curvature = statements_.bind(name + "dd", link.R_PJ * state.curvature);
+    if (link.parallel) {
+      direction = to_working(link.parent, direction, name + "d");
+      curvature = to_working(link.parent, curvature, name + "dd");
+    }
+  }
+  if (link.kind == LinkKind::kFree) offset = state.origin + rotation_[i] * link.shift;
+  if (link.parallel) offset = to_working(link.parent, offset, name);
+  if (link.moves_along_z()) {
+    direction[2] = link.kind == LinkKind::kScrew ? link.pitch : Ex(1);
+    const Ex travel = statements_.bind(name + "t", direction[2] * state.position);
+    for (std::size_t k = 0; k < 3; ++k) offset[k] = offset[k] + link.R_PL[k][2] * travel;
+  }
+  offset_.push_back(statements_.bind(name, offset));
+  direction_.push_back(direction);
+  curvature_.push_back(curvature);
 }
 
 Vector3 WorkingFrames::to_working(std::size_t link, const Vector3& v, const std::string& name) const {
@@ -47,7 +96,14 @@ Vector3 WorkingFrames::from_parent(std::size_t link, const Vector3& v, const std
   const Link& to = tree_.links[link];
   if (to.parallel) return v;
   const Vector3 v_P = to.parent == kGround ? v : to_link(to.parent, v, name + "p");
-  return statements_.bind(name, transpose(to.R_PL) * v_P);
+  return statements_.bind(name, transpose(rotation_[link]) * v_P);
+}
+
+Vector3 WorkingFrames::to_parent(std::size_t link, const Vector3& v, const std::string& name) const {
+  const Link& from = tree_.links[link];
+  if (from.parallel) return v;
+  const Vector3 v_P = statements_.bind(name + "p", rotation_[link] * v);
+  return from.parent == kGround ? v_P : to_working(from.parent, v_P, name);
 }
 
 }  // namespace jourdain::kinematics

@@ -8,6 +8,7 @@
 
 #include "dynamics/high_precision.hpp"
 #include "kinematics/numbers.hpp"
+#include "model/coordinates.hpp"
 #include "reference/minimal.hpp"
 
 namespace jourdain::validate {
@@ -24,6 +25,7 @@ using Vector = reference::VectorX<long double>;
 
 /// One point of comparison.
 struct Sample {
+  double t = 0;
   std::vector<double> parameters, y, z, u, zdot;
 };
 
@@ -38,25 +40,50 @@ class Uniform {
   std::mt19937_64 engine_{20061};
 };
 
+/// For each entry of y whether it is an angle.
+std::vector<bool> angular_positions(const model::Mechanism& mechanism, const model::CoordinateLayout& layout) {
+  std::vector<bool> angular(layout.position_count(), false);
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
+      if (const auto entry = layout.joints[j].position[c])
+        angular[*entry] = mechanism.joints[j].coordinates[c].angular;
+  return angular;
+}
+
+void normalise(double* quaternion) {
+  double square = 0;
+  for (int i = 0; i < 4; ++i) square += quaternion[i] * quaternion[i];
+  for (int i = 0; i < 4; ++i) quaternion[i] /= std::sqrt(square);
+}
+
+/// The state that the model starts from, at the default values of the parameters.
+void start(const model::Mechanism& mechanism, Sample& sample) {
+  const reference::State<long double> state = Reference(mechanism).initial_state();
+  for (std::size_t i = 0; i < sample.y.size(); ++i)
+    sample.y[i] = static_cast<double>(state.y[static_cast<Eigen::Index>(i)]);
+  for (std::size_t i = 0; i < sample.z.size(); ++i)
+    sample.z[i] = static_cast<double>(state.z[static_cast<Eigen::Index>(i)]);
+}
+
 std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t count) {
   Uniform uniform;
   std::vector<Sample> samples;
-  const std::vector<model::JointIndex> joints = model::moving_joints(mechanism);
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  const std::vector<bool> angular = angular_positions(mechanism, layout);
   for (std::size_t k = 0; k < count; ++k) {
     Sample sample;
+    sample.t = k == 0 ? 0.0 : uniform(0, 2);
     for (const model::Parameter& parameter : mechanism.parameters)
       sample.parameters.push_back(parameter.value * (k == 0 ? 1.0 : uniform(0.9, 1.1)));
-    const Reference start(mechanism,
-                          std::vector<long double>(sample.parameters.begin(), sample.parameters.end()));
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      const bool revolute = mechanism.joints[joints[i].value].type == model::JointType::kRevolute;
-      const Eigen::Index row = static_cast<Eigen::Index>(i);
-      const double y = uniform(-1, 1) * (revolute ? 3.14 : 1.0), z = uniform(-2, 2);
-      sample.y.push_back(k == 0 ? static_cast<double>(start.initial_state().y[row]) : y);
-      sample.z.push_back(k == 0 ? static_cast<double>(start.initial_state().z[row]) : z);
+    for (std::size_t i = 0; i < layout.position_count(); ++i)
+      sample.y.push_back(uniform(-1, 1) * (angular[i] ? 3.14 : 1.0));
+    for (std::size_t i = 0; i < layout.velocity_count(); ++i) {
+      sample.z.push_back(uniform(-2, 2));
       sample.zdot.push_back(uniform(-5, 5));
     }
-    for (std::size_t i = 0; i < mechanism.actuators.size(); ++i) sample.u.push_back(uniform(-5, 5));
+    for (std::size_t i = 0; i < layout.input_count(); ++i) sample.u.push_back(uniform(-5, 5));
+    for (const std::size_t q : layout.quaternions) normalise(&sample.y[q]);
+    if (k == 0) start(mechanism, sample);
     samples.push_back(sample);
   }
   return samples;
@@ -81,8 +108,14 @@ class Comparison {
         exact_(equations.statements,
                [&](kinematics::LeafKind kind, std::size_t i) { return leaf_value(kind, i); }),
         parameters_(sample.parameters.begin(), sample.parameters.end()),
-        terms_(Reference(mechanism, parameters_).evaluate(state(), to_vector(sample.u))) {
+        reference_(mechanism, parameters_),
+        terms_(reference_.evaluate(state(), to_vector(sample.u))) {
     reference::widen_scales(terms_);
+    if (mechanism.outputs.empty()) return;
+    const Vector zdot = reference::forward_dynamics<long double>(terms_);
+    const Vector load = terms_.M_scale * zdot.cwiseAbs() + terms_.k_scale + terms_.q_scale;
+    const Vector scale = zdot.cwiseAbs() + terms_.M.inverse().cwiseAbs() * load;
+    outputs_ = reference_.outputs(state(), to_vector(sample.u), zdot, scale);
   }
 
   void run() {
@@ -107,11 +140,13 @@ class Comparison {
         return sample_.zdot[i];
       case kinematics::LeafKind::kInput:
         return sample_.u[i];
+      case kinematics::LeafKind::kTime:
+        return sample_.t;
     }
     return 0;
   }
 
-  reference::State<long double> state() const { return {0, to_vector(sample_.y), to_vector(sample_.z)}; }
+  reference::State<long double> state() const { return {sample_.t, to_vector(sample_.y), to_vector(sample_.z)}; }
 
   static Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
   static Eigen::Index at(int i) { return static_cast<Eigen::Index>(i); }
@@ -145,20 +180,32 @@ class Comparison {
       compare(equations_.k_bar[i], terms_.k_bar[at(i)], terms_.k_scale[at(i)], fmt::format("k_bar[{}]", i));
       compare(equations_.q_bar[i], terms_.q_bar[at(i)], terms_.q_scale[at(i)], fmt::format("q_bar[{}]", i));
     }
+    const Vector rate = reference_.position_rate(state());
+    for (std::size_t i = 0; i < equations_.ydot.size(); ++i)
+      compare(equations_.ydot[i], rate[at(i)], rate_scale(), fmt::format("position_rate[{}]", i));
+    for (std::size_t k = 0; k < outputs_.size(); ++k) {
+      std::size_t entry = 0;
+      for (const dynamics::OutputValues& member : equations_.outputs[k])
+        for (const kinematics::Ex& value : member.values) {
+          compare(value, outputs_[k].values[entry], outputs_[k].scales[entry],
+                  fmt::format("output {} {}", equations_.output_names[k], member.member));
+          ++entry;
+        }
+    }
     compare(equations_.kinetic_energy, terms_.kinetic_energy, kinetic_scale(), "kinetic_energy");
     compare(equations_.potential_energy, terms_.potential_energy, potential_scale(), "potential_energy");
   }
 
-  long double kinetic_scale() const {
-    const Vector z = state().z.cwiseAbs();
-    return z.dot(terms_.M_scale * z) / 2;
-  }
+  long double kinetic_scale() const { return terms_.kinetic_scale; }
+
+  /// Of a rate that is a product of a quaternion and an angular velocity.
+  long double rate_scale() const { return state().z.norm(); }
 
   /// The potential itself and its change over a unit of each coordinate.
-  long double potential_scale() const { return std::fabs(terms_.potential_energy) + terms_.q_scale.sum(); }
+  long double potential_scale() const { return terms_.potential_scale + terms_.q_scale.sum(); }
 
   void measure_snapping() {
-    if (!mechanism_.snap) return;
+    if (!mechanism_.snap || equations_.zdot.empty()) return;
     const auto unsnapped =
         Reference(mechanism_, parameters_, reference::Snap::kOff).evaluate(state(), to_vector(sample_.u));
     const Vector a = reference::forward_dynamics<long double>(terms_),
@@ -184,9 +231,25 @@ class Comparison {
     leaves[LeafKind::kVelocity] = sample_.z;
     leaves[LeafKind::kAcceleration] = sample_.zdot;
     leaves[LeafKind::kInput] = sample_.u;
+    leaves[LeafKind::kTime] = {sample_.t};
     const std::vector<double> values = ir::interpret(program, leaves);
     if (program.name == "forward_dynamics") return compare_accelerations(values);
+    if (program.name == "outputs") return compare_requested(values);
     for (std::size_t k = 0; k < values.size(); ++k) compare_output(program, program.outputs[k], values[k]);
+  }
+
+  /// The outputs that the model asks for, in the order of their entries.
+  void compare_requested(const std::vector<double>& values) {
+    std::size_t k = 0;
+    for (std::size_t o = 0; o < outputs_.size(); ++o) {
+      std::size_t entry = 0;
+      for (const dynamics::OutputValues& member : equations_.outputs[o])
+        for (const kinematics::Ex& expected : member.values) {
+          record(verdict_.entry_error,
+                 error(values[k++], to_double(exact_.value(expected)), outputs_[o].scales[entry++]), kTolerance,
+                 fmt::format("output {} {} of the program", equations_.output_names[o], member.member));
+        }
+    }
   }
 
   void compare_output(const ir::Program& program, const ir::Output& output, double value) {
@@ -204,6 +267,7 @@ class Comparison {
     if (function == "mass_matrix")
       return {equations_.M[i][static_cast<std::size_t>(output.column)],
               terms_.M_scale(at(i), at(output.column))};
+    if (function == "position_rate") return {equations_.ydot[i], rate_scale()};
     if (function == "k_bar") return {equations_.k_bar[i], terms_.k_scale[at(i)]};
     if (function == "q_bar") return {equations_.q_bar[i], terms_.q_scale[at(i)]};
     if (function == "inverse_dynamics") return {equations_.tau[i], torque_scale()[at(i)]};
@@ -242,7 +306,9 @@ class Comparison {
   Verdict& verdict_;
   HighPrecision exact_;
   std::vector<long double> parameters_;
+  Reference reference_;
   reference::Terms<long double> terms_;
+  std::vector<reference::OutputValue<long double>> outputs_;
 };
 
 }  // namespace

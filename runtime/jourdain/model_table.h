@@ -18,8 +18,8 @@ typedef struct jourdain_model_table {
   /* Makes `count` steps of length h (s) from t, y, z; u is held. The result replaces t, y and z. */
   void (*rk4_steps)(double* t, double* y, double* z, const double* u, double h, long count);
   /* J */
-  double (*kinetic_energy)(const double* y, const double* z);
-  double (*potential_energy)(const double* y, const double* z);
+  double (*kinetic_energy)(double t, const double* y, const double* z);
+  double (*potential_energy)(double t, const double* y, const double* z);
 } jourdain_model_table;
 
 #endif

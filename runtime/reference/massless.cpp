@@ -1,5 +1,6 @@
 #include "reference/massless.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference/minimal.hpp"
@@ -11,13 +12,15 @@ namespace {
 constexpr int kStates = 4;
 
 /// State number `number`, at rest; the golden ratio's multiples keep the coordinates off symmetric positions.
-State<long double> scattered_state(Eigen::Index coordinates, int number) {
-  State<long double> state{
-      .t = 0, .y = VectorX<long double>(coordinates), .z = VectorX<long double>::Zero(coordinates)};
-  for (Eigen::Index i = 0; i < coordinates; ++i) {
+State<long double> scattered_state(const model::CoordinateLayout& layout, int number) {
+  State<long double> state{.t = 0,
+                           .y = VectorX<long double>(Eigen::Index(layout.position_count())),
+                           .z = VectorX<long double>::Zero(Eigen::Index(layout.velocity_count()))};
+  for (Eigen::Index i = 0; i < state.y.size(); ++i) {
     const long double step = 0.6180339887498948482L * static_cast<long double>((i + 1) * (number + 1));
     state.y[i] = 6 * (step - std::floor(step)) - 3;
   }
+  for (const std::size_t q : layout.quaternions) state.y.segment<4>(Eigen::Index(q)).normalize();
   return state;
 }
 
@@ -38,17 +41,21 @@ std::vector<bool> vanishing_pivots(const Terms<long double>& terms) {
 
 std::vector<model::JointIndex> massless_joints(const model::Mechanism& mechanism) {
   const Reference<long double> reference(mechanism);
-  const std::vector<model::JointIndex> joints = model::moving_joints(mechanism);
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   const VectorX<long double> no_input = VectorX<long double>::Zero(Eigen::Index(reference.input_count()));
-  std::vector<bool> massless(joints.size(), true);
+  std::vector<bool> massless(layout.velocity_count(), true);
   for (int number = 0; number < kStates; ++number) {
-    const State<long double> state = scattered_state(Eigen::Index(joints.size()), number);
-    const std::vector<bool> vanishing = vanishing_pivots(reference.evaluate(state, no_input));
-    for (std::size_t i = 0; i < joints.size(); ++i) massless[i] = massless[i] && vanishing[i];
+    const std::vector<bool> vanishing =
+        vanishing_pivots(reference.evaluate(scattered_state(layout, number), no_input));
+    for (std::size_t i = 0; i < massless.size(); ++i) massless[i] = massless[i] && vanishing[i];
   }
   std::vector<model::JointIndex> found;
-  for (std::size_t i = 0; i < joints.size(); ++i)
-    if (massless[i]) found.push_back(joints[i]);
+  for (const model::JointIndex index : model::moving_joints(mechanism)) {
+    const model::JointEntries& entries = layout.joints[index.value];
+    const auto first = massless.begin() + std::ptrdiff_t(entries.first_velocity);
+    if (std::any_of(first, first + std::ptrdiff_t(entries.velocity_count), [](bool m) { return m; }))
+      found.push_back(index);
+  }
   return found;
 }
 

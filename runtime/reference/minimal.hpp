@@ -4,22 +4,26 @@
 // them. It shares no formula with the compiler's recursion, so that agreement of the two means something.
 // Clarity over speed.
 //
-//   v_C = J_t z   ω = J_r z   a_C = J_t ż + ā   ω̇ = J_r ż + ζ̄    (v, a inertial; ω, ω̇ body-fixed components)
+//   v_C = J_t z + v̄   ω = J_r z + ω̄   a_C = J_t ż + ā   ω̇ = J_r ż + ζ̄   (v, a inertial; ω, ω̇ body-fixed components)
 //
 //   M  =  Σ J_tᵀ m J_t + J_rᵀ I J_r
 //   k̄  = −Σ J_tᵀ m ā + J_rᵀ (I ζ̄ + ω × I ω)      inertia terms only
-//   q̄  = −Σ J_tᵀ f + J_rᵀ ℓ                       gravity, springs, dampers, inputs
+//   q̄  = −Σ J_tᵀ f + J_rᵀ ℓ                       gravity, springs, dampers, loads, inputs
 //   M ż = k̄ − q̄
 #pragma once
 
 #include <Eigen/Dense>
 
 #include <cstddef>
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "model/coordinates.hpp"
 #include "model/mechanism.hpp"
 #include "reference/rotation.hpp"
+#include "reference/taylor.hpp"
 
 namespace jourdain::reference {
 
@@ -30,27 +34,28 @@ using MatrixX = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 template <class Scalar>
 using Jacobian = Eigen::Matrix<Scalar, 3, Eigen::Dynamic>;
 
-/// Coordinates in the order of model::moving_joints.
+/// y and z as in model::CoordinateLayout.
 template <class Scalar>
 struct State {
   Scalar t = 0;       ///< s
-  VectorX<Scalar> y;  ///< rad or m
+  VectorX<Scalar> y;  ///< rad or m; unit quaternions w x y z
   VectorX<Scalar> z;  ///< rad/s or m/s
 };
 
-/// Motion of one body. A `*_scale` bounds its quantity from above, component by component: the same sums with
-/// every product replaced by its absolute value, so that cancellation shows.
+/// Motion of a point and of the frame that it is fixed in: v = J_t z + v̄, ω = J_r z + ω̄, a = J_t ż + ā, ω̇ = J_r ż + ζ̄.
+/// A `*_scale` bounds its quantity from above, component by component: the same sums with every product replaced by its
+/// absolute value, so that cancellation shows.
 template <class Scalar>
 struct BodyMotion {
   Matrix3<Scalar> R_WB;  ///< body to inertial components
-  Vector3<Scalar> p_WC;  ///< centre of mass, m, inertial frame
+  Vector3<Scalar> p_WC;  ///< centre of mass (origin of a frame), m, inertial frame
   Jacobian<Scalar> J_t;  ///< 3 × nz, v_C per unit of z, inertial frame; columns off the body's path are zero
   Jacobian<Scalar> J_r;  ///< 3 × nz, ω per unit of z, body-fixed components
-  Vector3<Scalar> a_bar;     ///< ā, m/s², inertial frame
-  Vector3<Scalar> omega;     ///< ω, rad/s, body-fixed components
-  Vector3<Scalar> zeta_bar;  ///< ζ̄, rad/s², body-fixed components
+  Vector3<Scalar> v_bar, a_bar;         ///< v̄, m/s, and ā, m/s², inertial frame
+  Vector3<Scalar> omega_bar, zeta_bar;  ///< ω̄, rad/s, and ζ̄, rad/s², body-fixed components
+  Vector3<Scalar> v, omega;             ///< of the state, as v̄ and ω̄
   Jacobian<Scalar> J_t_scale, J_r_scale;
-  Vector3<Scalar> a_bar_scale, omega_scale, zeta_bar_scale;
+  Vector3<Scalar> p_scale, v_scale, a_bar_scale, omega_scale, zeta_bar_scale;
 };
 
 /// The equations of motion M ż = k̄ − q̄ at one state; N or N m per row. A `*_scale` is the sum of the absolute
@@ -58,13 +63,20 @@ struct BodyMotion {
 template <class Scalar>
 struct Terms {
   MatrixX<Scalar> M;      ///< nz × nz
-  VectorX<Scalar> k_bar;  ///< Coriolis and centrifugal terms; no gravity
-  VectorX<Scalar>
-      q_bar;  ///< gravity, +stiffness (y − rest), +damping z, −u: a force that pushes forward is negative
+  VectorX<Scalar> k_bar;  ///< Coriolis, centrifugal and rheonomic terms; no gravity
+  VectorX<Scalar> q_bar;  ///< applied forces: one that pushes a coordinate forward is negative
   MatrixX<Scalar> M_scale;
   VectorX<Scalar> k_scale, q_scale;
-  Scalar kinetic_energy = 0;  ///< J
-  Scalar potential_energy = 0;  ///< J: −m g·p_C, zero at the inertial origin, and ½ stiffness (y − rest)²
+  Scalar kinetic_energy = 0;    ///< J
+  Scalar potential_energy = 0;  ///< J: −m g·p_C, zero at the inertial origin, and of springs
+  Scalar kinetic_scale = 0, potential_scale = 0;
+};
+
+/// Entries of one output of the mechanism, member by member, matrices row by row: pose: position, rotation; velocity: v,
+/// ω; acceleration: a, ω̇; jacobian: J_t, J_r, v̄, ω̄, ā, ζ̄; reaction: force, moment; otherwise one number.
+template <class Scalar>
+struct OutputValue {
+  std::vector<Scalar> values, scales;
 };
 
 /// kOff reads the rotations as the file's numbers give them, whatever `Mechanism::snap` says.
@@ -81,14 +93,23 @@ class Reference {
   Reference(const model::Mechanism& mechanism, std::span<const Scalar> parameters,
             Snap snap = Snap::kAsModel);
 
-  std::size_t coordinate_count() const { return coordinate_count_; }
-  std::size_t input_count() const { return inputs_.size(); }
+  std::size_t position_count() const { return layout_.position_count(); }
+  std::size_t coordinate_count() const { return layout_.velocity_count(); }
+  std::size_t input_count() const { return layout_.input_count(); }
   /// The state in which the model starts, t = 0.
   State<Scalar> initial_state() const;
-  /// Motion of every body, in the order of `Mechanism::bodies`.
+  /// ẏ = Z z.
+  VectorX<Scalar> position_rate(const State<Scalar>& state) const;
+  /// Motion of every body's centre of mass, in the order of `Mechanism::bodies`.
   std::vector<BodyMotion<Scalar>> motion(const State<Scalar>& state) const;
-  /// `u` in the order of `Mechanism::actuators` (N or N m); sizes that do not fit throw InternalError.
+  /// Motion of every frame's origin, in the order of `Mechanism::frames`.
+  std::vector<BodyMotion<Scalar>> frame_motion(const State<Scalar>& state) const;
+  /// `u` as in model::CoordinateLayout (N or N m); sizes that do not fit throw InternalError.
   Terms<Scalar> evaluate(const State<Scalar>& state, const VectorX<Scalar>& u) const;
+  /// In the order of `Mechanism::outputs`, with the accelerations ż and a bound `zdot_scale` of what those come from.
+  std::vector<OutputValue<Scalar>> outputs(const State<Scalar>& state, const VectorX<Scalar>& u,
+                                           const VectorX<Scalar>& zdot,
+                                           const VectorX<Scalar>& zdot_scale) const;
 
  private:
   struct Body {
@@ -97,32 +118,49 @@ class Reference {
     Matrix3<Scalar> I;     // about the centre of mass, body-fixed components
     Matrix3<Scalar> I_scale;
   };
-  struct Joint {
-    model::JointType type;
-    std::ptrdiff_t parent;  // body, −1 for the world
-    std::size_t child;
-    Eigen::Index coordinate;  // −1 for a fixed joint
-    Matrix3<Scalar> R_PJ;
-    Vector3<Scalar> p_PJ;
-    Vector3<Scalar> axis;  // unit vector, in the joint frame
-    Scalar stiffness, rest, damping;
-    Scalar initial_position, initial_velocity;
-  };
   struct FrameMotion;
+  struct Forces;
 
-  static Body body_value(const model::Body& body, std::span<const Scalar> parameters, bool snap);
-  static Joint joint_value(const model::Joint& joint, std::span<const Scalar> parameters, bool snap);
+  // Columns of all scalar velocities: those of z, then the prescribed ones.
+  Eigen::Index column_count() const;
+  Eigen::Index column_of(std::size_t joint, std::size_t coordinate) const;
+  Taylor<Scalar> coordinate(std::size_t joint, std::size_t coordinate, const State<Scalar>& state) const;
+  Taylor<Scalar> taylor(const model::Expression& expression, Scalar variable) const;
+  Scalar value(const model::Expression& expression) const { return expression.evaluate<Scalar>(parameters_); }
+  Bounded<Scalar> general(const model::Expression& expression, const Forces& at) const;
+
+  Body body_value(const model::Body& body) const;
   FrameMotion world_motion() const;
-  FrameMotion child_motion(const FrameMotion& parent, const Joint& joint, const State<Scalar>& state) const;
-  static BodyMotion<Scalar> body_motion(const FrameMotion& frame, const Body& body);
-  void add_body(const Body& body, const BodyMotion<Scalar>& motion, const State<Scalar>& state,
-                Terms<Scalar>& sum) const;
-  void add_joint_forces(const State<Scalar>& state, const VectorX<Scalar>& u, Terms<Scalar>& sum) const;
+  std::vector<FrameMotion> body_frames(const State<Scalar>& state) const;
+  FrameMotion child_motion(const FrameMotion& parent, std::size_t joint, const State<Scalar>& state) const;
+  void turn_freely(FrameMotion& child, std::size_t joint, const State<Scalar>& state) const;
+  FrameMotion placed(const std::vector<FrameMotion>& bodies, const model::Frame& frame) const;
+  BodyMotion<Scalar> seen(const FrameMotion& frame, const State<Scalar>& state) const;
 
+  Forces forces(const State<Scalar>& state, const VectorX<Scalar>& u) const;
+  VectorX<Scalar> prescribed_accelerations(const State<Scalar>& state) const;
+  Terms<Scalar> all_columns(const Forces& at) const;
+  void add_body(const Body& body, const FrameMotion& center, const Forces& at, Terms<Scalar>& sum) const;
+  void add_joint_forces(const Forces& at, Terms<Scalar>& sum) const;
+  void add_springs(const Forces& at, Terms<Scalar>& sum) const;
+  void add_loads(const Forces& at, Terms<Scalar>& sum) const;
+  std::array<Bounded<Scalar>, 3> pull(const model::Spring& spring, const Forces& at, Terms<Scalar>* energy) const;
+
+  /// Second derivatives of all scalar velocities, with their scales.
+  struct Accelerations {
+    VectorX<Scalar> values, scales;
+  };
+  OutputValue<Scalar> output(const model::Output& output, const Forces& at, const Terms<Scalar>& terms,
+                             const Accelerations& accelerations) const;
+  OutputValue<Scalar> reaction(std::size_t joint, const Forces& at, const Accelerations& accelerations) const;
+
+  model::Mechanism mechanism_;
+  model::CoordinateLayout layout_;
+  std::vector<Scalar> parameters_;
+  bool snapping_;
+  std::vector<std::pair<std::size_t, std::size_t>> prescribed_;  // joint, scalar coordinate
+  std::vector<model::JointIndex> order_;                         // depth first
   std::vector<Body> bodies_;
-  std::vector<Joint> joints_;         // depth first
-  std::vector<Eigen::Index> inputs_;  // coordinate of each actuator
-  std::size_t coordinate_count_ = 0;
   Vector3<Scalar> gravity_;
 };
 

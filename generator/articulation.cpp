@@ -1,0 +1,124 @@
+#include "articulation.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "dynamics/scene.hpp"
+#include "ir/lower.hpp"
+
+namespace jourdain {
+
+using kinematics::kGround;
+
+namespace {
+
+/// Fewer coordinates than this always go without articulated bodies.
+constexpr std::size_t kSmallScene = 5;
+
+class Choice {
+ public:
+  Choice(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options)
+      : mechanism_(mechanism), options_(options) {
+    options_.accelerations_only = true;
+    const dynamics::Scene scene(mechanism, options.link_tree);
+    velocities_ = scene.layout.velocity_count();
+    for (const kinematics::Link& link : scene.tree.links) {
+      const bool root = link.parent == kGround;
+      depth_.push_back(root ? 0 : depth_[link.parent] + 1);
+      parent_.push_back(link.parent);
+    }
+    children_.resize(parent_.size());
+    for (std::size_t i = 0; i < parent_.size(); ++i)
+      if (parent_[i] != kGround) ++children_[parent_[i]];
+  }
+
+  Articulation choose() {
+    Articulation result;
+    result.links.assign(parent_.size(), false);
+    result.operations = result.factorised = operations(result.links);
+    if (velocities_ < kSmallScene) return result;
+    const std::size_t deepest = *std::max_element(depth_.begin(), depth_.end()) + 1;
+    result.articulated = operations(std::vector<bool>(parent_.size(), true));
+    std::size_t worse = 0;  // depths in a row without a saving
+    for (std::size_t depth = 1; depth <= deepest && worse < 3; ++depth)
+      worse = keep(result, down_to(depth)) ? 0 : worse + 1;
+    refine(result);
+    return result;
+  }
+
+ private:
+  std::vector<bool> down_to(std::size_t depth) const {
+    std::vector<bool> links;
+    for (const std::size_t d : depth_) links.push_back(d < depth);
+    return links;
+  }
+
+  bool keep(Articulation& best, const std::vector<bool>& links) {
+    const std::size_t count = operations(links);
+    if (count >= best.operations) return false;
+    best.links = links;
+    best.operations = count;
+    return true;
+  }
+
+  std::size_t operations(const std::vector<bool>& links) {
+    if (const auto known = counted_.find(links); known != counted_.end()) return known->second;
+    options_.articulated = links;
+    const dynamics::Equations equations = dynamics::derive_equations(mechanism_, options_);
+    std::vector<ir::Target> targets;
+    for (std::size_t i = 0; i < equations.zdot.size(); ++i)
+      targets.push_back({"zdot", static_cast<int>(i), -1, equations.zdot[i]});
+    const std::size_t count =
+        ir::count_operations(ir::lower(equations.statements, targets, "zdot")).arithmetic();
+    return counted_[links] = count;
+  }
+
+  /// First links of the branches: at the ground and where a link has several children.
+  std::vector<std::size_t> branches() const {
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < parent_.size(); ++i)
+      if (parent_[i] == kGround || children_[parent_[i]] > 1) first.push_back(i);
+    return first;
+  }
+
+  bool is_in(std::size_t link, std::size_t branch) const {
+    for (std::size_t i = link; i != kGround; i = parent_[i])
+      if (i == branch) return true;
+    return false;
+  }
+
+  /// One layer of links of a branch more (or less) articulated.
+  std::vector<bool> changed(const std::vector<bool>& links, std::size_t branch, bool more) const {
+    std::vector<bool> result = links;
+    std::size_t deepest = 0;
+    for (std::size_t i = 0; i < links.size(); ++i)
+      if (links[i] && is_in(i, branch)) deepest = std::max(deepest, depth_[i]);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (!is_in(i, branch)) continue;
+      const bool reachable = parent_[i] == kGround || links[parent_[i]];
+      if (more && !links[i] && reachable) result[i] = true;
+      if (!more && links[i] && depth_[i] == deepest) result[i] = false;
+    }
+    return result;
+  }
+
+  void refine(Articulation& best) {
+    for (const std::size_t branch : branches())
+      for (const bool more : {true, false})
+        while (keep(best, changed(best.links, branch, more))) continue;
+  }
+
+  const model::Mechanism& mechanism_;
+  dynamics::DerivationOptions options_;
+  std::size_t velocities_ = 0;
+  std::vector<std::size_t> depth_, parent_, children_;
+  std::map<std::vector<bool>, std::size_t> counted_;
+};
+
+}  // namespace
+
+Articulation choose_articulation(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options) {
+  return Choice(mechanism, options).choose();
+}
+
+}  // namespace jourdain

@@ -1,0 +1,18 @@
+// Kinetic and potential energy, and the inertia of rotors.
+#pragma once
+
+#include "dynamics/scene.hpp"
+
+namespace jourdain::dynamics {
+
+/// ½ ∫ |Σ v_i|² dm with v_i the velocity field that link i adds, on its composite body: each link's own half square and
+/// its product with the velocity of the parent. Rotors count with ½ (gear rate)² inertia.
+Ex derive_kinetic_energy(Scene& scene);
+
+/// Of gravity (zero at the inertial origin) and of springs, J.
+Ex derive_potential_energy(Scene& scene);
+
+/// gear_ratio² rotor_inertia
+Ex reflected_inertia(Scene& scene, const model::Actuator& actuator);
+
+}  // namespace jourdain::dynamics

@@ -1,0 +1,15 @@
+// The outputs that the model asks for.
+#pragma once
+
+#include <vector>
+
+#include "dynamics/applied_forces.hpp"
+#include "dynamics/equations.hpp"
+
+namespace jourdain::dynamics {
+
+/// For each output of the mechanism its members; accelerations follow from `equations.zdot`.
+std::vector<std::vector<OutputValues>> derive_outputs(Scene& scene, const Equations& equations,
+                                                      const AppliedForces& applied);
+
+}  // namespace jourdain::dynamics

@@ -1,0 +1,255 @@
+#include "dynamics/solver.hpp"
+
+#include <fmt/format.h>
+
+#include "dynamics/articulated.hpp"
+#include "dynamics/energy.hpp"
+#include "support/check.hpp"
+
+namespace jourdain::dynamics {
+
+using kinematics::kGround;
+using kinematics::Link;
+
+namespace {
+
+/// One velocity on its way through the elimination.
+struct Row {
+  std::size_t link = 0, column = 0;
+  std::size_t head = kGround;      ///< articulated link that its momentum G acts on
+  std::vector<std::size_t> inward;  ///< entries between it and the head
+  Wrench G;                        ///< on the head, in W of the head
+  Ex inverse_D, u;                 ///< right-hand side after elimination of what is outward
+  Wrench share;                    ///< G (or U) / D
+};
+
+class Solver {
+ public:
+  Solver(Scene& scene, const ArticulatedLinks& articulated, const std::vector<Ex>& b)
+      : scene_(scene),
+        statements_(scene.statements),
+        articulated_(articulated),
+        count_(b.size()),
+        rows_(count_),
+        H_(count_, std::vector<Ex>(count_, 0)),
+        L_(H_),
+        inertia_(scene.link_count()),
+        in_link_(scene.link_count()),
+        force_(scene.link_count()),
+        force_in_link_(scene.link_count()),
+        x_(count_) {
+    for (std::size_t k = 0; k < count_; ++k) rows_[k].u = b[k];
+    rigid_ = derive_composites(scene.tree, scene.frames, statements_,
+                               [this](std::size_t i) { return !articulated_[i]; });
+  }
+
+  std::vector<Ex> solve() {
+    for (std::size_t i = 0; i < scene_.link_count(); ++i) set_rows(i);
+    add_rotors();
+    for (std::size_t i = scene_.link_count(); i-- > 0;)
+      if (articulated_[i])
+        give_way(i);
+      else
+        for (std::size_t c = scene_.columns[i].size(); c-- > 0;)
+          if (scene_.columns[i][c].entry) eliminate(*scene_.columns[i][c].entry);
+    accelerations_.resize(scene_.link_count());
+    for (std::size_t i = 0; i < scene_.link_count(); ++i)
+      if (articulated_[i])
+        accelerate(i);
+      else
+        for (const Column& column : scene_.columns[i])
+          if (column.entry) substitute(*column.entry);
+    return x_;
+  }
+
+ private:
+  std::string named(const char* quantity, std::size_t i, std::size_t j) const {
+    return fmt::format("{}{}_{}", quantity, i, j);
+  }
+
+  Wrench bound(const std::string& name, const Wrench& wrench) {
+    return {statements_.bind(name + "f", wrench.force), statements_.bind(name + "n", wrench.moment)};
+  }
+
+  Wrench scaled(const Ex& factor, const Wrench& wrench, const std::string& name) {
+    return bound(name, {factor * wrench.force, factor * wrench.moment});
+  }
+
+  /// Entries of M among the columns of a bundle, and their momenta on its head.
+  void set_rows(std::size_t i) {
+    for (std::size_t c = 0; c < scene_.columns[i].size(); ++c) {
+      const Column& column = scene_.columns[i][c];
+      if (!column.entry) continue;
+      Row& row = rows_[*column.entry];
+      row.link = i;
+      row.column = c;
+      if (articulated_[i]) continue;
+      Wrench moving = bound(named("p", i, *column.entry), momentum(rigid_[i], column.twist));
+      std::size_t j = i;
+      for (; j != kGround && !articulated_[j]; j = scene_.tree.links[j].parent) {
+        for (std::size_t d = scene_.columns[j].size(); d-- > 0;) {
+          const auto entry = scene_.columns[j][d].entry;
+          if (!entry || *entry > *column.entry) continue;
+          H_[*column.entry][*entry] = statements_.bind(named("M", *entry, *column.entry),
+                                                       power(moving, scene_.columns[j][d].twist));
+          if (*entry < *column.entry) row.inward.push_back(*entry);
+        }
+        if (scene_.tree.links[j].parent != kGround)
+          moving = to_parent(scene_.tree, scene_.frames, j, moving, named("p", *column.entry, j), statements_);
+      }
+      row.head = j;
+      if (j != kGround) row.G = moving;
+    }
+  }
+
+  void add_rotors() {
+    for (const model::Actuator& actuator : scene_.mechanism.actuators) {
+      if (actuator.rotor_inertia.is_zero()) continue;
+      const std::size_t e =
+          *scene_.states[scene_.link_of(actuator.joint, actuator.coordinate)].entry;
+      H_[e][e] = statements_.bind(named("Mr", e, e), H_[e][e] + reflected_inertia(scene_, actuator));
+    }
+  }
+
+  /// Takes row k out of the rows inward of it and out of its head's inertia.
+  void eliminate(std::size_t k) {
+    Row& row = rows_[k];
+    row.inverse_D = statements_.bind(fmt::format("invD_{}", k), 1 / H_[k][k]);
+    for (std::size_t at = 0; at < row.inward.size(); ++at) {
+      const std::size_t i = row.inward[at];
+      if (H_[k][i].is_zero()) continue;
+      L_[k][i] = statements_.bind(named("L_", k, i), H_[k][i] * row.inverse_D);
+      for (std::size_t next = at; next < row.inward.size(); ++next) {
+        const std::size_t j = row.inward[next];
+        H_[i][j] = statements_.bind(fmt::format("H{}_{}_{}", k, i, j), H_[i][j] - L_[k][i] * H_[k][j]);
+      }
+      const std::string name = named("G", k, i);
+      rows_[i].G.force = statements_.bind(name + "f", rows_[i].G.force - L_[k][i] * row.G.force);
+      rows_[i].G.moment = statements_.bind(name + "n", rows_[i].G.moment - L_[k][i] * row.G.moment);
+    }
+    for (const std::size_t i : row.inward)
+      rows_[i].u = statements_.bind(named("u", k, i), rows_[i].u - L_[k][i] * row.u);
+    if (row.head == kGround) return;
+    row.share = scaled(row.inverse_D, row.G, fmt::format("GD{}", k));
+    inertia_[row.head] =
+        reduced(inertia_[row.head], row.G, row.share, fmt::format("I{}_{}", row.head, k), statements_);
+    add(force_[row.head], row.share, row.u, fmt::format("f{}_{}", row.head, k));
+  }
+
+  void add(Wrench& total, const Wrench& share, const Ex& u, const std::string& name) {
+    total.force = statements_.bind(name + "f", total.force + u * share.force);
+    total.moment = statements_.bind(name + "n", total.moment + u * share.moment);
+  }
+
+  /// Eliminates the joint of an articulated link and hands what is left of its inertia and force to its parent.
+  void give_way(std::size_t i) {
+    const Link& link = scene_.tree.links[i];
+    const std::string name = fmt::format("I{}", i);
+    ArticulatedInertia inertia = sum(rigid_inertia(rigid_[i]), inertia_[i], name + "r", statements_);
+    inertia = sum(inertia,
+                  turned_to_working(in_link_[i], scene_.frames.cosine(i), scene_.frames.sine(i), name + "w",
+                                    statements_),
+                  name + "s", statements_);
+    Wrench& force = force_[i];
+    const Wrench& outer = force_in_link_[i];
+    force.force = statements_.bind(name + "ff", force.force + scene_.frames.to_working(i, outer.force, name + "f"));
+    force.moment =
+        statements_.bind(name + "fn", force.moment + scene_.frames.to_working(i, outer.moment, name + "n"));
+    for (std::size_t c = scene_.columns[i].size(); c-- > 0;) {
+      const Column& column = scene_.columns[i][c];
+      if (!column.entry) continue;
+      Row& row = rows_[*column.entry];
+      const std::string step = named("U", i, c);
+      row.G = bound(step, product(inertia, column.twist));
+      const Ex D = statements_.bind(step + "D", power(row.G, column.twist) + H_[*column.entry][*column.entry]);
+      row.inverse_D = statements_.bind(step + "i", 1 / D);
+      row.share = scaled(row.inverse_D, row.G, step + "s");
+      row.u = statements_.bind(step + "u", row.u - power(force, column.twist));
+      if (link.parent == kGround && c == 0) break;
+      inertia = dynamics::give_way(inertia, row.G, row.share, column.twist, step + "I", statements_);
+      add(force, row.share, row.u, step + "f");
+    }
+    if (link.parent == kGround) return;
+    const ArticulatedInertia moved =
+        moved_to_parent(link, scene_.frames, i, inertia, name + "p", statements_);
+    ArticulatedInertia& target = link.parallel ? inertia_[link.parent] : in_link_[link.parent];
+    target = sum(target, moved, name + "c", statements_);
+    hand_force_inward(i, force);
+  }
+
+  void hand_force_inward(std::size_t i, const Wrench& force) {
+    const Link& link = scene_.tree.links[i];
+    const std::string name = fmt::format("hand{}", i);
+    Wrench moved = force;
+    if (!link.parallel)
+      moved = bound(name + "R", {scene_.frames.rotation(i) * force.force,
+                                 scene_.frames.rotation(i) * force.moment});
+    moved.moment = moved.moment + kinematics::cross(scene_.frames.offset(i), moved.force);
+    Wrench& target = link.parallel ? force_[link.parent] : force_in_link_[link.parent];
+    target = bound(name, {target.force + moved.force, target.moment + moved.moment});
+  }
+
+  /// Acceleration of an articulated link: its parent's field at its origin, then column by column.
+  void accelerate(std::size_t i) {
+    const Link& link = scene_.tree.links[i];
+    const std::string name = fmt::format("acc{}", i);
+    Twist& twist = accelerations_[i];
+    if (link.parent != kGround) twist = from_parent(i, name);
+    for (std::size_t c = 0; c < scene_.columns[i].size(); ++c) {
+      const Column& column = scene_.columns[i][c];
+      if (!column.entry) continue;
+      const Row& row = rows_[*column.entry];
+      const Ex own = statements_.bind(name + "u", row.inverse_D * row.u);
+      x_[*column.entry] =
+          statements_.bind(fmt::format("zdot_{}", *column.entry), own - power(row.share, twist));
+      twist.angular =
+          statements_.bind(named("al", i, c), twist.angular + x_[*column.entry] * column.twist.angular);
+      twist.linear =
+          statements_.bind(named("ac", i, c), twist.linear + x_[*column.entry] * column.twist.linear);
+    }
+  }
+
+  Twist from_parent(std::size_t i, const std::string& name) {
+    const Link& link = scene_.tree.links[i];
+    const std::size_t p = link.parent;
+    const Twist& outer = accelerations_[p];
+    const bool parallel = link.parallel;
+    const Vector3 alpha = parallel ? outer.angular : scene_.frames.to_link(p, outer.angular, name + "al");
+    const Vector3 a = parallel ? outer.linear : scene_.frames.to_link(p, outer.linear, name + "a");
+    const Vector3 at_origin =
+        statements_.bind(name + "o", a + kinematics::cross(alpha, scene_.frames.offset(i)));
+    if (parallel) return {alpha, at_origin};
+    const Matrix3 R = transpose(scene_.frames.rotation(i));
+    return {statements_.bind(name + "W", R * alpha), statements_.bind(name + "w", R * at_origin)};
+  }
+
+  void substitute(std::size_t k) {
+    const Row& row = rows_[k];
+    Ex sum = statements_.bind(fmt::format("y_{}", k), row.inverse_D * row.u);
+    if (row.head != kGround)
+      sum = statements_.bind(fmt::format("yh_{}", k), sum - power(row.share, accelerations_[row.head]));
+    for (const std::size_t i : row.inward) sum = sum - L_[k][i] * x_[i];
+    x_[k] = statements_.bind(fmt::format("zdot_{}", k), sum);
+  }
+
+  Scene& scene_;
+  kinematics::Statements& statements_;
+  const ArticulatedLinks& articulated_;
+  std::size_t count_;
+  std::vector<Row> rows_;               // by entry of z
+  std::vector<std::vector<Ex>> H_, L_;  // lower triangle: remainder of M within bundles, and its factor
+  std::vector<CompositeBody> rigid_;    // bundles, without what is outward of articulated links
+  std::vector<ArticulatedInertia> inertia_, in_link_;  // from outward, in W and in L
+  std::vector<Wrench> force_, force_in_link_;
+  std::vector<Twist> accelerations_;
+  std::vector<Ex> x_;
+};
+
+}  // namespace
+
+std::vector<Ex> solve_accelerations(Scene& scene, const ArticulatedLinks& articulated,
+                                    const std::vector<Ex>& b) {
+  return Solver(scene, articulated, b).solve();
+}
+
+}  // namespace jourdain::dynamics

@@ -1,0 +1,96 @@
+#include "kinematics/link_states.hpp"
+
+#include <fmt/format.h>
+
+namespace jourdain::kinematics {
+
+namespace {
+
+std::vector<Ex> declare(LeafKind kind, const char* name, std::size_t count, Statements& statements) {
+  std::vector<Ex> symbols;
+  for (std::size_t i = 0; i < count; ++i)
+    symbols.push_back(statements.leaf(kind, i, fmt::format("{}{}", name, i)));
+  return symbols;
+}
+
+}  // namespace
+
+Leaves::Leaves(const model::Mechanism& mechanism, const model::CoordinateLayout& layout,
+               Statements& statements) {
+  for (std::size_t i = 0; i < mechanism.parameters.size(); ++i)
+    parameters.push_back(statements.leaf(LeafKind::kParameter, i, mechanism.parameters[i].name));
+  y = declare(LeafKind::kPosition, "y", layout.position_count(), statements);
+  z = declare(LeafKind::kVelocity, "z", layout.velocity_count(), statements);
+  zdot = declare(LeafKind::kAcceleration, "zdot", layout.velocity_count(), statements);
+  u = declare(LeafKind::kInput, "u", layout.input_count(), statements);
+  t = statements.leaf(LeafKind::kTime, 0, "t");
+}
+
+std::size_t LinkState::column_count(const Link& link) const {
+  if (!entry) return 0;
+  return link.kind == LinkKind::kFree ? 6 : link.kind == LinkKind::kBall ? 3 : 1;
+}
+
+namespace {
+
+void set_scalar(LinkState& state, const Link& link, const model::JointEntries& entries,
+                const model::Coordinate& coordinate, const Leaves& leaves, Statements& statements) {
+  if (coordinate.motion) {
+    const Taylor motion = differentiated(*coordinate.motion, leaves.t, leaves.parameters, statements);
+    state.position = link.sign * motion.value;
+    state.rate = link.sign * motion.first;
+    state.acceleration = link.sign * motion.second;
+    return;
+  }
+  state.entry = entries.velocity[link.coordinate];
+  state.position = link.sign * leaves.y[*entries.position[link.coordinate]];
+  state.rate = link.sign * leaves.z[*state.entry];
+}
+
+void set_curve(LinkState& state, const model::Joint& joint, const Leaves& leaves, Statements& statements) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Taylor component = differentiated(joint.curve[k], state.position, leaves.parameters, statements);
+    state.place[k] = component.value;
+    state.slope[k] = component.first;
+    state.curvature[k] = component.second;
+  }
+}
+
+void set_rotation(LinkState& state, const Link& link, const model::JointEntries& entries,
+                  const Leaves& leaves) {
+  const bool free = link.kind == LinkKind::kFree;
+  const std::size_t y = entries.first_position + (free ? 3 : 0), z = entries.first_velocity + (free ? 3 : 0);
+  state.entry = entries.first_velocity;
+  for (std::size_t k = 0; k < 4; ++k) state.quaternion[k] = leaves.y[y + k];
+  for (std::size_t k = 0; k < 3; ++k) state.spin[k] = leaves.z[z + k];
+  if (!free) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    state.origin[k] = leaves.y[entries.first_position + k];
+    state.velocity[k] = leaves.z[entries.first_velocity + k];
+  }
+}
+
+}  // namespace
+
+std::vector<LinkState> derive_link_states(const model::Mechanism& mechanism,
+                                          const model::CoordinateLayout& layout, const LinkTree& tree,
+                                          const Leaves& leaves, Statements& statements) {
+  std::vector<LinkState> states;
+  for (const Link& link : tree.links) {
+    const model::Joint& joint = mechanism.joints[link.joint.value];
+    const model::JointEntries& entries = layout.joints[link.joint.value];
+    LinkState& state = states.emplace_back();
+    if (link.has_quaternion())
+      set_rotation(state, link, entries, leaves);
+    else
+      set_scalar(state, link, entries, joint.coordinates[link.coordinate], leaves, statements);
+    if (link.kind == LinkKind::kCurve) set_curve(state, joint, leaves, statements);
+  }
+  return states;
+}
+
+Taylor coordinate_motion(const Link& link, const LinkState& state) {
+  return {link.sign * state.position, link.sign * state.rate, link.sign * state.acceleration};
+}
+
+}  // namespace jourdain::kinematics
