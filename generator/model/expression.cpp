@@ -52,6 +52,11 @@ double folded(const std::vector<Node>& nodes, const Node& operation) {
   JD_CHECK(false, "operation {}", static_cast<int>(operation.op));
 }
 
+int operand_count(Op op) {
+  if (op == Op::kLiteral || op == Op::kParameter || op == Op::kVariable) return 0;
+  return op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply || op == Op::kDivide ? 2 : 1;
+}
+
 bool is_number(const Expression& expression, double value) {
   return expression.is_constant() && expression.constant() == value;
 }
@@ -68,6 +73,27 @@ Expression Expression::variable(const Variable& variable) {
   Expression result;
   result.nodes_ = {Node{.op = Op::kVariable, .variable = variable}};
   return result;
+}
+
+Expression Expression::substituted(const std::function<Expression(const Variable&)>& replacement) const {
+  std::vector<Expression> values;
+  for (const Node& node : nodes_) {
+    switch (operand_count(node.op)) {
+      case 0:
+        if (node.op == Op::kVariable)
+          values.push_back(replacement(node.variable));
+        else
+          values.push_back(node.op == Op::kParameter ? parameter(node.parameter) : Expression(node.value));
+        break;
+      case 1:
+        values.push_back(node.op == Op::kPower ? power(values[node.left], node.exponent)
+                                               : unary(node.op, values[node.left]));
+        break;
+      default:
+        values.push_back(binary(node.op, values[node.left], values[node.right]));
+    }
+  }
+  return values.back();
 }
 
 bool Expression::has_no_variable() const {

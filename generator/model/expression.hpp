@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -77,6 +78,9 @@ class Expression {
   static Expression tangent(const Expression& operand);
 
   bool is_constant() const { return nodes_.size() == 1 && nodes_[0].op == Op::kLiteral; }
+  /// The same expression with each variable replaced.
+  Expression substituted(const std::function<Expression(const Variable&)>& replacement) const;
+
   /// Refers to no variable.
   bool has_no_variable() const;
   /// The value of an expression without parameters and variables.
@@ -116,11 +120,19 @@ struct ExpressionError {
 inline constexpr std::size_t kMaximumExpressionLength = 2000;
 inline constexpr int kMaximumExpressionDepth = 100;
 
-/// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), sqrt, sin, cos, tan and the given parameter names. `^` binds
+/// A name that an expression may use for a variable; it may have one dot in it ("hinge.rate").
+struct ScopeEntry {
+  std::string name;
+  Variable variable;
+};
+using Scope = std::vector<ScopeEntry>;
+
+/// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), sqrt, sin, cos, tan and the given names. `^` binds
 /// tighter than unary minus and takes integer exponents (or 0.5) only. Text over kMaximumExpressionLength or nested
 /// deeper than kMaximumExpressionDepth, unknown names (with "did you mean"), NaN or infinity are errors.
 std::variant<Expression, ExpressionError> parse_expression(std::string_view text,
-                                                           const std::vector<std::string>& parameter_names);
+                                                           const std::vector<std::string>& parameter_names,
+                                                           const Scope& scope = {});
 
 template <class T, class Literal, class VariableValue>
 T Expression::evaluate(std::span<const T> parameters, Literal&& literal, VariableValue&& variable) const {

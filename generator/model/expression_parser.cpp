@@ -4,6 +4,7 @@
 //   primary := number | name | function '(' sum ')' | '(' sum ')'
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <numbers>
 
@@ -24,8 +25,8 @@ bool starts_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::vector<std::string>& parameters)
-      : text_(text), parameters_(parameters) {}
+  Parser(std::string_view text, const std::vector<std::string>& parameters, const Scope& scope)
+      : text_(text), parameters_(parameters), scope_(scope) {}
 
   Expression parse() {
     Expression result = sum(0);
@@ -65,6 +66,14 @@ class Parser {
     std::size_t end = begin;
     while (end < text_.size() && (starts_name(text_[end]) || is_digit(text_[end]))) ++end;
     return text_.substr(begin, end - begin);
+  }
+
+  /// With a member after one dot.
+  std::string_view dotted_name_at(std::size_t begin) const {
+    const std::string_view word = name_at(begin);
+    const std::size_t dot = begin + word.size();
+    if (word.empty() || dot + 1 >= text_.size() || text_[dot] != '.' || !starts_name(text_[dot + 1])) return word;
+    return text_.substr(begin, word.size() + 1 + name_at(dot + 1).size());
   }
 
   std::string rest_of_word(std::size_t begin) const {
@@ -178,10 +187,18 @@ class Parser {
 
   Expression name(int depth) {
     const std::size_t begin = position_;
-    const std::string_view word = name_at(begin);
+    const std::string_view word = dotted_name_at(begin);
     position_ += word.size();
-    for (std::size_t i = 0; i < parameters_.size(); ++i)
-      if (parameters_[i] == word) return Expression::parameter(ParameterIndex(i));
+    const auto variable = std::find_if(scope_.begin(), scope_.end(),
+                                       [word](const ScopeEntry& entry) { return entry.name == word; });
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      if (parameters_[i] != word) continue;
+      if (variable != scope_.end())
+        fail(begin, word.size(), fmt::format("'{}' names a parameter and something that moves", word),
+             "rename the parameter");
+      return Expression::parameter(ParameterIndex(i));
+    }
+    if (variable != scope_.end()) return Expression::variable(variable->variable);
     if (word == "pi") return Expression(std::numbers::pi);
     if (word == "deg") return Expression(std::numbers::pi / 180);
     if (next_is('(')) return function(word, begin, depth);
@@ -190,9 +207,12 @@ class Parser {
            fmt::format("write {}(...)", word));
     std::vector<std::string> known = parameters_;
     known.insert(known.end(), {"pi", "deg"});
+    for (const ScopeEntry& entry : scope_) known.push_back(entry.name);
     const std::string close = support::nearest(word, known);
     fail(begin, word.size(), fmt::format("unknown name '{}'", support::shown(word)),
-         close.empty() ? "declare it in [parameters]" : fmt::format("did you mean '{}'?", close));
+         !close.empty() ? fmt::format("did you mean '{}'?", close)
+         : word == "t"  ? "time may not be used here"
+                        : "declare it in [parameters]");
   }
 
   Expression function(std::string_view word, std::size_t begin, int depth) {
@@ -211,18 +231,20 @@ class Parser {
 
   std::string_view text_;
   const std::vector<std::string>& parameters_;
+  const Scope& scope_;
   std::size_t position_ = 0;
 };
 
 }  // namespace
 
 std::variant<Expression, ExpressionError> parse_expression(std::string_view text,
-                                                           const std::vector<std::string>& parameter_names) {
+                                                           const std::vector<std::string>& parameter_names,
+                                                           const Scope& scope) {
   if (text.size() > kMaximumExpressionLength)
     return ExpressionError{
         0, 1, fmt::format("the expression is longer than {} characters", kMaximumExpressionLength), ""};
   try {
-    return Parser(text, parameter_names).parse();
+    return Parser(text, parameter_names, scope).parse();
   } catch (const ExpressionError& error) {
     return error;
   }

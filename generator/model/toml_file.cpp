@@ -38,7 +38,7 @@ Expression TomlFile::number_error(SourceRange where, std::string message, std::s
   return 0.0;
 }
 
-Expression TomlFile::expression(const toml::node& node, const std::string& what) {
+Expression TomlFile::expression(const toml::node& node, const std::string& what, const Scope& scope) {
   const SourceRange where = range(node.source());
   if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
   if (const auto* number = node.as_floating_point()) {
@@ -46,7 +46,7 @@ Expression TomlFile::expression(const toml::node& node, const std::string& what)
     if (is_underflow(node)) return number_error(where, "the number is out of the range of double precision");
     return number->get();
   }
-  if (const auto* text = node.as_string()) return parsed(*text);
+  if (const auto* text = node.as_string()) return parsed(*text, scope);
   return number_error(where,
                       fmt::format("{} must be a number or an expression, not {}", what, type_in_words(node)));
 }
@@ -63,11 +63,12 @@ bool TomlFile::is_underflow(const toml::node& node) const {
   return written.substr(0, written.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos;
 }
 
-Expression TomlFile::parsed(const toml::value<std::string>& text) {
-  const auto result = parse_expression(text.get(), names_);
+Expression TomlFile::parsed(const toml::value<std::string>& text, const Scope& scope) {
+  const auto result = parse_expression(text.get(), names_, scope);
   if (const auto* wrong = std::get_if<ExpressionError>(&result))
     return number_error(inside(text, *wrong), wrong->message, wrong->hint);
   const Expression& expression = std::get<Expression>(result);
+  if (!expression.has_no_variable()) return expression;
   const double at_defaults = value(expression);
   if (!std::isfinite(at_defaults))
     return number_error(range(text.source()),

@@ -26,19 +26,64 @@
 //
 //   [[joint]]
 //   name = "hinge"
-//   type = "revolute"              # "prismatic", "fixed"
+//   type = "revolute"              # fixed, prismatic, screw, cylindrical, universal, planar, spherical, free, curve
 //   parent = "world"               # the inertial frame, or a body
 //   child = "bob"
-//   position = [0, 0, 0]           # m, joint frame in the parent's frame
+//   position = [0, 0, 0]           # m, joint frame in the parent's frame (not for free joints)
 //   rpy = [0, 0, 0]                # rad
-//   axis = [0, 0, 1]               # in the joint frame; this and the following not for fixed joints
+//   axis = [0, 0, 1]               # in the joint frame; planar: the normal
+//   second_axis = [1, 0, 0]        # universal; in the frame turned about `axis`
+//   pitch = 0.01                   # screw, m/rad
+//   curve = ["cos(s)", "sin(s)", "0"]       # curve: m, expressions of its coordinate s; the child does not turn
 //   stiffness, damping             # N m/rad, N m s/rad (N/m, N s/m); default 0
-//   rest, initial_position         # rad (m); default 0
-//   initial_velocity               # rad/s (m/s); default 0
+//   rest                           # rad (m); default 0
+//   friction, friction_speed       # N m (N), rad/s (m/s): -friction v/sqrt(v^2 + friction_speed^2); default 0, 1e-3
+//   initial_position, initial_velocity      # rad, rad/s (m, m/s); default 0
+//   motion = "0.1*sin(20*t)"       # prescribes the coordinate as a function of t
+//   # Joints with several coordinates have a table for each: cylindrical angle, slide; universal first, second;
+//   # planar x, y, angle:           angle = { stiffness = 5, motion = "2*t" }
+//   # Spherical: damping (N m s/rad), initial_orientation = [w, x, y, z], initial_angular_velocity = [x, y, z] (rad/s,
+//   # child axes). Free: these two and initial_position, initial_velocity = [x, y, z] (m, m/s, inertial frame).
+//
+//   [[frame]]                      # fixed to a body; a body's name is the frame at its origin, "world" the inertial one
+//   name = "tip"
+//   body = "bob"                   # or "world"
+//   position = [0, 0, 0]           # m
+//   rpy = [0, 0, 0]                # rad
 //
 //   [[actuator]]
 //   joint = "hinge"
-//   name = "motor"                 # default: the joint's name
+//   coordinate = "angle"           # of a joint with several
+//   name = "motor"                 # of the input; default: the coordinate's name
+//   gear_ratio = 1                 # force = gear_ratio times input
+//   rotor_inertia = 0              # kg m² before the gear; adds gear_ratio² times that to M
+//
+//   [[input]]                      # for expressions only
+//   name = "wind"
+//   unit, description
+//
+//   [[force]]                      # on a frame:
+//   frame = "tip"
+//   force = ["-2*tip.vx", 0, "wind"]        # N; expressions of t, inputs, coordinates (hinge, hinge.rate), frames
+//   moment = [0, 0, 0]             # N m     # (tip.x y z position, .vx .vy .vz velocity, .wx .wy .wz angular velocity)
+//   axes = "frame"                 # or "world"
+//   [[force]]                      # or on a coordinate, which it pushes forward:
+//   joint = "hinge"
+//   coordinate = "angle"           # of a joint with several
+//   value = "-3*sin(hinge)"
+//
+//   [[spring]]                     # pulls two frames together
+//   from = "world"
+//   to = "tip"
+//   stiffness, damping, free_length         # N/m, N s/m, m; default 0
+//   law = "100*(length - 1)^3"     # N, added; of length and rate
+//   potential = "25*(length - 1)^4"         # J, of the law
+//
+//   [[output]]
+//   name = "tip_pose"
+//   kind = "pose"                  # velocity, acceleration, jacobian: of `frame`; reaction: of `joint`; drive: of a
+//   frame = "tip"                  # prescribed coordinate of `joint`; kinetic_energy, potential_energy;
+//                                  # expression: `value`
 #include <fmt/format.h>
 
 #include "model/finish.hpp"
@@ -60,7 +105,8 @@ class TomlReader {
   TomlReader(Diagnostics& diagnostics, const toml::table& root) : file_(diagnostics), root_(root) {}
 
   Mechanism read() {
-    const std::vector<std::string> known{"model", "parameters", "body", "joint", "actuator"};
+    const std::vector<std::string> known{"model", "parameters", "body",   "joint", "frame",
+                                         "actuator", "input",   "force", "spring", "output"};
     const TomlTable top(file_, root_, "the file", {}, known);
     Mechanism mechanism;
     if (const toml::table* section = top.table("parameters"))
@@ -72,6 +118,13 @@ class TomlReader {
       mechanism.joints = read_joints(file_, *section, mechanism.bodies);
     if (const auto* section = tables(top, "actuator"))
       mechanism.actuators = read_actuators(file_, *section, mechanism.joints);
+    if (const auto* section = tables(top, "frame"))
+      mechanism.frames = read_frames(file_, *section, mechanism.bodies);
+    if (const auto* section = tables(top, "input"))
+      mechanism.inputs = read_inputs(file_, *section, mechanism.actuators);
+    if (const auto* section = tables(top, "force")) read_forces(file_, *section, mechanism);
+    if (const auto* section = tables(top, "spring")) read_springs(file_, *section, mechanism);
+    if (const auto* section = tables(top, "output")) read_outputs(file_, *section, mechanism);
     return mechanism;
   }
 

@@ -3,6 +3,8 @@
 
 #include <toml++/toml.h>
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "model/mechanism.hpp"
@@ -23,5 +25,25 @@ std::vector<Joint> read_joints(TomlFile& file, const toml::array& section, const
 /// All [[actuator]] tables whose joint is known and can move.
 std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
                                      const std::vector<Joint>& joints);
+
+/// What belongs to one scalar coordinate, from the table of its joint or from its own; and the keys that such a table has.
+void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordinate);
+const std::vector<std::string>& coordinate_keys();
+
+/// The scalar coordinate of `joint` that the table's 'coordinate' names; nothing after a diagnostic.
+std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint);
+
+/// All [[frame]] tables.
+std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies);
+
+/// All [[input]] tables.
+std::vector<Input> read_inputs(TomlFile& file, const toml::array& section,
+                               const std::vector<Actuator>& actuators);
+
+/// [[force]], [[spring]] and [[output]]: what refers to bodies, joints, frames and inputs, which `mechanism` has already.
+/// Bodies that are named where a frame may stand become frames.
+void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanism);
+void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
+void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 
 }  // namespace jourdain::model

@@ -3,10 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace jourdain::model {
 
 using support::shown;
+
+namespace {
+
+/// A quaternion written with a few digits is meant to have unit length.
+constexpr double kQuaternionTolerance = 1e-6;
+
+}  // namespace
 
 std::string_view type_in_words(const toml::node& node) {
   switch (node.type()) {
@@ -111,21 +119,55 @@ Expression TomlTable::positive(std::string_view key) const {
   return result;
 }
 
-const toml::array* TomlTable::three(std::string_view key) const {
+const toml::array* TomlTable::numbers(std::string_view key, std::size_t count) const {
   const toml::array* array = find(key)->as_array();
   if (!array) {
-    wrong_type(key, "an array of three numbers");
-  } else if (array->size() != 3) {
-    error(key, fmt::format("{} needs 3 numbers, found {}", quoted(key), array->size()));
+    wrong_type(key, fmt::format("an array of {} numbers", count == 3 ? "three" : "four"));
+  } else if (array->size() != count) {
+    error(key, fmt::format("{} needs {} numbers, found {}", quoted(key), count, array->size()));
     array = nullptr;
   }
   if (!array) file_.complete().numbers = false;
   return array;
 }
 
+Expression TomlTable::function(std::string_view key, const Scope& scope) const {
+  return has(key) ? file_.expression(*find(key), quoted(key), scope) : Expression(0.0);
+}
+
+Vector3 TomlTable::functions(std::string_view key, const Scope& scope) const {
+  Vector3 result;
+  const toml::array* array = has(key) ? numbers(key, 3) : nullptr;
+  for (std::size_t i = 0; array && i < 3; ++i)
+    result[i] = file_.expression((*array)[i], quoted(key), scope);
+  return result;
+}
+
+std::array<Expression, 4> TomlTable::quaternion(std::string_view key) const {
+  std::array<Expression, 4> result{1.0, 0.0, 0.0, 0.0};
+  const toml::array* array = has(key) ? numbers(key, 4) : nullptr;
+  if (!array) return result;
+  const std::size_t mark = file_.error_count();
+  double square = 0;
+  bool constant = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    result[i] = file_.expression((*array)[i], quoted(key));
+    constant = constant && result[i].is_constant();
+    square += file_.value(result[i]) * file_.value(result[i]);
+  }
+  if (file_.error_count() != mark) return result;
+  const double length = std::sqrt(square);
+  if (!(std::abs(length - 1) <= kQuaternionTolerance))
+    error(key, fmt::format("{} is a quaternion of length {:.6g}, not 1", quoted(key), length),
+          "write w, x, y, z of a unit quaternion");
+  for (Expression& component : result)
+    if (constant) component = component.constant() / length;
+  return result;
+}
+
 Vector3 TomlTable::vector(std::string_view key, const Vector3& otherwise) const {
   if (!has(key)) return otherwise;
-  const toml::array* array = three(key);
+  const toml::array* array = numbers(key, 3);
   if (!array) return otherwise;
   Vector3 result;
   for (std::size_t i = 0; i < 3; ++i) result[i] = file_.expression((*array)[i], quoted(key));
@@ -135,7 +177,7 @@ Vector3 TomlTable::vector(std::string_view key, const Vector3& otherwise) const 
 std::array<double, 3> TomlTable::constant_vector(std::string_view key,
                                                  const std::array<double, 3>& otherwise) const {
   if (!has(key)) return otherwise;
-  const toml::array* array = three(key);
+  const toml::array* array = numbers(key, 3);
   if (!array) return otherwise;
   const std::size_t mark = file_.error_count();
   std::array<double, 3> result{};

@@ -30,9 +30,11 @@ class TomlFile {
   std::size_t error_count() const { return error_count_; }
 
   /// A number or an expression string; 0 after a diagnostic. Finite at the parameters' default values.
-  Expression expression(const toml::node& node, const std::string& what);
+  Expression expression(const toml::node& node, const std::string& what, const Scope& scope = {});
   /// An expression that does not depend on parameters; 0 after a diagnostic.
   double constant(const toml::node& node, const std::string& what);
+  /// The parameters' default values.
+  const std::vector<double>& values() const { return values_; }
   /// At the parameters' default values.
   double value(const Expression& expression) const { return expression.evaluate<double>(values_); }
 
@@ -40,7 +42,7 @@ class TomlFile {
 
  private:
   Expression number_error(SourceRange where, std::string message, std::string hint = "");
-  Expression parsed(const toml::value<std::string>& text);
+  Expression parsed(const toml::value<std::string>& text, const Scope& scope);
   SourceRange inside(const toml::value<std::string>& text, const ExpressionError& error) const;
   bool is_underflow(const toml::node& node) const;
 
@@ -75,11 +77,16 @@ class TomlTable {
   Expression number(std::string_view key, const Expression& otherwise = 0.0) const;
   /// A required number that is positive at the parameters' default values.
   Expression positive(std::string_view key) const;
+  /// An expression over the names of `scope`, and three of them; zero where the key is missing.
+  Expression function(std::string_view key, const Scope& scope) const;
+  Vector3 functions(std::string_view key, const Scope& scope) const;
   /// Three numbers; `otherwise` where the key is missing.
   Vector3 vector(std::string_view key, const Vector3& otherwise = {}) const;
   /// Three numbers that do not depend on parameters.
   std::array<double, 3> constant_vector(std::string_view key, const std::array<double, 3>& otherwise) const;
   Rotation rotation(std::string_view key) const;
+  /// Four numbers (w, x, y, z) of a unit quaternion; constant ones are normalised. The identity where it is missing.
+  std::array<Expression, 4> quaternion(std::string_view key) const;
   /// A table within this one; nothing (after a diagnostic if it has another type) where it is missing.
   const toml::table* table(std::string_view key) const;
 
@@ -88,7 +95,7 @@ class TomlTable {
   std::string quoted(std::string_view key) const;
 
  private:
-  const toml::array* three(std::string_view key) const;
+  const toml::array* numbers(std::string_view key, std::size_t count) const;
   void wrong_type(std::string_view key, std::string_view expected) const;
 
   TomlFile& file_;

@@ -22,10 +22,13 @@
 
 #include "model/coordinates.hpp"
 #include "model/mechanism.hpp"
+#include "model/taylor.hpp"
+#include "reference/bounded.hpp"
 #include "reference/rotation.hpp"
-#include "reference/taylor.hpp"
 
 namespace jourdain::reference {
+
+using model::Taylor;
 
 template <class Scalar>
 using VectorX = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;

@@ -1,0 +1,143 @@
+#include "model/toml_frame.hpp"
+
+#include <fmt/format.h>
+
+#include "model/coordinates.hpp"
+#include "model/toml_names.hpp"
+#include "model/toml_sections.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::shown;
+
+/// Bodies in a scope stand behind the declared frames until an expression uses them.
+constexpr std::size_t kBodies = 1'000'000;
+
+FrameIndex frame_of(Mechanism& mechanism, std::optional<BodyIndex> body) {
+  const std::string name = body ? mechanism.bodies[body->value].name : "world";
+  for (std::size_t i = 0; i < mechanism.frames.size(); ++i)
+    if (mechanism.frames[i].name == name) return FrameIndex(i);
+  Frame frame;
+  frame.name = name;
+  frame.body = body;
+  mechanism.frames.push_back(frame);
+  return FrameIndex(mechanism.frames.size() - 1);
+}
+
+void add_frame(Scope& scope, const std::string& name, std::size_t index) {
+  using Kind = Variable::Kind;
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    scope.push_back({fmt::format("{}.{}", name, kAxes[k]), {Kind::kFramePosition, index, k}});
+    scope.push_back({fmt::format("{}.v{}", name, kAxes[k]), {Kind::kFrameVelocity, index, k}});
+    scope.push_back({fmt::format("{}.w{}", name, kAxes[k]), {Kind::kFrameSpin, index, k}});
+  }
+}
+
+bool of_frame(const Variable& variable) {
+  return variable.kind == Variable::Kind::kFramePosition || variable.kind == Variable::Kind::kFrameVelocity ||
+         variable.kind == Variable::Kind::kFrameSpin;
+}
+
+}  // namespace
+
+std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std::string_view key,
+                                     Mechanism& mechanism) {
+  const std::optional<std::string> name = table.required_text(key);
+  if (!name) return {};
+  for (std::size_t i = 0; i < mechanism.frames.size(); ++i)
+    if (mechanism.frames[i].name == *name) return FrameIndex(i);
+  if (*name == "world") return frame_of(mechanism, {});
+  for (std::size_t i = 0; i < mechanism.bodies.size(); ++i)
+    if (mechanism.bodies[i].name == *name) return frame_of(mechanism, BodyIndex(i));
+  std::vector<std::string> names;
+  for (const Frame& frame : mechanism.frames) names.push_back(frame.name);
+  for (const Body& body : mechanism.bodies) names.push_back(body.name);
+  const std::string close = support::nearest(*name, names);
+  if (close.empty() && !file.complete().structure) return {};
+  table.error(key, fmt::format("{} names unknown frame or body '{}'", table.what(), shown(*name)),
+              close.empty() ? "declare a [[frame]]" : fmt::format("did you mean '{}'?", close));
+  return {};
+}
+
+Scope general_scope(const Mechanism& mechanism) {
+  Scope scope = {{"t", {.kind = Variable::Kind::kTime}}};
+  std::size_t input = 0;
+  for (const Actuator& actuator : mechanism.actuators)
+    scope.push_back({actuator.name, {Variable::Kind::kInput, input++, 0}});
+  for (const Input& own : mechanism.inputs) scope.push_back({own.name, {Variable::Kind::kInput, input++, 0}});
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c) {
+      const std::string& name = mechanism.joints[j].coordinates[c].name;
+      scope.push_back({name + ".rate", {Variable::Kind::kVelocity, j, c}});
+      // An actuator is called like its coordinate unless it has a name of its own: the coordinate wins.
+      const ScopeEntry entry{name, {Variable::Kind::kPosition, j, c}};
+      scope.insert(scope.begin(), entry);
+    }
+  for (std::size_t i = 0; i < mechanism.frames.size(); ++i) add_frame(scope, mechanism.frames[i].name, i);
+  for (std::size_t i = 0; i < mechanism.bodies.size(); ++i)
+    add_frame(scope, mechanism.bodies[i].name, kBodies + i);
+  return scope;
+}
+
+Expression settled(const Expression& expression, Mechanism& mechanism) {
+  return expression.substituted([&](const Variable& variable) {
+    Variable result = variable;
+    if (of_frame(variable) && variable.index >= kBodies)
+      result.index = frame_of(mechanism, BodyIndex(variable.index - kBodies)).value;
+    return Expression::variable(result);
+  });
+}
+
+std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies) {
+  std::vector<Frame> frames;
+  for (const toml::node& node : section) {
+    const TomlTable table(file, *node.as_table(), "a frame", file.range(node.source()),
+                          {"name", "body", "position", "rpy"});
+    const std::optional<std::string> name = table.required_text("name"), body = table.required_text("body");
+    if (!name || !body) continue;
+    Frame frame;
+    frame.name = *name;
+    frame.where = table.where("name");
+    frame.placement = {table.vector("position"), table.rotation("rpy")};
+    check_identifier(file, frame.where, "frame", frame.name);
+    const bool taken = frame.name == "world" || std::any_of(bodies.begin(), bodies.end(), [&](const Body& b) {
+                         return b.name == frame.name;
+                       });
+    if (taken)
+      table.error("name", fmt::format("frame '{}' has the name of a body", shown(frame.name)),
+                  "a body's name stands for the frame at its origin");
+    if (*body != "world") {
+      const auto found = find_named(file, table.where("body"), "a frame names", "body", *body, bodies,
+                                    file.complete().structure);
+      if (!found) continue;
+      frame.body = BodyIndex(*found);
+    }
+    if (is_new_name(file, frame.where, "frames", frame.name, frames)) frames.push_back(frame);
+  }
+  return frames;
+}
+
+std::vector<Input> read_inputs(TomlFile& file, const toml::array& section,
+                               const std::vector<Actuator>& actuators) {
+  std::vector<Input> inputs;
+  for (const toml::node& node : section) {
+    const TomlTable table(file, *node.as_table(), "an input", file.range(node.source()),
+                          {"name", "unit", "description"});
+    Input input;
+    input.name = table.required_text("name").value_or("");
+    input.where = table.where("name");
+    input.unit = table.text("unit").value_or("");
+    input.description = table.text("description").value_or("");
+    if (input.name.empty()) continue;
+    check_identifier(file, input.where, "input", input.name);
+    if (is_new_name(file, input.where, "actuators and inputs", input.name, actuators) &&
+        is_new_name(file, input.where, "inputs", input.name, inputs))
+      inputs.push_back(input);
+  }
+  return inputs;
+}
+
+}  // namespace jourdain::model
