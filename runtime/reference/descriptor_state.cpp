@@ -130,6 +130,9 @@ std::vector<AbsoluteBody<Scalar>> DescriptorReference<Scalar>::absolute_state(
   template TimeJet<S> DescriptorReference<S>::prescribed(const model::Expression&, S) const;    \
   template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_at( \
       S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                             \
+  template Pose<TimeJet<S>> DescriptorReference<S>::body_pose(                                  \
+      std::size_t, const Pose<TimeJet<S>>&, const DescriptorReference<S>::Coordinates&,         \
+      const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                \
   template std::vector<AbsoluteBody<S>> DescriptorReference<S>::absolute_state(                 \
       S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;
 JOURDAIN_INSTANTIATE(double)
