@@ -62,6 +62,10 @@ TimeJet<Scalar> DescriptorReference<Scalar>::prescribed(const model::Expression&
 template <class Scalar>
 typename DescriptorReference<Scalar>::Coordinates DescriptorReference<Scalar>::coordinates_at(
     Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z) const {
+  JD_CHECK(
+      std::size_t(y.size()) == layout_.position_count() && std::size_t(z.size()) == layout_.velocity_count(),
+      "{} positions, {} velocities for {} and {}", y.size(), z.size(), layout_.position_count(),
+      layout_.velocity_count());
   Coordinates result(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const auto& coordinates = mechanism_.joints[j].coordinates;
@@ -110,10 +114,6 @@ Pose<TimeJet<Scalar>> DescriptorReference<Scalar>::body_pose(std::size_t joint,
 template <class Scalar>
 std::vector<AbsoluteBody<Scalar>> DescriptorReference<Scalar>::absolute_state(
     Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z) const {
-  JD_CHECK(
-      std::size_t(y.size()) == layout_.position_count() && std::size_t(z.size()) == layout_.velocity_count(),
-      "{} positions, {} velocities for {} and {}", y.size(), z.size(), layout_.position_count(),
-      layout_.velocity_count());
   const Coordinates coordinates = coordinates_at(t, y, z);
   std::vector<Pose<TimeJet<Scalar>>> poses(bodies_.size());
   for (const model::JointIndex index : model::depth_first(mechanism_)) {
