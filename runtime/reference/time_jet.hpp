@@ -30,9 +30,9 @@ struct TimeJet {
             a.acceleration * b.value + 2 * a.rate * b.rate + a.value * b.acceleration};
   }
   friend TimeJet operator/(const TimeJet& a, const TimeJet& b) {
-    const Scalar value = a.value / b.value;
-    const Scalar rate = (a.rate - value * b.rate) / b.value;
-    return {value, rate, (a.acceleration - 2 * rate * b.rate - value * b.acceleration) / b.value};
+    const Scalar ratio = a.value / b.value;
+    const Scalar slope = (a.rate - ratio * b.rate) / b.value;
+    return {ratio, slope, (a.acceleration - 2 * slope * b.rate - ratio * b.acceleration) / b.value};
   }
   TimeJet& operator+=(const TimeJet& other) { return *this = *this + other; }
   TimeJet& operator-=(const TimeJet& other) { return *this = *this - other; }
@@ -54,17 +54,17 @@ struct TimeJet {
   friend TimeJet sqrt(const TimeJet& a) {
     using std::sqrt;
     const Scalar root = sqrt(a.value);
-    const Scalar rate = a.rate / (2 * root);
-    return {root, rate, (a.acceleration / 2 - rate * rate) / root};
+    const Scalar slope = a.rate / (2 * root);
+    return {root, slope, (a.acceleration / 2 - slope * slope) / root};
   }
   /// Angle of the vector (x, y) in (−π, π], rad.
   friend TimeJet atan2(const TimeJet& y, const TimeJet& x) {
     using std::atan2;
     const Scalar square = x.value * x.value + y.value * y.value;
     const Scalar square_rate = 2 * (x.value * x.rate + y.value * y.rate);
-    const Scalar rate = (x.value * y.rate - y.value * x.rate) / square;
+    const Scalar slope = (x.value * y.rate - y.value * x.rate) / square;
     const Scalar moment = x.value * y.acceleration - y.value * x.acceleration;
-    return {atan2(y.value, x.value), rate, (moment - rate * square_rate) / square};
+    return {atan2(y.value, x.value), slope, (moment - slope * square_rate) / square};
   }
 };
 
