@@ -1,0 +1,129 @@
+// The numeric reference in descriptor form: every body in absolute coordinates, every joint a set of constraints.
+//
+// It takes the mechanism as read and shares no derivation with the reference in minimal coordinates nor with the
+// compiler: no recursion over the tree, no Jacobians to minimal velocities. Each constraint is written once, on
+// numbers that carry two time derivatives. With x = (v_C inertial, ω body-fixed) of all bodies, C the gradients of the
+// joints' scalar coordinates θ and Q the forces on them:
+//
+//   g(…) = 0     G x + g_t = 0     G ẋ + γ = 0     θ̇ = C x     θ̈ = C ẋ + γ_θ
+//
+//   [ M + Cᵀ J C   Gᵀ ] [ ẋ ]   [ f − ω × I ω + Cᵀ (Q − J γ_θ) ]     J: rotor inertias, gear² each
+//   [ G            0  ] [ λ ] = [ −γ                           ]     constraint force on the system: −Gᵀ λ
+//
+// A prescribed coordinate is the constraint θ − motion(t) = 0. Minimal coordinates serve only to set up a consistent
+// state. Clarity over speed.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/coordinates.hpp"
+#include "model/mechanism.hpp"
+#include "reference/descriptor_forces.hpp"
+#include "reference/descriptor_joints.hpp"
+#include "reference/descriptor_rows.hpp"
+
+namespace jourdain::reference {
+
+struct DescriptorOptions {
+  ParallelAxes parallel_axes = ParallelAxes::kFixedNormals;
+  bool snap = true;  ///< false: rotations as the file's numbers give them, whatever `Mechanism::snap` says
+};
+
+template <class Scalar>
+struct BodyAcceleration {
+  Vector3<Scalar> a_O;        ///< of the body frame's origin, m/s², inertial frame
+  Vector3<Scalar> a_C;        ///< of the centre of mass, m/s², inertial frame
+  Vector3<Scalar> omega_dot;  ///< rad/s², body-fixed components
+};
+
+/// Force (N) and moment (N m) about the child's origin, in the child's components.
+template <class Scalar>
+struct JointWrench {
+  Vector3<Scalar> force = Vector3<Scalar>::Zero();
+  Vector3<Scalar> moment = Vector3<Scalar>::Zero();
+};
+
+template <class Scalar>
+struct DescriptorSolution {
+  std::vector<BodyAcceleration<Scalar>> bodies;  ///< in the order of `Mechanism::bodies`
+  Eigen::VectorX<Scalar> zdot;                   ///< ż in the order of model::CoordinateLayout
+  /// By joint, what it transmits to its child: constraint forces, drives, joint springs, dampers, friction, actuators,
+  /// coordinate forces, spin damping. Not the moment that accelerates rotors, which is in `rotor_wrenches`; the
+  /// child's momentum balance has the sum of the two.
+  std::vector<JointWrench<Scalar>> reactions;
+  /// By joint, −gear² rotor_inertia θ̈ along the gradients of its coordinates.
+  std::vector<JointWrench<Scalar>> rotor_wrenches;
+  /// By joint and scalar coordinate, what the motion's actuator must apply, positive forward, N m or N: beyond all
+  /// other forces on that coordinate, with the rotors' acceleration. None where the coordinate is free.
+  std::vector<std::vector<std::optional<Scalar>>> drives;
+  /// g and G x + g_t at the given state, joint by joint, constraints before prescribed coordinates: rounding only.
+  Eigen::VectorX<Scalar> g, g_rate;
+  Eigen::Index size = 0, rank = 0;  ///< of the system's matrix; a lower rank leaves ẋ or λ undetermined
+  Scalar reciprocal_condition = 0;  ///< of that matrix, estimated in the 1-norm, units taken as they are
+};
+
+/// A mechanism with its parameters' values put in. Evaluations are const and independent of each other. Bodies
+/// without mass are taken as they are: `rank` tells whether their accelerations are determined.
+template <class Scalar>
+class DescriptorReference {
+ public:
+  /// At the default values of the parameters. The mechanism must have passed `check_mechanism`.
+  explicit DescriptorReference(const model::Mechanism& mechanism, const DescriptorOptions& options = {});
+  /// At the given values, in the order of `Mechanism::parameters`; another number of them throws InternalError.
+  DescriptorReference(const model::Mechanism& mechanism, std::span<const Scalar> parameters,
+                      const DescriptorOptions& options = {});
+
+  const model::CoordinateLayout& layout() const { return layout_; }
+
+  /// Every body at time `t` (s), positions `y` and velocities `z`; quaternions in `y` are normalised. Sizes that do not
+  /// fit throw InternalError.
+  std::vector<AbsoluteBody<Scalar>> absolute_state(Scalar t, const Eigen::VectorX<Scalar>& y,
+                                                   const Eigen::VectorX<Scalar>& z) const;
+
+  /// Accelerations and forces at that state with inputs `u` in the order of the layout.
+  DescriptorSolution<Scalar> solve(Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z,
+                                   const Eigen::VectorX<Scalar>& u) const;
+
+ private:
+  using Coordinates = std::vector<std::vector<descriptor::TimeJet<Scalar>>>;  // by joint
+  struct System;
+
+  descriptor::TimeJet<Scalar> prescribed(const model::Expression& motion, Scalar t) const;
+  Coordinates coordinates_at(Scalar t, const Eigen::VectorX<Scalar>& y,
+                             const Eigen::VectorX<Scalar>& z) const;
+  descriptor::Pose<descriptor::TimeJet<Scalar>> body_pose(
+      std::size_t joint, const descriptor::Pose<descriptor::TimeJet<Scalar>>& parent,
+      const Coordinates& coordinates, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z) const;
+  System linearise(const std::vector<AbsoluteBody<Scalar>>& motions, const Coordinates& coordinates) const;
+  descriptor::Scene<Scalar> scene_at(Scalar t, const Eigen::VectorX<Scalar>& u, const System& system) const;
+  Eigen::VectorX<Scalar> spin_damping(std::size_t joint,
+                                      const std::vector<AbsoluteBody<Scalar>>& motions) const;
+  void add_forces(const descriptor::Scene<Scalar>& scene, System& system) const;
+  void add_inertia(System& system) const;
+  DescriptorSolution<Scalar> solution(const System& system) const;
+  JointWrench<Scalar> wrench_on_child(std::size_t joint, const System& system,
+                                      const Eigen::VectorX<Scalar>& forces) const;
+  void add_joint_forces(std::size_t joint, const System& system, const Eigen::VectorX<Scalar>& xdot,
+                        const Eigen::VectorX<Scalar>& lambda, DescriptorSolution<Scalar>& result) const;
+  void recover_velocity_rates(std::size_t joint, const System& system, const Eigen::VectorX<Scalar>& xdot,
+                              DescriptorSolution<Scalar>& result) const;
+
+  model::Mechanism mechanism_;
+  model::CoordinateLayout layout_;
+  DescriptorOptions options_;
+  std::vector<Scalar> parameters_;
+  std::vector<descriptor::Body<Scalar>> bodies_;
+  std::vector<descriptor::Joint<Scalar>> joints_;  // as declared
+  std::vector<descriptor::Frame<Scalar>> frames_;
+  std::vector<Eigen::VectorX<Scalar>> rotor_inertias_;  // by joint and scalar coordinate
+};
+
+extern template class DescriptorReference<double>;
+extern template class DescriptorReference<long double>;
+
+}  // namespace jourdain::reference

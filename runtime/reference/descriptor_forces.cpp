@@ -1,0 +1,229 @@
+#include "reference/descriptor_forces.hpp"
+
+#include <cmath>
+
+#include "support/check.hpp"
+
+namespace jourdain::reference::descriptor {
+
+namespace {
+
+using model::Variable;
+
+/// Value at the scene's state; `arguments` are what the expression is a function of.
+template <class Scalar>
+Scalar value(const model::Expression& expression, const Scene<Scalar>& scene,
+             std::span<const Scalar> arguments = {}) {
+  const auto variable = [&](const Variable& v) -> Scalar {
+    const auto i = v.index;
+    const auto component = Eigen::Index(v.component);
+    switch (v.kind) {
+      case Variable::Kind::kTime:
+        return scene.t;
+      case Variable::Kind::kPosition:
+        return scene.position.at(i).at(v.component);
+      case Variable::Kind::kVelocity:
+        return scene.rate.at(i).at(v.component);
+      case Variable::Kind::kInput:
+        return scene.inputs.at(i);
+      case Variable::Kind::kFramePosition:
+        return scene.frames.at(i).p_WF[component];
+      case Variable::Kind::kFrameVelocity:
+        return scene.frames.at(i).v_F[component];
+      case Variable::Kind::kFrameSpin:
+        return scene.frames.at(i).omega[component];
+      case Variable::Kind::kArgument:
+        JD_CHECK(i < arguments.size(), "argument {} of {}", i, arguments.size());
+        return arguments[i];
+    }
+    throw support::InternalError("a variable is of no known kind");
+  };
+  return expression.evaluate<Scalar>(
+      scene.parameters, [](double literal) { return Scalar(literal); }, variable);
+}
+
+template <class Scalar>
+Vector3<Scalar> value(const model::Vector3& vector, const Scene<Scalar>& scene) {
+  return {value(vector[0], scene), value(vector[1], scene), value(vector[2], scene)};
+}
+
+/// Adds forces at points of bodies into their six rows each.
+template <class Scalar>
+class BodyForces {
+ public:
+  BodyForces(const std::vector<Body<Scalar>>& bodies, const std::vector<AbsoluteBody<Scalar>>& motions)
+      : bodies_(bodies),
+        motions_(motions),
+        rows_(Eigen::VectorX<Scalar>::Zero(6 * Eigen::Index(bodies.size()))) {}
+
+  void add_weight(const Vector3<Scalar>& gravity) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      rows_.template segment<3>(6 * Eigen::Index(i)) += bodies_[i].mass * gravity;
+  }
+
+  /// Force and moment (inertial components) at the origin of `frame`; nothing moves if it is the world's.
+  void add(const Frame<Scalar>& frame, const Vector3<Scalar>& force, const Vector3<Scalar>& moment) {
+    if (!frame.body) return;
+    const std::size_t i = *frame.body;
+    const Matrix3<Scalar> R_BW = motions_[i].orientation.toRotationMatrix().transpose();
+    const Vector3<Scalar> arm = frame.p_BF - bodies_[i].p_BC;
+    rows_.template segment<3>(6 * Eigen::Index(i)) += force;
+    rows_.template segment<3>(6 * Eigen::Index(i) + 3) += R_BW * moment + arm.cross(R_BW * force);
+  }
+
+  const Eigen::VectorX<Scalar>& rows() const { return rows_; }
+
+ private:
+  const std::vector<Body<Scalar>>& bodies_;
+  const std::vector<AbsoluteBody<Scalar>>& motions_;
+  Eigen::VectorX<Scalar> rows_;
+};
+
+/// The spring's pull on its `from` end, N, inertial frame.
+template <class Scalar>
+Vector3<Scalar> spring_force(const model::Spring& spring, const Scene<Scalar>& scene) {
+  using std::sqrt;
+  const FrameMotion<Scalar>& from = scene.frames[spring.from.value];
+  const FrameMotion<Scalar>& to = scene.frames[spring.to.value];
+  const Vector3<Scalar> delta = to.p_WF - from.p_WF;
+  const Scalar smoothing = Scalar(model::kLengthSmoothing);
+  const Scalar length = sqrt(delta.squaredNorm() + smoothing * smoothing);
+  const Vector3<Scalar> direction = delta / length;
+  const Scalar rate = direction.dot(to.v_F - from.v_F);
+  const Scalar arguments[] = {length, rate};
+  const Scalar tension = value(spring.stiffness, scene) * (length - value(spring.free_length, scene)) +
+                         value(spring.damping, scene) * rate +
+                         value(spring.law, scene, std::span<const Scalar>(arguments));
+  return tension * direction;
+}
+
+/// −stiffness (y − rest) − damping z − friction z/√(z² + friction_speed²)
+template <class Scalar>
+Scalar passive_force(const model::Coordinate& coordinate, Scalar y, Scalar z, const Scene<Scalar>& scene) {
+  using std::sqrt;
+  Scalar force = -value(coordinate.stiffness, scene) * (y - value(coordinate.rest, scene)) -
+                 value(coordinate.damping, scene) * z;
+  if (coordinate.friction.is_zero()) return force;
+  const Scalar speed = value(coordinate.friction_speed, scene);
+  return force - value(coordinate.friction, scene) * z / sqrt(z * z + speed * speed);
+}
+
+}  // namespace
+
+template <class Scalar>
+Body<Scalar> read_body(const model::Body& body, std::span<const Scalar> parameters, bool snap) {
+  const auto number = [&](const model::Expression& expression) { return expression.evaluate(parameters); };
+  const Scalar xy = number(body.inertia.xy), xz = number(body.inertia.xz), yz = number(body.inertia.yz);
+  Matrix3<Scalar> tensor;
+  tensor << number(body.inertia.xx), xy, xz, xy, number(body.inertia.yy), yz, xz, yz, number(body.inertia.zz);
+  const Matrix3<Scalar> R_BI = rotation_value(body.inertia_axes, parameters, snap);
+  Body<Scalar> result{.mass = number(body.mass),
+                      .p_BC = vector_value(body.center_of_mass, parameters),
+                      .I_C = R_BI * tensor * R_BI.transpose()};
+  if (body.inertia_point == model::InertiaPoint::kOrigin) {
+    const Vector3<Scalar>& c = result.p_BC;
+    result.I_C -= result.mass * (c.dot(c) * Matrix3<Scalar>::Identity() - c * c.transpose());
+  }
+  return result;
+}
+
+template <class Scalar>
+Frame<Scalar> read_frame(const model::Frame& frame, std::span<const Scalar> parameters, bool snap) {
+  Frame<Scalar> result{.body = {},
+                       .R_BF = rotation_value(frame.placement.rotation, parameters, snap),
+                       .p_BF = vector_value(frame.placement.position, parameters)};
+  if (frame.body) result.body = frame.body->value;
+  return result;
+}
+
+template <class Scalar>
+std::vector<FrameMotion<Scalar>> frame_motions(const std::vector<Frame<Scalar>>& frames,
+                                               const std::vector<Body<Scalar>>& bodies,
+                                               const std::vector<AbsoluteBody<Scalar>>& motions) {
+  const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
+  std::vector<FrameMotion<Scalar>> result;
+  for (const Frame<Scalar>& frame : frames) {
+    if (!frame.body) {
+      result.push_back({frame.R_BF, frame.p_BF, zero, zero});
+      continue;
+    }
+    const AbsoluteBody<Scalar>& motion = motions[*frame.body];
+    const Matrix3<Scalar> R_WB = motion.orientation.toRotationMatrix();
+    const Vector3<Scalar> arm = frame.p_BF - bodies[*frame.body].p_BC;
+    result.push_back({R_WB * frame.R_BF, motion.p_WC + R_WB * arm,
+                      motion.v_C + R_WB * motion.omega.cross(arm), frame.R_BF.transpose() * motion.omega});
+  }
+  return result;
+}
+
+template <class Scalar>
+Eigen::VectorX<Scalar> body_forces(const model::Mechanism& mechanism, const Scene<Scalar>& scene,
+                                   const std::vector<Frame<Scalar>>& frames,
+                                   const std::vector<Body<Scalar>>& bodies,
+                                   const std::vector<AbsoluteBody<Scalar>>& motions) {
+  BodyForces<Scalar> sum(bodies, motions);
+  sum.add_weight(value(mechanism.gravity, scene));
+  for (const model::Load& load : mechanism.loads) {
+    const std::size_t i = load.frame.value;
+    const Matrix3<Scalar> R_WL =
+        load.axes == model::LoadAxes::kFrame ? scene.frames[i].R_WF : Matrix3<Scalar>::Identity();
+    sum.add(frames[i], R_WL * value(load.force, scene), R_WL * value(load.moment, scene));
+  }
+  for (const model::Spring& spring : mechanism.springs) {
+    const Vector3<Scalar> pull = spring_force(spring, scene);
+    sum.add(frames[spring.from.value], pull, Vector3<Scalar>::Zero());
+    sum.add(frames[spring.to.value], -pull, Vector3<Scalar>::Zero());
+  }
+  return sum.rows();
+}
+
+template <class Scalar>
+std::vector<Eigen::VectorX<Scalar>> coordinate_forces(const model::Mechanism& mechanism,
+                                                      const Scene<Scalar>& scene) {
+  std::vector<Eigen::VectorX<Scalar>> forces;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
+    const auto& coordinates = mechanism.joints[j].coordinates;
+    forces.emplace_back(Eigen::Index(coordinates.size()));
+    for (std::size_t i = 0; i < coordinates.size(); ++i)
+      forces[j][Eigen::Index(i)] =
+          passive_force(coordinates[i], scene.position[j][i], scene.rate[j][i], scene);
+  }
+  for (std::size_t i = 0; i < mechanism.actuators.size(); ++i) {
+    const model::Actuator& actuator = mechanism.actuators[i];
+    forces[actuator.joint.value][Eigen::Index(actuator.coordinate)] +=
+        value(actuator.gear_ratio, scene) * scene.inputs[i];
+  }
+  for (const model::CoordinateForce& force : mechanism.coordinate_forces)
+    forces[force.joint.value][Eigen::Index(force.coordinate)] += value(force.force, scene);
+  return forces;
+}
+
+template <class Scalar>
+std::vector<Eigen::VectorX<Scalar>> rotor_inertias(const model::Mechanism& mechanism,
+                                                   std::span<const Scalar> parameters) {
+  std::vector<Eigen::VectorX<Scalar>> inertias;
+  for (const model::Joint& joint : mechanism.joints)
+    inertias.push_back(Eigen::VectorX<Scalar>::Zero(Eigen::Index(joint.coordinates.size())));
+  for (const model::Actuator& actuator : mechanism.actuators) {
+    const Scalar gear = actuator.gear_ratio.evaluate(parameters);
+    inertias[actuator.joint.value][Eigen::Index(actuator.coordinate)] +=
+        gear * gear * actuator.rotor_inertia.evaluate(parameters);
+  }
+  return inertias;
+}
+
+#define JOURDAIN_INSTANTIATE(S)                                                                        \
+  template Body<S> read_body(const model::Body&, std::span<const S>, bool);                            \
+  template Frame<S> read_frame(const model::Frame&, std::span<const S>, bool);                         \
+  template std::vector<FrameMotion<S>> frame_motions(                                                  \
+      const std::vector<Frame<S>>&, const std::vector<Body<S>>&, const std::vector<AbsoluteBody<S>>&); \
+  template Eigen::VectorX<S> body_forces(const model::Mechanism&, const Scene<S>&,                     \
+                                         const std::vector<Frame<S>>&, const std::vector<Body<S>>&,    \
+                                         const std::vector<AbsoluteBody<S>>&);                         \
+  template std::vector<Eigen::VectorX<S>> coordinate_forces(const model::Mechanism&, const Scene<S>&); \
+  template std::vector<Eigen::VectorX<S>> rotor_inertias(const model::Mechanism&, std::span<const S>);
+JOURDAIN_INSTANTIATE(double)
+JOURDAIN_INSTANTIATE(long double)
+#undef JOURDAIN_INSTANTIATE
+
+}  // namespace jourdain::reference::descriptor
