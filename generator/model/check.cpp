@@ -56,16 +56,39 @@ class NumberCheck {
       values({c.stiffness, c.rest, c.damping}, joint.where, "stiffness, rest or damping " + name);
       values({c.initial_position, c.initial_velocity, Expression(0.0)}, joint.where, "initial state " + name);
     }
-    if (joint.type == JointType::kFixed) return;
+    if (joint.type == JointType::kFree) check_free(joint);
+    if (joint.type == JointType::kFixed || joint.coordinates.empty() || joint.type == JointType::kCurve) return;
     const SourceRange where = first_known(joint.axis_where, joint.where);
     const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);
     if (!std::isfinite(length)) diagnostics_.error(where, fmt::format("axis {} is not finite", name));
     if (length == 0)
       diagnostics_.error(where, fmt::format("axis {} is zero", name),
                          "an axis is a direction, such as [0, 0, 1]");
+    if (joint.type == JointType::kUniversal) check_second_axis(joint, where, name);
   }
 
  private:
+  void check_free(const Joint& joint) {
+    bool placed = false;
+    for (std::size_t k = 0; k < 3; ++k)
+      placed = placed || !joint.placement.position[k].is_zero() || !joint.placement.rotation.rpy[k].is_zero();
+    if (!joint.parent && !placed) return;
+    diagnostics_.error(
+        joint.where,
+        fmt::format("free joint '{}' {}", support::shown(joint.name),
+                    joint.parent ? "has a body as its parent" : "is placed away from the inertial frame"),
+        joint.parent ? "its parent must be the world" : "its coordinates say where it is");
+  }
+
+  void check_second_axis(const Joint& joint, const SourceRange& where, const std::string& name) {
+    const std::array<double, 3>&a = joint.axis, &b = joint.second_axis;
+    const double cross = std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+    const double size = std::hypot(a[0], a[1], a[2]) * std::hypot(b[0], b[1], b[2]);
+    if (!(cross > 1e-6 * size))
+      diagnostics_.error(where, fmt::format("the axes {} are parallel", name),
+                         "second_axis must have another direction");
+  }
+
   Diagnostics& diagnostics_;
   std::vector<double> values_;
 };

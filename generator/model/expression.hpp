@@ -27,7 +27,7 @@ struct Variable {
     kFramePosition,  ///< component x, y, z of the origin of frame `index`, inertial frame, m
     kFrameVelocity,  ///< its velocity, inertial frame, m/s
     kFrameSpin,      ///< component of the frame's angular velocity, in its own axes, rad/s
-    kArgument  ///< what the expression is a function of: a curve's coordinate; a spring's length (0), rate (1)
+    kArgument  ///< `component` of what it is a function of: a curve's coordinate; a spring's length (0), rate (1)
   };
   Kind kind = Kind::kTime;
   std::size_t index = 0;

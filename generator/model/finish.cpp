@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "model/checks.hpp"
 #include "model/matrix3.hpp"
@@ -15,11 +16,43 @@ namespace {
 using support::Diagnostics;
 using support::shown;
 
+/// Calls `change` with each expression that may name coordinates and inputs.
+template <class Change>
+void for_general_expressions(Mechanism& mechanism, Change&& change) {
+  for (Load& load : mechanism.loads)
+    for (std::size_t k = 0; k < 3; ++k) {
+      change(load.force[k]);
+      change(load.moment[k]);
+    }
+  for (CoordinateForce& force : mechanism.coordinate_forces) change(force.force);
+  for (Output& output : mechanism.outputs) change(output.value);
+}
+
+/// What acts on the joint goes with it; where an expression names its coordinates, their rates or its actuators'
+/// inputs, zeros take their place.
 void lock(Mechanism& mechanism, std::size_t j) {
-  Joint& joint = mechanism.joints[j];
-  joint.set_type(JointType::kFixed);
-  std::erase_if(mechanism.actuators,
-                [&](const Actuator& actuator) { return actuator.joint == JointIndex(j); });
+  mechanism.joints[j].set_type(JointType::kFixed);
+  const auto on_joint = [j](const auto& element) { return element.joint == JointIndex(j); };
+  std::vector<std::optional<std::size_t>> input;  // new index of each input
+  std::size_t kept = 0;
+  for (const Actuator& actuator : mechanism.actuators)
+    input.push_back(on_joint(actuator) ? std::nullopt : std::optional(kept++));
+  for (std::size_t i = 0; i < mechanism.inputs.size(); ++i) input.emplace_back(kept++);
+  std::erase_if(mechanism.actuators, on_joint);
+  std::erase_if(mechanism.coordinate_forces, on_joint);
+  std::erase_if(mechanism.outputs, [&](const Output& output) {
+    return output.kind == OutputKind::kDrive && output.joint == JointIndex(j);
+  });
+  for_general_expressions(mechanism, [&](Expression& expression) {
+    expression = expression.substituted([&](const Variable& variable) {
+      using Kind = Variable::Kind;
+      const bool coordinate = variable.kind == Kind::kPosition || variable.kind == Kind::kVelocity;
+      if (coordinate && variable.index == j) return Expression(0.0);
+      if (variable.kind != Kind::kInput) return Expression::variable(variable);
+      const std::optional<std::size_t> index = input[variable.index];
+      return index ? Expression::variable({Kind::kInput, *index, 0}) : Expression(0.0);
+    });
+  });
 }
 
 void lock_joints(Mechanism& mechanism, const ReadOptions& options, Diagnostics& diagnostics) {

@@ -147,13 +147,6 @@ class JointReader {
     if (joint.type == JointType::kSpherical) return;
     joint.initial_origin = table_.vector("initial_position");
     joint.initial_origin_velocity = table_.vector("initial_velocity");
-    if (joint.parent)
-      table_.error("parent", fmt::format("{} is free, so its parent must be the world", table_.what()),
-                   "three prismatic joints and a spherical one do the same on another body");
-    for (const char* key : {"position", "rpy"})
-      if (table_.has(key))
-        table_.error(key, fmt::format("{} is free and has no '{}'", table_.what(), key),
-                     "initial_position and initial_orientation place it");
   }
 
   void refuse_foreign_keys(const Joint& joint) {

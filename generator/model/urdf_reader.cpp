@@ -120,7 +120,7 @@ class UrdfReader {
       return;
     }
     joint.child = *child;
-    if (joint.type != JointType::kFixed)
+    if (joint.coordinates.size() == 1)
       mechanism_.actuators.push_back({.name = joint.name,
                                       .joint = JointIndex(mechanism_.joints.size()),
                                       .rotor_inertia = 0.0,
@@ -135,14 +135,12 @@ class UrdfReader {
     if (*type == "revolute" || *type == "continuous") return JointType::kRevolute;
     if (*type == "prismatic") return JointType::kPrismatic;
     const SourceRange where = file_.value(element, "type");
-    if (*type == "floating" || *type == "planar") {
-      error(where,
-            fmt::format("joint '{}' is {}, which is not supported yet by this version", shown(name), *type));
-      return {};
-    }
-    const std::string close = support::nearest(*type, {"revolute", "continuous", "prismatic", "fixed"});
+    if (*type == "planar") return JointType::kPlanar;
+    if (*type == "floating") return JointType::kFree;
+    const std::string close =
+        support::nearest(*type, {"revolute", "continuous", "prismatic", "fixed", "planar", "floating"});
     error(where, fmt::format("joint '{}' has unknown type '{}'", shown(name), shown(*type)),
-          close.empty() ? "known are revolute, continuous, prismatic, fixed"
+          close.empty() ? "known are revolute, continuous, prismatic, fixed, planar, floating"
                         : fmt::format("did you mean '{}'?", close));
     return {};
   }
@@ -178,7 +176,8 @@ class UrdfReader {
     if (const XmlElement* dynamics = file_.child(element, "dynamics")) {
       const double damping = file_.number(*dynamics, "damping", 0);
       const double friction = file_.number(*dynamics, "friction", 0);
-      if (options_.damping) joint.coordinates[0].damping = damping;
+      if (options_.damping)
+        for (Coordinate& coordinate : joint.coordinates) coordinate.damping = damping;
       if (friction != 0 && !locked && ++joints_with_friction_ == 1) {
         first_friction_ = joint.name;
         first_friction_where_ = file_.value(*dynamics, "friction");
@@ -198,7 +197,7 @@ class UrdfReader {
     file_.diagnostics().warning(
         first_friction_where_,
         fmt::format("friction of joint '{}'{} is ignored", shown(first_friction_), others),
-        "dry friction is not supported by this version");
+        "a model in TOML can have it: friction, smoothed over friction_speed");
   }
 
   /// Joins the root link to the world. Several roots are an error; all are attached so that no check repeats
@@ -218,13 +217,32 @@ class UrdfReader {
                           mechanism_.bodies[*first].where.line));
       else
         first = b;
+      const bool free = options_.root == RootJoint::kFree;
       Joint joint;
-      joint.name = body.name + "_to_world";
+      joint.name = free ? "root" : body.name + "_to_world";
       while (joint_names_.contains(joint.name)) joint.name += '_';
+      joint.set_type(free ? JointType::kFree : JointType::kFixed);
       joint.child = BodyIndex(b);
       joint.where = body.where;
       mechanism_.joints.push_back(std::move(joint));
+      free_floating_children(b);
     }
+  }
+
+  /// A floating joint on a root link that is fixed to the world is a free joint: its parent becomes the world.
+  void free_floating_children(std::size_t root) {
+    for (Joint& joint : mechanism_.joints) {
+      if (joint.type != JointType::kFree || joint.parent != BodyIndex(root)) continue;
+      const bool placed = std::any_of(
+          joint.placement.position.begin(), joint.placement.position.end(),
+          [](const Expression& e) { return !e.is_zero(); });
+      if (options_.root == RootJoint::kFixed && !placed && !is_turned(joint.placement.rotation)) joint.parent = {};
+    }
+  }
+
+  static bool is_turned(const Rotation& rotation) {
+    return std::any_of(rotation.rpy.begin(), rotation.rpy.end(),
+                       [](const Expression& e) { return !e.is_zero(); });
   }
 
   UrdfFile& file_;
@@ -277,8 +295,6 @@ std::optional<Mechanism> read_urdf(Diagnostics& diagnostics, const ReadOptions& 
   if (const XmlElement* second = robot->NextSiblingElement())
     diagnostics.error(file.element(*second),
                       fmt::format("<{}> stands behind the end of <robot>", shown(second->Name())));
-  if (options.root == RootJoint::kFree)
-    diagnostics.error({}, "a free root is not supported yet by this version");
   Mechanism mechanism = UrdfReader(file, options).read(*robot);
   return finish_reading(std::move(mechanism), file.complete(), options, support::Severity::kWarning,
                         diagnostics);

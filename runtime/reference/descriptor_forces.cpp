@@ -33,8 +33,9 @@ Scalar value(const model::Expression& expression, const Scene<Scalar>& scene,
       case Variable::Kind::kFrameSpin:
         return scene.frames.at(i).omega[component];
       case Variable::Kind::kArgument:
-        JD_CHECK(i < arguments.size(), "argument {} of {}", i, arguments.size());
-        return arguments[i];
+        JD_CHECK(v.component < arguments.size(), "argument {} of {}", v.component,
+                 arguments.size());
+        return arguments[v.component];
     }
     throw support::InternalError("a variable is of no known kind");
   };

@@ -12,46 +12,70 @@ namespace jourdain::tests {
 
 namespace {
 
-using Evaluate = void (*)(const double* p, const double* y, const double* z, const double* u,
+using Evaluate = void (*)(double t, const double* p, const double* y, const double* z, const double* u,
                           const double* zdot, double h, double* results);
 
-/// Generic over Model: functions are found by argument-dependent lookup, sizes are the model's.
+/// Generic over Model: functions are found by argument-dependent lookup, sizes are the model's, and what a scene does not
+/// have is left out. Outputs are nothing but numbers.
 constexpr const char* kDriver = R"(
 template <class Model>
-void evaluate(const Model& model, const double* y, const double* z, const double* u, const double* zdot, double h,
-              double* out) {
+void evaluate(const Model& model, double t, const double* y, const double* z, const double* u, const double* zdot,
+              double h, double* out) {
   using Real = typename Model::Scalar;
-  constexpr int n = Model::velocity_count;
+  constexpr int ny = Model::position_count, nz = Model::velocity_count;
   typename Model::State state = initial_state(model);
-  for (int i = 0; i < n; ++i) state.y[i] = static_cast<Real>(y[i]);
-  for (int i = 0; i < n; ++i) state.z[i] = static_cast<Real>(z[i]);
+  state.t = static_cast<Real>(t);
   typename Model::Input input{};
   if constexpr (Model::input_count > 0)
     for (int i = 0; i < Model::input_count; ++i) input.u[i] = static_cast<Real>(u[i]);
   static_cast<void>(u);
-  Real M[n][n], v[n], a[n];
-  mass_matrix(model, state, M);
-  for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j) *out++ = M[j][i] == M[i][j] ? static_cast<double>(M[i][j]) : 1e300;
-  k_bar(model, state, v);
-  for (Real x : v) *out++ = static_cast<double>(x);
-  q_bar(model, state, input, v);
-  for (Real x : v) *out++ = static_cast<double>(x);
-  forward_dynamics(model, state, input, v);
-  for (Real x : v) *out++ = static_cast<double>(x);
-  for (int i = 0; i < n; ++i) a[i] = static_cast<Real>(zdot[i]);
-  inverse_dynamics(model, state, a, v);
-  for (Real x : v) *out++ = static_cast<double>(x);
+  static_cast<void>(y);
+  static_cast<void>(z);
+  static_cast<void>(zdot);
+  const auto write = [&out](const auto& values) {
+    for (const auto& value : values) *out++ = static_cast<double>(value);
+  };
+  if constexpr (nz > 0) {
+    for (int i = 0; i < ny; ++i) state.y[i] = static_cast<Real>(y[i]);
+    for (int i = 0; i < nz; ++i) state.z[i] = static_cast<Real>(z[i]);
+    Real M[nz][nz], v[nz], a[nz];
+    mass_matrix(model, state, M);
+    for (int i = 0; i < nz; ++i)
+      for (int j = i; j < nz; ++j) *out++ = M[j][i] == M[i][j] ? static_cast<double>(M[i][j]) : 1e300;
+    k_bar(model, state, v);
+    write(v);
+    q_bar(model, state, input, v);
+    write(v);
+    forward_dynamics(model, state, input, v);
+    write(v);
+    for (int i = 0; i < nz; ++i) a[i] = static_cast<Real>(zdot[i]);
+    inverse_dynamics(model, state, a, v);
+    write(v);
+  }
   *out++ = static_cast<double>(kinetic_energy(model, state));
   *out++ = static_cast<double>(potential_energy(model, state));
+  if constexpr (ny != nz) {
+    Real ydot[ny];
+    position_rate(model, state, ydot);
+    write(ydot);
+  }
+  if constexpr (Model::output_count > 0) {
+    typename Model::Outputs results;
+    outputs(model, state, input, results);
+    Real numbers[sizeof results / sizeof(Real)];
+    memcpy(numbers, &results, sizeof results);
+    write(numbers);
+  }
   rk4_step(model, state, input, static_cast<Real>(h));
-  for (Real x : state.y) *out++ = static_cast<double>(x);
-  for (Real x : state.z) *out++ = static_cast<double>(x);
+  if constexpr (nz > 0) {
+    write(state.y);
+    write(state.z);
+  }
 }
 )";
 
 std::string driver(const std::vector<EmittedModel>& models, const std::string& real) {
-  std::string text;
+  std::string text = "#include <string.h>\n";
   for (const EmittedModel& model : models) text += fmt::format("#include \"{}_kernels.hpp\"\n", model.name);
   text += kDriver;
   for (const EmittedModel& model : models) {
@@ -59,13 +83,13 @@ std::string driver(const std::vector<EmittedModel>& models, const std::string& r
     for (std::size_t i = 0; i < model.parameters.size(); ++i)
       assignments += fmt::format("  parameters.{} = static_cast<{}>(p[{}]);\n", model.parameters[i], real, i);
     text += fmt::format(
-        "extern \"C\" void evaluate_{0}(const double* p, const double* y, const double* z, const double* u, "
+        "extern \"C\" void evaluate_{0}(double t, const double* p, const double* y, const double* z, const double* u, "
         "const double* "
         "zdot, double h, double* out);\n"
-        "void evaluate_{0}(const double* p, const double* y, const double* z, const double* u, const double* "
+        "void evaluate_{0}(double t, const double* p, const double* y, const double* z, const double* u, const double* "
         "zdot, double "
         "h, double* out) {{\n  {0}::Parameters<{1}> parameters;\n  static_cast<void>(p);\n{2}"
-        "  evaluate({0}::Model<{1}>(parameters), y, z, u, zdot, h, out);\n}}\n",
+        "  evaluate({0}::Model<{1}>(parameters), t, y, z, u, zdot, h, out);\n}}\n",
         model.name, real, assignments);
   }
   return text;
@@ -78,12 +102,14 @@ EmittedModel emit_model(const Derived& derived, const std::string& name) {
   options.name = name;
   options.path = name + ".toml";
   CompiledModel compiled;
-  compiled.functions = emit::with_needed(options.functions);
+  compiled.functions = emit::with_needed(options.functions, shape_of(derived.mechanism));
   compiled.module = derived.module;
   validate_and_emit(derived.mechanism, derived.equations, options, compiled);
   if (!compiled.verdict.accepted()) throw std::runtime_error(compiled.verdict.failures.front());
-  EmittedModel model{
-      name, compiled.files, {}, derived.equations.zdot.size(), derived.mechanism.actuators.size()};
+  EmittedModel model{name, compiled.files, {}, derived.equations.initial_position.size(),
+                     derived.equations.initial_velocity.size()};
+  for (const auto& output : derived.equations.outputs)
+    for (const dynamics::OutputValues& member : output) model.outputs += member.values.size();
   for (const model::Parameter& parameter : derived.mechanism.parameters)
     model.parameters.push_back(parameter.name);
   return model;
@@ -129,9 +155,9 @@ Evaluation CompiledBatch::evaluate(std::size_t index, const Sample& sample, doub
   const EmittedModel& model = models_[index];
   void* symbol = dlsym(handle_, ("evaluate_" + model.name).c_str());
   if (!symbol) throw std::runtime_error(dlerror());
-  const std::size_t n = model.coordinates;
-  std::vector<double> results(n * (n + 1) / 2 + 6 * n + 2);
-  reinterpret_cast<Evaluate>(symbol)(sample.parameters.data(), sample.y.data(), sample.z.data(),
+  const std::size_t n = model.velocities, ny = model.positions;
+  std::vector<double> results(n * (n + 1) / 2 + 5 * n + 2 * ny + model.outputs + 2);
+  reinterpret_cast<Evaluate>(symbol)(sample.t, sample.parameters.data(), sample.y.data(), sample.z.data(),
                                      sample.u.data(), sample.zdot.data(), h, results.data());
   const double* at = results.data();
   const auto take = [&at](std::size_t count) {
@@ -147,7 +173,9 @@ Evaluation CompiledBatch::evaluate(std::size_t index, const Sample& sample, doub
   e.tau = take(n);
   e.kinetic = *at++;
   e.potential = *at++;
-  e.y_next = take(n);
+  if (ny != n) e.ydot = take(ny);
+  e.outputs = take(model.outputs);
+  e.y_next = take(ny);
   e.z_next = take(n);
   return e;
 }

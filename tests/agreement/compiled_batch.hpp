@@ -16,14 +16,15 @@ struct EmittedModel {
   std::string name;
   std::vector<emit::File> files;
   std::vector<std::string> parameters;  ///< names in order
-  std::size_t coordinates = 0, inputs = 0;
+  std::size_t positions = 0, velocities = 0;
+  std::size_t outputs = 0;  ///< numbers in Outputs
 };
 
 EmittedModel emit_model(const Derived& derived, const std::string& name);
 
 /// What all functions of a model return at one sample. M: upper triangle by rows.
 struct Evaluation {
-  std::vector<double> M, k, q, zdot, tau, y_next, z_next;
+  std::vector<double> M, k, q, zdot, tau, ydot, outputs, y_next, z_next;
   double kinetic = 0, potential = 0;
 };
 

@@ -33,6 +33,8 @@ double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::size_t i
       return sample.zdot[i];
     case kinematics::LeafKind::kInput:
       return sample.u[i];
+    case kinematics::LeafKind::kTime:
+      return sample.t;
   }
   return 0;
 }
@@ -46,7 +48,7 @@ reference::Terms<long double> reference_terms(const Derived& derived, const Samp
   const std::vector<long double> parameters(sample.parameters.begin(), sample.parameters.end());
   const reference::Reference<long double> reference(derived.mechanism, parameters);
   auto terms =
-      reference.evaluate({.t = 0, .y = to_vector(sample.y), .z = to_vector(sample.z)}, to_vector(sample.u));
+      reference.evaluate({.t = sample.t, .y = to_vector(sample.y), .z = to_vector(sample.z)}, to_vector(sample.u));
   reference::widen_scales(terms);
   return terms;
 }
@@ -61,8 +63,9 @@ Sample random_sample(const model::Mechanism& mechanism, std::uint64_t seed, bool
   Sample sample;
   for (const model::Parameter& parameter : mechanism.parameters)
     sample.parameters.push_back(rounded(parameter.value * random.uniform(0.9, 1.1)));
-  for (Eigen::Index i = 0; i < state.y.size(); ++i) {
-    sample.y.push_back(rounded(state.y[i]));
+  sample.t = rounded(state.t);
+  for (Eigen::Index i = 0; i < state.y.size(); ++i) sample.y.push_back(rounded(state.y[i]));
+  for (Eigen::Index i = 0; i < state.z.size(); ++i) {
     sample.z.push_back(rounded(state.z[i]));
     sample.zdot.push_back(rounded(random.uniform(-5, 5)));
   }
@@ -82,6 +85,7 @@ std::vector<Real> interpreted(const ir::Module& module, const std::string& name,
   leaves[LeafKind::kVelocity] = cast(sample.z);
   leaves[LeafKind::kAcceleration] = cast(sample.zdot);
   leaves[LeafKind::kInput] = cast(sample.u);
+  leaves[LeafKind::kTime] = {static_cast<Real>(sample.t)};
   for (const ir::Program& program : module.functions)
     if (program.name == name) return ir::interpret(program, leaves);
   JD_CHECK(false, "no function '{}'", name);
@@ -94,7 +98,7 @@ template std::vector<float> interpreted(const ir::Module&, const std::string&, c
 Derived derive(model::Mechanism mechanism, const dynamics::DerivationOptions& options) {
   Derived derived{std::move(mechanism), {}, {}};
   derived.equations = dynamics::derive_equations(derived.mechanism, options);
-  const auto functions = emit::with_needed(emit::function_names());
+  const auto functions = emit::with_needed(emit::function_names(), shape_of(derived.mechanism));
   derived.module = passes::optimise(lower_functions(derived.equations, functions)).module;
   return derived;
 }

@@ -13,6 +13,7 @@ namespace jourdain::tests {
 
 /// Values of everything that an emitted function reads.
 struct Sample {
+  double t = 0;
   std::vector<double> parameters, y, z, u, zdot;
 };
 

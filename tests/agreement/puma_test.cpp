@@ -31,7 +31,8 @@ TEST(Puma560, ProgramAgreesWithThePublishedOutputs) {
   const auto list = [](const reference::VectorX<double>& v) {
     return std::vector<double>(v.begin(), v.end());
   };
-  Sample sample{{},
+  Sample sample{0,
+                {},
                 list(puma.q),
                 list(puma.qd),
                 std::vector<double>(derived.mechanism.actuators.size(), 0.0),

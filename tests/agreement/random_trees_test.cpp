@@ -75,7 +75,7 @@ TEST(RandomTrees, GiveTheSameEquationsWithEverySimplificationOff) {
       dynamics::DerivationOptions options;
       options.link_tree.regroup = off != 0;
       options.link_tree.share_parallel = off != 1;
-      options.branch_sparsity = off != 2;
+      if (off == 2) options.articulated.assign(with.equations.zdot.size(), true);
       const Derived without = derive(mechanism, options);
       const auto values = [&](const char* name) { return interpreted<double>(without.module, name, sample); };
       EXPECT_LE(judge.backward_error(values("forward_dynamics")), kBackward) << seed << " " << off;

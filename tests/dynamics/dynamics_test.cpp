@@ -1,60 +1,36 @@
 #include <gtest/gtest.h>
-#include <Eigen/Dense>
 
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
-#include "dynamics/factorisation.hpp"
 #include "dynamics/harmonics.hpp"
-#include "kinematics/link_tree.hpp"
-#include "kinematics/numbers.hpp"
+#include "dynamics/scene.hpp"
 #include "properties/random.hpp"
 #include "properties/random_tree.hpp"
 
 namespace jourdain::dynamics {
 namespace {
 
-using kinematics::kGround;
-
-/// A symmetric positive definite matrix with zeros between the branches of a tree, and the parents of its rows.
-struct BranchedMatrix {
-  Eigen::MatrixXd M;
-  std::vector<std::size_t> parent;
-};
-
-BranchedMatrix random_branched(std::uint64_t seed, std::size_t n) {
+/// Links articulated down to a random depth in each branch, with every link its parent.
+std::vector<bool> random_articulation(const model::Mechanism& mechanism, std::uint64_t seed) {
   tests::Random random(seed);
-  BranchedMatrix result{Eigen::MatrixXd::Zero(Eigen::Index(n), Eigen::Index(n)), {}};
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(Eigen::Index(n), Eigen::Index(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t choice = random.below(i + 1);
-    result.parent.push_back(choice == i ? kGround : choice);
-    L(Eigen::Index(i), Eigen::Index(i)) = random.uniform(1, 2);
-    for (std::size_t j = result.parent[i]; j != kGround; j = result.parent[j])
-      L(Eigen::Index(i), Eigen::Index(j)) = random.uniform(-1, 1);
-  }
-  result.M = L.transpose() * L;
-  return result;
+  const Scene scene(mechanism, {});
+  std::vector<bool> articulated;
+  for (const kinematics::Link& link : scene.tree.links)
+    articulated.push_back((link.parent == kinematics::kGround || articulated[link.parent]) && random.chance(0.6));
+  return articulated;
 }
 
-TEST(Factorisation, SolvesBranchedMatricesLikeEigen) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    constexpr std::size_t n = 7;
-    const BranchedMatrix branched = random_branched(seed, n);
-    std::vector<std::vector<Ex>> M(n);
-    std::vector<Ex> b;
-    Eigen::VectorXd right(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      right[Eigen::Index(i)] = double(i) - 2.5;
-      b.push_back(kinematics::exact(right[Eigen::Index(i)]));
-      for (std::size_t j = 0; j < n; ++j)
-        M[i].push_back(kinematics::exact(branched.M(Eigen::Index(i), Eigen::Index(j))));
-    }
-    kinematics::Statements statements;
-    const std::vector<Ex> x = solve_mass_matrix(M, b, branched.parent, statements);
-    const Eigen::VectorXd expected = branched.M.ldlt().solve(right);
-    const HighPrecision exact(statements, {});
-    for (std::size_t i = 0; i < n; ++i)
-      EXPECT_NEAR(to_double(exact.value(x[i])), expected[Eigen::Index(i)], 1e-9) << seed;
+TEST(Solver, GivesTheSameAccelerationsWhicheverLinksAreArticulated) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const model::Mechanism mechanism = tests::random_tree(seed);
+    const tests::Derived plain = tests::derive(mechanism);
+    DerivationOptions options;
+    options.articulated = random_articulation(mechanism, seed);
+    const tests::Sample sample = tests::random_sample(mechanism, seed);
+    const tests::Judge judge(plain, sample);
+    const tests::Derived mixed = tests::derive(mechanism, options);
+    EXPECT_LE(judge.backward_error(tests::interpreted<double>(mixed.module, "forward_dynamics", sample)), 1e-13)
+        << seed;
   }
 }
 

@@ -316,21 +316,33 @@ model::Mechanism random_tree(std::uint64_t seed) {
 
 reference::State<double> random_state(const model::Mechanism& mechanism, std::uint64_t seed) {
   Random random(seed ^ kStateStream);
-  const std::vector<model::JointIndex> joints = model::moving_joints(mechanism);
-  const auto count = Eigen::Index(joints.size());
-  reference::State<double> state{
-      .t = 0, .y = reference::VectorX<double>(count), .z = reference::VectorX<double>(count)};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const bool turns = mechanism.joints[joints[std::size_t(i)].value].type == JointType::kRevolute;
-    state.y[i] = turns ? random.uniform(-pi, pi) : random.uniform(-1, 1);
-    state.z[i] = random.uniform(-2, 2);
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  reference::State<double> state{.t = 0,
+                                 .y = reference::VectorX<double>(Eigen::Index(layout.position_count())),
+                                 .z = reference::VectorX<double>(Eigen::Index(layout.velocity_count()))};
+  for (const model::JointIndex index : model::moving_joints(mechanism)) {
+    const model::Joint& joint = mechanism.joints[index.value];
+    const model::JointEntries& entries = layout.joints[index.value];
+    for (std::size_t c = 0; c < joint.coordinates.size(); ++c) {
+      if (!entries.position[c]) continue;
+      const double turn = random.uniform(-pi, pi), slide = turn / pi;
+      state.y[Eigen::Index(*entries.position[c])] = joint.coordinates[c].angular ? turn : slide;
+      state.z[Eigen::Index(*entries.velocity[c])] = random.uniform(-2, 2);
+    }
+    if (!joint.coordinates.empty()) continue;
+    for (std::size_t k = 0; k < entries.position_count; ++k)
+      state.y[Eigen::Index(entries.first_position + k)] = random.uniform(-1, 1);
+    for (std::size_t k = 0; k < entries.velocity_count; ++k)
+      state.z[Eigen::Index(entries.first_velocity + k)] = random.uniform(-2, 2);
   }
+  for (const std::size_t q : layout.quaternions) state.y.segment<4>(Eigen::Index(q)).normalize();
+  if (layout.rheonomic) state.t = random.uniform(0, 2);
   return state;
 }
 
 reference::VectorX<double> random_inputs(const model::Mechanism& mechanism, std::uint64_t seed) {
   Random random(seed ^ kInputStream);
-  reference::VectorX<double> u(Eigen::Index(mechanism.actuators.size()));
+  reference::VectorX<double> u(Eigen::Index(model::lay_out_coordinates(mechanism).input_count()));
   for (double& value : u) value = random.uniform(-5, 5);
   return u;
 }

@@ -32,7 +32,9 @@ Expression variable(model::Variable::Kind kind, std::size_t index = 0, std::size
   return Expression::variable({kind, index, component});
 }
 Expression time() { return variable(model::Variable::Kind::kTime); }
-Expression argument(std::size_t index) { return variable(model::Variable::Kind::kArgument, index); }
+Expression argument(std::size_t which) {
+  return Expression::variable({model::Variable::Kind::kArgument, 0, which});
+}
 
 model::Body body(double mass, const model::Vector3& center, const std::array<double, 3>& moments) {
   model::Body result;
