@@ -172,7 +172,7 @@ class Derivation {
 
   std::vector<Ex> k_bar() {
     std::vector<Ex> k =
-        external_rows(generalized(inertia_forces("k", {}, Gravity::kNone), no_wrenches(), "k"), "k");
+        external_rows(generalized(inertia_forces("k", std::vector<Ex>(count_, 0), Gravity::kNone), no_wrenches(), "k"), "k");
     for (Ex& entry : k) entry = -entry;
     return k;
   }

@@ -178,7 +178,7 @@ class Outputs {
       prescribed.linear = statements_.bind(output.name + "vbar", prescribed.linear + rate * twist.linear);
       prescribed.angular = statements_.bind(output.name + "wbar", prescribed.angular + rate * twist.angular);
     });
-    const Twist bias = frame.acceleration(link_accelerations(scene_, {}, Gravity::kNone, "bar"));
+    const Twist bias = frame.acceleration(link_accelerations(scene_, std::vector<Ex>(nz, 0), Gravity::kNone, "bar"));
     std::vector<OutputValues> values;
     if (nz > 0) values = {matrix_values("J_t", J_t), matrix_values("J_r", J_r)};
     values.push_back(vector_values("v_bar", prescribed.linear));

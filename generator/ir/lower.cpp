@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "ir/builder.hpp"
 
@@ -41,6 +41,16 @@ LeafKind leaf_kind(kinematics::LeafKind kind) {
 double to_double(const Ex& number) {
   return cln::double_approx(cln::realpart(ex_to<GiNaC::numeric>(number).to_cl_N()));
 }
+
+/// Never iterated: the hashes change from run to run.
+struct SymbolHash {
+  std::size_t operator()(const GiNaC::symbol& s) const { return s.gethash(); }
+};
+struct SameSymbol {
+  bool operator()(const GiNaC::symbol& a, const GiNaC::symbol& b) const { return a.is_equal(b); }
+};
+template <class Value>
+using SymbolMap = std::unordered_map<GiNaC::symbol, Value, SymbolHash, SameSymbol>;
 
 /// Text that orders operands: the same for an expression and its negative, and for every order of GiNaC's terms.
 struct Key {
@@ -216,10 +226,10 @@ class Lowering {
 
   const kinematics::Statements& statements_;
   Builder builder_;
-  std::map<GiNaC::symbol, const kinematics::Leaf*, GiNaC::ex_is_less> leaves_;
-  std::map<GiNaC::symbol, const Ex*, GiNaC::ex_is_less> bound_;
-  std::set<GiNaC::symbol, GiNaC::ex_is_less> needed_;
-  std::map<GiNaC::symbol, Signed, GiNaC::ex_is_less> lowered_;
+  SymbolMap<const kinematics::Leaf*> leaves_;
+  SymbolMap<const Ex*> bound_;
+  std::unordered_set<GiNaC::symbol, SymbolHash, SameSymbol> needed_;
+  SymbolMap<Signed> lowered_;
 };
 
 }  // namespace

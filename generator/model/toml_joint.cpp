@@ -64,6 +64,15 @@ std::vector<std::string> all_keys() {
   return keys;
 }
 
+/// Those of a joint whose type can be read, or of a revolute one.
+std::vector<std::string> shown_keys(const toml::table& table) {
+  const auto type = std::find(kTypes.begin(), kTypes.end(), table["type"].value_or(std::string()));
+  const auto index = type == kTypes.end() ? 1 : type - kTypes.begin();
+  std::vector<std::string> keys = kCommonKeys;
+  for (const std::string& key : keys_of(static_cast<JointType>(index))) keys.push_back(key);
+  return keys;
+}
+
 class JointReader {
  public:
   JointReader(TomlFile& file, const toml::table& table, const std::string& name, SourceRange header,
@@ -72,7 +81,7 @@ class JointReader {
         bodies_(bodies),
         bodies_complete_(bodies_complete),
         table_(file, table, name.empty() ? "a joint" : fmt::format("joint '{}'", shown(name)), header,
-               all_keys()) {}
+               all_keys(), shown_keys(table)) {}
 
   /// A joint whose type or one of whose ends is unknown leaves the file's structure incomplete.
   Joint read(const std::vector<Joint>& earlier) {

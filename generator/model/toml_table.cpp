@@ -43,14 +43,14 @@ std::string_view type_in_words(const toml::node& node) {
 }
 
 TomlTable::TomlTable(TomlFile& file, const toml::table& table, std::string what, SourceRange where,
-                     const std::vector<std::string>& known)
+                     const std::vector<std::string>& known, const std::vector<std::string>& shown_keys)
     : file_(file), table_(table), what_(std::move(what)), where_(where) {
   for (const auto& [key, value] : table_) {
     const std::string name(key.str());
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string close = support::nearest(name, known);
     file_.error(file_.range(key.source()), fmt::format("unknown key '{}' in {}", shown(name), what_),
-                close.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
+                close.empty() ? fmt::format("known are {}", fmt::join(shown_keys.empty() ? known : shown_keys, ", "))
                               : fmt::format("did you mean '{}'?", close));
   }
 }

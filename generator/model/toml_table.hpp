@@ -57,9 +57,9 @@ class TomlFile {
 /// A table of which all keys are known. `what` names it in messages ("body 'bob'").
 class TomlTable {
  public:
-  /// Reports keys that are not in `known`. `where` is underlined when a key is missing.
+  /// Reports keys that are not in `known`. `where` is underlined when a key is missing. Hints list `shown`, or all.
   TomlTable(TomlFile& file, const toml::table& table, std::string what, SourceRange where,
-            const std::vector<std::string>& known);
+            const std::vector<std::string>& known, const std::vector<std::string>& shown = {});
 
   TomlFile& file() const { return file_; }
   const std::string& what() const { return what_; }
