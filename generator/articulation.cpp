@@ -117,7 +117,8 @@ class Choice {
 
 }  // namespace
 
-Articulation choose_articulation(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options) {
+Articulation choose_articulation(const model::Mechanism& mechanism,
+                                 const dynamics::DerivationOptions& options) {
   return Choice(mechanism, options).choose();
 }
 

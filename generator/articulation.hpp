@@ -17,6 +17,7 @@ struct Articulation {
 
 /// Which links are articulated bodies (the others' joints are eliminated from M): first the best depth from the roots,
 /// then branch by branch one link more or less as long as that saves operations.
-Articulation choose_articulation(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options);
+Articulation choose_articulation(const model::Mechanism& mechanism,
+                                 const dynamics::DerivationOptions& options);
 
 }  // namespace jourdain

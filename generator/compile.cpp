@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ir/lower.hpp"
 #include "model/coordinates.hpp"
 #include "model/names.hpp"
@@ -68,15 +70,18 @@ std::string describe(const model::Mechanism& mechanism, const model::Output& out
   const auto joint = [&] { return mechanism.joints[output.joint.value].name; };
   switch (output.kind) {
     case model::OutputKind::kPose:
-      return fmt::format("Position (inertial frame) and rotation matrix (frame to inertial) of '{}'.", frame());
+      return fmt::format("Position (inertial frame) and rotation matrix (frame to inertial) of '{}'.",
+                         frame());
     case model::OutputKind::kVelocity:
-      return fmt::format("Velocity (inertial frame) and angular velocity (frame components) of '{}'.", frame());
+      return fmt::format("Velocity (inertial frame) and angular velocity (frame components) of '{}'.",
+                         frame());
     case model::OutputKind::kAcceleration:
-      return fmt::format(
-          "Acceleration (inertial frame) and angular acceleration (frame components) of '{}'.", frame());
+      return fmt::format("Acceleration (inertial frame) and angular acceleration (frame components) of '{}'.",
+                         frame());
     case model::OutputKind::kJacobian:
       return fmt::format(
-          "Jacobians of '{}': v = J_t z + v_bar, a = J_t zdot + a_bar (inertial frame); omega = J_r z + omega_bar, "
+          "Jacobians of '{}': v = J_t z + v_bar, a = J_t zdot + a_bar (inertial frame); omega = J_r z + "
+          "omega_bar, "
           "omega_dot = J_r zdot + zeta_bar (frame components).",
           frame());
     case model::OutputKind::kReaction:
@@ -95,7 +100,8 @@ std::string describe(const model::Mechanism& mechanism, const model::Output& out
   return "";
 }
 
-std::vector<emit::OutputDeclaration> output_texts(const model::Mechanism& mechanism, const Equations& equations) {
+std::vector<emit::OutputDeclaration> output_texts(const model::Mechanism& mechanism,
+                                                  const Equations& equations) {
   std::vector<emit::OutputDeclaration> texts;
   for (std::size_t k = 0; k < mechanism.outputs.size(); ++k) {
     emit::OutputDeclaration& text = texts.emplace_back();
@@ -140,6 +146,17 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
                                      const validate::Verdict& verdict) {
   std::vector<std::string> list = {"bodies are rigid; joints are ideal and without limits"};
   if (!options.damping) list.push_back("joint damping of the description is left out (--no-damping)");
+  if (!mechanism.springs.empty())
+    list.push_back(fmt::format(
+        "a spring's length is sqrt(|dr|^2 + ({:g} m)^2), so that its direction is defined at zero length",
+        model::kLengthSmoothing));
+  const bool rotors = std::any_of(mechanism.actuators.begin(), mechanism.actuators.end(),
+                                  [](const model::Actuator& a) { return !a.rotor_inertia.is_zero(); });
+  if (rotors)
+    list.push_back("rotors add gear_ratio^2 rotor_inertia to M; their gyroscopic coupling is neglected");
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  if (!layout.quaternions.empty())
+    list.push_back("quaternions are near unit length; a step ends with unit length");
   if (mechanism.snap && verdict.snap_effect > 1e-15)
     list.push_back(
         fmt::format("rotation entries within {:g} of 0 and +-1 are exact; that changes accelerations by "
@@ -161,7 +178,8 @@ ir::Module lower_functions(const Equations& equations, const std::vector<emit::F
 
 emit::SceneShape shape_of(const model::Mechanism& mechanism) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  return {layout.position_count(), layout.velocity_count(), layout.quaternions.size(), mechanism.outputs.size()};
+  return {layout.position_count(), layout.velocity_count(), layout.quaternions.size(),
+          mechanism.outputs.size()};
 }
 
 void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {

@@ -28,8 +28,14 @@ const std::vector<Switch>& switches() {
        [](model::Mechanism&, CompileOptions& o) { o.derivation.link_tree.share_parallel = false; }},
       {"snapped rotations", "rotations by multiples of a right angle are permutations",
        [](model::Mechanism& m, CompileOptions&) { m.snap = false; }},
+      {"elimination from M", "joints are eliminated through articulated bodies where that is cheaper",
+       [](model::Mechanism&, CompileOptions& o) {
+         o.derivation.articulated.assign(o.derivation.articulated.size(), false);
+       }},
       {"common factors", "factors that several terms of a sum share are multiplied once",
        [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("factor"); }, true},
+      {"constant factors", "constant factors of a product are multiplied with each other first",
+       [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("group_constants"); }, true},
       {"parameter-only values", "values that depend on parameters alone are computed once, with the model",
        [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("hoist"); }, true},
   };
@@ -51,7 +57,30 @@ std::size_t optimised_operations(const ir::Module& module, const CompileOptions&
   return forward_operations(passes::optimise(module, options.passes_off).module);
 }
 
-/// Joint elements and gravity that the scene does not have: nothing to count, they never came in.
+/// The operations that the scene would have with gravity.
+void add_gravity(model::Mechanism& mechanism, CompileOptions&) { mechanism.gravity = {0.0, 0.0, -9.81}; }
+
+bool is_zero(const model::Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
+
+/// What the mass matrix does not need.
+void describe_mass_matrix(const CompiledModel& compiled, std::vector<Omission>& list) {
+  for (const ir::Program& program : compiled.module.functions) {
+    if (program.name != "mass_matrix") continue;
+    bool constant = true, diagonal = true;
+    for (const ir::Output& output : program.outputs) {
+      const ir::Node& node = program[output.value];
+      const bool literal = node.op == ir::Op::kLiteral;
+      constant =
+          constant && (literal || node.leaf == ir::LeafKind::kConstant) && ir::operand_count(node.op) == 0;
+      diagonal = diagonal && (output.row == output.column || (literal && node.literal == 0));
+    }
+    if (diagonal) list.push_back({"coupling", "M is diagonal, nothing is factored", 0});
+    if (constant)
+      list.push_back({"factorisation", "M is constant, its factors are computed with the model", 0});
+  }
+}
+
+/// Elements that the scene does not have: nothing to count, they never came in.
 std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledModel& compiled) {
   std::vector<Omission> list;
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
@@ -63,17 +92,20 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
                          [member](const model::Coordinate& c) { return (c.*member).is_zero(); });
     });
   };
-  const model::Vector3& g = mechanism.gravity;
-  if (g[0].is_zero() && g[1].is_zero() && g[2].is_zero()) list.push_back({"gravity", "zero", 0});
-  if (none(&model::Coordinate::stiffness)) list.push_back({"springs", "none", 0});
-  if (none(&model::Coordinate::damping)) list.push_back({"dampers", "none", 0});
+  if (none(&model::Coordinate::stiffness)) list.push_back({"joint springs", "none", 0});
+  if (none(&model::Coordinate::damping)) list.push_back({"joint dampers", "none", 0});
   if (layout.input_count() == 0) list.push_back({"inputs", "none", 0});
+  if (mechanism.springs.empty() && mechanism.loads.empty() && mechanism.coordinate_forces.empty())
+    list.push_back({"frame forces", "none", 0});
+  if (mechanism.outputs.empty()) list.push_back({"outputs", "none asked for", 0});
+  describe_mass_matrix(compiled, list);
   if (mechanism.parameters.empty()) list.push_back({"parameters", "all numbers are baked in", 0});
   std::string missing;
   for (const emit::FunctionInfo& function : emit::all_functions()) {
     const bool emitted = std::any_of(compiled.functions.begin(), compiled.functions.end(),
                                      [&](const emit::FunctionInfo& f) { return f.name == function.name; });
-    if (!emitted) missing += (missing.empty() ? "" : ", ") + function.name;
+    if (!emitted && emit::has_function(function, compiled.shape))
+      missing += (missing.empty() ? "" : ", ") + function.name;
   }
   if (!missing.empty()) list.push_back({"functions not asked for", missing, 0});
   return list;
@@ -86,12 +118,15 @@ std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const Co
   const ir::Module lowered = forward_module(equations, compiled.shape);
   const long with = static_cast<long>(optimised_operations(lowered, options));
   std::vector<Omission> list;
-  for (const Switch& s : switches()) {
+  std::vector<Switch> all = switches();
+  if (is_zero(mechanism.gravity)) all.push_back({"gravity", "zero", add_gravity});
+  for (const Switch& s : all) {
     model::Mechanism other = mechanism;
     CompileOptions changed = options;
     s.off(other, changed);
     const ir::Module module =
-        s.only_pass ? lowered : forward_module(dynamics::derive_equations(other, changed.derivation), compiled.shape);
+        s.only_pass ? lowered
+                    : forward_module(dynamics::derive_equations(other, changed.derivation), compiled.shape);
     const long without = static_cast<long>(optimised_operations(module, changed));
     if (without != with) list.push_back({s.name, s.what, without - with});
   }

@@ -15,12 +15,14 @@
 //   operations of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time
-// - springs: none
-// - dampers: none
+// - joint springs: none
+// - joint dampers: none
+// - frame forces: none
+// - outputs: none asked for
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 1.2e-16 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 2.9e-16; symbolic equations against the numeric reference
-//   7.9e-20; cond(M) up to 3.7e+01
+// - 8 random states: backward error of M zdot = k_bar - q_bar 1.0e-16 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 2.0e-16; symbolic equations against the numeric reference
+//   5.3e-20; cond(M) up to 4.1e+01
 #pragma once
 
 namespace cart_pole {
@@ -33,7 +35,7 @@ struct Parameters {
   Real pole_half_length = Real(0.5);  ///< distance from the hinge to the pole's centre of mass, m
 };
 
-/// Time t (s), generalized coordinates y (rad, m) and generalized velocities z = dy/dt (rad/s, m/s).
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
 template <class Real = double>
 struct State {
   Real t;
@@ -41,7 +43,7 @@ struct State {
   Real z[2];
 };
 
-/// Generalized forces of the actuators (N m, N).
+/// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
 template <class Real = double>
 struct Input {
   Real u[1];
@@ -57,6 +59,7 @@ struct Model {
   static constexpr int position_count = 2;
   static constexpr int velocity_count = 2;
   static constexpr int input_count = 1;
+  static constexpr int output_count = 0;
   static constexpr int parameter_count = 3;
 
   explicit Model(const Parameters& = {}) noexcept;
@@ -64,6 +67,7 @@ struct Model {
   Real mr_z;
   Real hinge_m;
   Real S_zz;
+  Real c3;
   Real invD_1;
 };
 
@@ -71,6 +75,7 @@ struct Model {
 inline constexpr const char* position_names[3] = {"slide", "hinge", nullptr};
 inline constexpr const char* velocity_names[3] = {"slide", "hinge", nullptr};
 inline constexpr const char* input_names[2] = {"push", nullptr};
+inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[4] = {"cart_mass", "pole_mass", "pole_half_length", nullptr};
 
 /// The state that the model description starts from, at t = 0.
@@ -83,14 +88,14 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept;
 
-/// Coriolis and centrifugal terms k_bar(y, z); no gravity.
+/// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 3 operations (3 mul, 0 add and sub, 0 div), 1 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept;
 
-/// Applied forces q_bar(y, z, u): gravity, springs, dampers, inputs. Sign as in M zdot = k_bar - q_bar:
+/// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 2 operations (2 mul, 0 add and sub, 0 div), 1 sin and cos.
+/// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
     noexcept;
@@ -114,7 +119,7 @@ template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 2 operations (2 mul, 0 add and sub, 0 div), 1 sin and cos.
+/// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 

@@ -29,6 +29,13 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+           Real (&ydot)[2], Real (&zdot)[2]) noexcept {
+  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+  forward_dynamics(model, stage, input, zdot);
+}
+
 }  // namespace detail
 
 template <class Real>
@@ -41,6 +48,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   mr_z = parameters.pole_half_length * parameters.pole_mass;
   S_zz = parameters.pole_half_length * mr_z + (t11 + t11);
   hinge_m = parameters.pole_mass + parameters.cart_mass;
+  c3 = mr_z * Real(9.8);
   invD_1 = Real(1.0) / S_zz;
 }
 
@@ -67,9 +75,8 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real h1b_y = s1 * model.mr_z;
   const Real zw_1 = state.z[1] * state.z[1];
-  const Real kdf1_y = h1b_y * zw_1;
+  const Real kdf1_y = s1 * zw_1 * model.mr_z;
   k[0] = kdf1_y;
   k[1] = Real(0.0);
 }
@@ -78,8 +85,7 @@ template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
     noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real h1b_y = s1 * model.mr_z;
-  const Real q_1 = h1b_y * Real(9.8);
+  const Real q_1 = s1 * model.c3;
   q[0] = -input.u[0];
   q[1] = -q_1;
 }
@@ -89,16 +95,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&zdot)[2]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real h1b_x = c1 * model.mr_z;
   const Real h1b_y = s1 * model.mr_z;
   const Real bQp1 = h1b_y * Real(9.8);
   const Real zw_1 = state.z[1] * state.z[1];
   const Real bdf1_y = h1b_y * zw_1;
+  const Real h1b_x = c1 * model.mr_z;
   const Real L_1_0 = h1b_x * model.invD_1;
   const Real H1_0_0 = h1b_x * L_1_0 - model.hinge_m;
-  const Real x1_0 = bQp1 * L_1_0 - (bdf1_y + input.u[0]);
+  const Real u1_0 = bQp1 * L_1_0 - (bdf1_y + input.u[0]);
   const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = x1_0 * invD_0;
+  const Real y_0 = u1_0 * invD_0;
   const Real y_1 = bQp1 * model.invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
   zdot[0] = y_0;
@@ -112,63 +118,53 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(state.y[1], s1, c1);
   const Real h1b_x = c1 * model.mr_z;
   const Real h1b_y = s1 * model.mr_z;
-  const Real adf0_z = zdot[0] * model.hinge_m;
+  const Real adf0t_z = zdot[0] * model.hinge_m;
   const Real zw_1 = state.z[1] * state.z[1];
   const Real adn1_z = zdot[1] * model.S_zz;
-  const Real af0_z = h1b_y * zw_1 - (adf0_z + h1b_x * zdot[1]);
-  const Real aQ1 = adn1_z - (h1b_y * Real(9.8) - h1b_x * zdot[0]);
+  const Real af0_z = h1b_y * zw_1 - (adf0t_z + h1b_x * zdot[1]);
+  const Real aQ1_0 = adn1_z - (h1b_y * Real(9.8) - h1b_x * zdot[0]);
   tau[0] = -af0_z;
-  tau[1] = aQ1;
+  tau[1] = aQ1_0;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
-  const Real h1b_x = c1 * model.mr_z;
-  const Real P0 = state.z[0] * model.hinge_m * Real(0.5);
-  const Real T0 = state.z[0] * P0;
-  const Real P1 = Real(0.5) * (state.z[1] * model.S_zz) + h1b_x * state.z[0];
-  const Real T1 = T0 + state.z[1] * P1;
+  const Real T1 = state.z[0] * (c1 * state.z[1]) * model.mr_z + (state.z[0] * state.z[0] * model.hinge_m +
+      state.z[1] * state.z[1] * model.S_zz) * Real(0.5);
   return T1;
 }
 
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
-  const Real h1b_x = c1 * model.mr_z;
-  const Real V = h1b_x * Real(9.8);
+  const Real V = c1 * model.c3;
   return V;
 }
 
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
-  constexpr int n = Model<Real>::velocity_count;
+  constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage = state;
-  Real a1[n], a2[n], a3[n], a4[n], z2[n], z3[n], z4[n];
-  forward_dynamics(model, stage, input, a1);
+  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
+  detail::rates(model, stage, input, v1, a1);
   stage.t = state.t + half;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * state.z[i];
-    stage.z[i] = z2[i] = state.z[i] + half * a1[i];
-  }
-  forward_dynamics(model, stage, input, a2);
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * z2[i];
-    stage.z[i] = z3[i] = state.z[i] + half * a2[i];
-  }
-  forward_dynamics(model, stage, input, a3);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
+  detail::rates(model, stage, input, v2, a2);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
+  detail::rates(model, stage, input, v3, a3);
   stage.t = state.t + h;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + h * z3[i];
-    stage.z[i] = z4[i] = state.z[i] + h * a3[i];
-  }
-  forward_dynamics(model, stage, input, a4);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
+  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
-  for (int i = 0; i < n; ++i) {
-    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (z2[i] + z3[i]) + z4[i]);
+  for (int i = 0; i < ny; ++i)
+    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+  for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  }
   state.t = state.t + h;
 }
 

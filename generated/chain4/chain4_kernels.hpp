@@ -29,6 +29,13 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+           Real (&ydot)[4], Real (&zdot)[4]) noexcept {
+  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+  forward_dynamics(model, stage, input, zdot);
+}
+
 }  // namespace detail
 
 template <class Real>
@@ -81,16 +88,16 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) 
   const Real D1 = c0 * h1_x + s0 * h1_y;
   const Real E1 = J1 + D1;
   const Real J0 = D1 + E1 + Real(3.3333333333333335);
-  const Real p2_1n_z = s0 * h2_y + (E2 + c0 * h2_x);
-  const Real p3_2n_z = s1 * h3b_y + (E3 + c1 * h3b_x);
-  const Real p3_1n_z = s0 * h3b_y + (p3_2n_z + c0 * h3b_x);
+  const Real p_2_1n_z = s0 * h2_y + (E2 + c0 * h2_x);
+  const Real p_3_2n_z = s1 * h3b_y + (E3 + c1 * h3b_x);
+  const Real p_3_1n_z = s0 * h3b_y + (p_3_2n_z + c0 * h3b_x);
   M[0][0] = J0;
   M[0][1] = M[1][0] = E1;
-  M[0][2] = M[2][0] = p2_1n_z;
-  M[0][3] = M[3][0] = p3_1n_z;
+  M[0][2] = M[2][0] = p_2_1n_z;
+  M[0][3] = M[3][0] = p_3_1n_z;
   M[1][1] = J1;
   M[1][2] = M[2][1] = E2;
-  M[1][3] = M[3][1] = p3_2n_z;
+  M[1][3] = M[3][1] = p_3_2n_z;
   M[2][2] = J2;
   M[2][3] = M[3][2] = E3;
   M[3][3] = Real(0.3333333333333333);
@@ -147,11 +154,11 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept 
   const Real kf2c_y = kdf1_y + kf3c_y;
   const Real kn2c_z = s1 * kf3c_x - (kn3c_z + c1 * kf3c_y);
   const Real kn1c_z = s0 * kf2c_x + (kn2c_z - c0 * kf2c_y);
-  const Real kQ1 = kn2c_z - (h1_x * ka1o_y - h1_y * ka1o_x);
-  const Real kQ2 = kn3c_z + (h2_x * ka2o_y - h2_y * ka2o_x);
+  const Real kQ1_0 = kn2c_z - (h1_x * ka1o_y - h1_y * ka1o_x);
+  const Real kQ2_0 = kn3c_z + (h2_x * ka2o_y - h2_y * ka2o_x);
   k[0] = -kn1c_z;
-  k[1] = -kQ1;
-  k[2] = kQ2;
+  k[1] = -kQ1_0;
+  k[2] = kQ2_0;
   k[3] = kQp3;
 }
 
@@ -197,28 +204,18 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   detail::sine_cosine(angle3, s3, c3);
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
-  const Real D3 = c2 * h3b_x + s2 * h3b_y;
-  const Real E3 = D3 + Real(0.3333333333333333);
   const Real h2b_x = c2 * Real(1.5);
   const Real h2b_y = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h2_y = h3b_y + h2b_y;
-  const Real J2 = D3 + E3 + Real(1.3333333333333333);
-  const Real D2 = c1 * h2_x + s1 * h2_y;
-  const Real E2 = J2 + D2;
   const Real h1b_x = c1 * Real(2.5);
   const Real h1b_y = s1 * Real(2.5);
   const Real h1_x = h2_x + h1b_x;
   const Real h1_y = h2_y + h1b_y;
-  const Real J1 = D2 + E2 + Real(2.3333333333333335);
-  const Real D1 = c0 * h1_x + s0 * h1_y;
-  const Real E1 = J1 + D1;
   const Real h0b_x = c0 * Real(3.5);
   const Real h0_x = h1_x + h0b_x;
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
-  const Real p3_2n_z = s1 * h3b_y + (E3 + c1 * h3b_x);
-  const Real p3_1n_z = s0 * h3b_y + (p3_2n_z + c0 * h3b_x);
   const Real bQp0 = h0_x * Real(9.81);
   const Real bW0w22 = state.z[0] * state.z[0];
   const Real ba1o_x = c0 * bW0w22;
@@ -245,30 +242,40 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bf2c_x = bdf1_x + bf3c_x;
   const Real bf2c_y = bdf1_y + bf3c_y;
   const Real bn2c_z = s1 * bf3c_x - (bn3c_z + c1 * bf3c_y);
+  const Real D3 = c2 * h3b_x + s2 * h3b_y;
+  const Real E3 = D3 + Real(0.3333333333333333);
+  const Real J2 = D3 + E3 + Real(1.3333333333333333);
+  const Real D2 = c1 * h2_x + s1 * h2_y;
+  const Real E2 = J2 + D2;
+  const Real J1 = D2 + E2 + Real(2.3333333333333335);
+  const Real D1 = c0 * h1_x + s0 * h1_y;
+  const Real E1 = J1 + D1;
+  const Real p3_2n_z = s1 * h3b_y + (E3 + c1 * h3b_x);
+  const Real p3_1n_z = s0 * h3b_y + (p3_2n_z + c0 * h3b_x);
   const Real L_3_2 = E3 * Real(3.0);
   const Real H3_2_2 = J2 - E3 * L_3_2;
   const Real H3_2_1 = E2 - p3_2n_z * L_3_2;
   const Real H3_2_0 = p3_1n_z * L_3_2 - (s0 * h2_y + (E2 + c0 * h2_x));
   const Real L_3_1 = p3_2n_z * Real(3.0);
   const Real L_3_0 = p3_1n_z * Real(3.0);
-  const Real x3_2 = bQp3 * L_3_2 + (bn3c_z - (h2_x * ba2o_y + h2_y * ba2o_x));
+  const Real u3_2 = bQp3 * L_3_2 + (bn3c_z - (h2_x * ba2o_y + h2_y * ba2o_x));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
   const Real H2_1_1 = H3_2_1 * L_2_1 - (J1 - p3_2n_z * L_3_1);
   const Real H2_1_0 = H3_2_0 * L_2_1 + (E1 - p3_1n_z * L_3_1);
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real x2_1 = x3_2 * L_2_1 - (bQp3 * L_3_1 - (bn2c_z + (h1_x * ba1o_y + h1_y * ba1o_x)));
+  const Real u2_1 = u3_2 * L_2_1 - (bQp3 * L_3_1 - (bn2c_z + (h1_x * ba1o_y + h1_y * ba1o_x)));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
   const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 + (p3_1n_z * L_3_0 - (D1 + E1 +
       Real(3.3333333333333335))));
-  const Real x1_0 = x2_1 * L_1_0 - (x3_2 * L_2_0 + (bQp3 * L_3_0 - (s0 * bf2c_x - (c0 * bf2c_y - (bQp0 +
+  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 + (bQp3 * L_3_0 - (s0 * bf2c_x - (c0 * bf2c_y - (bQp0 +
       bn2c_z)))));
   const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = x1_0 * invD_0;
-  const Real y_1 = x2_1 * invD_1;
+  const Real y_0 = u1_0 * invD_0;
+  const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
-  const Real y_2 = x3_2 * invD_2;
+  const Real y_2 = u3_2 * invD_2;
   const Real zdot_2 = L_2_0 * y_0 - (y_2 - L_2_1 * zdot_1);
   const Real y_3 = bQp3 * Real(3.0);
   const Real zdot_3 = L_3_0 * y_0 - (L_3_1 * zdot_1 + (y_3 - L_3_2 * zdot_2));
@@ -339,14 +346,14 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real af2c_x = af3c_x + (h1_y * zdot[1] + h1_x * zw_1);
   const Real af2c_y = af3c_y + (h1_x * zdot[1] - h1_y * zw_1);
   const Real an2c_z = s1 * af3c_x + (c1 * af3c_y + (adn1_z + an3c_z));
-  const Real aQ0 = s0 * af2c_x + (c0 * af2c_y + (adn0_z + (aQp0 + an2c_z)));
-  const Real aQ1 = an2c_z + (h1_y * aa1o_x + (J1 * zdot[0] - h1_x * aa1o_y));
-  const Real aQ2 = an3c_z + (J2 * aal1o_z - (h2_x * aa2o_y - h2_y * aa2o_x));
-  const Real aQ3 = adn3_z + (h3b_y * aa3o_x + (Real(0.3333333333333333) * aal2o_z - h3b_x * aa3o_y));
-  tau[0] = aQ0;
-  tau[1] = aQ1;
-  tau[2] = aQ2;
-  tau[3] = aQ3;
+  const Real aQ0_0 = s0 * af2c_x + (c0 * af2c_y + (adn0_z + (aQp0 + an2c_z)));
+  const Real aQ1_0 = an2c_z + (h1_y * aa1o_x + (J1 * zdot[0] - h1_x * aa1o_y));
+  const Real aQ2_0 = an3c_z + (J2 * aal1o_z - (h2_x * aa2o_y - h2_y * aa2o_x));
+  const Real aQ3_0 = adn3_z + (h3b_y * aa3o_x + (Real(0.3333333333333333) * aal2o_z - h3b_x * aa3o_y));
+  tau[0] = aQ0_0;
+  tau[1] = aQ1_0;
+  tau[2] = aQ2_0;
+  tau[3] = aQ3_0;
 }
 
 template <class Real>
@@ -380,19 +387,25 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real J0 = D1 + (J1 + D1) + Real(3.3333333333333335);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
-  const Real P0 = Real(0.5) * (J0 * state.z[0]);
-  const Real T0 = state.z[0] * P0;
+  const Real v0L_z = J0 * state.z[0];
   const Real v1o_x = s0 * state.z[0];
   const Real v1o_y = c0 * state.z[0];
-  const Real P1 = h1_y * v1o_x + (h1_x * v1o_y + (Real(0.5) * (J1 * state.z[1]) + J1 * state.z[0]));
+  const Real v1P_x = h1_y * state.z[1];
+  const Real v1P_y = h1_x * state.z[1];
+  const Real v1L_z = J1 * state.z[1];
   const Real v2o_x = v1o_x + s1 * w1_z;
   const Real v2o_y = v1o_y + c1 * w1_z;
-  const Real P2 = J2 * w1_z + (h2_y * v2o_x + (Real(0.5) * (J2 * state.z[2]) + h2_x * v2o_y));
+  const Real v2P_x = h2_y * state.z[2];
+  const Real v2P_y = h2_x * state.z[2];
+  const Real v2L_z = J2 * state.z[2];
   const Real v3o_x = v2o_x + s2 * w2_z;
   const Real v3o_y = v2o_y + c2 * w2_z;
-  const Real P3 = h3b_y * v3o_x + (h3b_x * v3o_y + (Real(0.3333333333333333) * w2_z + state.z[3] *
-      Real(0.16666666666666666)));
-  const Real T3 = state.z[3] * P3 + (state.z[2] * P2 + (T0 + state.z[1] * P1));
+  const Real v3P_x = h3b_y * state.z[3];
+  const Real v3P_y = h3b_x * state.z[3];
+  const Real v3L_z = Real(0.3333333333333333) * state.z[3];
+  const Real T3 = Real(0.5) * (state.z[0] * v0L_z + (state.z[1] * v1L_z + (state.z[2] * v2L_z + state.z[3] *
+      v3L_z))) + (v3o_y * v3P_y + (v3o_x * v3P_x + (w2_z * v3L_z + (v2o_y * v2P_y + (v2o_x * v2P_x + (w1_z *
+      v2L_z + (v1o_y * v1P_y + (state.z[0] * v1L_z + v1o_x * v1P_x))))))));
   return T3;
 }
 
@@ -416,33 +429,27 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
 
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
-  constexpr int n = Model<Real>::velocity_count;
+  constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage = state;
-  Real a1[n], a2[n], a3[n], a4[n], z2[n], z3[n], z4[n];
-  forward_dynamics(model, stage, input, a1);
+  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
+  detail::rates(model, stage, input, v1, a1);
   stage.t = state.t + half;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * state.z[i];
-    stage.z[i] = z2[i] = state.z[i] + half * a1[i];
-  }
-  forward_dynamics(model, stage, input, a2);
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * z2[i];
-    stage.z[i] = z3[i] = state.z[i] + half * a2[i];
-  }
-  forward_dynamics(model, stage, input, a3);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
+  detail::rates(model, stage, input, v2, a2);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
+  detail::rates(model, stage, input, v3, a3);
   stage.t = state.t + h;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + h * z3[i];
-    stage.z[i] = z4[i] = state.z[i] + h * a3[i];
-  }
-  forward_dynamics(model, stage, input, a4);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
+  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
-  for (int i = 0; i < n; ++i) {
-    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (z2[i] + z3[i]) + z4[i]);
+  for (int i = 0; i < ny; ++i)
+    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+  for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  }
   state.t = state.t + h;
 }
 

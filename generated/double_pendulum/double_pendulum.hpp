@@ -10,19 +10,21 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // Left out
-// - base inertial parameters: what a joint's motion does not feel is counted with the parent (11 operations
+// - base inertial parameters: what a joint's motion does not feel is counted with the parent (10 operations
 //   of forward_dynamics)
 // - parameter-only values: values that depend on parameters alone are computed once, with the model (7
 //   operations of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time
-// - springs: none
-// - dampers: none
+// - joint springs: none
+// - joint dampers: none
 // - inputs: none
+// - frame forces: none
+// - outputs: none asked for
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 8.7e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 1.8e-16; symbolic equations against the numeric reference
-//   0.0e+00; cond(M) up to 2.7e+01
+// - 8 random states: backward error of M zdot = k_bar - q_bar 1.1e-16 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 2.2e-16; symbolic equations against the numeric reference
+//   0.0e+00; cond(M) up to 2.3e+01
 #pragma once
 
 namespace double_pendulum {
@@ -36,7 +38,7 @@ struct Parameters {
   Real l2 = Real(1.0);  ///< length of the lower bar, m
 };
 
-/// Time t (s), generalized coordinates y (rad, m) and generalized velocities z = dy/dt (rad/s, m/s).
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
 template <class Real = double>
 struct State {
   Real t;
@@ -44,7 +46,7 @@ struct State {
   Real z[2];
 };
 
-/// Generalized forces of the actuators (N m, N).
+/// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
 template <class Real = double>
 struct Input {};
 
@@ -58,14 +60,16 @@ struct Model {
   static constexpr int position_count = 2;
   static constexpr int velocity_count = 2;
   static constexpr int input_count = 0;
+  static constexpr int output_count = 0;
   static constexpr int parameter_count = 4;
 
   explicit Model(const Parameters& = {}) noexcept;
 
+  Real c0;
+  Real S_yy;
+  Real c2;
   Real l1;
   Real mr_y;
-  Real S_yy;
-  Real c3;
   Real elbow_h_y;
   Real elbow_h_y_2;
   Real invD_1;
@@ -75,6 +79,7 @@ struct Model {
 inline constexpr const char* position_names[3] = {"shoulder", "elbow", nullptr};
 inline constexpr const char* velocity_names[3] = {"shoulder", "elbow", nullptr};
 inline constexpr const char* input_names[1] = {nullptr};
+inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[5] = {"m1", "m2", "l1", "l2", nullptr};
 
 /// The state that the model description starts from, at t = 0.
@@ -83,16 +88,16 @@ template <class Real>
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 11 operations (6 mul, 5 add and sub, 0 div), 4 sin and cos.
+/// 9 operations (4 mul, 5 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept;
 
-/// Coriolis and centrifugal terms k_bar(y, z); no gravity.
+/// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 19 operations (14 mul, 5 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept;
 
-/// Applied forces q_bar(y, z, u): gravity, springs, dampers, inputs. Sign as in M zdot = k_bar - q_bar:
+/// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 6 operations (4 mul, 2 add and sub, 0 div), 2 sin and cos.
 template <class Real>
@@ -113,7 +118,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[2]) noexcept;
 
 /// Kinetic energy, J.
-/// 26 operations (17 mul, 9 add and sub, 0 div), 4 sin and cos.
+/// 27 operations (18 mul, 9 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 

@@ -29,6 +29,13 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+           Real (&ydot)[2], Real (&zdot)[2]) noexcept {
+  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+  forward_dynamics(model, stage, input, zdot);
+}
+
 }  // namespace detail
 
 template <class Real>
@@ -38,8 +45,9 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   mr_y = parameters.m2 * parameters.l2;
   S_yy = parameters.l2 * mr_y;
   const Real mr_y_3 = l1 * parameters.m2;
+  c0 = l1 * mr_y;
   elbow_h_y_2 = mr_y_2 + mr_y_3;
-  c3 = l1 * elbow_h_y_2;
+  c2 = l1 * elbow_h_y_2;
   elbow_h_y = l1 * (parameters.m1 + parameters.m2);
   invD_1 = Real(1.0) / S_yy;
 }
@@ -62,13 +70,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   const Real angle1 = state.y[0] + state.y[1];
   Real s1, c1;
   detail::sine_cosine(angle1, s1, c1);
-  const Real r1_x = s0 * model.l1;
-  const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.mr_y;
-  const Real h1b_y = c1 * model.mr_y;
-  const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
+  const Real D1 = s0 * s1 * model.c0 + model.c0 * (c0 * c1);
   const Real E1 = D1 + model.S_yy;
-  const Real J0 = D1 + E1 + model.c3;
+  const Real J0 = D1 + E1 + model.c2;
   M[0][0] = J0;
   M[0][1] = M[1][0] = E1;
   M[1][1] = model.S_yy;
@@ -123,8 +127,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real r1_y = c0 * model.l1;
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
-  const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
-  const Real E1 = D1 + model.S_yy;
   const Real h0b_x = s0 * model.elbow_h_y_2;
   const Real h0_x = h1b_x + h0b_x;
   const Real bQp0 = h0_x * Real(9.81);
@@ -135,11 +137,13 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real zw_1 = state.z[1] * (state.z[1] + (state.z[0] + state.z[0]));
   const Real bdf1_x = h1b_x * zw_1;
   const Real bdf1_y = h1b_y * zw_1;
+  const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
+  const Real E1 = D1 + model.S_yy;
   const Real L_1_0 = E1 * model.invD_1;
-  const Real H1_0_0 = E1 * L_1_0 - (D1 + E1) - model.c3;
-  const Real x1_0 = bQp1 * L_1_0 + (r1_y * bdf1_x - (bQp0 + r1_x * bdf1_y));
+  const Real H1_0_0 = E1 * L_1_0 - (D1 + E1) - model.c2;
+  const Real u1_0 = bQp1 * L_1_0 + (r1_y * bdf1_x - (bQp0 + r1_x * bdf1_y));
   const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = x1_0 * invD_0;
+  const Real y_0 = u1_0 * invD_0;
   const Real y_1 = bQp1 * model.invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
   zdot[0] = -y_0;
@@ -161,7 +165,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
   const Real h0b_x = s0 * model.elbow_h_y_2;
   const Real h0_x = h1b_x + h0b_x;
-  const Real J0 = D1 + (D1 + model.S_yy) + model.c3;
+  const Real J0 = D1 + (D1 + model.S_yy) + model.c2;
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = J0 * zdot[0];
   const Real aW0w22 = state.z[0] * state.z[0];
@@ -171,10 +175,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real adf1_x = h1b_y * zdot[1] - h1b_x * zw_1;
   const Real adf1_y = h1b_x * zdot[1] + h1b_y * zw_1;
   const Real adn1_z = model.S_yy * zdot[1];
-  const Real aQ0 = r1_y * adf1_x + (r1_x * adf1_y + (adn0_z + (aQp0 + adn1_z)));
-  const Real aQ1 = adn1_z + (h1b_y * aa1o_x + (model.S_yy * zdot[0] + h1b_x * aa1o_y));
-  tau[0] = aQ0;
-  tau[1] = aQ1;
+  const Real aQ0_0 = r1_y * adf1_x + (r1_x * adf1_y + (adn0_z + (aQp0 + adn1_z)));
+  const Real aQ1_0 = adn1_z + (h1b_y * aa1o_x + (model.S_yy * zdot[0] + h1b_x * aa1o_y));
+  tau[0] = aQ0_0;
+  tau[1] = aQ1_0;
 }
 
 template <class Real>
@@ -189,14 +193,15 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
   const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
-  const Real J0 = D1 + (D1 + model.S_yy) + model.c3;
-  const Real P0 = J0 * state.z[0] * Real(0.5);
-  const Real T0 = state.z[0] * P0;
+  const Real J0 = D1 + (D1 + model.S_yy) + model.c2;
+  const Real v0L_z = J0 * state.z[0];
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
-  const Real P1 = h1b_y * v1o_x + (h1b_x * v1o_y + (Real(0.5) * (model.S_yy * state.z[1]) + model.S_yy *
-      state.z[0]));
-  const Real T1 = T0 + state.z[1] * P1;
+  const Real v1P_x = h1b_y * state.z[1];
+  const Real v1P_y = h1b_x * state.z[1];
+  const Real v1L_z = model.S_yy * state.z[1];
+  const Real T1 = (state.z[0] * v0L_z + state.z[1] * v1L_z) * Real(0.5) + (v1o_y * v1P_y + (state.z[0] * v1L_z
+      + v1o_x * v1P_x));
   return T1;
 }
 
@@ -214,33 +219,27 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
-  constexpr int n = Model<Real>::velocity_count;
+  constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage = state;
-  Real a1[n], a2[n], a3[n], a4[n], z2[n], z3[n], z4[n];
-  forward_dynamics(model, stage, input, a1);
+  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
+  detail::rates(model, stage, input, v1, a1);
   stage.t = state.t + half;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * state.z[i];
-    stage.z[i] = z2[i] = state.z[i] + half * a1[i];
-  }
-  forward_dynamics(model, stage, input, a2);
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * z2[i];
-    stage.z[i] = z3[i] = state.z[i] + half * a2[i];
-  }
-  forward_dynamics(model, stage, input, a3);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
+  detail::rates(model, stage, input, v2, a2);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
+  detail::rates(model, stage, input, v3, a3);
   stage.t = state.t + h;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + h * z3[i];
-    stage.z[i] = z4[i] = state.z[i] + h * a3[i];
-  }
-  forward_dynamics(model, stage, input, a4);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
+  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
-  for (int i = 0; i < n; ++i) {
-    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (z2[i] + z3[i]) + z4[i]);
+  for (int i = 0; i < ny; ++i)
+    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+  for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  }
   state.t = state.t + h;
 }
 

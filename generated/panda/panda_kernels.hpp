@@ -29,6 +29,13 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+           Real (&ydot)[7], Real (&zdot)[7]) noexcept {
+  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+  forward_dynamics(model, stage, input, zdot);
+}
+
 }  // namespace detail
 
 template <class Real>
@@ -83,8 +90,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
       Real(0.0001037589172186849);
   const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
   const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_e = S6c_xy * Real(2.0);
-  const Real S5b_t = c5 * S5b_e - s5 * S5b_d;
+  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
   const Real S5b_xz = c5 * S6c_xz - s5 * S6c_yz;
   const Real S5b_yz = c5 * S6c_yz + s5 * S6c_xz;
@@ -99,8 +105,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
   const Real S4b_zz = S5c_xx + S5c_yy;
   const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_e = Real(2.0) * S5c_xy;
-  const Real S4b_t = c4 * S4b_e + s4 * S4b_d;
+  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) + s4 * S4b_d;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
   const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
   const Real S4b_yz = c4 * S5c_yz - s4 * S5c_xz;
@@ -116,8 +121,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S4c_yz = t150 + (S5c_xy - c4 * S4b_t) + Real(0.0039053550262761);
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_e = Real(2.0) * S4c_xy;
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
   const Real S3b_xx = S4c_xx + s3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4c_yz;
   const Real S3b_yz = c3 * S4c_yz + s3 * S4c_xz;
@@ -131,8 +135,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_e = Real(2.0) * S3c_xy;
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
   const Real S2b_xx = S3c_xx + s2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
@@ -143,95 +146,94 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S2c_yz = S3c_xy - c2 * S2b_t - Real(0.01026110182100817);
   const Real S1b_zz = S2c_xx + S2c_yy;
   const Real S1b_d = S2c_xx - S2c_yy;
-  const Real S1b_e = Real(2.0) * S2c_xy;
-  const Real S1b_t = c1 * S1b_e - s1 * S1b_d;
+  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) - s1 * S1b_d;
   const Real S1b_xz = c1 * S2c_xz + s1 * S2c_yz;
   const Real S0b_zz = S2b_xx - (S2b_zz - (s1 * S1b_t + (S2c_xx - S1b_zz) - Real(0.0062531379269374545))) -
       Real(0.008006428067536918);
-  const Real p2_2N_x = c1 * S2b_zz - s1 * S2b_xz;
-  const Real p3_3n_y = Real(0.0825) * h3b_y + (S3b_zz - h3b_x * Real(0.316));
-  const Real p3_3N_x = c2 * S3b_yz + s2 * p3_3n_y;
-  const Real p3_3N_y = c2 * p3_3n_y - s2 * S3b_yz;
-  const Real p3_2N_x = c1 * S3b_xz + s1 * p3_3N_x;
-  const Real p4_4l_x = h4b_x * Real(0.0825);
-  const Real p4_4n_x = S4b_zz + p4_4l_x;
-  const Real p4_4F_x = s3 * h4b_y;
-  const Real p4_4F_y = c3 * h4b_y;
-  const Real p4_3l_x = h4b_x * Real(0.316);
-  const Real p4_3n_x = p4_3l_x + (c3 * S4b_xz - s3 * p4_4n_x);
-  const Real p4_3n_y = Real(0.0825) * p4_4F_x - (S4b_yz + Real(0.316) * p4_4F_y);
-  const Real p4_3n_z = s3 * S4b_xz - (p4_4l_x - c3 * p4_4n_x);
-  const Real p4_3N_x = c2 * p4_3n_x - s2 * p4_3n_y;
-  const Real p4_3N_y = c2 * p4_3n_y + s2 * p4_3n_x;
-  const Real p4_2N_x = c1 * p4_3n_z - s1 * p4_3N_x;
-  const Real p5_5l_y = h5b_x * Real(0.384);
-  const Real p5_5n_y = S5b_zz + p5_5l_y;
-  const Real p5_5F_x = c4 * h5b_x;
-  const Real p5_5F_y = s4 * h5b_x;
-  const Real p5_5N_x = c4 * S5b_yz + s4 * p5_5n_y;
-  const Real p5_4l_x = Real(0.0825) * p5_5F_y;
-  const Real p5_4l_z = h5b_y * Real(0.0825);
-  const Real p5_4n_x = S5b_xz - p5_4l_x;
-  const Real p5_4n_z = p5_4l_z + (c4 * p5_5n_y - s4 * S5b_yz);
-  const Real p5_4F_x = c3 * h5b_y + s3 * p5_5F_x;
-  const Real p5_4F_y = c3 * p5_5F_x - s3 * h5b_y;
-  const Real p5_3l_x = Real(0.316) * p5_5F_y;
-  const Real p5_3n_x = p5_3l_x + (c3 * p5_5N_x + s3 * p5_4n_x);
-  const Real p5_3n_y = Real(0.0825) * p5_4F_x - (p5_4n_z + Real(0.316) * p5_4F_y);
-  const Real p5_3n_z = s3 * p5_5N_x - (p5_4l_x + c3 * p5_4n_x);
-  const Real p5_3N_x = c2 * p5_3n_x - s2 * p5_3n_y;
-  const Real p5_3N_y = c2 * p5_3n_y + s2 * p5_3n_x;
-  const Real p5_2N_x = c1 * p5_3n_z - s1 * p5_3N_x;
-  const Real p6_6l_x = h6b_x * Real(0.088);
-  const Real p6_6n_x = Real(0.006684151967360946) - p6_6l_x;
-  const Real p6_6F_x = s5 * h6b_y;
-  const Real p6_6F_y = c5 * h6b_y;
-  const Real p6_6N_x = c5 * p6_6n_x - s5 * S6b_xz;
-  const Real p6_5l_x = h6b_x * Real(0.384);
-  const Real p6_5l_y = Real(0.384) * p6_6F_y;
-  const Real p6_5n_x = p6_5l_x - (c5 * S6b_xz + s5 * p6_6n_x);
-  const Real p6_5n_y = S6b_yz - p6_5l_y;
-  const Real p6_5F_x = c4 * p6_6F_y + s4 * h6b_x;
-  const Real p6_5F_y = c4 * h6b_x - s4 * p6_6F_y;
-  const Real p6_5N_x = c4 * p6_5n_x + s4 * p6_5n_y;
-  const Real p6_4l_x = Real(0.0825) * p6_5F_y;
-  const Real p6_4l_z = Real(0.0825) * p6_6F_x;
-  const Real p6_4n_x = p6_6N_x + p6_4l_x;
-  const Real p6_4n_z = p6_4l_z - (c4 * p6_5n_y - s4 * p6_5n_x);
-  const Real p6_4F_x = c3 * p6_6F_x + s3 * p6_5F_x;
-  const Real p6_4F_y = c3 * p6_5F_x - s3 * p6_6F_x;
-  const Real p6_3l_x = Real(0.316) * p6_5F_y;
-  const Real p6_3n_x = p6_3l_x + (c3 * p6_5N_x - s3 * p6_4n_x);
-  const Real p6_3n_y = Real(0.0825) * p6_4F_x - (p6_4n_z + Real(0.316) * p6_4F_y);
-  const Real p6_3n_z = s3 * p6_5N_x - (p6_4l_x - c3 * p6_4n_x);
-  const Real p6_3N_x = c2 * p6_3n_x + s2 * p6_3n_y;
-  const Real p6_3N_y = c2 * p6_3n_y - s2 * p6_3n_x;
-  const Real p6_2N_x = c1 * p6_3n_z - s1 * p6_3N_x;
+  const Real p_2_2N_x = c1 * S2b_zz - s1 * S2b_xz;
+  const Real p_3_3n_y = Real(0.0825) * h3b_y + (S3b_zz - h3b_x * Real(0.316));
+  const Real p_3_3N_x = c2 * S3b_yz + s2 * p_3_3n_y;
+  const Real p_3_3N_y = c2 * p_3_3n_y - s2 * S3b_yz;
+  const Real p_3_2N_x = c1 * S3b_xz + s1 * p_3_3N_x;
+  const Real p_4_4l_x = h4b_x * Real(0.0825);
+  const Real p_4_4n_x = S4b_zz + p_4_4l_x;
+  const Real p_4_4F_x = s3 * h4b_y;
+  const Real p_4_4F_y = c3 * h4b_y;
+  const Real p_4_3l_x = h4b_x * Real(0.316);
+  const Real p_4_3n_x = p_4_3l_x + (c3 * S4b_xz - s3 * p_4_4n_x);
+  const Real p_4_3n_y = Real(0.0825) * p_4_4F_x - (S4b_yz + Real(0.316) * p_4_4F_y);
+  const Real p_4_3n_z = s3 * S4b_xz - (p_4_4l_x - c3 * p_4_4n_x);
+  const Real p_4_3N_x = c2 * p_4_3n_x - s2 * p_4_3n_y;
+  const Real p_4_3N_y = c2 * p_4_3n_y + s2 * p_4_3n_x;
+  const Real p_4_2N_x = c1 * p_4_3n_z - s1 * p_4_3N_x;
+  const Real p_5_5l_y = h5b_x * Real(0.384);
+  const Real p_5_5n_y = S5b_zz + p_5_5l_y;
+  const Real p_5_5F_x = c4 * h5b_x;
+  const Real p_5_5F_y = s4 * h5b_x;
+  const Real p_5_5N_x = c4 * S5b_yz + s4 * p_5_5n_y;
+  const Real p_5_4l_x = Real(0.0825) * p_5_5F_y;
+  const Real p_5_4l_z = h5b_y * Real(0.0825);
+  const Real p_5_4n_x = S5b_xz - p_5_4l_x;
+  const Real p_5_4n_z = p_5_4l_z + (c4 * p_5_5n_y - s4 * S5b_yz);
+  const Real p_5_4F_x = c3 * h5b_y + s3 * p_5_5F_x;
+  const Real p_5_4F_y = c3 * p_5_5F_x - s3 * h5b_y;
+  const Real p_5_3l_x = Real(0.316) * p_5_5F_y;
+  const Real p_5_3n_x = p_5_3l_x + (c3 * p_5_5N_x + s3 * p_5_4n_x);
+  const Real p_5_3n_y = Real(0.0825) * p_5_4F_x - (p_5_4n_z + Real(0.316) * p_5_4F_y);
+  const Real p_5_3n_z = s3 * p_5_5N_x - (p_5_4l_x + c3 * p_5_4n_x);
+  const Real p_5_3N_x = c2 * p_5_3n_x - s2 * p_5_3n_y;
+  const Real p_5_3N_y = c2 * p_5_3n_y + s2 * p_5_3n_x;
+  const Real p_5_2N_x = c1 * p_5_3n_z - s1 * p_5_3N_x;
+  const Real p_6_6l_x = h6b_x * Real(0.088);
+  const Real p_6_6n_x = Real(0.006684151967360946) - p_6_6l_x;
+  const Real p_6_6F_x = s5 * h6b_y;
+  const Real p_6_6F_y = c5 * h6b_y;
+  const Real p_6_6N_x = c5 * p_6_6n_x - s5 * S6b_xz;
+  const Real p_6_5l_x = h6b_x * Real(0.384);
+  const Real p_6_5l_y = Real(0.384) * p_6_6F_y;
+  const Real p_6_5n_x = p_6_5l_x - (c5 * S6b_xz + s5 * p_6_6n_x);
+  const Real p_6_5n_y = S6b_yz - p_6_5l_y;
+  const Real p_6_5F_x = c4 * p_6_6F_y + s4 * h6b_x;
+  const Real p_6_5F_y = c4 * h6b_x - s4 * p_6_6F_y;
+  const Real p_6_5N_x = c4 * p_6_5n_x + s4 * p_6_5n_y;
+  const Real p_6_4l_x = Real(0.0825) * p_6_5F_y;
+  const Real p_6_4l_z = Real(0.0825) * p_6_6F_x;
+  const Real p_6_4n_x = p_6_6N_x + p_6_4l_x;
+  const Real p_6_4n_z = p_6_4l_z - (c4 * p_6_5n_y - s4 * p_6_5n_x);
+  const Real p_6_4F_x = c3 * p_6_6F_x + s3 * p_6_5F_x;
+  const Real p_6_4F_y = c3 * p_6_5F_x - s3 * p_6_6F_x;
+  const Real p_6_3l_x = Real(0.316) * p_6_5F_y;
+  const Real p_6_3n_x = p_6_3l_x + (c3 * p_6_5N_x - s3 * p_6_4n_x);
+  const Real p_6_3n_y = Real(0.0825) * p_6_4F_x - (p_6_4n_z + Real(0.316) * p_6_4F_y);
+  const Real p_6_3n_z = s3 * p_6_5N_x - (p_6_4l_x - c3 * p_6_4n_x);
+  const Real p_6_3N_x = c2 * p_6_3n_x + s2 * p_6_3n_y;
+  const Real p_6_3N_y = c2 * p_6_3n_y - s2 * p_6_3n_x;
+  const Real p_6_2N_x = c1 * p_6_3n_z - s1 * p_6_3N_x;
   M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = S1b_xz;
-  M[0][2] = M[2][0] = p2_2N_x;
-  M[0][3] = M[3][0] = -p3_2N_x;
-  M[0][4] = M[4][0] = -p4_2N_x;
-  M[0][5] = M[5][0] = -p5_2N_x;
-  M[0][6] = M[6][0] = -p6_2N_x;
+  M[0][2] = M[2][0] = p_2_2N_x;
+  M[0][3] = M[3][0] = -p_3_2N_x;
+  M[0][4] = M[4][0] = -p_4_2N_x;
+  M[0][5] = M[5][0] = -p_5_2N_x;
+  M[0][6] = M[6][0] = -p_6_2N_x;
   M[1][1] = S1b_zz;
   M[1][2] = M[2][1] = S2b_yz;
-  M[1][3] = M[3][1] = -p3_3N_y;
-  M[1][4] = M[4][1] = -p4_3N_y;
-  M[1][5] = M[5][1] = -p5_3N_y;
-  M[1][6] = M[6][1] = p6_3N_y;
+  M[1][3] = M[3][1] = -p_3_3N_y;
+  M[1][4] = M[4][1] = -p_4_3N_y;
+  M[1][5] = M[5][1] = -p_5_3N_y;
+  M[1][6] = M[6][1] = p_6_3N_y;
   M[2][2] = S2b_zz;
   M[2][3] = M[3][2] = -S3b_xz;
-  M[2][4] = M[4][2] = -p4_3n_z;
-  M[2][5] = M[5][2] = -p5_3n_z;
-  M[2][6] = M[6][2] = -p6_3n_z;
+  M[2][4] = M[4][2] = -p_4_3n_z;
+  M[2][5] = M[5][2] = -p_5_3n_z;
+  M[2][6] = M[6][2] = -p_6_3n_z;
   M[3][3] = S3b_zz;
   M[3][4] = M[4][3] = -S4b_yz;
-  M[3][5] = M[5][3] = -p5_4n_z;
-  M[3][6] = M[6][3] = p6_4n_z;
+  M[3][5] = M[5][3] = -p_5_4n_z;
+  M[3][6] = M[6][3] = p_6_4n_z;
   M[4][4] = -S4b_zz;
   M[4][5] = M[5][4] = S5b_xz;
-  M[4][6] = M[6][4] = -p6_6N_x;
+  M[4][6] = M[6][4] = -p_6_6N_x;
   M[5][5] = -S5b_zz;
   M[5][6] = M[6][5] = -S6b_yz;
   M[6][6] = Real(0.006684151967360946);
@@ -266,8 +268,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real S6c_yz = S6b_xy - h6b_y * Real(0.088) - Real(0.0001037589172186849);
   const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
   const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_e = S6c_xy * Real(2.0);
-  const Real S5b_t = c5 * S5b_e - s5 * S5b_d;
+  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
   const Real S5b_xy = S6c_xy - c5 * S5b_t;
   const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
@@ -284,8 +285,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
   const Real S4b_zz = S5c_xx + S5c_yy;
   const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_e = Real(2.0) * S5c_xy;
-  const Real S4b_t = c4 * S4b_e - s4 * S4b_d;
+  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) - s4 * S4b_d;
   const Real S4b_xx = S5c_xx + s4 * S4b_t;
   const Real S4b_xy = S5c_xy - c4 * S4b_t;
   const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
@@ -303,8 +303,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real S4c_yz = S4b_xy - t152 - Real(0.0039053550262761);
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_e = Real(2.0) * S4c_xy;
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
   const Real S3b_xx = S4c_xx + s3 * S3b_t;
   const Real S3b_xy = S4c_xy - c3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz + s3 * S4c_yz;
@@ -319,8 +318,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_e = Real(2.0) * S3c_xy;
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
   const Real S2b_xx = S3c_xx + s2 * S2b_t;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
@@ -331,8 +329,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real S2c_yz = S2b_xy - Real(0.01026110182100817);
   const Real S1b_d = S2b_xx - (S3b_xx - h3b_x * Real(0.632) + Real(1.032162061231881)) +
       Real(0.023077882494931805);
-  const Real S1b_e = Real(2.0) * S2c_xy;
-  const Real S1b_t = c1 * S1b_e + s1 * S1b_d;
+  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) + s1 * S1b_d;
   const Real S1b_xy = S2c_xy - c1 * S1b_t;
   const Real S1b_yz = c1 * S2c_yz - s1 * S2c_xz;
   const Real w2pp_x = c1 * state.z[0];
@@ -351,7 +348,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
   const Real kKy1 = S1b_xy * state.z[0];
   const Real kQp1 = state.z[0] * kKy1;
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real kal1o_y = state.z[0] * state.z[1];
   const Real kal2p_x = s1 * kal1o_y;
@@ -474,21 +470,21 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kn3c_y = Real(0.0825) * kf3_x + (kn4c_z - Real(0.316) * kf3_y);
   const Real kn3c_z = Real(0.0825) * kf3_z + (s3 * kn4_x + (c3 * kn4c_x - (S3b_yz * zz_3 + kKy3 * z2_3)));
   const Real kn2_x = s2 * kn3c_y + (c2 * kn3c_x + (S2b_yz * zz_2 + kKy2 * z2_2));
-  const Real kn1_x = s1 * kn2_x + (c1 * kn3c_z + (S1b_yz * zz_1 + kKy1 * z2_1));
-  const Real kQ1 = s2 * kn3c_x - (c2 * kn3c_y + (kKx2 * z2_2 - (kQp1 - S2b_xz * zz_2)));
-  const Real kQ2 = kn3c_z - (w2pp_y * kKy2 + (S2b_xz * kal2p_y + (state.z[1] * kKx2 + S2b_zz * kal2p_x)));
-  const Real kQ3 = kn4c_z - (w3pp_x * kKx3 + (w2_z * kKy3 - (h3b_y * ka3o_z - (h3b_x * ka3o_x + (S3b_yz *
+  const Real kn1_x = s1 * kn2_x + (c1 * kn3c_z + (S1b_yz * zz_1 + Real(2.0) * (state.z[1] * kKy1)));
+  const Real kQ1_0 = s2 * kn3c_x - (c2 * kn3c_y + (kKx2 * z2_2 - (kQp1 - S2b_xz * zz_2)));
+  const Real kQ2_0 = kn3c_z - (w2pp_y * kKy2 + (S2b_xz * kal2p_y + (state.z[1] * kKx2 + S2b_zz * kal2p_x)));
+  const Real kQ3_0 = kn4c_z - (w3pp_x * kKx3 + (w2_z * kKy3 - (h3b_y * ka3o_z - (h3b_x * ka3o_x + (S3b_yz *
       kal3p_x - (S3b_zz * kal3p_y - S3b_xz * kal2p_x))))));
-  const Real kQ4 = kn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 + (h4b_y * ka4o_y + (h4b_x * ka4o_z + (S4b_yz *
+  const Real kQ4_0 = kn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 + (h4b_y * ka4o_y + (h4b_x * ka4o_z + (S4b_yz *
       kal3p_y + (S4b_zz * kal4p_x + S4b_xz * kal4p_y))))));
-  const Real kQ5 = kn6c_z - (w5pp_x * kKx5 + (w4_z * kKy5 + (h5b_y * ka5o_z - (h5b_x * ka5o_x - (S5b_yz *
+  const Real kQ5_0 = kn6c_z - (w5pp_x * kKx5 + (w4_z * kKy5 + (h5b_y * ka5o_z - (h5b_x * ka5o_x - (S5b_yz *
       kal5p_x - (S5b_zz * kal5p_y - S5b_xz * kal4p_x))))));
   k[0] = -kn1_x;
-  k[1] = kQ1;
-  k[2] = -kQ2;
-  k[3] = kQ3;
-  k[4] = -kQ4;
-  k[5] = -kQ5;
+  k[1] = kQ1_0;
+  k[2] = -kQ2_0;
+  k[3] = kQ3_0;
+  k[4] = -kQ4_0;
+  k[5] = -kQ5_0;
   k[6] = kQp6;
 }
 
@@ -579,8 +575,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S6c_yz = S6b_xy - h6b_y * Real(0.088) - Real(0.0001037589172186849);
   const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
   const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_e = S6c_xy * Real(2.0);
-  const Real S5b_t = c5 * S5b_e - s5 * S5b_d;
+  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
   const Real S5b_xy = S6c_xy - c5 * S5b_t;
   const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
@@ -597,8 +592,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
   const Real S4b_zz = S5c_xx + S5c_yy;
   const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_e = Real(2.0) * S5c_xy;
-  const Real S4b_t = c4 * S4b_e - s4 * S4b_d;
+  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) - s4 * S4b_d;
   const Real S4b_xx = S5c_xx + s4 * S4b_t;
   const Real S4b_xy = S5c_xy - c4 * S4b_t;
   const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
@@ -616,8 +610,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S4c_yz = S4b_xy - t152 - Real(0.0039053550262761);
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_e = Real(2.0) * S4c_xy;
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
   const Real S3b_xx = S4c_xx + s3 * S3b_t;
   const Real S3b_xy = S4c_xy - c3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz + s3 * S4c_yz;
@@ -634,8 +627,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_e = Real(2.0) * S3c_xy;
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
   const Real S2b_xx = S3c_xx + s2 * S2b_t;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
@@ -649,10 +641,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S2c_xz = S2b_yz - Real(0.0007689361029464);
   const Real S2c_yy = S2b_xx + Real(0.023077882494931805);
   const Real S2c_yz = S2b_xy - Real(0.01026110182100817);
-  const Real S1b_zz = S2c_xx + S2c_yy;
   const Real S1b_d = S2c_xx - S2c_yy;
-  const Real S1b_e = Real(2.0) * S2c_xy;
-  const Real S1b_t = c1 * S1b_e - s1 * S1b_d;
+  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) - s1 * S1b_d;
   const Real S1b_xy = S2c_xy - c1 * S1b_t;
   const Real S1b_yz = c1 * S2c_yz - s1 * S2c_xz;
   const Real h1b_y = c1 * h2c_y - s1 * h2c_x;
@@ -670,60 +660,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real w5_z = w5pp_y - state.z[5];
   const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
   const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
-  const Real p3_3n_y = Real(0.0825) * h3b_y + (S3b_zz - h3b_x * Real(0.316));
-  const Real p3_3N_x = c2 * S3b_yz - s2 * p3_3n_y;
-  const Real p4_4l_x = h4b_x * Real(0.0825);
-  const Real p4_4n_x = S4b_zz + p4_4l_x;
-  const Real p4_4F_x = s3 * h4b_y;
-  const Real p4_4F_y = c3 * h4b_y;
-  const Real p4_3l_x = h4b_x * Real(0.316);
-  const Real p4_3n_x = p4_3l_x + (c3 * S4b_xz - s3 * p4_4n_x);
-  const Real p4_3n_y = Real(0.0825) * p4_4F_x - (S4b_yz + Real(0.316) * p4_4F_y);
-  const Real p4_3n_z = s3 * S4b_xz - (p4_4l_x - c3 * p4_4n_x);
-  const Real p4_3N_x = c2 * p4_3n_x - s2 * p4_3n_y;
-  const Real p5_5l_y = h5b_x * Real(0.384);
-  const Real p5_5n_y = S5b_zz + p5_5l_y;
-  const Real p5_5F_x = c4 * h5b_x;
-  const Real p5_5F_y = s4 * h5b_x;
-  const Real p5_5N_x = c4 * S5b_yz - s4 * p5_5n_y;
-  const Real p5_4l_x = Real(0.0825) * p5_5F_y;
-  const Real p5_4l_z = h5b_y * Real(0.0825);
-  const Real p5_4n_x = S5b_xz - p5_4l_x;
-  const Real p5_4n_z = p5_4l_z + (c4 * p5_5n_y + s4 * S5b_yz);
-  const Real p5_4F_x = c3 * h5b_y + s3 * p5_5F_x;
-  const Real p5_4F_y = c3 * p5_5F_x - s3 * h5b_y;
-  const Real p5_3l_x = Real(0.316) * p5_5F_y;
-  const Real p5_3n_x = p5_3l_x - (c3 * p5_5N_x - s3 * p5_4n_x);
-  const Real p5_3n_y = Real(0.0825) * p5_4F_x - (p5_4n_z + Real(0.316) * p5_4F_y);
-  const Real p5_3n_z = s3 * p5_5N_x + (p5_4l_x + c3 * p5_4n_x);
-  const Real p5_3N_x = c2 * p5_3n_x - s2 * p5_3n_y;
-  const Real p6_6l_x = h6b_x * Real(0.088);
-  const Real p6_6n_x = Real(0.006684151967360946) - p6_6l_x;
-  const Real p6_6F_x = s5 * h6b_y;
-  const Real p6_6F_y = c5 * h6b_y;
-  const Real p6_6N_x = c5 * p6_6n_x - s5 * S6b_xz;
-  const Real p6_5l_x = h6b_x * Real(0.384);
-  const Real p6_5l_y = Real(0.384) * p6_6F_y;
-  const Real p6_5n_x = p6_5l_x - (c5 * S6b_xz + s5 * p6_6n_x);
-  const Real p6_5n_y = S6b_yz - p6_5l_y;
-  const Real p6_5F_x = c4 * p6_6F_y + s4 * h6b_x;
-  const Real p6_5F_y = c4 * h6b_x - s4 * p6_6F_y;
-  const Real p6_5N_x = c4 * p6_5n_x + s4 * p6_5n_y;
-  const Real p6_4l_x = Real(0.0825) * p6_5F_y;
-  const Real p6_4l_z = Real(0.0825) * p6_6F_x;
-  const Real p6_4n_x = p6_6N_x + p6_4l_x;
-  const Real p6_4n_z = p6_4l_z - (c4 * p6_5n_y - s4 * p6_5n_x);
-  const Real p6_4F_x = c3 * p6_6F_x + s3 * p6_5F_x;
-  const Real p6_4F_y = c3 * p6_5F_x - s3 * p6_6F_x;
-  const Real p6_3l_x = Real(0.316) * p6_5F_y;
-  const Real p6_3n_x = p6_3l_x + (c3 * p6_5N_x - s3 * p6_4n_x);
-  const Real p6_3n_y = Real(0.0825) * p6_4F_x - (p6_4n_z + Real(0.316) * p6_4F_y);
-  const Real p6_3n_z = s3 * p6_5N_x - (p6_4l_x - c3 * p6_4n_x);
-  const Real p6_3N_x = c2 * p6_3n_x + s2 * p6_3n_y;
-  const Real p6_3N_y = c2 * p6_3n_y - s2 * p6_3n_x;
-  const Real p6_2N_x = c1 * p6_3n_z - s1 * p6_3N_x;
   const Real bKy1 = S1b_xy * state.z[0];
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real bal1o_y = state.z[0] * state.z[1];
   const Real bal2p_x = s1 * bal1o_y;
@@ -850,94 +787,153 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bn2_x = s2 * bn3c_y + (c2 * bn3c_x + (S2b_yz * zz_2 + bKy2 * z2_2));
   const Real b_6 = input.u[6] + (w6pp_y * bKy6 + (w5_z * bKx6 - (h6b_y * ba6o_y - (h6b_x * ba6o_z - (S6b_yz *
       bal5p_y + (Real(0.006684151967360946) * bal6p_x - S6b_xz * bal6p_y))))));
+  const Real S1b_zz = S2c_xx + S2c_yy;
+  const Real p3_3n_y = Real(0.0825) * h3b_y + (S3b_zz - h3b_x * Real(0.316));
+  const Real p3_3N_x = c2 * S3b_yz - s2 * p3_3n_y;
+  const Real p4_4l_x = h4b_x * Real(0.0825);
+  const Real p4_4n_x = S4b_zz + p4_4l_x;
+  const Real p4_4F_x = s3 * h4b_y;
+  const Real p4_4F_y = c3 * h4b_y;
+  const Real p4_3l_x = h4b_x * Real(0.316);
+  const Real p4_3n_x = p4_3l_x + (c3 * S4b_xz - s3 * p4_4n_x);
+  const Real p4_3n_y = Real(0.0825) * p4_4F_x - (S4b_yz + Real(0.316) * p4_4F_y);
+  const Real p4_3n_z = s3 * S4b_xz - (p4_4l_x - c3 * p4_4n_x);
+  const Real p4_3N_x = c2 * p4_3n_x - s2 * p4_3n_y;
+  const Real p5_5l_y = h5b_x * Real(0.384);
+  const Real p5_5n_y = S5b_zz + p5_5l_y;
+  const Real p5_5F_x = c4 * h5b_x;
+  const Real p5_5F_y = s4 * h5b_x;
+  const Real p5_5N_x = c4 * S5b_yz - s4 * p5_5n_y;
+  const Real p5_4l_x = Real(0.0825) * p5_5F_y;
+  const Real p5_4l_z = h5b_y * Real(0.0825);
+  const Real p5_4n_x = S5b_xz - p5_4l_x;
+  const Real p5_4n_z = p5_4l_z + (c4 * p5_5n_y + s4 * S5b_yz);
+  const Real p5_4F_x = c3 * h5b_y + s3 * p5_5F_x;
+  const Real p5_4F_y = c3 * p5_5F_x - s3 * h5b_y;
+  const Real p5_3l_x = Real(0.316) * p5_5F_y;
+  const Real p5_3n_x = p5_3l_x - (c3 * p5_5N_x - s3 * p5_4n_x);
+  const Real p5_3n_y = Real(0.0825) * p5_4F_x - (p5_4n_z + Real(0.316) * p5_4F_y);
+  const Real p5_3n_z = s3 * p5_5N_x + (p5_4l_x + c3 * p5_4n_x);
+  const Real p5_3N_x = c2 * p5_3n_x - s2 * p5_3n_y;
+  const Real p6_6l_x = h6b_x * Real(0.088);
+  const Real p6_6n_x = Real(0.006684151967360946) - p6_6l_x;
+  const Real p6_6F_x = s5 * h6b_y;
+  const Real p6_6F_y = c5 * h6b_y;
+  const Real p6_6N_x = c5 * p6_6n_x - s5 * S6b_xz;
+  const Real p6_5l_x = h6b_x * Real(0.384);
+  const Real p6_5l_y = Real(0.384) * p6_6F_y;
+  const Real p6_5n_x = p6_5l_x - (c5 * S6b_xz + s5 * p6_6n_x);
+  const Real p6_5n_y = S6b_yz - p6_5l_y;
+  const Real p6_5F_x = c4 * p6_6F_y + s4 * h6b_x;
+  const Real p6_5F_y = c4 * h6b_x - s4 * p6_6F_y;
+  const Real p6_5N_x = c4 * p6_5n_x + s4 * p6_5n_y;
+  const Real p6_4l_x = Real(0.0825) * p6_5F_y;
+  const Real p6_4l_z = Real(0.0825) * p6_6F_x;
+  const Real p6_4n_x = p6_6N_x + p6_4l_x;
+  const Real p6_4n_z = p6_4l_z - (c4 * p6_5n_y - s4 * p6_5n_x);
+  const Real p6_4F_x = c3 * p6_6F_x + s3 * p6_5F_x;
+  const Real p6_4F_y = c3 * p6_5F_x - s3 * p6_6F_x;
+  const Real p6_3l_x = Real(0.316) * p6_5F_y;
+  const Real p6_3n_x = p6_3l_x + (c3 * p6_5N_x - s3 * p6_4n_x);
+  const Real p6_3n_y = Real(0.0825) * p6_4F_x - (p6_4n_z + Real(0.316) * p6_4F_y);
+  const Real p6_3n_z = s3 * p6_5N_x - (p6_4l_x - c3 * p6_4n_x);
+  const Real p6_3N_x = c2 * p6_3n_x + s2 * p6_3n_y;
+  const Real p6_3N_y = c2 * p6_3n_y - s2 * p6_3n_x;
+  const Real p6_2N_x = c1 * p6_3n_z - s1 * p6_3N_x;
   const Real L_6_5 = S6b_yz * Real(149.60760989322966);
   const Real H6_5_5 = S5b_zz + S6b_yz * L_6_5;
   const Real H6_5_4 = S5b_xz - p6_6N_x * L_6_5;
   const Real H6_5_3 = p5_4n_z - p6_4n_z * L_6_5;
   const Real H6_5_2 = p5_3n_z - p6_3n_z * L_6_5;
-  const Real H6_5_1 = p6_3N_y * L_6_5 - (c2 * p5_3n_y + s2 * p5_3n_x);
-  const Real H6_5_0 = p6_2N_x * L_6_5 - (c1 * p5_3n_z + s1 * p5_3N_x);
+  const Real G6_5n_x = p6_2N_x * L_6_5 - (c1 * p5_3n_z + s1 * p5_3N_x);
+  const Real G6_5n_z = p6_3N_y * L_6_5 - (c2 * p5_3n_y + s2 * p5_3n_x);
   const Real L_6_4 = p6_6N_x * Real(149.60760989322966);
   const Real L_6_3 = p6_4n_z * Real(149.60760989322966);
   const Real L_6_2 = p6_3n_z * Real(149.60760989322966);
-  const Real L_6_1 = p6_3N_y * Real(149.60760989322966);
-  const Real L_6_0 = p6_2N_x * Real(149.60760989322966);
-  const Real x6_5 = b_6 * L_6_5 + (input.u[5] - (bn6c_z - (w5pp_x * bKx5 + (w4_z * bKy5 + (h5b_y * ba5o_z -
+  const Real u6_5 = b_6 * L_6_5 + (input.u[5] - (bn6c_z - (w5pp_x * bKx5 + (w4_z * bKy5 + (h5b_y * ba5o_z -
       (h5b_x * ba5o_x - (S5b_yz * bal5p_x - (S5b_zz * bal5p_y - S5b_xz * bal4p_x))))))));
+  const Real GD6n_x = p6_2N_x * Real(149.60760989322966);
+  const Real GD6n_z = p6_3N_y * Real(149.60760989322966);
+  const Real I1_6J_xx = p6_2N_x * GD6n_x;
+  const Real I1_6J_xz = p6_3N_y * GD6n_x;
+  const Real I1_6J_zz = p6_3N_y * GD6n_z;
+  const Real f1_6n_x = b_6 * GD6n_x;
+  const Real f1_6n_z = b_6 * GD6n_z;
   const Real invD_5 = Real(1.0) / H6_5_5;
   const Real L_5_4 = H6_5_4 * invD_5;
   const Real H5_4_4 = H6_5_4 * L_5_4 - (S4b_zz + p6_6N_x * L_6_4);
   const Real H5_4_3 = H6_5_3 * L_5_4 + (S4b_yz - p6_4n_z * L_6_4);
   const Real H5_4_2 = H6_5_2 * L_5_4 - (p4_3n_z + p6_3n_z * L_6_4);
-  const Real H5_4_1 = H6_5_1 * L_5_4 + (p6_3N_y * L_6_4 - (c2 * p4_3n_y + s2 * p4_3n_x));
-  const Real H5_4_0 = H6_5_0 * L_5_4 + (p6_2N_x * L_6_4 + (c1 * p4_3n_z - s1 * p4_3N_x));
+  const Real G5_4n_x = G6_5n_x * L_5_4 + (p6_2N_x * L_6_4 + (c1 * p4_3n_z - s1 * p4_3N_x));
+  const Real G5_4n_z = G6_5n_z * L_5_4 + (p6_3N_y * L_6_4 - (c2 * p4_3n_y + s2 * p4_3n_x));
   const Real L_5_3 = H6_5_3 * invD_5;
   const Real L_5_2 = H6_5_2 * invD_5;
-  const Real L_5_1 = H6_5_1 * invD_5;
-  const Real L_5_0 = H6_5_0 * invD_5;
-  const Real x5_4 = x6_5 * L_5_4 + (b_6 * L_6_4 + (input.u[4] - (bn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 +
+  const Real u5_4 = u6_5 * L_5_4 + (b_6 * L_6_4 + (input.u[4] - (bn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 +
       (h4b_y * ba4o_y - (h4b_x * ba4o_z - (S4b_yz * bal3p_y + (S4b_zz * bal4p_x + S4b_xz * bal4p_y)))))))));
+  const Real GD5n_x = G6_5n_x * invD_5;
+  const Real GD5n_z = G6_5n_z * invD_5;
   const Real invD_4 = Real(1.0) / H5_4_4;
   const Real L_4_3 = H5_4_3 * invD_4;
   const Real H4_3_3 = H5_4_3 * L_4_3 - (H6_5_3 * L_5_3 + (S3b_zz - p6_4n_z * L_6_3));
   const Real H4_3_2 = H5_4_2 * L_4_3 - (H6_5_2 * L_5_3 + (S3b_xz - p6_3n_z * L_6_3));
-  const Real H4_3_1 = H5_4_1 * L_4_3 - (H6_5_1 * L_5_3 + (p6_3N_y * L_6_3 + (c2 * p3_3n_y + s2 * S3b_yz)));
-  const Real H4_3_0 = H5_4_0 * L_4_3 - (H6_5_0 * L_5_3 + (p6_2N_x * L_6_3 - (c1 * S3b_xz - s1 * p3_3N_x)));
+  const Real G4_3n_x = G5_4n_x * L_4_3 - (G6_5n_x * L_5_3 + (p6_2N_x * L_6_3 - (c1 * S3b_xz - s1 * p3_3N_x)));
+  const Real G4_3n_z = G5_4n_z * L_4_3 - (G6_5n_z * L_5_3 + (p6_3N_y * L_6_3 + (c2 * p3_3n_y + s2 * S3b_yz)));
   const Real L_4_2 = H5_4_2 * invD_4;
-  const Real L_4_1 = H5_4_1 * invD_4;
-  const Real L_4_0 = H5_4_0 * invD_4;
-  const Real x4_3 = x5_4 * L_4_3 - (x6_5 * L_5_3 + (b_6 * L_6_3 - (input.u[3] + (bn4c_z - (w3pp_x * bKx3 +
+  const Real u4_3 = u5_4 * L_4_3 - (u6_5 * L_5_3 + (b_6 * L_6_3 - (input.u[3] + (bn4c_z - (w3pp_x * bKx3 +
       (w2_z * bKy3 - (h3b_y * ba3o_z + (h3b_x * ba3o_x - (S3b_yz * bal3p_x - (S3b_zz * bal3p_y - S3b_xz *
       bal2p_x))))))))));
+  const Real GD4n_x = G5_4n_x * invD_4;
+  const Real GD4n_z = G5_4n_z * invD_4;
   const Real invD_3 = Real(1.0) / H4_3_3;
   const Real L_3_2 = H4_3_2 * invD_3;
   const Real H3_2_2 = H4_3_2 * L_3_2 - (H5_4_2 * L_4_2 - (H6_5_2 * L_5_2 + (S2b_zz - p6_3n_z * L_6_2)));
-  const Real H3_2_1 = H4_3_1 * L_3_2 - (H5_4_1 * L_4_2 - (H6_5_1 * L_5_2 + (S2b_yz + p6_3N_y * L_6_2)));
-  const Real H3_2_0 = H4_3_0 * L_3_2 - (H5_4_0 * L_4_2 - (H6_5_0 * L_5_2 + (p6_2N_x * L_6_2 - (c1 * S2b_zz -
-      s1 * S2b_xz))));
-  const Real L_3_1 = H4_3_1 * invD_3;
-  const Real L_3_0 = H4_3_0 * invD_3;
-  const Real x3_2 = x4_3 * L_3_2 - (x5_4 * L_4_2 - (x6_5 * L_5_2 + (b_6 * L_6_2 + (input.u[2] - (bn3c_z -
+  const Real G3_2n_x = G4_3n_x * L_3_2 - (G5_4n_x * L_4_2 - (G6_5n_x * L_5_2 + (p6_2N_x * L_6_2 - (c1 * S2b_zz
+      - s1 * S2b_xz))));
+  const Real G3_2n_z = G4_3n_z * L_3_2 - (G5_4n_z * L_4_2 - (G6_5n_z * L_5_2 + (S2b_yz + p6_3N_y * L_6_2)));
+  const Real u3_2 = u4_3 * L_3_2 - (u5_4 * L_4_2 - (u6_5 * L_5_2 + (b_6 * L_6_2 + (input.u[2] - (bn3c_z -
       (w2pp_y * bKy2 + (h2b_y * bL1a_y + (S2b_xz * bal2p_y + (state.z[1] * bKx2 + S2b_zz * bal2p_x)))))))));
+  const Real GD3n_x = G4_3n_x * invD_3;
+  const Real GD3n_z = G4_3n_z * invD_3;
   const Real invD_2 = Real(1.0) / H3_2_2;
-  const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = H3_2_1 * L_2_1 - (H4_3_1 * L_3_1 - (H5_4_1 * L_4_1 - (H6_5_1 * L_5_1 + (S1b_zz - p6_3N_y
-      * L_6_1))));
-  const Real H2_1_0 = H3_2_0 * L_2_1 - (H4_3_0 * L_3_1 - (H5_4_0 * L_4_1 - (H6_5_0 * L_5_1 - (p6_2N_x * L_6_1
-      + (c1 * S2c_xz + s1 * S2c_yz)))));
-  const Real L_2_0 = H3_2_0 * invD_2;
-  const Real x2_1 = x3_2 * L_2_1 - (x4_3 * L_3_1 - (x5_4 * L_4_1 - (x6_5 * L_5_1 - (b_6 * L_6_1 - (input.u[1]
+  const Real GD2n_x = G3_2n_x * invD_2;
+  const Real GD2n_z = G3_2n_z * invD_2;
+  const Real I1rJ_xz = G3_2n_z * GD2n_x - (G4_3n_z * GD3n_x - (G5_4n_z * GD4n_x - (G6_5n_z * GD5n_x -
+      (I1_6J_xz + (c1 * S2c_xz + s1 * S2c_yz)))));
+  const Real I1rJ_zz = G3_2n_z * GD2n_z - (G4_3n_z * GD3n_z - (G5_4n_z * GD4n_z - (G6_5n_z * GD5n_z + (S1b_zz
+      - I1_6J_zz))));
+  const Real U1_0i = Real(1.0) / I1rJ_zz;
+  const Real U1_0sn_x = I1rJ_xz * U1_0i;
+  const Real U1_0u = u3_2 * GD2n_z - (u4_3 * GD3n_z - (u5_4 * GD4n_z - (u6_5 * GD5n_z - (f1_6n_z - (input.u[1]
       + (s2 * bn3c_x - (c2 * bn3c_y + (bKx2 * z2_2 + (S2b_xz * zz_2 - (h1b_y * Real(9.81) + state.z[0] *
       bKy1))))))))));
-  const Real invD_1 = Real(1.0) / H2_1_1;
-  const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0 - (H5_4_0 * L_4_0 - (H6_5_0 * L_5_0 -
-      (p6_2N_x * L_6_0 - (S2b_yy - (s1 * S1b_t + (S2c_xx - S1b_zz) - Real(0.0062531379269374545)) +
-      Real(0.008006428067536918)))))));
-  const Real x1_0 = x2_1 * L_1_0 - (x3_2 * L_2_0 - (x4_3 * L_3_0 - (x5_4 * L_4_0 - (x6_5 * L_5_0 - (b_6 *
-      L_6_0 + (input.u[0] - (s1 * bn2_x + (c1 * bn3c_z + (S1b_yz * zz_1 + bKy1 * z2_1)))))))));
-  const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = x1_0 * invD_0;
-  const Real y_1 = x2_1 * invD_1;
-  const Real zdot_1 = y_1 - L_1_0 * y_0;
-  const Real y_2 = x3_2 * invD_2;
-  const Real zdot_2 = L_2_0 * y_0 - (y_2 - L_2_1 * zdot_1);
-  const Real y_3 = x4_3 * invD_3;
-  const Real zdot_3 = L_3_0 * y_0 + (L_3_1 * zdot_1 - (y_3 + L_3_2 * zdot_2));
-  const Real y_4 = x5_4 * invD_4;
-  const Real zdot_4 = L_4_0 * y_0 + (L_4_1 * zdot_1 - (L_4_2 * zdot_2 + (y_4 + L_4_3 * zdot_3)));
-  const Real y_5 = x6_5 * invD_5;
-  const Real zdot_5 = L_5_0 * y_0 + (L_5_1 * zdot_1 - (L_5_2 * zdot_2 + (L_5_3 * zdot_3 + (y_5 + L_5_4 *
-      zdot_4))));
+  const Real I0sJ_zz = I1rJ_xz * U1_0sn_x - (G3_2n_x * GD2n_x - (G4_3n_x * GD3n_x - (G5_4n_x * GD4n_x -
+      (G6_5n_x * GD5n_x - (I1_6J_xx + (s1 * S1b_t + (S2c_xx - (S2b_yy + S1b_zz)))))))) +
+      Real(0.014259565994474374);
+  const Real U0_0i = Real(1.0) / I0sJ_zz;
+  const Real U0_0u = U1_0sn_x * U1_0u - (u3_2 * GD2n_x - (u4_3 * GD3n_x - (u5_4 * GD4n_x - (u6_5 * GD5n_x -
+      (f1_6n_x + (input.u[0] - (s1 * bn2_x + (c1 * bn3c_z + (S1b_yz * zz_1 + Real(2.0) * (state.z[1] *
+      bKy1))))))))));
+  const Real acc0u = U0_0i * U0_0u;
+  const Real acc1u = U1_0i * U1_0u;
+  const Real zdot_1 = acc1u - U1_0sn_x * acc0u;
+  const Real y_2 = u3_2 * invD_2;
+  const Real yh_2 = GD2n_z * zdot_1 - (y_2 - GD2n_x * acc0u);
+  const Real y_3 = u4_3 * invD_3;
+  const Real zdot_3 = L_3_2 * yh_2 - (GD3n_z * zdot_1 - (y_3 - GD3n_x * acc0u));
+  const Real y_4 = u5_4 * invD_4;
+  const Real zdot_4 = L_4_2 * yh_2 - (L_4_3 * zdot_3 + (GD4n_z * zdot_1 - (y_4 - GD4n_x * acc0u)));
+  const Real y_5 = u6_5 * invD_5;
+  const Real zdot_5 = L_5_2 * yh_2 - (L_5_3 * zdot_3 + (L_5_4 * zdot_4 + (GD5n_z * zdot_1 - (y_5 - GD5n_x *
+      acc0u))));
   const Real y_6 = b_6 * Real(149.60760989322966);
-  const Real zdot_6 = L_6_0 * y_0 + (L_6_1 * zdot_1 + (L_6_2 * zdot_2 + (L_6_3 * zdot_3 + (L_6_4 * zdot_4 -
-      (y_6 + L_6_5 * zdot_5)))));
-  zdot[0] = -y_0;
+  const Real zdot_6 = L_6_2 * yh_2 - (L_6_3 * zdot_3 + (L_6_4 * zdot_4 - (L_6_5 * zdot_5 + (GD6n_z * zdot_1 -
+      (y_6 - GD6n_x * acc0u)))));
+  zdot[0] = -acc0u;
   zdot[1] = zdot_1;
-  zdot[2] = -zdot_2;
-  zdot[3] = zdot_3;
-  zdot[4] = -zdot_4;
-  zdot[5] = zdot_5;
+  zdot[2] = -yh_2;
+  zdot[3] = -zdot_3;
+  zdot[4] = zdot_4;
+  zdot[5] = -zdot_5;
   zdot[6] = -zdot_6;
 }
 
@@ -971,8 +967,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S6c_yz = S6b_xy - h6b_y * Real(0.088) - Real(0.0001037589172186849);
   const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
   const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_e = S6c_xy * Real(2.0);
-  const Real S5b_t = c5 * S5b_e - s5 * S5b_d;
+  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
   const Real S5b_xy = S6c_xy - c5 * S5b_t;
   const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
@@ -989,8 +984,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
   const Real S4b_zz = S5c_xx + S5c_yy;
   const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_e = Real(2.0) * S5c_xy;
-  const Real S4b_t = c4 * S4b_e - s4 * S4b_d;
+  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) - s4 * S4b_d;
   const Real S4b_xx = S5c_xx + s4 * S4b_t;
   const Real S4b_xy = S5c_xy - c4 * S4b_t;
   const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
@@ -1008,8 +1002,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S4c_yz = S4b_xy - t152 - Real(0.0039053550262761);
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_e = Real(2.0) * S4c_xy;
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
   const Real S3b_xx = S4c_xx + s3 * S3b_t;
   const Real S3b_xy = S4c_xy - c3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz + s3 * S4c_yz;
@@ -1026,8 +1019,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_e = Real(2.0) * S3c_xy;
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
   const Real S2b_xx = S3c_xx + s2 * S2b_t;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
@@ -1043,8 +1035,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S2c_yz = S2b_xy - Real(0.01026110182100817);
   const Real S1b_zz = S2c_xx + S2c_yy;
   const Real S1b_d = S2c_xx - S2c_yy;
-  const Real S1b_e = Real(2.0) * S2c_xy;
-  const Real S1b_t = c1 * S1b_e - s1 * S1b_d;
+  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) - s1 * S1b_d;
   const Real S1b_xy = S2c_xy - c1 * S1b_t;
   const Real S1b_xz = c1 * S2c_xz + s1 * S2c_yz;
   const Real S1b_yz = c1 * S2c_yz - s1 * S2c_xz;
@@ -1067,7 +1058,6 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
   const Real adn0_z = S0b_zz * zdot[0];
   const Real aKy1 = S1b_xy * state.z[0];
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real adn1_z = S1b_zz * zdot[1];
   const Real aal1o_y = state.z[0] * state.z[1];
@@ -1201,27 +1191,27 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real an2_x = s2 * an3c_y + (c2 * an3c_x + (aKy2 * z2_2 - (S2b_xz * zdot[2] - S2b_yz * zz_2)));
   const Real an2_z = Real(0.0825) * af3_z + (s3 * an4_x + (c3 * an4c_x - (aKy3 * z2_3 + (S3b_yz * zz_3 -
       (adn2_z - S3b_xz * zdot[3])))));
-  const Real an0_z = s1 * an2_x + (c1 * an2_z + (aKy1 * z2_1 + (S1b_yz * zz_1 + (adn0_z + S1b_xz *
-      zdot[1]))));
-  const Real aQ1 = s2 * an3c_x - (c2 * an3c_y + (aKx2 * z2_2 + (S2b_xz * zz_2 + (S2b_yz * zdot[2] + (adn1_z +
-      (S1b_xz * zdot[0] - (h1b_y * Real(9.81) + state.z[0] * aKy1)))))));
-  const Real aQ2 = an2_z - (w2pp_y * aKy2 + (h2b_y * aL1a_y + (S2b_xz * aal2p_y - (S2b_zz * aal2p_x -
+  const Real an0_z = s1 * an2_x + (c1 * an2_z + (Real(2.0) * (state.z[1] * aKy1) + (S1b_yz * zz_1 + (adn0_z +
+      S1b_xz * zdot[1]))));
+  const Real aQ1_0 = s2 * an3c_x - (c2 * an3c_y + (aKx2 * z2_2 + (S2b_xz * zz_2 + (S2b_yz * zdot[2] + (adn1_z
+      + (S1b_xz * zdot[0] - (h1b_y * Real(9.81) + state.z[0] * aKy1)))))));
+  const Real aQ2_0 = an2_z - (w2pp_y * aKy2 + (h2b_y * aL1a_y + (S2b_xz * aal2p_y - (S2b_zz * aal2p_x -
       (state.z[1] * aKx2 - S2b_yz * zdot[1])))));
-  const Real aQ3 = an3_z + (w3pp_x * aKx3 + (w2_z * aKy3 - (h3b_y * aa3o_z + (h3b_x * aa3o_x - (S3b_yz *
+  const Real aQ3_0 = an3_z + (w3pp_x * aKx3 + (w2_z * aKy3 - (h3b_y * aa3o_z + (h3b_x * aa3o_x - (S3b_yz *
       aal3p_x - (S3b_zz * aal3p_y + S3b_xz * aal2o_z))))));
-  const Real aQ4 = an4_z + (w4pp_y * aKy4 + (w3_z * aKx4 + (h4b_y * aa4o_y + (h4b_x * aa4o_z + (S4b_yz *
+  const Real aQ4_0 = an4_z + (w4pp_y * aKy4 + (w3_z * aKx4 + (h4b_y * aa4o_y + (h4b_x * aa4o_z + (S4b_yz *
       aal3o_z - (S4b_zz * aal4p_x - S4b_xz * aal4p_y))))));
-  const Real aQ5 = an5_z - (w5pp_x * aKx5 + (w4_z * aKy5 + (h5b_y * aa5o_z - (h5b_x * aa5o_x - (S5b_yz *
+  const Real aQ5_0 = an5_z - (w5pp_x * aKx5 + (w4_z * aKy5 + (h5b_y * aa5o_z - (h5b_x * aa5o_x - (S5b_yz *
       aal5p_x - (S5b_zz * aal5p_y + S5b_xz * aal4o_z))))));
-  const Real aQ6 = adn6_z - (w6pp_y * aKy6 + (w5_z * aKx6 - (h6b_y * aa6o_y + (h6b_x * aa6o_z + (S6b_yz *
+  const Real aQ6_0 = adn6_z - (w6pp_y * aKy6 + (w5_z * aKx6 - (h6b_y * aa6o_y + (h6b_x * aa6o_z + (S6b_yz *
       aal5o_z - (Real(0.006684151967360946) * aal6p_x + S6b_xz * aal6p_y))))));
   tau[0] = an0_z;
-  tau[1] = -aQ1;
-  tau[2] = aQ2;
-  tau[3] = aQ3;
-  tau[4] = aQ4;
-  tau[5] = aQ5;
-  tau[6] = aQ6;
+  tau[1] = -aQ1_0;
+  tau[2] = aQ2_0;
+  tau[3] = aQ3_0;
+  tau[4] = aQ4_0;
+  tau[5] = aQ5_0;
+  tau[6] = aQ6_0;
 }
 
 template <class Real>
@@ -1252,8 +1242,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
       Real(0.0001037589172186849);
   const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
   const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_e = S6c_xy * Real(2.0);
-  const Real S5b_t = c5 * S5b_e - s5 * S5b_d;
+  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
   const Real S5b_xz = c5 * S6c_xz - s5 * S6c_yz;
   const Real S5b_yz = c5 * S6c_yz + s5 * S6c_xz;
@@ -1268,8 +1257,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
   const Real S4b_zz = S5c_xx + S5c_yy;
   const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_e = Real(2.0) * S5c_xy;
-  const Real S4b_t = c4 * S4b_e + s4 * S4b_d;
+  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) + s4 * S4b_d;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
   const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
   const Real S4b_yz = c4 * S5c_yz - s4 * S5c_xz;
@@ -1285,8 +1273,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S4c_yz = t150 + (S5c_xy - c4 * S4b_t) + Real(0.0039053550262761);
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_e = Real(2.0) * S4c_xy;
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
   const Real S3b_xx = S4c_xx + s3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4c_yz;
   const Real S3b_yz = c3 * S4c_yz + s3 * S4c_xz;
@@ -1300,8 +1287,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_e = Real(2.0) * S3c_xy;
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
   const Real S2b_xx = S3c_xx + s2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
@@ -1312,8 +1298,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S2c_yz = S3c_xy - c2 * S2b_t - Real(0.01026110182100817);
   const Real S1b_zz = S2c_xx + S2c_yy;
   const Real S1b_d = S2c_xx - S2c_yy;
-  const Real S1b_e = Real(2.0) * S2c_xy;
-  const Real S1b_t = c1 * S1b_e - s1 * S1b_d;
+  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) - s1 * S1b_d;
   const Real S1b_xz = c1 * S2c_xz + s1 * S2c_yz;
   const Real S0b_zz = S2b_xx - (S2b_zz - (s1 * S1b_t + (S2c_xx - S1b_zz) - Real(0.0062531379269374545))) -
       Real(0.008006428067536918);
@@ -1331,29 +1316,47 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w5_z = w5pp_y - state.z[5];
   const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
   const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
-  const Real P0 = S0b_zz * state.z[0] * Real(0.5);
-  const Real T0 = state.z[0] * P0;
-  const Real P1 = Real(0.5) * (S1b_zz * state.z[1]) + S1b_xz * state.z[0];
-  const Real P2 = S2b_xz * w2pp_y - (S2b_zz * w2pp_x + (Real(0.5) * (S2b_zz * state.z[2]) + S2b_yz *
-      state.z[1]));
+  const Real v0L_z = S0b_zz * state.z[0];
+  const Real v1L_x = S1b_xz * state.z[1];
+  const Real v1L_z = S1b_zz * state.z[1];
+  const Real v2L_x = S2b_xz * state.z[2];
+  const Real v2L_y = S2b_yz * state.z[2];
+  const Real v2L_z = S2b_zz * state.z[2];
   const Real v3o_x = Real(0.316) * w3pp_y;
   const Real v3o_z = Real(0.0825) * w3pp_y;
-  const Real P3 = h3b_y * v3o_z - (h3b_x * v3o_x + (S3b_yz * w3pp_x - (S3b_xz * w2_z - (Real(0.5) * (S3b_zz *
-      state.z[3]) - S3b_zz * w3pp_y))));
+  const Real v3P_x = h3b_y * state.z[3];
+  const Real v3P_y = h3b_x * state.z[3];
+  const Real v3L_x = S3b_xz * state.z[3];
+  const Real v3L_y = S3b_yz * state.z[3];
+  const Real v3L_z = S3b_zz * state.z[3];
   const Real v4p_y = c3 * v3o_x - s3 * v3o_z;
   const Real v4o_x = Real(0.0825) * w3_z - (c3 * v3o_z + s3 * v3o_x);
   const Real v4o_z = Real(0.316) * w3pp_x - Real(0.0825) * (w2_z - w4pp_x);
-  const Real P4 = h4b_y * v4p_y - (h4b_x * v4o_z - (S4b_yz * w3_z - (S4b_xz * w4pp_y + (Real(0.5) * (S4b_zz *
-      state.z[4]) + S4b_zz * w4pp_x))));
+  const Real v4P_x = h4b_y * state.z[4];
+  const Real v4P_y = h4b_x * state.z[4];
+  const Real v4L_x = S4b_xz * state.z[4];
+  const Real v4L_y = S4b_yz * state.z[4];
+  const Real v4L_z = S4b_zz * state.z[4];
   const Real v5o_x = Real(0.384) * w5pp_y + (c4 * v4p_y - s4 * v4o_z);
-  const Real P5 = h5b_y * v4o_x + (h5b_x * v5o_x - (S5b_yz * w5pp_x - (S5b_xz * w4_z - (Real(0.5) * (S5b_zz *
-      state.z[5]) - S5b_zz * w5pp_y))));
+  const Real v5P_x = h5b_y * state.z[5];
+  const Real v5P_y = h5b_x * state.z[5];
+  const Real v5L_x = S5b_xz * state.z[5];
+  const Real v5L_y = S5b_yz * state.z[5];
+  const Real v5L_z = S5b_zz * state.z[5];
   const Real v6p_y = c5 * v5o_x + s5 * v4o_x;
   const Real v6o_z = Real(0.088) * w6pp_x - (Real(0.384) * w5pp_x + (c4 * v4o_z + s4 * v4p_y));
-  const Real P6 = h6b_y * v6p_y - (h6b_x * v6o_z + (S6b_yz * w5_z + (S6b_xz * w6pp_y -
-      (Real(0.006684151967360946) * w6pp_x - state.z[6] * Real(0.003342075983680473)))));
-  const Real T6 = state.z[6] * P6 - (state.z[5] * P5 + (state.z[4] * P4 - (state.z[3] * P3 + (state.z[2] * P2
-      + (T0 - state.z[1] * P1)))));
+  const Real v6P_x = h6b_y * state.z[6];
+  const Real v6P_y = h6b_x * state.z[6];
+  const Real v6L_x = S6b_xz * state.z[6];
+  const Real v6L_y = S6b_yz * state.z[6];
+  const Real v6L_z = Real(0.006684151967360946) * state.z[6];
+  const Real T6 = (state.z[0] * v0L_z - (state.z[1] * v1L_z + (state.z[2] * v2L_z + (state.z[3] * v3L_z -
+      (state.z[4] * v4L_z + (state.z[5] * v5L_z - state.z[6] * v6L_z)))))) * Real(0.5) - (v6o_z * v6P_y -
+      (v6p_y * v6P_x - (w6pp_y * v6L_x - (w6pp_x * v6L_z - (w5_z * v6L_y + (v5o_x * v5P_y + (v4o_x * v5P_x +
+      (w5pp_y * v5L_z - (w5pp_x * v5L_y - (w4_z * v5L_x - (v4o_z * v4P_y - (v4p_y * v4P_x - (w4pp_y * v4L_x +
+      (w4pp_x * v4L_z - (w3_z * v4L_y - (v3o_z * v3P_x - (v3o_x * v3P_y - (w3pp_y * v3L_z - (w3pp_x * v3L_y -
+      (w2_z * v3L_x + (w2pp_y * v2L_x - (w2pp_x * v2L_z + (state.z[0] * v1L_x + state.z[1] *
+      v2L_y)))))))))))))))))))))));
   return -T6;
 }
 
@@ -1389,33 +1392,27 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
 
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
-  constexpr int n = Model<Real>::velocity_count;
+  constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage = state;
-  Real a1[n], a2[n], a3[n], a4[n], z2[n], z3[n], z4[n];
-  forward_dynamics(model, stage, input, a1);
+  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
+  detail::rates(model, stage, input, v1, a1);
   stage.t = state.t + half;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * state.z[i];
-    stage.z[i] = z2[i] = state.z[i] + half * a1[i];
-  }
-  forward_dynamics(model, stage, input, a2);
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * z2[i];
-    stage.z[i] = z3[i] = state.z[i] + half * a2[i];
-  }
-  forward_dynamics(model, stage, input, a3);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
+  detail::rates(model, stage, input, v2, a2);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
+  detail::rates(model, stage, input, v3, a3);
   stage.t = state.t + h;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + h * z3[i];
-    stage.z[i] = z4[i] = state.z[i] + h * a3[i];
-  }
-  forward_dynamics(model, stage, input, a4);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
+  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
-  for (int i = 0; i < n; ++i) {
-    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (z2[i] + z3[i]) + z4[i]);
+  for (int i = 0; i < ny; ++i)
+    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+  for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  }
   state.t = state.t + h;
 }
 

@@ -10,17 +10,23 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // Left out
-// - parameter-only values: values that depend on parameters alone are computed once, with the model (3
+// - constant factors: constant factors of a product are multiplied with each other first (2 operations of
+//   forward_dynamics)
+// - parameter-only values: values that depend on parameters alone are computed once, with the model (5
 //   operations of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time
-// - springs: none
-// - dampers: none
+// - joint springs: none
+// - joint dampers: none
 // - inputs: none
+// - frame forces: none
+// - outputs: none asked for
+// - coupling: M is diagonal, nothing is factored
+// - factorisation: M is constant, its factors are computed with the model
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 1.0e-16 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 2.9e-16; symbolic equations against the numeric reference
-//   5.8e-20; cond(M) up to 1.0e+00
+// - 8 random states: backward error of M zdot = k_bar - q_bar 1.6e-16 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 2.0e-16; symbolic equations against the numeric reference
+//   8.4e-20; cond(M) up to 1.0e+00
 #pragma once
 
 namespace pendulum {
@@ -32,7 +38,7 @@ struct Parameters {
   Real l = Real(1.0);  ///< length of the bar, m
 };
 
-/// Time t (s), generalized coordinates y (rad, m) and generalized velocities z = dy/dt (rad/s, m/s).
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
 template <class Real = double>
 struct State {
   Real t;
@@ -40,7 +46,7 @@ struct State {
   Real z[1];
 };
 
-/// Generalized forces of the actuators (N m, N).
+/// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
 template <class Real = double>
 struct Input {};
 
@@ -54,19 +60,22 @@ struct Model {
   static constexpr int position_count = 1;
   static constexpr int velocity_count = 1;
   static constexpr int input_count = 0;
+  static constexpr int output_count = 0;
   static constexpr int parameter_count = 2;
 
   explicit Model(const Parameters& = {}) noexcept;
 
   Real S_yy;
-  Real mr_y;
-  Real invD_0;
+  Real c1;
+  Real c2;
+  Real c3;
 };
 
 // Names in order, closed by a null pointer.
 inline constexpr const char* position_names[2] = {"pivot", nullptr};
 inline constexpr const char* velocity_names[2] = {"pivot", nullptr};
 inline constexpr const char* input_names[1] = {nullptr};
+inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[3] = {"m", "l", nullptr};
 
 /// The state that the model description starts from, at t = 0.
@@ -79,38 +88,38 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
-/// Coriolis and centrifugal terms k_bar(y, z); no gravity.
+/// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
-/// Applied forces q_bar(y, z, u): gravity, springs, dampers, inputs. Sign as in M zdot = k_bar - q_bar:
+/// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 2 operations (2 mul, 0 add and sub, 0 div), 1 sin and cos.
+/// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 3 operations (3 mul, 0 add and sub, 0 div), 1 sin and cos.
+/// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 4 operations (3 mul, 1 add and sub, 0 div), 1 sin and cos.
+/// 3 operations (2 mul, 1 add and sub, 0 div), 1 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 3 operations (3 mul, 0 add and sub, 0 div), 0 sin and cos.
+/// 2 operations (2 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 2 operations (2 mul, 0 add and sub, 0 div), 1 sin and cos.
+/// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 

@@ -29,13 +29,23 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+           Real (&ydot)[1], Real (&zdot)[1]) noexcept {
+  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+  forward_dynamics(model, stage, input, zdot);
+}
+
 }  // namespace detail
 
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
-  mr_y = parameters.m * parameters.l;
+  const Real mr_y = parameters.m * parameters.l;
   S_yy = parameters.l * mr_y;
-  invD_0 = Real(1.0) / S_yy;
+  c1 = mr_y * Real(9.81);
+  const Real invD_0 = Real(1.0) / S_yy;
+  c2 = c1 * invD_0;
+  c3 = S_yy * Real(0.5);
 }
 
 template <class Real>
@@ -60,8 +70,7 @@ void k_bar(const Model<Real>&, const State<Real>&, Real (&k)[1]) noexcept {
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
   const Real s0 = detail::sine(state.y[0]);
-  const Real h0b_x = s0 * model.mr_y;
-  const Real q_0 = h0b_x * Real(9.81);
+  const Real q_0 = s0 * model.c1;
   q[0] = q_0;
 }
 
@@ -69,9 +78,7 @@ template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
   const Real s0 = detail::sine(state.y[0]);
-  const Real h0b_x = s0 * model.mr_y;
-  const Real bQp0 = h0b_x * Real(9.81);
-  const Real y_0 = bQp0 * model.invD_0;
+  const Real y_0 = s0 * model.c2;
   zdot[0] = -y_0;
 }
 
@@ -79,57 +86,48 @@ template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
   const Real s0 = detail::sine(state.y[0]);
-  const Real h0b_x = s0 * model.mr_y;
-  const Real aQp0 = h0b_x * Real(9.81);
+  const Real aQp0 = s0 * model.c1;
   const Real adn0_z = zdot[0] * model.S_yy;
-  const Real aQ0 = aQp0 + adn0_z;
-  tau[0] = aQ0;
+  const Real aQ0_0 = aQp0 + adn0_z;
+  tau[0] = aQ0_0;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real P0 = state.z[0] * model.S_yy * Real(0.5);
-  const Real T0 = state.z[0] * P0;
-  return T0;
+  const Real v0T = state.z[0] * state.z[0] * model.c3;
+  return v0T;
 }
 
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c0 = detail::cosine(state.y[0]);
-  const Real h0b_y = c0 * model.mr_y;
-  const Real V = h0b_y * Real(9.81);
+  const Real V = c0 * model.c1;
   return -V;
 }
 
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
-  constexpr int n = Model<Real>::velocity_count;
+  constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage = state;
-  Real a1[n], a2[n], a3[n], a4[n], z2[n], z3[n], z4[n];
-  forward_dynamics(model, stage, input, a1);
+  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
+  detail::rates(model, stage, input, v1, a1);
   stage.t = state.t + half;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * state.z[i];
-    stage.z[i] = z2[i] = state.z[i] + half * a1[i];
-  }
-  forward_dynamics(model, stage, input, a2);
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * z2[i];
-    stage.z[i] = z3[i] = state.z[i] + half * a2[i];
-  }
-  forward_dynamics(model, stage, input, a3);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
+  detail::rates(model, stage, input, v2, a2);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
+  detail::rates(model, stage, input, v3, a3);
   stage.t = state.t + h;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + h * z3[i];
-    stage.z[i] = z4[i] = state.z[i] + h * a3[i];
-  }
-  forward_dynamics(model, stage, input, a4);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
+  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
-  for (int i = 0; i < n; ++i) {
-    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (z2[i] + z3[i]) + z4[i]);
+  for (int i = 0; i < ny; ++i)
+    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+  for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  }
   state.t = state.t + h;
 }
 

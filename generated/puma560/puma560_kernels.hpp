@@ -29,6 +29,13 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+           Real (&ydot)[6], Real (&zdot)[6]) noexcept {
+  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+  forward_dynamics(model, stage, input, zdot);
+}
+
 }  // namespace detail
 
 template <class Real>
@@ -91,8 +98,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
@@ -104,51 +110,51 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y));
   const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t + (Real(2.0) * t91 - (s2 * S2b_t
       + (S3c_xx + J1)) + Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
-  const Real p3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
-  const Real p3_3F_x = s2 * h3b_y;
-  const Real p3_3F_y = c2 * h3b_y;
-  const Real p3_2l_x = r2_y * h3b_x;
-  const Real p3_2n_x = p3_2l_x + (c2 * p3_3n_x - s2 * S3b_xz);
-  const Real p3_2n_z = r2_y * p3_3F_x - (S3b_yz + r2_x * p3_3F_y);
-  const Real p4_4l_y = Real(0.4318) * h4b_x;
-  const Real p4_4n_y = Real(0.00064216) + p4_4l_y;
-  const Real p4_4F_x = c3 * h4b_x;
-  const Real p4_4F_y = s3 * h4b_x;
-  const Real p4_4N_x = s3 * p4_4n_y;
-  const Real p4_4N_y = c3 * p4_4n_y;
-  const Real p4_3l_x = Real(0.15005) * p4_4F_x + Real(0.0203) * p4_4F_y;
-  const Real p4_3l_y = h4b_y * Real(0.15005);
-  const Real p4_3l_z = h4b_y * Real(0.0203);
-  const Real p4_3n_y = p4_4N_x + p4_3l_y;
-  const Real p4_3n_z = p4_4N_y - p4_3l_z;
-  const Real p4_3F_x = c2 * h4b_y + s2 * p4_4F_x;
-  const Real p4_3F_y = c2 * p4_4F_x - s2 * h4b_y;
-  const Real p4_2l_x = r2_y * p4_4F_y;
-  const Real p4_2n_x = p4_2l_x + (c2 * p4_3l_x - s2 * p4_3n_y);
-  const Real p4_2n_z = r2_y * p4_3F_x - (p4_3n_z + r2_x * p4_3F_y);
-  const Real p5_5N_x = c4 * Real(4e-05);
-  const Real p5_5N_y = s4 * Real(4e-05);
-  const Real p5_4N_x = c3 * p5_5N_y;
-  const Real p5_4N_y = s3 * p5_5N_y;
-  const Real p5_3N_x = c2 * p5_5N_x - s2 * p5_4N_x;
+  const Real p_3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
+  const Real p_3_3F_x = s2 * h3b_y;
+  const Real p_3_3F_y = c2 * h3b_y;
+  const Real p_3_2l_x = r2_y * h3b_x;
+  const Real p_3_2n_x = p_3_2l_x + (c2 * p_3_3n_x - s2 * S3b_xz);
+  const Real p_3_2n_z = r2_y * p_3_3F_x - (S3b_yz + r2_x * p_3_3F_y);
+  const Real p_4_4l_y = Real(0.4318) * h4b_x;
+  const Real p_4_4n_y = Real(0.00064216) + p_4_4l_y;
+  const Real p_4_4F_x = c3 * h4b_x;
+  const Real p_4_4F_y = s3 * h4b_x;
+  const Real p_4_4N_x = s3 * p_4_4n_y;
+  const Real p_4_4N_y = c3 * p_4_4n_y;
+  const Real p_4_3l_x = Real(0.15005) * p_4_4F_x + Real(0.0203) * p_4_4F_y;
+  const Real p_4_3l_y = h4b_y * Real(0.15005);
+  const Real p_4_3l_z = h4b_y * Real(0.0203);
+  const Real p_4_3n_y = p_4_4N_x + p_4_3l_y;
+  const Real p_4_3n_z = p_4_4N_y - p_4_3l_z;
+  const Real p_4_3F_x = c2 * h4b_y + s2 * p_4_4F_x;
+  const Real p_4_3F_y = c2 * p_4_4F_x - s2 * h4b_y;
+  const Real p_4_2l_x = r2_y * p_4_4F_y;
+  const Real p_4_2n_x = p_4_2l_x + (c2 * p_4_3l_x - s2 * p_4_3n_y);
+  const Real p_4_2n_z = r2_y * p_4_3F_x - (p_4_3n_z + r2_x * p_4_3F_y);
+  const Real p_5_5N_x = c4 * Real(4e-05);
+  const Real p_5_5N_y = s4 * Real(4e-05);
+  const Real p_5_4N_x = c3 * p_5_5N_y;
+  const Real p_5_4N_y = s3 * p_5_5N_y;
+  const Real p_5_3N_x = c2 * p_5_5N_x - s2 * p_5_4N_x;
   M[0][0] = S0b_zz;
   M[0][1] = M[1][0] = -S1_xz;
   M[0][2] = M[2][0] = -S2b_xz;
-  M[0][3] = M[3][0] = -p3_2n_x;
-  M[0][4] = M[4][0] = -p4_2n_x;
-  M[0][5] = M[5][0] = p5_3N_x;
+  M[0][3] = M[3][0] = -p_3_2n_x;
+  M[0][4] = M[4][0] = -p_4_2n_x;
+  M[0][5] = M[5][0] = p_5_3N_x;
   M[1][1] = J1;
   M[1][2] = M[2][1] = -E2;
-  M[1][3] = M[3][1] = p3_2n_z;
-  M[1][4] = M[4][1] = -p4_2n_z;
-  M[1][5] = M[5][1] = p5_4N_y;
+  M[1][3] = M[3][1] = p_3_2n_z;
+  M[1][4] = M[4][1] = -p_4_2n_z;
+  M[1][5] = M[5][1] = p_5_4N_y;
   M[2][2] = -S2b_zz;
   M[2][3] = M[3][2] = -S3b_yz;
-  M[2][4] = M[4][2] = p4_3n_z;
-  M[2][5] = M[5][2] = p5_4N_y;
+  M[2][4] = M[4][2] = p_4_3n_z;
+  M[2][5] = M[5][2] = p_5_4N_y;
   M[3][3] = S3b_zz;
   M[3][4] = M[4][3] = Real(0.0);
-  M[3][5] = M[5][3] = p5_5N_x;
+  M[3][5] = M[5][3] = p_5_5N_x;
   M[4][4] = Real(0.00064216);
   M[4][5] = M[5][4] = Real(0.0);
   M[5][5] = Real(4e-05);
@@ -192,8 +198,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_d = h3b_x * Real(0.0406) - (S3b_xx + (S4b_xx - h4b_x * Real(0.8636) -
       Real(0.34123495800000003)) + Real(0.0167651125));
-  const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e + s2 * S2b_d;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
   const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
@@ -211,7 +216,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real w5pp_y = c4 * w4pp_x + s4 * w3_z;
   const Real kKy1 = S1_xy * state.z[0];
   const Real kQp1 = state.z[0] * kKy1;
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real kal1o_y = state.z[1] * state.z[0];
   const Real kW1w00 = state.z[0] * state.z[0];
@@ -297,19 +301,19 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kf2_x = s2 * kf3_x - (kdf2_x + c2 * kf3_z);
   const Real kf2_y = s2 * kf3_z + (kdf2_y + c2 * kf3_x);
   const Real kf2_z = kdf2_z - kf3_y;
-  const Real kn2c_x = r2_y * kf2_z + (kKy1 * z2_1 - (S1_yz * zz_1 + (s2 * kn3c_y + (c2 * kn3c_x - (S2b_yz *
-      zz_2 + kKy2 * z2_2)))));
-  const Real kQ1 = r2_y * kf2_x - (r2_x * kf2_y - (kQp1 - kn3c_z));
-  const Real kQ2 = kn3c_z - (h2b_y * ka2o_x + (h2b_x * ka2o_y + (state.z[0] * kKy2 - S2b_yz * kal1o_y)));
-  const Real kQ3 = kn4_x + (w3pp_y * kKy3 + (w2_z * kKx3 - (h3b_y * ka3o_y - (h3b_x * ka3o_z - (S3b_zz *
+  const Real kn2c_x = r2_y * kf2_z + (Real(2.0) * (state.z[1] * kKy1) - (S1_yz * zz_1 + (s2 * kn3c_y + (c2 *
+      kn3c_x - (S2b_yz * zz_2 + kKy2 * z2_2)))));
+  const Real kQ1_0 = r2_y * kf2_x - (r2_x * kf2_y - (kQp1 - kn3c_z));
+  const Real kQ2_0 = kn3c_z - (h2b_y * ka2o_x + (h2b_x * ka2o_y + (state.z[0] * kKy2 - S2b_yz * kal1o_y)));
+  const Real kQ3_0 = kn4_x + (w3pp_y * kKy3 + (w2_z * kKx3 - (h3b_y * ka3o_y - (h3b_x * ka3o_z - (S3b_zz *
       kal3p_x - S3b_xz * kal3p_y)))));
-  const Real kQ4 = kdn5_y + (w4pp_x * kKx4 - (w3_z * kKy4 - (h4b_y * ka4o_z + (Real(0.00064216) * kal4p_y +
+  const Real kQ4_0 = kdn5_y + (w4pp_x * kKx4 - (w3_z * kKy4 - (h4b_y * ka4o_z + (Real(0.00064216) * kal4p_y +
       h4b_x * ka4o_x))));
   k[0] = kn2c_x;
-  k[1] = -kQ1;
-  k[2] = kQ2;
-  k[3] = -kQ3;
-  k[4] = -kQ4;
+  k[1] = -kQ1_0;
+  k[2] = kQ2_0;
+  k[3] = -kQ3_0;
+  k[4] = -kQ4_0;
   k[5] = -kQp5;
 }
 
@@ -334,11 +338,10 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real h1_y = c1 * Real(3.79559) - (h2b_y + s1 * Real(0.10439999999999999));
   const Real q_1 = h1_y * Real(9.81) - input.u[1];
   const Real q_2 = h2b_y * Real(9.81) + input.u[2];
-  const Real g3p_x = c2 * Real(9.81);
   const Real g3p_y = s2 * Real(9.81);
   const Real q_3 = input.u[3] - h3b_y * g3p_y;
   const Real g4p_x = c3 * g3p_y;
-  const Real q_4 = h4b_y * g3p_x + (input.u[4] + h4b_x * g4p_x);
+  const Real q_4 = Real(9.81) * (c2 * h4b_y) + (input.u[4] + h4b_x * g4p_x);
   q[0] = -input.u[0];
   q[1] = q_1;
   q[2] = -q_2;
@@ -386,21 +389,14 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S3c_xz = h4b_x * Real(0.15005) + (S3b_yz + Real(0.1384816665));
   const Real S3c_yy = h3b_x * Real(0.0406) - (S3b_xx + Real(0.0167651125));
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
-  const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
-  const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
   const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
-  const Real t97 = r2_x * h2b_x;
-  const Real D2 = t97 - r2_y * h2b_y;
-  const Real E2 = S2b_zz - D2;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
   const Real h1_y = c1 * Real(3.79559) - (h2b_y + s1 * Real(0.10439999999999999));
-  const Real J1 = D2 - E2 + Real(1.748114002);
   const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x + (S2b_xy - r2_x * h2b_y) - Real(0.0070991999999999965));
   const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) + (S2b_yz + r2_y * h3b_y));
   const Real w2_z = state.z[1] + state.z[2];
@@ -411,33 +407,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real w4pp_y = c3 * w2_z + s3 * w3pp_y;
   const Real w4_z = w4pp_y + state.z[4];
   const Real w5pp_y = c4 * w4pp_x + s4 * w3_z;
-  const Real p3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
-  const Real p3_3F_x = s2 * h3b_y;
-  const Real p3_3F_y = c2 * h3b_y;
-  const Real p3_2l_x = r2_y * h3b_x;
-  const Real p4_4l_y = Real(0.4318) * h4b_x;
-  const Real p4_4n_y = Real(0.00064216) + p4_4l_y;
-  const Real p4_4F_x = c3 * h4b_x;
-  const Real p4_4F_y = s3 * h4b_x;
-  const Real p4_4N_x = s3 * p4_4n_y;
-  const Real p4_4N_y = c3 * p4_4n_y;
-  const Real p4_3l_x = Real(0.15005) * p4_4F_x + Real(0.0203) * p4_4F_y;
-  const Real p4_3l_y = h4b_y * Real(0.15005);
-  const Real p4_3l_z = h4b_y * Real(0.0203);
-  const Real p4_3n_y = p4_4N_x + p4_3l_y;
-  const Real p4_3n_z = p4_4N_y - p4_3l_z;
-  const Real p4_3F_x = c2 * h4b_y + s2 * p4_4F_x;
-  const Real p4_3F_y = c2 * p4_4F_x - s2 * h4b_y;
-  const Real p4_2l_x = r2_y * p4_4F_y;
-  const Real p4_2n_x = p4_2l_x + (c2 * p4_3l_x - s2 * p4_3n_y);
-  const Real p4_2n_z = r2_y * p4_3F_x - (p4_3n_z + r2_x * p4_3F_y);
-  const Real p5_5N_x = c4 * Real(4e-05);
-  const Real p5_5N_y = s4 * Real(4e-05);
-  const Real p5_4N_x = c3 * p5_5N_y;
-  const Real p5_4N_y = s3 * p5_5N_y;
-  const Real p5_3N_x = c2 * p5_5N_x - s2 * p5_4N_x;
   const Real bKy1 = S1_xy * state.z[0];
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real bal1o_y = state.z[1] * state.z[0];
   const Real bW1w00 = state.z[0] * state.z[0];
@@ -524,7 +494,38 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bf2_z = bdf2_z - bf3_y;
   const Real b_4 = input.u[4] - (bdn5_y + (w4pp_x * bKx4 - (w3_z * bKy4 - (h4b_y * ba4o_z + (Real(0.00064216)
       * bal4p_y + h4b_x * ba4o_x)))));
-  const Real b_5 = input.u[5] - (w5pp_y * bKy5 - (Real(4e-05) * bal5p_x + w4_z * bKx5));
+  const Real b_5 = input.u[5] - (w5pp_y * bKy5 - (bal5p_x * Real(4e-05) + w4_z * bKx5));
+  const Real S2b_zz = S3c_xx + S3c_yy;
+  const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
+  const Real t364 = r2_x * h2b_x;
+  const Real D2 = t364 - r2_y * h2b_y;
+  const Real E2 = S2b_zz - D2;
+  const Real J1 = D2 - E2 + Real(1.748114002);
+  const Real p3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
+  const Real p3_3F_x = s2 * h3b_y;
+  const Real p3_3F_y = c2 * h3b_y;
+  const Real p3_2l_x = r2_y * h3b_x;
+  const Real p4_4l_y = Real(0.4318) * h4b_x;
+  const Real p4_4n_y = Real(0.00064216) + p4_4l_y;
+  const Real p4_4F_x = c3 * h4b_x;
+  const Real p4_4F_y = s3 * h4b_x;
+  const Real p4_4N_x = s3 * p4_4n_y;
+  const Real p4_4N_y = c3 * p4_4n_y;
+  const Real p4_3l_x = Real(0.15005) * p4_4F_x + Real(0.0203) * p4_4F_y;
+  const Real p4_3l_y = h4b_y * Real(0.15005);
+  const Real p4_3l_z = h4b_y * Real(0.0203);
+  const Real p4_3n_y = p4_4N_x + p4_3l_y;
+  const Real p4_3n_z = p4_4N_y - p4_3l_z;
+  const Real p4_3F_x = c2 * h4b_y + s2 * p4_4F_x;
+  const Real p4_3F_y = c2 * p4_4F_x - s2 * h4b_y;
+  const Real p4_2l_x = r2_y * p4_4F_y;
+  const Real p4_2n_x = p4_2l_x + (c2 * p4_3l_x - s2 * p4_3n_y);
+  const Real p4_2n_z = r2_y * p4_3F_x - (p4_3n_z + r2_x * p4_3F_y);
+  const Real p5_5N_x = c4 * Real(4e-05);
+  const Real p5_5N_y = s4 * Real(4e-05);
+  const Real p5_4N_x = c3 * p5_5N_y;
+  const Real p5_4N_y = s3 * p5_5N_y;
+  const Real p5_3N_x = c2 * p5_5N_x - s2 * p5_4N_x;
   const Real L_5_3 = p5_5N_x * Real(24999.999999999996);
   const Real H5_3_3 = S3b_zz - p5_5N_x * L_5_3;
   const Real t426 = p5_4N_y * L_5_3;
@@ -535,7 +536,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t436 = p5_4N_y * L_5_2;
   const Real t437 = p5_3N_x * L_5_2;
   const Real L_5_0 = p5_3N_x * Real(24999.999999999996);
-  const Real x5_3 = b_5 * L_5_3 - (input.u[3] - (bn4_x + (w3pp_y * bKy3 + (w2_z * bKx3 - (h3b_y * ba3o_y -
+  const Real u5_3 = b_5 * L_5_3 - (input.u[3] - (bn4_x + (w3pp_y * bKy3 + (w2_z * bKx3 - (h3b_y * ba3o_y -
       (h3b_x * ba3o_z - (S3b_zz * bal3p_x - S3b_xz * bal3p_y)))))));
   const Real t449 = b_5 * L_5_2;
   const Real L_4_2 = p4_3n_z * Real(1557.24430048586);
@@ -548,7 +549,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real H3_2_0 = H5_3_0 * L_3_2 - (p4_2n_x * L_4_2 - (S2b_xz + t437));
   const Real L_3_1 = H5_3_1 * invD_3;
   const Real L_3_0 = H5_3_0 * invD_3;
-  const Real x3_2 = x5_3 * L_3_2 + (b_4 * L_4_2 + (t449 - (input.u[2] + (bn3c_z + (h2b_y * ba2o_x - (h2b_x *
+  const Real u3_2 = u5_3 * L_3_2 + (b_4 * L_4_2 + (t449 - (input.u[2] + (bn3c_z + (h2b_y * ba2o_x - (h2b_x *
       ba2o_y + (state.z[0] * bKy2 - S2b_yz * bal1o_y)))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
@@ -556,23 +557,23 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 + (p4_2n_x * L_4_1 + (t437 + (c1 * Real(0.023751) + (s1
       * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y))))));
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real x2_1 = x3_2 * L_2_1 - (x5_3 * L_3_1 - (b_4 * L_4_1 - (t449 - (input.u[1] - (r2_y * bf2_x - (r2_x
+  const Real u2_1 = u3_2 * L_2_1 - (u5_3 * L_3_1 - (b_4 * L_4_1 - (t449 - (input.u[1] - (r2_y * bf2_x - (r2_x
       * bf2_y + (bn3c_z - (h1_y * Real(9.81) + state.z[0] * bKy1))))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
   const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H5_3_0 * L_3_0 + (p4_2n_x * L_4_0 + (p5_3N_x * L_5_0
-      - (h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t + (Real(2.0) * t97 - (s2 * S2b_t + (S3c_xx + J1)) +
+      - (h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t + (Real(2.0) * t364 - (s2 * S2b_t + (S3c_xx + J1)) +
       Real(0.07312639999999992)) - Real(0.175))) + Real(1.2867895711250001))))));
-  const Real x1_0 = x2_1 * L_1_0 - (x3_2 * L_2_0 - (x5_3 * L_3_0 - (b_4 * L_4_0 - (b_5 * L_5_0 - (input.u[0] +
-      (r2_y * bf2_z + (bKy1 * z2_1 - (S1_yz * zz_1 + (s2 * bn3c_y + (c2 * bn3c_x - (S2b_yz * zz_2 + bKy2 *
-      z2_2)))))))))));
+  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u5_3 * L_3_0 - (b_4 * L_4_0 - (b_5 * L_5_0 - (input.u[0] +
+      (r2_y * bf2_z + (Real(2.0) * (state.z[1] * bKy1) - (S1_yz * zz_1 + (s2 * bn3c_y + (c2 * bn3c_x - (S2b_yz
+      * zz_2 + bKy2 * z2_2)))))))))));
   const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = x1_0 * invD_0;
-  const Real y_1 = x2_1 * invD_1;
+  const Real y_0 = u1_0 * invD_0;
+  const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
-  const Real y_2 = x3_2 * invD_2;
+  const Real y_2 = u3_2 * invD_2;
   const Real zdot_2 = L_2_0 * y_0 - (y_2 - L_2_1 * zdot_1);
-  const Real y_3 = x5_3 * invD_3;
+  const Real y_3 = u5_3 * invD_3;
   const Real zdot_3 = L_3_0 * y_0 + (L_3_1 * zdot_1 - (y_3 + L_3_2 * zdot_2));
   const Real y_4 = b_4 * Real(1557.24430048586);
   const Real zdot_4 = L_4_0 * y_0 + (L_4_1 * zdot_1 + (y_4 + L_4_2 * zdot_2));
@@ -627,8 +628,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
@@ -654,7 +654,6 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real w5pp_y = c4 * w4pp_x + s4 * w3_z;
   const Real adn0_z = S0b_zz * zdot[0];
   const Real aKy1 = S1_xy * state.z[0];
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real adn1_z = J1 * zdot[1];
   const Real aal1o_y = state.z[1] * state.z[0];
@@ -741,23 +740,23 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real af2_z = adf2_z + af3_y;
   const Real an2_z = Real(0.0203) * af3_z + (s3 * an4c_x - (c3 * an4c_y - (aKx3 * z2_3 + (S3b_xz * zz_3 +
       (adn2_z + S3b_yz * zdot[3])))));
-  const Real an0_z = r2_y * af2_z + (aKy1 * z2_1 - (S1_yz * zz_1 - (S1_xz * zdot[1] - (s2 * an3c_y - (c2 *
-      an3c_x + (aKy2 * z2_2 + (S2b_yz * zz_2 - (adn0_z - S2b_xz * zdot[2]))))))));
-  const Real aQ1 = r2_y * af2_x - (r2_x * af2_y - (adn1_z - (an2_z + (S1_xz * zdot[0] - (h1_y * Real(9.81) +
+  const Real an0_z = r2_y * af2_z + (Real(2.0) * (state.z[1] * aKy1) - (S1_yz * zz_1 - (S1_xz * zdot[1] - (s2
+      * an3c_y - (c2 * an3c_x + (aKy2 * z2_2 + (S2b_yz * zz_2 - (adn0_z - S2b_xz * zdot[2]))))))));
+  const Real aQ1_0 = r2_y * af2_x - (r2_x * af2_y - (adn1_z - (an2_z + (S1_xz * zdot[0] - (h1_y * Real(9.81) +
       state.z[0] * aKy1)))));
-  const Real aQ2 = an2_z - (h2b_y * aa2o_x + (h2b_x * aa2o_y - (S2b_yz * aal1o_y + (S2b_zz * zdot[1] -
+  const Real aQ2_0 = an2_z - (h2b_y * aa2o_x + (h2b_x * aa2o_y - (S2b_yz * aal1o_y + (S2b_zz * zdot[1] -
       (state.z[0] * aKy2 - S2b_xz * zdot[0])))));
-  const Real aQ3 = an3_z - (w3pp_y * aKy3 + (w2_z * aKx3 - (h3b_y * aa3o_y + (h3b_x * aa3o_z + (S3b_yz *
+  const Real aQ3_0 = an3_z - (w3pp_y * aKy3 + (w2_z * aKx3 - (h3b_y * aa3o_y + (h3b_x * aa3o_z + (S3b_yz *
       aal2o_z - (S3b_zz * aal3p_x + S3b_xz * aal3p_y))))));
-  const Real aQ4 = an4_z + (w4pp_x * aKx4 - (w3_z * aKy4 - (h4b_y * aa4o_z + (Real(0.00064216) * aal4p_y +
+  const Real aQ4_0 = an4_z + (w4pp_x * aKx4 - (w3_z * aKy4 - (h4b_y * aa4o_z + (Real(0.00064216) * aal4p_y +
       h4b_x * aa4o_x))));
-  const Real aQ5 = adn5_z + (w5pp_y * aKy5 - (aal5p_x * Real(4e-05) + w4_z * aKx5));
+  const Real aQ5_0 = adn5_z + (w5pp_y * aKy5 - (aal5p_x * Real(4e-05) + w4_z * aKx5));
   tau[0] = -an0_z;
-  tau[1] = aQ1;
-  tau[2] = -aQ2;
-  tau[3] = -aQ3;
-  tau[4] = aQ4;
-  tau[5] = aQ5;
+  tau[1] = aQ1_0;
+  tau[2] = -aQ2_0;
+  tau[3] = -aQ3_0;
+  tau[4] = aQ4_0;
+  tau[5] = aQ5_0;
 }
 
 template <class Real>
@@ -798,8 +797,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_e = S3c_xy * Real(2.0);
-  const Real S2b_t = c2 * S2b_e - s2 * S2b_d;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
@@ -817,25 +815,34 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w4pp_x = c3 * w3pp_y - s3 * w2_z;
   const Real w4pp_y = c3 * w2_z + s3 * w3pp_y;
   const Real w5pp_x = c4 * w3_z - s4 * w4pp_x;
-  const Real P0 = S0b_zz * state.z[0] * Real(0.5);
-  const Real T0 = state.z[0] * P0;
-  const Real P1 = Real(0.5) * (J1 * state.z[1]) - S1_xz * state.z[0];
+  const Real v0L_z = S0b_zz * state.z[0];
+  const Real v1L_x = S1_xz * state.z[1];
+  const Real v1L_z = J1 * state.z[1];
   const Real v2o_x = r2_y * state.z[1];
   const Real v2o_y = r2_x * state.z[1];
   const Real v2o_z = r2_y * state.z[0];
-  const Real P2 = h2b_y * v2o_x - (h2b_x * v2o_y - (S2b_zz * state.z[1] + (Real(0.5) * (S2b_zz * state.z[2]) +
-      S2b_xz * state.z[0])));
+  const Real v2P_x = h2b_y * state.z[2];
+  const Real v2P_y = h2b_x * state.z[2];
+  const Real v2L_x = S2b_xz * state.z[2];
+  const Real v2L_z = S2b_zz * state.z[2];
   const Real v3o_x = Real(0.0203) * w2_z - (Real(0.15005) * w3pp_y - (c2 * v2o_x + s2 * v2o_y));
   const Real v3o_y = Real(0.15005) * w3pp_x - (c2 * v2o_y - s2 * v2o_x);
   const Real v3o_z = v2o_z + Real(0.0203) * w3pp_x;
-  const Real P3 = h3b_y * v3o_y - (h3b_x * v3o_z + (S3b_yz * w2_z - (S3b_xz * w3pp_y + (Real(0.5) * (S3b_zz *
-      state.z[3]) + S3b_zz * w3pp_x))));
+  const Real v3P_x = h3b_y * state.z[3];
+  const Real v3P_y = h3b_x * state.z[3];
+  const Real v3L_x = S3b_xz * state.z[3];
+  const Real v3L_y = S3b_yz * state.z[3];
+  const Real v3L_z = S3b_zz * state.z[3];
   const Real v4o_x = Real(0.4318) * w4pp_y - (c3 * v3o_y + s3 * v3o_z);
-  const Real P4 = h4b_y * v3o_x - (h4b_x * v4o_x + (Real(0.00064216) * w4pp_y + state.z[4] *
-      Real(0.00032108)));
-  const Real P5 = w5pp_x * Real(4e-05) + state.z[5] * Real(2e-05);
-  const Real T5 = state.z[5] * P5 - (state.z[4] * P4 - (state.z[3] * P3 - (state.z[2] * P2 - (T0 + state.z[1]
-      * P1))));
+  const Real v4P_x = h4b_y * state.z[4];
+  const Real v4P_y = h4b_x * state.z[4];
+  const Real v4L_z = Real(0.00064216) * state.z[4];
+  const Real v5L_z = state.z[5] * Real(4e-05);
+  const Real T5 = (state.z[0] * v0L_z + (state.z[1] * v1L_z - (state.z[2] * v2L_z - (state.z[3] * v3L_z +
+      (state.z[4] * v4L_z + state.z[5] * v5L_z))))) * Real(0.5) - (state.z[0] * (v1L_x + v2L_x) - (w5pp_x *
+      v5L_z + (v4o_x * v4P_y - (v3o_x * v4P_x - (w4pp_y * v4L_z - (v3o_z * v3P_y - (v3o_y * v3P_x + (w3pp_y *
+      v3L_x + (w3pp_x * v3L_z - (w2_z * v3L_y - (v2o_y * v2P_y - (state.z[1] * v2L_z + v2o_x *
+      v2P_x))))))))))));
   return T5;
 }
 
@@ -850,8 +857,7 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
   const Real h4b_x = c4 * Real(0.0028799999999999997);
-  const Real h4b_y = s4 * Real(0.0028799999999999997);
-  const Real h3b_x = c3 * h4b_y;
+  const Real h3b_x = Real(0.0028799999999999997) * (c3 * s4);
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
   const Real h1_x = s1 * Real(3.79559) + (c1 * Real(0.10439999999999999) + (c2 * h3c_x - s2 * h3c_y));
@@ -861,33 +867,27 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
 
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
-  constexpr int n = Model<Real>::velocity_count;
+  constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage = state;
-  Real a1[n], a2[n], a3[n], a4[n], z2[n], z3[n], z4[n];
-  forward_dynamics(model, stage, input, a1);
+  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
+  detail::rates(model, stage, input, v1, a1);
   stage.t = state.t + half;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * state.z[i];
-    stage.z[i] = z2[i] = state.z[i] + half * a1[i];
-  }
-  forward_dynamics(model, stage, input, a2);
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * z2[i];
-    stage.z[i] = z3[i] = state.z[i] + half * a2[i];
-  }
-  forward_dynamics(model, stage, input, a3);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
+  detail::rates(model, stage, input, v2, a2);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
+  detail::rates(model, stage, input, v3, a3);
   stage.t = state.t + h;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + h * z3[i];
-    stage.z[i] = z4[i] = state.z[i] + h * a3[i];
-  }
-  forward_dynamics(model, stage, input, a4);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
+  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
-  for (int i = 0; i < n; ++i) {
-    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (z2[i] + z3[i]) + z4[i]);
+  for (int i = 0; i < ny; ++i)
+    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+  for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  }
   state.t = state.t + h;
 }
 

@@ -10,23 +10,25 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // Left out
-// - base inertial parameters: what a joint's motion does not feel is counted with the parent (35 operations
+// - base inertial parameters: what a joint's motion does not feel is counted with the parent (34 operations
 //   of forward_dynamics)
 // - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
-//   (122 operations of forward_dynamics)
+//   (121 operations of forward_dynamics)
 // - snapped rotations: rotations by multiples of a right angle are permutations (69 operations of
 //   forward_dynamics)
 // - common factors: factors that several terms of a sum share are multiplied once (7 operations of
 //   forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time
-// - springs: none
-// - dampers: none
+// - joint springs: none
+// - joint dampers: none
+// - frame forces: none
+// - outputs: none asked for
 // - parameters: all numbers are baked in
 // Checked before this file was written
 // - 8 random states: backward error of M zdot = k_bar - q_bar 1.4e-16 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 4.5e-16; symbolic equations against the numeric reference
-//   1.1e-18; cond(M) up to 2.7e+02
+//   60-digit arithmetic, entries of the functions 4.7e-16; symbolic equations against the numeric reference
+//   2.0e-18; cond(M) up to 2.6e+02
 #pragma once
 
 namespace ur5 {
@@ -35,7 +37,7 @@ namespace ur5 {
 template <class Real = double>
 struct Parameters {};
 
-/// Time t (s), generalized coordinates y (rad, m) and generalized velocities z = dy/dt (rad/s, m/s).
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
 template <class Real = double>
 struct State {
   Real t;
@@ -43,7 +45,7 @@ struct State {
   Real z[6];
 };
 
-/// Generalized forces of the actuators (N m, N).
+/// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
 template <class Real = double>
 struct Input {
   Real u[6];
@@ -59,6 +61,7 @@ struct Model {
   static constexpr int position_count = 6;
   static constexpr int velocity_count = 6;
   static constexpr int input_count = 6;
+  static constexpr int output_count = 0;
   static constexpr int parameter_count = 0;
 
   explicit Model(const Parameters& = {}) noexcept;
@@ -71,6 +74,7 @@ inline constexpr const char* velocity_names[7] = {"shoulder_pan_joint", "shoulde
     "wrist_1_joint", "wrist_2_joint", "wrist_3_joint", nullptr};
 inline constexpr const char* input_names[7] = {"shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint",
     "wrist_1_joint", "wrist_2_joint", "wrist_3_joint", nullptr};
+inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[1] = {nullptr};
 
 /// The state that the model description starts from, at t = 0.
@@ -83,12 +87,12 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[6][6]) noexcept;
 
-/// Coriolis and centrifugal terms k_bar(y, z); no gravity.
+/// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 206 operations (123 mul, 83 add and sub, 0 div), 10 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[6]) noexcept;
 
-/// Applied forces q_bar(y, z, u): gravity, springs, dampers, inputs. Sign as in M zdot = k_bar - q_bar:
+/// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 13 operations (6 mul, 7 add and sub, 0 div), 3 sin and cos.
 template <class Real>
@@ -109,7 +113,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[6]) noexcept;
 
 /// Kinetic energy, J.
-/// 133 operations (71 mul, 62 add and sub, 0 div), 10 sin and cos.
+/// 136 operations (74 mul, 62 add and sub, 0 div), 10 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 

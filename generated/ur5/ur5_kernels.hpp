@@ -29,6 +29,13 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+           Real (&ydot)[6], Real (&zdot)[6]) noexcept {
+  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+  forward_dynamics(model, stage, input, zdot);
+}
+
 }  // namespace detail
 
 template <class Real>
@@ -65,8 +72,6 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real angle3 = angle2 + state.y[3];
   Real s3, c3;
   detail::sine_cosine(angle3, s3, c3);
-  const Real r3_x = s2 * Real(0.39225);
-  const Real r3_y = c2 * Real(0.39225);
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
   Real s5, c5;
@@ -87,15 +92,13 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S4c_yy = Real(0.10971) - S4b_xx;
   const Real S3b_zz = S4c_xx + S4c_yy;
   const Real S3b_d = S4c_xx - S4c_yy;
-  const Real S3b_e = S4b_xz * Real(2.0);
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real t61 = r3_x * h3b_x;
-  const Real D3 = t61 - r3_y * h3b_y;
+  const Real t60 = s2 * h3b_x * Real(0.39225);
+  const Real D3 = t60 - Real(0.39225) * (c2 * h3b_y);
   const Real E3 = S3b_zz + D3;
-  const Real S2b_t = s2 * Real(0.59155695167475);
   const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
@@ -106,35 +109,34 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real t79 = r2_x * h2_x;
   const Real D2 = t79 - r2_y * h2_y;
   const Real E2 = J2 + D2;
-  const Real S1b_t = s1 * Real(1.7550195384100002);
   const Real S1b_xz = s1 * Real(0.4084992088750001);
   const Real J1 = D2 + E2 + Real(1.7701269384100002);
   const Real S1_xz = S2_xz - S1b_xz;
-  const Real S0b_zz = Real(2.0) * (t61 + t79) - (S4b_xx - (S4b_zz + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t +
-      (S4c_xx - J1) + Real(0.0020475)) + Real(0.0075537)) - Real(0.00333))) + Real(0.29520861244275));
-  const Real p3_2n_z = r2_y * h3b_y - (E3 + r2_x * h3b_x);
-  const Real p4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
-  const Real p5_5N_x = s4 * Real(0.0171364731454);
-  const Real p5_5N_y = c4 * Real(0.0171364731454);
-  const Real p5_4N_x = s3 * p5_5N_x;
+  const Real S0b_zz = Real(2.0) * (t60 + t79) - (S4b_xx - (S4b_zz + (s1 * s1 * Real(1.7550195384100002) + (s2
+      * s2 * Real(0.59155695167475) + (s3 * S3b_t + (S4c_xx - J1) + Real(0.0020475)) + Real(0.0075537)) -
+      Real(0.00333))) + Real(0.29520861244275));
+  const Real p_3_2n_z = r2_y * h3b_y - (E3 + r2_x * h3b_x);
+  const Real p_4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
+  const Real p_5_5N_y = c4 * Real(0.0171364731454);
+  const Real p_5_4N_x = Real(0.0171364731454) * (s3 * s4);
   M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = -S1_xz;
   M[0][2] = M[2][0] = -S2_xz;
   M[0][3] = M[3][0] = -S3b_xz;
-  M[0][4] = M[4][0] = p4_4N_x;
-  M[0][5] = M[5][0] = -p5_4N_x;
+  M[0][4] = M[4][0] = p_4_4N_x;
+  M[0][5] = M[5][0] = -p_5_4N_x;
   M[1][1] = J1;
   M[1][2] = M[2][1] = E2;
-  M[1][3] = M[3][1] = -p3_2n_z;
+  M[1][3] = M[3][1] = -p_3_2n_z;
   M[1][4] = M[4][1] = S4b_yz;
-  M[1][5] = M[5][1] = p5_5N_y;
+  M[1][5] = M[5][1] = p_5_5N_y;
   M[2][2] = J2;
   M[2][3] = M[3][2] = E3;
   M[2][4] = M[4][2] = S4b_yz;
-  M[2][5] = M[5][2] = p5_5N_y;
+  M[2][5] = M[5][2] = p_5_5N_y;
   M[3][3] = S3b_zz;
   M[3][4] = M[4][3] = S4b_yz;
-  M[3][5] = M[5][3] = p5_5N_y;
+  M[3][5] = M[5][3] = p_5_5N_y;
   M[4][4] = -S4b_zz;
   M[4][5] = M[5][4] = Real(0.0);
   M[5][5] = Real(0.0171364731454);
@@ -173,14 +175,12 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real S4b_yy = S4b_zz - S4b_xx;
   const Real S4c_xz = S4b_yz - Real(0.0019412038252500001);
   const Real S3b_d = S4b_xx - (Real(0.10971) - (S5b_xx + Real(0.004608836229750008)));
-  const Real S3b_e = S4b_xz * Real(2.0);
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
   const Real S3b_xy = S4b_xz - c3 * S3b_t;
   const Real S3b_yz = c3 * S4b_xy + s3 * S4c_xz;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real S2b_t = s2 * Real(0.59155695167475);
-  const Real S2b_xy = c2 * S2b_t;
+  const Real S2b_xy = c2 * s2 * Real(0.59155695167475);
   const Real S2b_yz = c2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
@@ -188,8 +188,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real h2_y = h3b_y - h2b_y;
   const Real S2_xy = S2b_xy + (r3_y * h3b_x - (S3b_xy + r3_x * h3b_y));
   const Real S2_yz = S3b_yz + S2b_yz;
-  const Real S1b_t = s1 * Real(1.7550195384100002);
-  const Real S1b_xy = c1 * S1b_t;
+  const Real S1b_xy = c1 * s1 * Real(1.7550195384100002);
   const Real S1b_yz = c1 * Real(0.4084992088750001);
   const Real S1_xy = S1b_xy + (r2_y * h2_x + (S2_xy - r2_x * h2_y));
   const Real S1_yz = S2_yz + S1b_yz;
@@ -201,7 +200,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
   const Real kKy1 = S1_xy * state.z[0];
   const Real kQp1 = state.z[0] * kKy1;
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real kal1o_y = state.z[1] * state.z[0];
   const Real kW1w00 = state.z[0] * state.z[0];
@@ -253,17 +251,17 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kf3c_y = kdf2_y + kdf3_y;
   const Real kf3c_z = kdf2_z + kdf3_z;
   const Real kn3c_z = r3_y * kdf3_x - (kn4_y - r3_x * kdf3_y);
-  const Real kn2c_x = r2_y * kf3c_z + (kKy1 * z2_1 - (S1_yz * zz_1 - (r3_y * kdf3_z + (kKy2 * z2_2 - (S2_yz *
-      zz_2 + (s3 * kn4_x - (c3 * kdn5_x - (S3b_yz * zz_3 + kKy3 * z2_3))))))));
-  const Real kQ1 = r2_y * kf3c_x + (r2_x * kf3c_y - (kQp1 - kn3c_z));
-  const Real kQ2 = kn3c_z - (S2_yz * kal1o_y + (h2_y * ka2o_x + (state.z[0] * kKy2 + h2_x * ka2o_y)));
-  const Real kQ3 = kn4_y + (h3b_y * ka3o_x + (h3b_x * ka3o_y - (state.z[0] * kKy3 - S3b_yz * kal2o_y)));
-  const Real kQ4 = kdn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 - (S4b_zz * kal4p_x - S4b_xz * kal4p_y)));
+  const Real kn2c_x = r2_y * kf3c_z + (Real(2.0) * (state.z[1] * kKy1) - (S1_yz * zz_1 - (r3_y * kdf3_z +
+      (kKy2 * z2_2 - (S2_yz * zz_2 + (s3 * kn4_x - (c3 * kdn5_x - (S3b_yz * zz_3 + kKy3 * z2_3))))))));
+  const Real kQ1_0 = r2_y * kf3c_x + (r2_x * kf3c_y - (kQp1 - kn3c_z));
+  const Real kQ2_0 = kn3c_z - (S2_yz * kal1o_y + (h2_y * ka2o_x + (state.z[0] * kKy2 + h2_x * ka2o_y)));
+  const Real kQ3_0 = kn4_y + (h3b_y * ka3o_x + (h3b_x * ka3o_y - (state.z[0] * kKy3 - S3b_yz * kal2o_y)));
+  const Real kQ4_0 = kdn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 - (S4b_zz * kal4p_x - S4b_xz * kal4p_y)));
   k[0] = kn2c_x;
-  k[1] = kQ1;
-  k[2] = kQ2;
-  k[3] = -kQ3;
-  k[4] = -kQ4;
+  k[1] = kQ1_0;
+  k[2] = kQ2_0;
+  k[3] = -kQ3_0;
+  k[4] = -kQ4_0;
   k[5] = kQp5;
 }
 
@@ -325,40 +323,26 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S4c_xx = S5b_xx + Real(0.004608836229750008);
   const Real S4c_xz = S4b_yz - Real(0.0019412038252500001);
   const Real S4c_yy = Real(0.10971) - S4b_xx;
-  const Real S3b_zz = S4c_xx + S4c_yy;
   const Real S3b_d = S4c_xx - S4c_yy;
-  const Real S3b_e = S4b_xz * Real(2.0);
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
   const Real S3b_xy = S4b_xz - c3 * S3b_t;
-  const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
   const Real S3b_yz = c3 * S4b_xy + s3 * S4c_xz;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real t67 = r3_x * h3b_x;
-  const Real D3 = t67 - r3_y * h3b_y;
-  const Real E3 = S3b_zz + D3;
   const Real S2b_t = s2 * Real(0.59155695167475);
   const Real S2b_xy = c2 * S2b_t;
-  const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real S2b_yz = c2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
   const Real h2_x = h3b_x + h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real J2 = D3 + E3 + Real(0.59565195167475);
   const Real S2_xy = S2b_xy + (r3_y * h3b_x - (S3b_xy + r3_x * h3b_y));
-  const Real S2_xz = S3b_xz - S2b_xz;
   const Real S2_yz = S3b_yz + S2b_yz;
-  const Real t93 = r2_x * h2_x;
-  const Real D2 = t93 - r2_y * h2_y;
-  const Real E2 = J2 + D2;
   const Real S1b_t = s1 * Real(1.7550195384100002);
   const Real S1b_xy = c1 * S1b_t;
-  const Real S1b_xz = s1 * Real(0.4084992088750001);
   const Real S1b_yz = c1 * Real(0.4084992088750001);
   const Real h1b_y = c1 * Real(4.4329225);
   const Real h1_y = h2_y - h1b_y;
-  const Real J1 = D2 + E2 + Real(1.7701269384100002);
   const Real S1_xy = S1b_xy + (r2_y * h2_x + (S2_xy - r2_x * h2_y));
   const Real S1_yz = S2_yz + S1b_yz;
   const Real w2_z = state.z[1] + state.z[2];
@@ -367,12 +351,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real w4pp_y = s3 * state.z[0];
   const Real w4_z = w4pp_x - state.z[4];
   const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
-  const Real p4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
-  const Real p5_5N_x = s4 * Real(0.0171364731454);
-  const Real p5_5N_y = c4 * Real(0.0171364731454);
-  const Real p5_4N_x = s3 * p5_5N_x;
   const Real bKy1 = S1_xy * state.z[0];
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real bal1o_y = state.z[1] * state.z[0];
   const Real bW1w00 = state.z[0] * state.z[0];
@@ -426,6 +405,22 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real b_4 = input.u[4] - (bdn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 - (S4b_zz * bal4p_x - S4b_xz *
       bal4p_y))));
   const Real b_5 = input.u[5] + (w5pp_x * bKx5 + (Real(0.0171364731454) * bal5p_y - w4_z * bKy5));
+  const Real S3b_zz = S4c_xx + S4c_yy;
+  const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
+  const Real t242 = r3_x * h3b_x;
+  const Real D3 = t242 - r3_y * h3b_y;
+  const Real E3 = S3b_zz + D3;
+  const Real S2b_xz = s2 * Real(0.07714261911624999);
+  const Real J2 = D3 + E3 + Real(0.59565195167475);
+  const Real S2_xz = S3b_xz - S2b_xz;
+  const Real t252 = r2_x * h2_x;
+  const Real D2 = t252 - r2_y * h2_y;
+  const Real E2 = J2 + D2;
+  const Real S1b_xz = s1 * Real(0.4084992088750001);
+  const Real J1 = D2 + E2 + Real(1.7701269384100002);
+  const Real p4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
+  const Real p5_5N_y = c4 * Real(0.0171364731454);
+  const Real p5_4N_x = Real(0.0171364731454) * (s3 * s4);
   const Real L_5_3 = p5_5N_y * Real(58.355064750790525);
   const Real t271 = p5_5N_y * L_5_3;
   const Real t272 = p5_4N_x * L_5_3;
@@ -441,7 +436,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real H4_3_0 = t289 - (S3b_xz - t272);
   const Real L_4_0 = p4_4N_x * invD_4;
   const Real t294 = b_4 * L_4_3;
-  const Real x4_3 = t294 - (t275 - (input.u[3] - (bn4_y + (h3b_y * ba3o_x + (h3b_x * ba3o_y - (state.z[0] *
+  const Real u4_3 = t294 - (t275 - (input.u[3] - (bn4_y + (h3b_y * ba3o_x + (h3b_x * ba3o_y - (state.z[0] *
       bKy3 - S3b_yz * bal2o_y))))));
   const Real invD_3 = Real(1.0) / H4_3_3;
   const Real L_3_2 = H4_3_2 * invD_3;
@@ -450,30 +445,30 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real H3_2_0 = H4_3_0 * L_3_2 - (t289 - (S2_xz - t272));
   const Real L_3_1 = H4_3_1 * invD_3;
   const Real L_3_0 = H4_3_0 * invD_3;
-  const Real x3_2 = x4_3 * L_3_2 - (t294 - (t275 - (input.u[2] + (bn3c_z - (S2_yz * bal1o_y + (h2_y * ba2o_x +
+  const Real u3_2 = u4_3 * L_3_2 - (t294 - (t275 - (input.u[2] + (bn3c_z - (S2_yz * bal1o_y + (h2_y * ba2o_x +
       (state.z[0] * bKy2 + h2_x * ba2o_y)))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
   const Real H2_1_1 = H3_2_1 * L_2_1 - (H4_3_1 * L_3_1 - (t280 + (J1 - t271)));
   const Real H2_1_0 = H3_2_0 * L_2_1 - (H4_3_0 * L_3_1 - (t289 + (t272 - (S2_xz - S1b_xz))));
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real x2_1 = x3_2 * L_2_1 - (x4_3 * L_3_1 - (t294 - (t275 - (input.u[1] + (r2_y * bf3c_x + (r2_x *
+  const Real u2_1 = u3_2 * L_2_1 - (u4_3 * L_3_1 - (t294 - (t275 - (input.u[1] + (r2_y * bf3c_x + (r2_x *
       bf3c_y + (bn3c_z - (h1_y * Real(9.81) + state.z[0] * bKy1))))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = Real(2.0) * (t67 + t93) + (H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0 - (p4_4N_x
-      * L_4_0 - (p5_4N_x * L_5_0 + (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx - J1) +
-      Real(0.0020475)) + Real(0.0075537)) - Real(0.00333)) - Real(0.29520861244275)))))));
-  const Real x1_0 = x2_1 * L_1_0 - (x3_2 * L_2_0 - (x4_3 * L_3_0 - (b_4 * L_4_0 + (b_5 * L_5_0 + (input.u[0] +
-      (r2_y * bf3c_z + (bKy1 * z2_1 - (S1_yz * zz_1 - (r3_y * bdf3_z + (bKy2 * z2_2 - (S2_yz * zz_2 + (s3 *
-      bn4_x - (c3 * bdn5_x - (S3b_yz * zz_3 + bKy3 * z2_3))))))))))))));
+  const Real H1_0_0 = Real(2.0) * (t242 + t252) + (H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0 -
+      (p4_4N_x * L_4_0 - (p5_4N_x * L_5_0 + (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx - J1)
+      + Real(0.0020475)) + Real(0.0075537)) - Real(0.00333)) - Real(0.29520861244275)))))));
+  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u4_3 * L_3_0 - (b_4 * L_4_0 + (b_5 * L_5_0 + (input.u[0] +
+      (r2_y * bf3c_z + (Real(2.0) * (state.z[1] * bKy1) - (S1_yz * zz_1 - (r3_y * bdf3_z + (bKy2 * z2_2 -
+      (S2_yz * zz_2 + (s3 * bn4_x - (c3 * bdn5_x - (S3b_yz * zz_3 + bKy3 * z2_3))))))))))))));
   const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = x1_0 * invD_0;
-  const Real y_1 = x2_1 * invD_1;
+  const Real y_0 = u1_0 * invD_0;
+  const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
-  const Real y_2 = x3_2 * invD_2;
+  const Real y_2 = u3_2 * invD_2;
   const Real zdot_2 = L_2_0 * y_0 - (y_2 - L_2_1 * zdot_1);
-  const Real y_3 = x4_3 * invD_3;
+  const Real y_3 = u4_3 * invD_3;
   const Real zdot_3 = L_3_0 * y_0 + (L_3_1 * zdot_1 - (y_3 + L_3_2 * zdot_2));
   const Real y_4 = b_4 * invD_4;
   const Real t419 = zdot_3 - (zdot_1 - zdot_2);
@@ -525,8 +520,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S4c_yy = Real(0.10971) - S4b_xx;
   const Real S3b_zz = S4c_xx + S4c_yy;
   const Real S3b_d = S4c_xx - S4c_yy;
-  const Real S3b_e = S4b_xz * Real(2.0);
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
   const Real S3b_xy = S4b_xz - c3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
   const Real S3b_yz = c3 * S4b_xy + s3 * S4c_xz;
@@ -568,7 +562,6 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
   const Real adn0_z = S0b_zz * zdot[0];
   const Real aKy1 = S1_xy * state.z[0];
-  const Real z2_1 = Real(2.0) * state.z[1];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real adn1_z = J1 * zdot[1];
   const Real aal1o_y = state.z[1] * state.z[0];
@@ -624,24 +617,24 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real af3c_y = adf3_y + (h2_x * zdot[2] - h2_y * zw_2);
   const Real af3c_z = adf2_z + adf3_z;
   const Real an3c_z = r3_y * adf3_x - (r3_x * adf3_y + (adn2_z + an3_z));
-  const Real an0_z = r2_y * af3c_z + (aKy1 * z2_1 - (S1_yz * zz_1 - (S1_xz * zdot[1] + (r3_y * adf3_z + (aKy2
-      * z2_2 - (S2_yz * zz_2 - (S2_xz * zdot[2] + (s3 * an4_x - (c3 * an4_z + (aKy3 * z2_3 + (S3b_yz * zz_3 -
-      (adn0_z + S3b_xz * zdot[3]))))))))))));
-  const Real aQ1 = r2_y * af3c_x - (r2_x * af3c_y + (adn1_z - (an3c_z + (S1_xz * zdot[0] - (h1_y * Real(9.81)
-      + state.z[0] * aKy1)))));
-  const Real aQ2 = an3c_z - (S2_yz * aal1o_y + (h2_y * aa2o_x + (h2_x * aa2o_y + (J2 * zdot[1] + (state.z[0] *
-      aKy2 - S2_xz * zdot[0])))));
-  const Real aQ3 = an3_z - (h3b_y * aa3o_x - (h3b_x * aa3o_y + (S3b_yz * aal2o_y + (S3b_zz * aal2o_z -
+  const Real an0_z = r2_y * af3c_z + (Real(2.0) * (state.z[1] * aKy1) - (S1_yz * zz_1 - (S1_xz * zdot[1] +
+      (r3_y * adf3_z + (aKy2 * z2_2 - (S2_yz * zz_2 - (S2_xz * zdot[2] + (s3 * an4_x - (c3 * an4_z + (aKy3 *
+      z2_3 + (S3b_yz * zz_3 - (adn0_z + S3b_xz * zdot[3]))))))))))));
+  const Real aQ1_0 = r2_y * af3c_x - (r2_x * af3c_y + (adn1_z - (an3c_z + (S1_xz * zdot[0] - (h1_y *
+      Real(9.81) + state.z[0] * aKy1)))));
+  const Real aQ2_0 = an3c_z - (S2_yz * aal1o_y + (h2_y * aa2o_x + (h2_x * aa2o_y + (J2 * zdot[1] + (state.z[0]
+      * aKy2 - S2_xz * zdot[0])))));
+  const Real aQ3_0 = an3_z - (h3b_y * aa3o_x - (h3b_x * aa3o_y + (S3b_yz * aal2o_y + (S3b_zz * aal2o_z -
       (state.z[0] * aKy3 + S3b_xz * zdot[0])))));
-  const Real aQ4 = an4_z - (w4pp_y * aKy4 + (w3_z * aKx4 + (S4b_yz * aal3o_z + (S4b_zz * aal4p_x + S4b_xz *
+  const Real aQ4_0 = an4_z - (w4pp_y * aKy4 + (w3_z * aKx4 + (S4b_yz * aal3o_z + (S4b_zz * aal4p_x + S4b_xz *
       aal4p_y))));
-  const Real aQ5 = adn5_z - (w5pp_x * aKx5 - (Real(0.0171364731454) * aal5p_y + w4_z * aKy5));
+  const Real aQ5_0 = adn5_z - (w5pp_x * aKx5 - (Real(0.0171364731454) * aal5p_y + w4_z * aKy5));
   tau[0] = -an0_z;
-  tau[1] = -aQ1;
-  tau[2] = -aQ2;
-  tau[3] = aQ3;
-  tau[4] = -aQ4;
-  tau[5] = aQ5;
+  tau[1] = -aQ1_0;
+  tau[2] = -aQ2_0;
+  tau[3] = aQ3_0;
+  tau[4] = -aQ4_0;
+  tau[5] = aQ5_0;
 }
 
 template <class Real>
@@ -678,14 +671,12 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S4c_yy = Real(0.10971) - S4b_xx;
   const Real S3b_zz = S4c_xx + S4c_yy;
   const Real S3b_d = S4c_xx - S4c_yy;
-  const Real S3b_e = S4b_xz * Real(2.0);
-  const Real S3b_t = c3 * S3b_e - s3 * S3b_d;
+  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
   const Real t61 = r3_x * h3b_x;
   const Real D3 = t61 - r3_y * h3b_y;
-  const Real S2b_t = s2 * Real(0.59155695167475);
   const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
@@ -695,33 +686,41 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S2_xz = S3b_xz - S2b_xz;
   const Real t79 = r2_x * h2_x;
   const Real D2 = t79 - r2_y * h2_y;
-  const Real S1b_t = s1 * Real(1.7550195384100002);
   const Real S1b_xz = s1 * Real(0.4084992088750001);
   const Real J1 = D2 + (J2 + D2) + Real(1.7701269384100002);
   const Real S1_xz = S2_xz - S1b_xz;
-  const Real S0b_zz = Real(2.0) * (t61 + t79) - (S4b_xx - (S4b_zz + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t +
-      (S4c_xx - J1) + Real(0.0020475)) + Real(0.0075537)) - Real(0.00333))) + Real(0.29520861244275));
+  const Real S0b_zz = Real(2.0) * (t61 + t79) - (S4b_xx - (S4b_zz + (s1 * s1 * Real(1.7550195384100002) + (s2
+      * s2 * Real(0.59155695167475) + (s3 * S3b_t + (S4c_xx - J1) + Real(0.0020475)) + Real(0.0075537)) -
+      Real(0.00333))) + Real(0.29520861244275));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
   const Real w4pp_y = s3 * state.z[0];
   const Real w5pp_y = c4 * w3_z - s4 * w4pp_y;
-  const Real P0 = S0b_zz * state.z[0] * Real(0.5);
-  const Real T0 = state.z[0] * P0;
-  const Real P1 = Real(0.5) * (J1 * state.z[1]) - S1_xz * state.z[0];
+  const Real v0L_z = S0b_zz * state.z[0];
+  const Real v1L_x = S1_xz * state.z[1];
+  const Real v1L_z = J1 * state.z[1];
   const Real v2o_x = r2_y * state.z[1];
   const Real v2o_y = r2_x * state.z[1];
-  const Real P2 = h2_y * v2o_x - (h2_x * v2o_y + (J2 * state.z[1] + (Real(0.5) * (J2 * state.z[2]) - S2_xz *
-      state.z[0])));
+  const Real v2P_x = h2_y * state.z[2];
+  const Real v2P_y = h2_x * state.z[2];
+  const Real v2L_x = S2_xz * state.z[2];
+  const Real v2L_z = J2 * state.z[2];
   const Real v3o_x = v2o_x + r3_y * w2_z;
   const Real v3o_y = v2o_y + r3_x * w2_z;
-  const Real P3 = h3b_y * v3o_x - (h3b_x * v3o_y + (S3b_zz * w2_z + (Real(0.5) * (S3b_zz * state.z[3]) -
-      S3b_xz * state.z[0])));
-  const Real P4 = S4b_yz * w3_z + (S4b_xz * w4pp_y - (Real(0.5) * (S4b_zz * state.z[4]) - S4b_zz * w4pp_x));
-  const Real P5 = Real(0.0171364731454) * w5pp_y + state.z[5] * Real(0.0085682365727);
-  const Real T5 = state.z[5] * P5 + (state.z[4] * P4 - (state.z[3] * P3 + (state.z[2] * P2 + (T0 - state.z[1]
-      * P1))));
-  return T5;
+  const Real v3P_x = h3b_y * state.z[3];
+  const Real v3P_y = h3b_x * state.z[3];
+  const Real v3L_x = S3b_xz * state.z[3];
+  const Real v3L_z = S3b_zz * state.z[3];
+  const Real v4L_x = S4b_xz * state.z[4];
+  const Real v4L_y = S4b_yz * state.z[4];
+  const Real v4L_z = S4b_zz * state.z[4];
+  const Real v5L_z = Real(0.0171364731454) * state.z[5];
+  const Real T5 = (state.z[0] * v0L_z - (state.z[1] * v1L_z + (state.z[2] * v2L_z + (state.z[3] * v3L_z -
+      (state.z[4] * v4L_z - state.z[5] * v5L_z))))) * Real(0.5) + (state.z[0] * (v3L_x + (v1L_x + v2L_x)) -
+      (w5pp_y * v5L_z + (w4pp_y * v4L_x + (w4pp_x * v4L_z + (w3_z * v4L_y + (v3o_y * v3P_y - (v3o_x * v3P_x -
+      (w2_z * v3L_z + (v2o_y * v2P_y + (state.z[1] * v2L_z - v2o_x * v2P_x))))))))));
+  return -T5;
 }
 
 template <class Real>
@@ -741,33 +740,27 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
 
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
-  constexpr int n = Model<Real>::velocity_count;
+  constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage = state;
-  Real a1[n], a2[n], a3[n], a4[n], z2[n], z3[n], z4[n];
-  forward_dynamics(model, stage, input, a1);
+  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
+  detail::rates(model, stage, input, v1, a1);
   stage.t = state.t + half;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * state.z[i];
-    stage.z[i] = z2[i] = state.z[i] + half * a1[i];
-  }
-  forward_dynamics(model, stage, input, a2);
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + half * z2[i];
-    stage.z[i] = z3[i] = state.z[i] + half * a2[i];
-  }
-  forward_dynamics(model, stage, input, a3);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
+  detail::rates(model, stage, input, v2, a2);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
+  detail::rates(model, stage, input, v3, a3);
   stage.t = state.t + h;
-  for (int i = 0; i < n; ++i) {
-    stage.y[i] = state.y[i] + h * z3[i];
-    stage.z[i] = z4[i] = state.z[i] + h * a3[i];
-  }
-  forward_dynamics(model, stage, input, a4);
+  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
+  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
-  for (int i = 0; i < n; ++i) {
-    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (z2[i] + z3[i]) + z4[i]);
+  for (int i = 0; i < ny; ++i)
+    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+  for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  }
   state.t = state.t + h;
 }
 

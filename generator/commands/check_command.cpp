@@ -19,8 +19,8 @@ int run(const ModelArguments& arguments) {
   }
   fmt::print(
       "ok: {}: {} bodies, {} degrees of freedom, {} inputs; backward error {:.1e}, cond(M) up to {:.1e}\n",
-      loaded->options.name, loaded->mechanism.bodies.size(), model::moving_joints(loaded->mechanism).size(),
-      loaded->mechanism.actuators.size(), compiled.verdict.backward_error, compiled.verdict.condition);
+      loaded->options.name, loaded->mechanism.bodies.size(), compiled.shape.velocities, compiled.input_count,
+      compiled.verdict.backward_error, compiled.verdict.condition);
   return kSuccess;
 }
 

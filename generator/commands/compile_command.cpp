@@ -46,7 +46,7 @@ int run(const Arguments& arguments) {
     return kInternal;
   }
   write_files(arguments.folder, compiled.files);
-  const std::size_t freedom = model::moving_joints(loaded->mechanism).size();
+  const std::size_t freedom = compiled.shape.velocities;
   fmt::print("{}: {} degree{} of freedom\n", loaded->options.name, freedom, freedom == 1 ? "" : "s");
   for (const emit::File& file : compiled.files)
     fmt::print("  wrote {}\n", (std::filesystem::path(arguments.folder) / file.name).generic_string());

@@ -5,6 +5,7 @@
 #include "compile.hpp"
 #include "dynamics/harmonics.hpp"
 #include "emit/names.hpp"
+#include "model/coordinates.hpp"
 
 namespace jourdain::commands {
 
@@ -147,28 +148,43 @@ std::string block(const std::string& title, const std::string& lines, bool latex
 
 std::string legend(const model::Mechanism& mechanism, bool latex) {
   std::string text;
-  std::size_t i = 0;
-  for (model::JointIndex joint : model::moving_joints(mechanism)) {
-    text += fmt::format("{}  y{}, z{}: {}\n", latex ? "%" : "", i, i, mechanism.joints[joint.value].name);
-    ++i;
-  }
-  for (std::size_t k = 0; k < mechanism.actuators.size(); ++k)
-    text += fmt::format("{}  u{}: {}\n", latex ? "%" : "", k, mechanism.actuators[k].name);
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  const char* mark = latex ? "%" : "";
+  const bool same = layout.position_names == layout.velocity_names;
+  for (std::size_t i = 0; i < layout.position_count(); ++i)
+    text += same ? fmt::format("{}  y{}, z{}: {}\n", mark, i, i, layout.position_names[i])
+                 : fmt::format("{}  y{}: {}\n", mark, i, layout.position_names[i]);
+  for (std::size_t i = 0; i < layout.velocity_count() && !same; ++i)
+    text += fmt::format("{}  z{}: {}\n", mark, i, layout.velocity_names[i]);
+  for (std::size_t k = 0; k < layout.input_count(); ++k)
+    text += fmt::format("{}  u{}: {}\n", mark, k, layout.input_names[k]);
   return text;
+}
+
+/// Sums of products of sines and cosines of angles: joints that turn about and move along axes, and nothing else.
+bool has_expanded_form(const model::Mechanism& mechanism) {
+  for (const model::Joint& joint : mechanism.joints) {
+    if (joint.type == model::JointType::kCurve) return false;
+    for (const model::Coordinate& c : joint.coordinates)
+      if (c.motion || !c.friction.is_zero()) return false;
+  }
+  return model::lay_out_coordinates(mechanism).quaternions.empty() && mechanism.springs.empty() &&
+         mechanism.loads.empty() && mechanism.coordinate_forces.empty();
 }
 
 }  // namespace
 
 std::string equations_text(const model::Mechanism& mechanism, bool latex) {
   const dynamics::Equations equations = dynamics::derive_equations(mechanism);
-  std::string text =
-      fmt::format("{}{}: M zdot = k_bar - q_bar, dy/dt = z\n", latex ? "% " : "", mechanism.name);
+  std::string text = fmt::format("{}{}: M zdot = k_bar - q_bar, dy/dt = {}\n", latex ? "% " : "",
+                                 mechanism.name, equations.ydot.empty() ? "z" : "Z z");
   text += legend(mechanism, latex);
   if (!latex) text += "\n";
-  if (equations.zdot.size() <= kExpandedCoordinates)
+  if (equations.zdot.size() <= kExpandedCoordinates && has_expanded_form(mechanism))
     text += block("Expanded", expanded(equations, latex), latex);
   for (const ir::Program& program :
-       lower_functions(equations, emit::with_needed({"mass_matrix", "k_bar", "q_bar"}, shape_of(mechanism))).functions)
+       lower_functions(equations, emit::with_needed({"mass_matrix", "k_bar", "q_bar"}, shape_of(mechanism)))
+           .functions)
     text += block(fmt::format("{} with named intermediates", program.name),
                   EquationPrinter(program, mechanism, latex).print(), latex);
   return text;

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
 #include "commands/report_text.hpp"
+#include "model/coordinates.hpp"
 
 namespace jourdain::commands {
 
@@ -37,23 +39,43 @@ const char* type_name(model::JointType type) {
   return "";
 }
 
-/// The joints as an indented tree, each with the body it carries and its coordinate.
+/// "y[2]", "y[0..6]", or "prescribed" where the joint has no entry.
+std::string entries_text(const model::JointEntries& entries) {
+  if (entries.position_count == 0) return "prescribed";
+  if (entries.position_count == 1) return fmt::format("y[{}]", entries.first_position);
+  return fmt::format("y[{}..{}]", entries.first_position,
+                     entries.first_position + entries.position_count - 1);
+}
+
+/// The joints as an indented tree, each with the body it carries and its coordinates.
 std::string tree_text(const model::Mechanism& mechanism) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   std::string text = "  world\n";
   std::map<std::size_t, std::size_t> depth;  // of bodies
-  std::size_t coordinate = 0;
   for (model::JointIndex index : model::depth_first(mechanism)) {
     const model::Joint& joint = mechanism.joints[index.value];
     const std::size_t level = joint.parent ? depth[joint.parent->value] + 1 : 1;
     depth[joint.child.value] = level;
     text += fmt::format("  {:{}}{} [{}", "", 2 * level, joint.name, type_name(joint.type));
+    if (!joint.coordinates.empty() && joint.type != model::JointType::kCurve)
+      text += fmt::format(" ({:g}, {:g}, {:g})", joint.axis[0], joint.axis[1], joint.axis[2]);
     if (joint.type != model::JointType::kFixed)
-      text += fmt::format(" {} ({:g}, {:g}, {:g}), y[{}]",
-                          joint.type == model::JointType::kRevolute ? "about" : "along", joint.axis[0],
-                          joint.axis[1], joint.axis[2], coordinate++);
+      text += fmt::format(", {}", entries_text(layout.joints[index.value]));
     text += fmt::format("] -> {}\n", mechanism.bodies[joint.child.value].name);
   }
   return text;
+}
+
+/// How M ż = k̄ − q̄ is solved, with what the two pure ways would cost before any pass.
+std::string algorithm_text(const Articulation& articulation) {
+  if (articulation.articulated == 0 || articulation.links.size() == 1) return "";
+  const auto links = std::count(articulation.links.begin(), articulation.links.end(), true);
+  return fmt::format(
+      "  accelerations: {} of {} links as articulated bodies ({} operations; {} by factoring M, {} with all "
+      "links "
+      "articulated; before passes)\n",
+      links, articulation.links.size(), articulation.operations, articulation.factorised,
+      articulation.articulated);
 }
 
 int run(const ModelArguments& arguments) {
@@ -63,16 +85,21 @@ int run(const ModelArguments& arguments) {
   const CompiledModel compiled = compile(mechanism, loaded->options);
   fmt::print("{}{}{}\n{}", mechanism.name, mechanism.description.empty() ? "" : ": ", mechanism.description,
              tree_text(mechanism));
-  fmt::print("  {} bodies, {} degrees of freedom\n", mechanism.bodies.size(),
-             model::moving_joints(mechanism).size());
-  for (std::size_t i = 0; i < mechanism.actuators.size(); ++i)
-    fmt::print("  input u[{}] {} acts on {}\n", i, mechanism.actuators[i].name,
-               mechanism.joints[mechanism.actuators[i].joint.value].name);
+  fmt::print("  {} bodies, {} degrees of freedom\n", mechanism.bodies.size(), compiled.shape.velocities);
+  for (std::size_t i = 0; i < mechanism.actuators.size(); ++i) {
+    const model::Actuator& actuator = mechanism.actuators[i];
+    fmt::print("  input u[{}] {} acts on {}\n", i, actuator.name,
+               mechanism.joints[actuator.joint.value].coordinates[actuator.coordinate].name);
+  }
+  for (std::size_t i = 0; i < mechanism.inputs.size(); ++i)
+    fmt::print("  input u[{}] {} {}\n", mechanism.actuators.size() + i, mechanism.inputs[i].name,
+               mechanism.inputs[i].unit);
   for (const model::Parameter& parameter : mechanism.parameters)
     fmt::print("  parameter {} = {:g} {} {}\n", parameter.name, parameter.value, parameter.unit,
                parameter.description);
-  fmt::print("{}{}{}{}", operations_table(compiled.module), omissions_text(compiled.omissions),
-             passes_text(compiled.passes), verdict_text(compiled.verdict));
+  fmt::print("{}{}{}{}", operations_table(compiled.module) + algorithm_text(compiled.articulation),
+             omissions_text(compiled.omissions), passes_text(compiled.passes),
+             verdict_text(compiled.verdict));
   for (const std::string& assumption : compiled.assumptions) fmt::print("  assumes: {}\n", assumption);
   if (compiled.verdict.accepted()) return kSuccess;
   print_refusal(compiled.verdict);

@@ -11,6 +11,7 @@
 #include "commands/build_model.hpp"
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
+#include "model/coordinates.hpp"
 
 namespace jourdain::commands {
 
@@ -129,9 +130,14 @@ class Simulation {
 };
 
 bool conserves_energy(const model::Mechanism& mechanism, const std::vector<double>& input) {
-  for (const model::Joint& joint : mechanism.joints)
-    for (const model::Coordinate& coordinate : joint.coordinates)
-      if (!coordinate.damping.is_zero()) return false;
+  for (const model::Joint& joint : mechanism.joints) {
+    if (!joint.spin_damping.is_zero()) return false;
+    for (const model::Coordinate& c : joint.coordinates)
+      if (!c.damping.is_zero() || !c.friction.is_zero() || c.motion) return false;
+  }
+  for (const model::Spring& spring : mechanism.springs)
+    if (!spring.damping.is_zero() || (!spring.law.is_zero() && !spring.potential)) return false;
+  if (!mechanism.loads.empty() || !mechanism.coordinate_forces.empty()) return false;
   for (double u : input)
     if (u != 0) return false;
   return true;
@@ -147,9 +153,16 @@ void print_summary(const LoadedMechanism& loaded, const Arguments& arguments,
   if (conserves_energy(loaded.mechanism, arguments.input))
     fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", end.first_energy, end.largest_drift);
   fmt::print("  at t = {:g} s:\n", end.t);
+  if (table.position_count == table.velocity_count) {
+    for (int i = 0; i < table.position_count; ++i)
+      fmt::print("    {:<24} {:>12.6f}   rate {:>12.6f}\n", table.position_names[i],
+                 end.y[static_cast<std::size_t>(i)], end.z[static_cast<std::size_t>(i)]);
+    return;
+  }
   for (int i = 0; i < table.position_count; ++i)
-    fmt::print("    {:<24} {:>12.6f}   rate {:>12.6f}\n", table.position_names[i],
-               end.y[static_cast<std::size_t>(i)], end.z[static_cast<std::size_t>(i)]);
+    fmt::print("    {:<24} {:>12.6f}\n", table.position_names[i], end.y[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < table.velocity_count; ++i)
+    fmt::print("    {:<24} {:>12.6f}\n", table.velocity_names[i], end.z[static_cast<std::size_t>(i)]);
 }
 
 int run(Arguments arguments) {
@@ -162,7 +175,7 @@ int run(Arguments arguments) {
   }
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
-  const std::size_t inputs = loaded->mechanism.actuators.size();
+  const std::size_t inputs = model::lay_out_coordinates(loaded->mechanism).input_count();
   if (!arguments.input.empty() && arguments.input.size() != inputs) {
     fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",
                arguments.input.size(), inputs);

@@ -16,16 +16,22 @@ Vector3 shift_acceleration(Scene& scene, std::size_t i, const Vector3& spin_acce
   return cross(spin_acceleration, d) + cross(w, velocity);
 }
 
+Vector3 falling(Scene& scene, std::size_t i, const std::vector<Ex>& zdot, Gravity gravity) {
+  const std::size_t first = *scene.states[i].entry;
+  const Vector3 vdot = {zdot[first], zdot[first + 1], zdot[first + 2]};
+  if (gravity == Gravity::kNone) return vdot;
+  return scene.statements.bind(fmt::format("fall{}", i), vdot - scene.tree.gravity);
+}
+
 namespace {
 
 /// A free link falls with gravity when its linear acceleration is zero.
-Vector3 free_acceleration(Scene& scene, std::size_t i, const Vector3& vdot, const Vector3& spin,
-                          Gravity gravity, const std::string& name) {
-  Vector3 v = vdot;
-  if (gravity == Gravity::kAsAcceleration)
-    v = scene.statements.bind(name + "fall", vdot - scene.tree.gravity);
-  const Vector3 v_W = scene.statements.bind(name + "fallW", transpose(scene.frames.rotation(i)) * v);
-  return scene.statements.bind(name + "fallc", v_W + shift_acceleration(scene, i, spin));
+void set_free_acceleration(Scene& scene, std::size_t i, const std::vector<Ex>& zdot, Gravity gravity,
+                           const std::string& name, JointAccelerations& motion) {
+  const Vector3 v_W = scene.statements.bind(
+      name + "fallW", transpose(scene.frames.rotation(i)) * falling(scene, i, zdot, gravity));
+  motion.inside[i] = scene.statements.bind(name + "inside", shift_acceleration(scene, i, motion.spin[i]));
+  motion.linear[i] = scene.statements.bind(name + "fallc", v_W + motion.inside[i]);
 }
 
 }  // namespace
@@ -33,13 +39,14 @@ Vector3 free_acceleration(Scene& scene, std::size_t i, const Vector3& vdot, cons
 JointAccelerations joint_accelerations(Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                        const std::string& name) {
   JointAccelerations motion;
-  const bool falling = gravity == Gravity::kAsAcceleration;
-  motion.ground = falling ? Ex(-1) * scene.tree.gravity : kinematics::zero_vector();
+  motion.ground =
+      gravity == Gravity::kAsAcceleration ? Ex(-1) * scene.tree.gravity : kinematics::zero_vector();
   for (std::size_t i = 0; i < scene.link_count(); ++i) {
     const Link& link = scene.tree.links[i];
     motion.scalar.push_back(0);
     motion.spin.push_back(kinematics::zero_vector());
     motion.linear.push_back(kinematics::zero_vector());
+    motion.inside.push_back(kinematics::zero_vector());
     if (zdot.empty() || !scene.states[i].entry) continue;
     const std::size_t first = *scene.states[i].entry;
     if (!link.has_quaternion()) {
@@ -48,9 +55,7 @@ JointAccelerations joint_accelerations(Scene& scene, const std::vector<Ex>& zdot
     }
     const std::size_t spin = first + (link.kind == LinkKind::kFree ? 3 : 0);
     motion.spin[i] = {zdot[spin], zdot[spin + 1], zdot[spin + 2]};
-    if (link.kind == LinkKind::kFree)
-      motion.linear[i] = free_acceleration(scene, i, {zdot[first], zdot[first + 1], zdot[first + 2]},
-                                           motion.spin[i], gravity, name);
+    if (link.kind == LinkKind::kFree) set_free_acceleration(scene, i, zdot, gravity, name, motion);
   }
   return motion;
 }

@@ -16,6 +16,9 @@ enum class Gravity { kNone, kAsAcceleration };
 JointAccelerations joint_accelerations(Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                        const std::string& name);
 
+/// v̇ of a free link's child, less gravity where that counts, in inertial axes.
+Vector3 falling(Scene& scene, std::size_t link, const std::vector<Ex>& zdot, Gravity gravity);
+
 /// ω̇ × d + ω × (ω × d) with d the shift of a free link: what the origin of L accelerates beyond the child's origin.
 Vector3 shift_acceleration(Scene& scene, std::size_t link, const Vector3& spin_acceleration);
 

@@ -53,8 +53,8 @@ Ex variable_value(Scene& scene, const Variable& variable, Inputs inputs) {
 /// Length, rate and tension of a spring.
 struct Stretch {
   kinematics::BodyPose from_pose, to_pose;
-  PointPath from, to;    // seen from the common ancestor
-  Vector3 difference;    // Δr from `from` to `to`, in W of the common ancestor
+  PointPath from, to;  // seen from the common ancestor
+  Vector3 difference;  // Δr from `from` to `to`, in W of the common ancestor
   Ex length_squared, length, rate;
 };
 
@@ -70,8 +70,7 @@ Stretch stretch_of(Scene& scene, const model::Spring& spring) {
   s.difference = statements.bind(name + "d", s.to.position - s.from.position);
   const Vector3 velocity = statements.bind(name + "v", s.to.velocity - s.from.velocity);
   const Ex smoothing = kinematics::exact(model::kLengthSmoothing);
-  s.length_squared =
-      statements.bind(name + "_ll", dot(s.difference, s.difference) + smoothing * smoothing);
+  s.length_squared = statements.bind(name + "_ll", dot(s.difference, s.difference) + smoothing * smoothing);
   s.length = statements.bind(name + "_l", kinematics::square_root(s.length_squared));
   s.rate = statements.bind(name + "_rate", dot(s.difference, velocity) / s.length);
   return s;
@@ -146,8 +145,7 @@ class Applied {
     if (spring.damping.is_zero() && spring.law.is_zero() && spring.free_length.is_zero()) return stiffness;
     const Ex elastic = statements_.bind(spring.name + "_e", s.length - free_length);
     const Ex law = law_value(scene_, spring.name + "_law", spring.law, s);
-    const Ex tension =
-        statements_.bind(spring.name + "_T", stiffness * elastic + damping * s.rate + law);
+    const Ex tension = statements_.bind(spring.name + "_T", stiffness * elastic + damping * s.rate + law);
     return statements_.bind(spring.name + "_Tl", tension / s.length);
   }
 
@@ -182,8 +180,7 @@ class Applied {
     if (pose.link == kGround) return;
     const auto components = [&](const model::Vector3& v, const char* what) {
       Vector3 value;
-      for (std::size_t k = 0; k < 3; ++k)
-        value[k] = general_value(scene_, load.name + what, v[k], inputs_);
+      for (std::size_t k = 0; k < 3; ++k) value[k] = general_value(scene_, load.name + what, v[k], inputs_);
       return value;
     };
     const Vector3 force = to_working(load, pose, components(load.force, "f"), load.name + "f");
@@ -201,8 +198,7 @@ class Applied {
     if (load.axes == model::LoadAxes::kFrame)
       return scene_.frames.to_working(pose.link, statements_.bind(name, pose.R_LB * v), name);
     if (v[0].is_zero() && v[1].is_zero() && v[2].is_zero()) return v;
-    const PointPath path =
-        follow_point(scene_, pose.link, kinematics::zero_vector(), kGround, name);
+    const PointPath path = follow_point(scene_, pose.link, kinematics::zero_vector(), kGround, name);
     return carry_outward(scene_, path, v, name).front();
   }
 
@@ -236,8 +232,8 @@ Ex derive_spring_energy(Scene& scene) {
   for (const model::Spring& spring : scene.mechanism.springs) {
     const Stretch s = stretch_of(scene, spring);
     const Ex stiffness = scene.value("half_stiffness", spring.stiffness) / 2;
-    const Ex elastic = scene.statements.bind(
-        spring.name + "_e", s.length - scene.value("free_length", spring.free_length));
+    const Ex elastic =
+        scene.statements.bind(spring.name + "_e", s.length - scene.value("free_length", spring.free_length));
     energy = energy + (spring.free_length.is_zero() ? Ex(stiffness * s.length_squared)
                                                     : Ex(stiffness * elastic * elastic));
     if (spring.potential)

@@ -12,8 +12,7 @@ namespace {
 
 Matrix3 bound(const std::string& name, const Matrix3& M, Statements& statements) {
   Matrix3 result;
-  for (std::size_t i = 0; i < 3; ++i)
-    result[i] = statements.bind(fmt::format("{}{}", name, i), M[i]);
+  for (std::size_t i = 0; i < 3; ++i) result[i] = statements.bind(fmt::format("{}{}", name, i), M[i]);
   return result;
 }
 
@@ -58,9 +57,8 @@ Matrix3 rotated(const Matrix3& R, const Matrix3& M, const std::string& name, Sta
 
 /// Rz M Rzᵀ. With t = s (M_xx − M_yy) + c (M_xy + M_yx): M'_xx = M_xx − s t, M'_xy = c t − M_yx, M'_yx = c t − M_xy.
 Matrix3 turned(const Matrix3& M, const Ex& c, const Ex& s, const std::string& name, Statements& statements) {
-  const Ex t = statements.bind(
-      name + "t", s * statements.bind(name + "d", M[0][0] - M[1][1]) +
-                      c * statements.bind(name + "e", M[0][1] + M[1][0]));
+  const Ex t = statements.bind(name + "t", s * statements.bind(name + "d", M[0][0] - M[1][1]) +
+                                               c * statements.bind(name + "e", M[0][1] + M[1][0]));
   const Ex trace = statements.bind(name + "p", M[0][0] + M[1][1]);
   const Ex ct = statements.bind(name + "ct", c * t);
   Matrix3 T;
@@ -84,7 +82,8 @@ ArticulatedInertia rigid_inertia(const CompositeBody& body) {
   ArticulatedInertia inertia;
   for (std::size_t k = 0; k < 3; ++k) inertia.A[k][k] = body.moments.mass;
   inertia.H = cross_matrix(Ex(-1) * h);
-  inertia.J = {{{body.J_xx, -S[0][1], -S[0][2]}, {-S[0][1], body.J_yy, -S[1][2]}, {-S[0][2], -S[1][2], body.J_zz}}};
+  inertia.J = {
+      {{body.J_xx, -S[0][1], -S[0][2]}, {-S[0][1], body.J_yy, -S[1][2]}, {-S[0][2], -S[1][2], body.J_zz}}};
   return inertia;
 }
 
@@ -145,10 +144,11 @@ ArticulatedInertia moved_to_parent(const kinematics::Link& link, const kinematic
 ArticulatedInertia turned_to_working(const ArticulatedInertia& inertia, const Ex& c, const Ex& s,
                                      const std::string& name, Statements& statements) {
   if (s.is_zero()) return inertia;
-  return bound(name,
-               {turned(inertia.A, c, s, name + "A", statements), turned(inertia.H, c, s, name + "H", statements),
-                turned(inertia.J, c, s, name + "J", statements)},
-               statements);
+  return bound(
+      name,
+      {turned(inertia.A, c, s, name + "A", statements), turned(inertia.H, c, s, name + "H", statements),
+       turned(inertia.J, c, s, name + "J", statements)},
+      statements);
 }
 
 }  // namespace jourdain::dynamics

@@ -9,6 +9,25 @@ namespace jourdain::dynamics {
 using kinematics::kGround;
 using kinematics::Link;
 
+namespace {
+
+/// ½ m |v|² + v · R (ω × h) + ½ ω · J ω with v the velocity of the origin of L in inertial axes, where it needs no rotation
+/// if L is the child's frame.
+Ex free_energy(Scene& scene, std::size_t i) {
+  kinematics::Statements& statements = scene.statements;
+  const kinematics::LinkState& state = scene.states[i];
+  const Vector3 shifted = statements.bind("Tshift", kinematics::cross(state.spin, scene.tree.links[i].shift));
+  const Vector3 v = statements.bind("Tv", state.velocity + scene.frames.rotation(i) * shifted);
+  const Wrench turning = momentum(scene.composites[i], {state.spin, kinematics::zero_vector()});
+  const Vector3 p = statements.bind("Tp", scene.frames.rotation(i) * statements.bind("Tph", turning.force));
+  const Ex mass = scene.composites[i].moments.mass;
+  const Vector3 half = statements.bind("Tmv", mass / 2 * v);
+  return statements.bind("Tfree",
+                         kinematics::dot(v, half + p) + kinematics::dot(turning.moment, state.spin) / 2);
+}
+
+}  // namespace
+
 Ex derive_kinetic_energy(Scene& scene) {
   kinematics::Statements& statements = scene.statements;
   std::vector<Vector3> velocity;  // of the link's origin, in W
@@ -21,10 +40,8 @@ Ex derive_kinetic_energy(Scene& scene) {
       const std::size_t p = link.parent;
       const Vector3 omega =
           link.parallel ? scene.omega.own[p] : scene.frames.to_link(p, scene.omega.own[p], v + "w");
-      const Vector3 at_parent =
-          link.parallel ? velocity[p] : scene.frames.to_link(p, velocity[p], v + "p");
-      parent.linear =
-          statements.bind(v + "o", at_parent + kinematics::cross(omega, scene.frames.offset(i)));
+      const Vector3 at_parent = link.parallel ? velocity[p] : scene.frames.to_link(p, velocity[p], v + "p");
+      parent.linear = statements.bind(v + "o", at_parent + kinematics::cross(omega, scene.frames.offset(i)));
       if (!link.parallel)
         parent.linear = statements.bind(v, transpose(scene.frames.rotation(i)) * parent.linear);
     }
@@ -32,7 +49,10 @@ Ex derive_kinetic_energy(Scene& scene) {
     Wrench moving = momentum(scene.composites[i], own);
     moving = {statements.bind(v + "P", moving.force), statements.bind(v + "L", moving.moment)};
     const Ex half = statements.bind(v + "T", power(moving, own) / 2);
-    energy = statements.bind(fmt::format("T{}", i), energy + (half + power(moving, parent)));
+    if (link.kind == kinematics::LinkKind::kFree)
+      energy = statements.bind("T", energy + free_energy(scene, i));
+    else
+      energy = statements.bind(fmt::format("T{}", i), energy + (half + power(moving, parent)));
     velocity.push_back(statements.bind(v + "s", parent.linear + own.linear));
   }
   for (const model::Actuator& actuator : scene.mechanism.actuators) {
@@ -48,9 +68,8 @@ Ex derive_potential_energy(Scene& scene) {
   for (std::size_t i = 0; i < scene.link_count(); ++i) {
     if (scene.tree.links[i].parent != kGround) continue;
     const kinematics::MassMoments& moments = scene.composites[i].moments;
-    first = scene.statements.bind(
-        fmt::format("hg{}", i),
-        first + (scene.frames.rotation(i) * moments.first + moments.mass * scene.frames.offset(i)));
+    first = scene.statements.bind(fmt::format("hg{}", i), first + (scene.frames.rotation(i) * moments.first +
+                                                                   moments.mass * scene.frames.offset(i)));
   }
   const Ex springs = derive_spring_energy(scene);
   return scene.statements.bind("V", springs - kinematics::dot(scene.tree.gravity, first));

@@ -75,13 +75,13 @@ class Derivation {
       const std::size_t first = entries.first_position + (free ? 3 : 0);
       const auto& q = state.quaternion;
       Vector3 half;
-      for (std::size_t k = 0; k < 3; ++k)
-        half[k] = statements_.bind(named("half", i, k), state.spin[k] / 2);
+      for (std::size_t k = 0; k < 3; ++k) half[k] = statements_.bind(named("half", i, k), state.spin[k] / 2);
       ydot[first] = -(q[1] * half[0] + q[2] * half[1] + q[3] * half[2]);
       ydot[first + 1] = q[0] * half[0] + q[2] * half[2] - q[3] * half[1];
       ydot[first + 2] = q[0] * half[1] + q[3] * half[0] - q[1] * half[2];
       ydot[first + 3] = q[0] * half[2] + q[1] * half[1] - q[2] * half[0];
-      for (std::size_t k = 0; k < 4; ++k) ydot[first + k] = statements_.bind(named("qdot", i, k), ydot[first + k]);
+      for (std::size_t k = 0; k < 4; ++k)
+        ydot[first + k] = statements_.bind(named("qdot", i, k), ydot[first + k]);
     }
     return ydot;
   }
@@ -130,7 +130,8 @@ class Derivation {
       axis[c] = 1;
       const std::string name = named("pfree", i, c);
       const Wrench moving = momentum(body, {axis, kinematics::cross(axis, d)});
-      const Wrench seen = to_external(scene_, i, {statements_.bind(name + "f", moving.force), moving.moment}, name);
+      const Wrench seen =
+          to_external(scene_, i, {statements_.bind(name + "f", moving.force), moving.moment}, name);
       for (std::size_t r = 0; r < 3; ++r) {
         M[first + r][first + 3 + c] = M[first + 3 + c][first + r] = seen.force[r];
         if (r <= c) M[first + 3 + r][first + 3 + c] = M[first + 3 + c][first + 3 + r] = seen.moment[r];
@@ -171,8 +172,9 @@ class Derivation {
   }
 
   std::vector<Ex> k_bar() {
-    std::vector<Ex> k =
-        external_rows(generalized(inertia_forces("k", std::vector<Ex>(count_, 0), Gravity::kNone), no_wrenches(), "k"), "k");
+    std::vector<Ex> k = external_rows(
+        generalized(inertia_forces("k", std::vector<Ex>(count_, 0), Gravity::kNone), no_wrenches(), "k"),
+        "k");
     for (Ex& entry : k) entry = -entry;
     return k;
   }
@@ -184,8 +186,8 @@ class Derivation {
         accumulate_wrenches(scene_.tree, scene_.frames, applied.on_link, name + "load", statements_);
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (std::size_t c = 0; c < rows[i].size(); ++c)
-        rows[i][c] = statements_.bind(named("load", i, c),
-                                      rows[i][c] + power(totals[i], scene_.columns[i][c].twist));
+        rows[i][c] =
+            statements_.bind(named("load", i, c), rows[i][c] + power(totals[i], scene_.columns[i][c].twist));
     return rows;
   }
 
@@ -234,22 +236,25 @@ class Derivation {
   void turn_free_acceleration(std::vector<Ex>& zdot, std::size_t i) {
     const std::size_t first = *scene_.states[i].entry;
     const Vector3 spin = {zdot[first + 3], zdot[first + 4], zdot[first + 5]};
-    const Vector3 at_origin = statements_.bind(
-        fmt::format("ao{}", i),
-        Vector3{zdot[first], zdot[first + 1], zdot[first + 2]} - shift_acceleration(scene_, i, spin));
+    const Vector3 at_origin =
+        statements_.bind(fmt::format("ao{}", i), Vector3{zdot[first], zdot[first + 1], zdot[first + 2]} -
+                                                     shift_acceleration(scene_, i, spin));
     const Vector3 turned = statements_.bind(fmt::format("vdot{}", i), scene_.frames.rotation(i) * at_origin);
     for (std::size_t k = 0; k < 3; ++k)
-      zdot[first + k] = statements_.bind(fmt::format("zdot_{}", first + k), turned[k] + scene_.tree.gravity[k]);
+      zdot[first + k] =
+          statements_.bind(fmt::format("zdot_{}", first + k), turned[k] + scene_.tree.gravity[k]);
   }
 
   std::vector<Ex> inverse_dynamics() {
     const AppliedForces applied = derive_applied_forces(scene_, Inputs::kZero);
-    std::vector<std::vector<Ex>> rows = generalized(
-        inertia_forces("a", scene_.leaves.zdot, Gravity::kAsAcceleration), applied.on_link, "a");
+    std::vector<std::vector<Ex>> rows =
+        generalized(inertia_forces("a", scene_.leaves.zdot, Gravity::kAsAcceleration), applied.on_link, "a");
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (std::size_t c = 0; c < rows[i].size(); ++c)
         rows[i][c] = statements_.bind(named("tau", i, c), rows[i][c] - applied.along[i][c]);
     std::vector<Ex> tau = external_rows(rows, "a");
+    for (std::size_t i = 0; i < scene_.link_count(); ++i)
+      if (scene_.tree.links[i].kind == LinkKind::kFree) add_falling_mass(tau, i);
     for (const model::Actuator& actuator : mechanism_.actuators) {
       if (actuator.rotor_inertia.is_zero()) continue;
       const std::size_t e = *scene_.states[scene_.link_of(actuator.joint, actuator.coordinate)].entry;
@@ -257,6 +262,21 @@ class Derivation {
                                 tau[e] + reflected_inertia(scene_, actuator) * scene_.leaves.zdot[e]);
     }
     return tau;
+  }
+
+  /// m (v̇ − gravity) of everything that a free link carries, about the child's origin.
+  void add_falling_mass(std::vector<Ex>& tau, std::size_t i) {
+    const std::size_t first = *scene_.states[i].entry;
+    const Ex& mass = scene_.composites[i].moments.mass;
+    const Vector3 fall = falling(scene_, i, scene_.leaves.zdot, Gravity::kAsAcceleration);
+    const Vector3 fall_W =
+        statements_.bind(fmt::format("fallm{}", i), transpose(scene_.frames.rotation(i)) * fall);
+    const Vector3 lever = kinematics::cross(mass * scene_.tree.links[i].shift, fall_W);
+    for (std::size_t k = 0; k < 3; ++k) {
+      tau[first + k] = statements_.bind(fmt::format("tauf{}", first + k), tau[first + k] + mass * fall[k]);
+      tau[first + 3 + k] =
+          statements_.bind(fmt::format("tauf{}", first + 3 + k), tau[first + 3 + k] + lever[k]);
+    }
   }
 
   void set_initial_state(Equations& equations) {

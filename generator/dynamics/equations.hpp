@@ -15,7 +15,7 @@ using kinematics::Ex;
 /// Simplifications that the derivation may use; each can be switched off to count what it saves.
 struct DerivationOptions {
   kinematics::LinkTreeOptions link_tree;
-  std::vector<bool> articulated;   ///< see ArticulatedLinks; empty: none but free links
+  std::vector<bool> articulated;    ///< see ArticulatedLinks; empty: none but free links
   bool accelerations_only = false;  ///< nothing but zdot
 };
 

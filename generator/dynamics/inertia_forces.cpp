@@ -50,6 +50,10 @@ Matrix3 acceleration_gradient(const Vector3& omega, const Vector3& alpha, const 
   return U;
 }
 
+bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
+
+bool is_diagonal(const Matrix3& S) { return S[0][1].is_zero() && S[0][2].is_zero() && S[1][2].is_zero(); }
+
 Vector3 product(const Matrix3& S, const Vector3& w, const std::string& name, Statements& statements) {
   return statements.bind(name, S * w);
 }
@@ -138,8 +142,8 @@ class Recursion {
     const Ex Kx = statements_.bind(named("Kx", i), w[0] * S[0][0] + w[1] * S[0][1] + w[2] * S[0][2]);
     const Ex Ky = statements_.bind(named("Ky", i), w[0] * S[0][1] + w[1] * S[1][1] + w[2] * S[1][2]);
     const Ex gyroscopic = w[1] * Kx - w[0] * Ky;
-    const Ex along = statements_.bind(
-        named("Qp", i), dot(unit.moment, alpha) + (gyroscopic + (h[0] * a[1] - h[1] * a[0])));
+    const Ex along = statements_.bind(named("Qp", i),
+                                      dot(unit.moment, alpha) + (gyroscopic + (h[0] * a[1] - h[1] * a[0])));
     result_.from_parent[i] = {tree_.links[i].sign * along};
 
     const Ex twice = statements_.bind(fmt::format("z2_{}", i), 2 * rate);
@@ -161,9 +165,9 @@ class Recursion {
     Ex along = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       if (direction[k].is_zero()) continue;
-      const Ex pull = statements_.bind(fmt::format("{}{}", named("Qp", i), k),
-                                       composites_[i].moments.mass * a[k] +
-                                           dot(U[k], composites_[i].moments.first));
+      const Ex pull =
+          statements_.bind(fmt::format("{}{}", named("Qp", i), k),
+                           composites_[i].moments.mass * a[k] + dot(U[k], composites_[i].moments.first));
       along = along + direction[k] * pull;
     }
     return statements_.bind(named("Qp", i), along);
@@ -212,13 +216,23 @@ class Recursion {
     const Vector3 Su = product(S, u, named("Su", i), statements_);
     const Ex uh = statements_.bind(named("uh", i), dot(u, h));
     const Ex uw = statements_.bind(named("uw", i), dot(u, w));
-    const Wrench accelerated =
-        momentum(composites_[i], {accelerations_.spin[i], kinematics::zero_vector()});
-    result_.relative[i].force =
-        statements_.bind(named("df", i), uh * w - uw * h + accelerated.force);
-    result_.relative[i].moment = statements_.bind(named("dn", i), cross(Su, w) + accelerated.moment);
+    const Wrench accelerated = momentum(composites_[i], {accelerations_.spin[i], kinematics::zero_vector()});
+    result_.relative[i].force = statements_.bind(named("df", i), uh * w - uw * h + accelerated.force);
+    const Vector3 gyroscopic = is_diagonal(S) && is_zero(w_p) ? euler_moment(S, w, i) : cross(Su, w);
+    result_.relative[i].moment = statements_.bind(named("dn", i), gyroscopic + accelerated.moment);
     const Vector3 change = statements_.bind(named("cw", i), cross(w_p, w));
     alpha_[i] = statements_.bind(named("al", i) + "o", alpha_[i] + change + accelerations_.spin[i]);
+  }
+
+  /// (S_yy − S_zz) ω_y ω_z and so on: in Euler's equations S_yy − S_zz = I_zz − I_yy.
+  Vector3 euler_moment(const Matrix3& S, const Vector3& w, std::size_t i) {
+    Vector3 moment;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+      const Ex difference = statements_.bind(fmt::format("{}{}", named("dS", i), a), S[b][b] - S[c][c]);
+      moment[a] = difference * statements_.bind(fmt::format("{}{}", named("ww", i), a), w[b] * w[c]);
+    }
+    return moment;
   }
 
   void roll(std::size_t i) {
@@ -226,8 +240,8 @@ class Recursion {
     const Vector3& h = composites_[i].moments.first;
     const Vector3 K = product(composites_[i].moments.second, w, named("K", i), statements_);
     const Wrench turned = momentum(composites_[i], {alpha_[i], kinematics::zero_vector()});
-    const Vector3 moment = statements_.bind(
-        named("Qp", i), turned.moment + cross(K, w) + cross(h, acceleration_[i]));
+    const Vector3 moment =
+        statements_.bind(named("Qp", i), turned.moment + cross(K, w) + cross(h, acceleration_[i]));
     result_.from_parent[i] = {moment[0], moment[1], moment[2]};
     rotate(i);
   }
@@ -238,7 +252,8 @@ class Recursion {
     const Vector3& a = accelerations_.linear[i];
     acceleration_[i] = a;
     Wrench& relative = result_.relative[i];
-    relative.force = statements_.bind(named("df", i) + "t", relative.force + composites_[i].moments.mass * a);
+    relative.force = statements_.bind(
+        named("df", i) + "t", relative.force + composites_[i].moments.mass * accelerations_.inside[i]);
     relative.moment =
         statements_.bind(named("dn", i) + "t", relative.moment + cross(composites_[i].moments.first, a));
   }
@@ -265,10 +280,11 @@ InertiaForces derive_inertia_forces(const LinkTree& tree, const WorkingFrames& f
   return Recursion(tree, frames, states, composites, omega, accelerations, name, statements).derive();
 }
 
-std::vector<std::vector<Ex>> derive_generalized_forces(
-    const LinkTree& tree, const WorkingFrames& frames, const std::vector<std::vector<Column>>& columns,
-    const InertiaForces& inertia, const std::vector<Wrench>& applied, const std::string& name,
-    Statements& statements) {
+std::vector<std::vector<Ex>> derive_generalized_forces(const LinkTree& tree, const WorkingFrames& frames,
+                                                       const std::vector<std::vector<Column>>& columns,
+                                                       const InertiaForces& inertia,
+                                                       const std::vector<Wrench>& applied,
+                                                       const std::string& name, Statements& statements) {
   std::vector<Wrench> own = inertia.relative;
   for (std::size_t i = 0; i < own.size(); ++i) {
     own[i].force = statements.bind(fmt::format("{}ef{}", name, i), own[i].force - applied[i].force);

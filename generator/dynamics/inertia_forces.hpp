@@ -14,7 +14,10 @@ struct JointAccelerations {
   std::vector<Ex> scalar;
   std::vector<Vector3> spin;
   std::vector<Vector3> linear;  ///< of the origin of a free link less gravity where that counts, in W
-  Vector3 ground;               ///< of the inertial frame's origin: −gravity makes gravity an inertia force
+  /// The part of `linear` whose force m a on the composite body belongs to the result; that of v̇ − gravity the caller
+  /// adds in inertial axes, where it needs no rotation.
+  std::vector<Vector3> inside;
+  Vector3 ground;  ///< of the inertial frame's origin: −gravity makes gravity an inertia force
 };
 
 /// ω of each link and of its parent, in the working frame of the link.
@@ -41,8 +44,7 @@ struct InertiaForces {
 /// on its composite body, of which only the components along its columns are computed, and the differences that it and
 /// the joints outward make on their composite bodies, summed inward as wrenches. The composite bodies are those of the
 /// mass matrix; no force of a single link is computed.
-InertiaForces derive_inertia_forces(const kinematics::LinkTree& tree,
-                                    const kinematics::WorkingFrames& frames,
+InertiaForces derive_inertia_forces(const kinematics::LinkTree& tree, const kinematics::WorkingFrames& frames,
                                     const std::vector<kinematics::LinkState>& states,
                                     const std::vector<CompositeBody>& composites,
                                     const AngularVelocities& omega, const JointAccelerations& accelerations,

@@ -54,7 +54,9 @@ class FrameView {
     return columns;
   }
 
-  Vector3 spin() { return is_fixed() ? kinematics::zero_vector() : from_working(scene_.omega.own[link()], "w"); }
+  Vector3 spin() {
+    return is_fixed() ? kinematics::zero_vector() : from_working(scene_.omega.own[link()], "w");
+  }
 
   /// a of the point (inertial frame) and ω̇ (frame components), given those of its link.
   Twist acceleration(const std::vector<Twist>& links) {
@@ -92,7 +94,8 @@ class FrameView {
     const Vector3 at_point = bind(what, column.linear + cross(column.angular, lever));
     Vector3 angular = column.angular;
     for (std::size_t inner = k; inner-- > 0;)
-      angular = scene_.frames.from_parent(path_.links[inner], angular, fmt::format("{}{}r{}", name_, what, inner));
+      angular =
+          scene_.frames.from_parent(path_.links[inner], angular, fmt::format("{}{}r{}", name_, what, inner));
     return {from_working(angular, what + "r"), to_inertial(at_point, k, what + "t")};
   }
 
@@ -136,8 +139,8 @@ class Outputs {
         return {vector_values("v", frame.velocity()), vector_values("omega", frame.spin())};
       }
       case OutputKind::kAcceleration: {
-        const Twist twist = view(output).acceleration(
-            link_accelerations(scene_, equations_.zdot, Gravity::kNone, "out"));
+        const Twist twist =
+            view(output).acceleration(link_accelerations(scene_, equations_.zdot, Gravity::kNone, "out"));
         return {vector_values("a", twist.linear), vector_values("omega_dot", twist.angular)};
       }
       case OutputKind::kJacobian:
@@ -178,7 +181,8 @@ class Outputs {
       prescribed.linear = statements_.bind(output.name + "vbar", prescribed.linear + rate * twist.linear);
       prescribed.angular = statements_.bind(output.name + "wbar", prescribed.angular + rate * twist.angular);
     });
-    const Twist bias = frame.acceleration(link_accelerations(scene_, std::vector<Ex>(nz, 0), Gravity::kNone, "bar"));
+    const Twist bias =
+        frame.acceleration(link_accelerations(scene_, std::vector<Ex>(nz, 0), Gravity::kNone, "bar"));
     std::vector<OutputValues> values;
     if (nz > 0) values = {matrix_values("J_t", J_t), matrix_values("J_r", J_r)};
     values.push_back(vector_values("v_bar", prescribed.linear));
@@ -214,8 +218,8 @@ class Outputs {
     const Ex trace = statements_.bind(name + "tr", S[0][0] + S[1][1] + S[2][2]);
     const Vector3 force =
         statements_.bind(name + "F", moments_L.mass * a_L + cross(al_L, h) + cross(w_L, wh));
-    const Vector3 moment = statements_.bind(
-        name + "N", cross(h, a_L) + (trace * al_L - S * al_L) + cross(Sw, w_L));
+    const Vector3 moment =
+        statements_.bind(name + "N", cross(h, a_L) + (trace * al_L - S * al_L) + cross(Sw, w_L));
     return {scene_.frames.to_working(link, force, name + "f"),
             scene_.frames.to_working(link, moment, name + "n")};
   }
@@ -227,11 +231,10 @@ class Outputs {
         link_accelerations(scene_, equations_.zdot, Gravity::kAsAcceleration, "react");
     const model::BodyIndex child = scene_.mechanism.joints[joint.value].child;
     const kinematics::BodyPose& pose = scene_.tree.bodies[child.value];
-    if (pose.link == kGround)
-      return ground_reaction(carried, at, pose);
+    if (pose.link == kGround) return ground_reaction(carried, at, pose);
     std::vector<Wrench> wrenches = carried_wrenches(carried, at, fmt::format("react{}", joint.value));
-    const std::vector<Wrench> totals = accumulate_wrenches(
-        scene_.tree, scene_.frames, wrenches, fmt::format("reacts{}", joint.value), statements_);
+    const std::vector<Wrench> totals = accumulate_wrenches(scene_.tree, scene_.frames, wrenches,
+                                                           fmt::format("reacts{}", joint.value), statements_);
     return about_child(totals[pose.link], pose, fmt::format("react{}c", joint.value));
   }
 

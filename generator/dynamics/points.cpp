@@ -63,8 +63,8 @@ kinematics::BodyPose frame_pose(Scene& scene, const model::Frame& frame) {
   Statements& statements = scene.statements;
   const std::vector<Ex>& parameters = scene.leaves.parameters;
   const Vector3 r = kinematics::to_symbolic(frame.placement.position, parameters, statements);
-  const kinematics::Matrix3 R = kinematics::rotation_matrix(frame.placement.rotation, parameters,
-                                                            scene.mechanism.snap, statements);
+  const kinematics::Matrix3 R =
+      kinematics::rotation_matrix(frame.placement.rotation, parameters, scene.mechanism.snap, statements);
   pose.r_LB = statements.bind("r_" + frame.name, kinematics::settled(pose.r_LB + pose.R_LB * r));
   pose.R_LB = kinematics::settled(pose.R_LB * R);
   for (std::size_t k = 0; k < 3; ++k) pose.R_LB[k] = statements.bind("R_" + frame.name, pose.R_LB[k]);

@@ -16,11 +16,11 @@ namespace {
 /// One velocity on its way through the elimination.
 struct Row {
   std::size_t link = 0, column = 0;
-  std::size_t head = kGround;      ///< articulated link that its momentum G acts on
+  std::size_t head = kGround;       ///< articulated link that its momentum G acts on
   std::vector<std::size_t> inward;  ///< entries between it and the head
-  Wrench G;                        ///< on the head, in W of the head
-  Ex inverse_D, u;                 ///< right-hand side after elimination of what is outward
-  Wrench share;                    ///< G (or U) / D
+  Wrench G;                         ///< on the head, in W of the head
+  Ex inverse_D, u;                  ///< right-hand side after elimination of what is outward
+  Wrench share;                     ///< G (or U) / D
 };
 
 class Solver {
@@ -90,12 +90,13 @@ class Solver {
         for (std::size_t d = scene_.columns[j].size(); d-- > 0;) {
           const auto entry = scene_.columns[j][d].entry;
           if (!entry || *entry > *column.entry) continue;
-          H_[*column.entry][*entry] = statements_.bind(named("M", *entry, *column.entry),
-                                                       power(moving, scene_.columns[j][d].twist));
+          H_[*column.entry][*entry] =
+              statements_.bind(named("M", *entry, *column.entry), power(moving, scene_.columns[j][d].twist));
           if (*entry < *column.entry) row.inward.push_back(*entry);
         }
         if (scene_.tree.links[j].parent != kGround)
-          moving = to_parent(scene_.tree, scene_.frames, j, moving, named("p", *column.entry, j), statements_);
+          moving =
+              to_parent(scene_.tree, scene_.frames, j, moving, named("p", *column.entry, j), statements_);
       }
       row.head = j;
       if (j != kGround) row.G = moving;
@@ -105,8 +106,7 @@ class Solver {
   void add_rotors() {
     for (const model::Actuator& actuator : scene_.mechanism.actuators) {
       if (actuator.rotor_inertia.is_zero()) continue;
-      const std::size_t e =
-          *scene_.states[scene_.link_of(actuator.joint, actuator.coordinate)].entry;
+      const std::size_t e = *scene_.states[scene_.link_of(actuator.joint, actuator.coordinate)].entry;
       H_[e][e] = statements_.bind(named("Mr", e, e), H_[e][e] + reflected_inertia(scene_, actuator));
     }
   }
@@ -152,7 +152,8 @@ class Solver {
                   name + "s", statements_);
     Wrench& force = force_[i];
     const Wrench& outer = force_in_link_[i];
-    force.force = statements_.bind(name + "ff", force.force + scene_.frames.to_working(i, outer.force, name + "f"));
+    force.force =
+        statements_.bind(name + "ff", force.force + scene_.frames.to_working(i, outer.force, name + "f"));
     force.moment =
         statements_.bind(name + "fn", force.moment + scene_.frames.to_working(i, outer.moment, name + "n"));
     for (std::size_t c = scene_.columns[i].size(); c-- > 0;) {
@@ -161,7 +162,8 @@ class Solver {
       Row& row = rows_[*column.entry];
       const std::string step = named("U", i, c);
       row.G = bound(step, product(inertia, column.twist));
-      const Ex D = statements_.bind(step + "D", power(row.G, column.twist) + H_[*column.entry][*column.entry]);
+      const Ex D =
+          statements_.bind(step + "D", power(row.G, column.twist) + H_[*column.entry][*column.entry]);
       row.inverse_D = statements_.bind(step + "i", 1 / D);
       row.share = scaled(row.inverse_D, row.G, step + "s");
       row.u = statements_.bind(step + "u", row.u - power(force, column.twist));
@@ -182,8 +184,8 @@ class Solver {
     const std::string name = fmt::format("hand{}", i);
     Wrench moved = force;
     if (!link.parallel)
-      moved = bound(name + "R", {scene_.frames.rotation(i) * force.force,
-                                 scene_.frames.rotation(i) * force.moment});
+      moved = bound(name + "R",
+                    {scene_.frames.rotation(i) * force.force, scene_.frames.rotation(i) * force.moment});
     moved.moment = moved.moment + kinematics::cross(scene_.frames.offset(i), moved.force);
     Wrench& target = link.parallel ? force_[link.parent] : force_in_link_[link.parent];
     target = bound(name, {target.force + moved.force, target.moment + moved.moment});

@@ -28,7 +28,8 @@ class Emitter {
   Emitter(const ModelText& model, const std::vector<FunctionInfo>& functions, const ir::Module& module)
       : model_(model), functions_(functions), module_(module), scene_(shape_of(model)) {
     Names names({"Scalar", "Parameters", "State", "Input", "Model", "Real", "position_count",
-                 "velocity_count", "input_count", "parameter_count", "output_count", "Outputs", "parameters", "model", "detail", "w"});
+                 "velocity_count", "input_count", "parameter_count", "output_count", "Outputs", "parameters",
+                 "model", "detail", "w"});
     for (const ir::Output& output : module.constants.outputs) {
       const ir::Node& node = module.constants[output.value];
       const bool is_parameter = node.op == ir::Op::kLeaf;
@@ -52,7 +53,8 @@ class Emitter {
         {"NO", fmt::format("{}", scene_.outputs)},
         {"STATE", state_members()},
         {"OUTPUTS", output_struct()},
-        {"OUTPUTS_ALIAS", scene_.outputs == 0 ? "" : fmt::format("  using Outputs = {}::Outputs<Real>;\n", model_.name)},
+        {"OUTPUTS_ALIAS",
+         scene_.outputs == 0 ? "" : fmt::format("  using Outputs = {}::Outputs<Real>;\n", model_.name)},
         {"STEP_SUPPORT", step_support()},
         {"NU", fmt::format("{}", model_.inputs.size())},
         {"NP", fmt::format("{}", model_.parameters.size())},
@@ -64,7 +66,8 @@ class Emitter {
     bodies += constructor(parts);
     for (const FunctionInfo& function : functions_) {
       declarations += prefixed("/// ", function.comment) + operations_comment(function);
-      declarations += "template <class Real>\n" + wrapped(signature(function, "Real", scene_) + ";", 0) + "\n";
+      declarations +=
+          "template <class Real>\n" + wrapped(signature(function, "Real", scene_) + ";", 0) + "\n";
       bodies += function.shape == Shape::kStep ? step_body(function) : program_body(function, parts);
       for (const char* real : {"double", "float"})
         instantiations += wrapped("template " + signature(function, real, scene_) + ";", 0);
@@ -96,8 +99,8 @@ class Emitter {
     line("This file belongs to whoever ran the compiler; no licence of the generator applies to it.");
     text += "//\n";
     const char* t = model_.rheonomic ? ", t" : "";
-    line(fmt::format("Equations of motion: M(y{0}) zdot = k_bar(y, z{0}) - q_bar(y, z{0}, u), dy/dt = {1}.", t,
-                     scene_.quaternions > 0 ? "Z(y) z" : "z"));
+    line(fmt::format("Equations of motion: M(y{0}) zdot = k_bar(y, z{0}) - q_bar(y, z{0}, u), dy/dt = {1}.",
+                     t, scene_.quaternions > 0 ? "Z(y) z" : "z"));
     text += "//\n// Assumptions\n";
     for (const std::string& assumption : model_.assumptions) line("- " + comment_text(assumption));
     text += "// Left out\n";
@@ -241,8 +244,8 @@ class Emitter {
     std::string text = body_text(function.name, body, list, parts);
     if (function.shape == Shape::kState)
       text = "  State<Real> initial;\n  initial.t = Real(0.0);\n" + text + "  return initial;\n";
-    return "\ntemplate <class Real>\n" + wrapped(signature(function, "Real", scene_, &text) + " {", 0) + text +
-           "}\n";
+    return "\ntemplate <class Real>\n" + wrapped(signature(function, "Real", scene_, &text) + " {", 0) +
+           text + "}\n";
   }
 
   static std::string output_text(const FunctionInfo& function, const ir::Output& output,
@@ -285,7 +288,9 @@ class Emitter {
 
   std::string output_struct() const {
     if (model_.outputs.empty()) return "";
-    std::string text = "/// What the model description asks for; lengths in m, angles in rad, forces in N, moments in N m.\n";
+    std::string text =
+        "/// What the model description asks for; lengths in m, angles in rad, forces in N, moments in N "
+        "m.\n";
     text += "template <class Real = double>\nstruct Outputs {\n";
     for (const OutputDeclaration& output : model_.outputs) {
       std::string members;
@@ -299,7 +304,8 @@ class Emitter {
           members += fmt::format("    Real {}{};\n", member.name, bounds);
       }
       if (!members.empty())
-        text += fmt::format("  /// {}\n  struct {{\n{}  }} {};\n", comment_text(output.comment), members, output.name);
+        text += fmt::format("  /// {}\n  struct {{\n{}  }} {};\n", comment_text(output.comment), members,
+                            output.name);
     }
     return text + "};\n\n";
   }
@@ -309,11 +315,13 @@ class Emitter {
     const bool steps = std::any_of(functions_.begin(), functions_.end(),
                                    [](const FunctionInfo& f) { return f.shape == Shape::kStep; });
     if (!steps || scene_.velocities == 0) return "";
-    const char* rate = scene_.quaternions > 0
-                           ? "  position_rate(model, stage, ydot);\n"
-                           : "  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];\n";
+    const char* rate =
+        scene_.quaternions > 0
+            ? "  position_rate(model, stage, ydot);\n"
+            : "  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];\n";
     std::string text = fmt::format(
-        "\ntemplate <class Real>\nvoid rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& "
+        "\ntemplate <class Real>\nvoid rates(const Model<Real>& model, const State<Real>& stage, const "
+        "Input<Real>& "
         "input,\n           Real (&ydot)[{}], Real (&zdot)[{}]) noexcept {{\n{}"
         "  forward_dynamics(model, stage, input, zdot);\n}}\n",
         scene_.positions, scene_.velocities, rate);
@@ -331,8 +339,8 @@ class Emitter {
     if (scene_.velocities > 0) text = std::string(template_text(function.name + ".in"));
     for (const std::size_t first : model_.quaternions)
       text += fmt::format("  detail::normalise(state.y + {});\n", first);
-    return "\ntemplate <class Real>\n" + wrapped(signature(function, "Real", scene_, &text) + " {", 0) + text +
-           "}\n";
+    return "\ntemplate <class Real>\n" + wrapped(signature(function, "Real", scene_, &text) + " {", 0) +
+           text + "}\n";
   }
 
   const ModelText& model_;

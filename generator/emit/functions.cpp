@@ -20,7 +20,8 @@ const std::vector<FunctionInfo>& all_functions() {
        false,
        false,
        {},
-       "dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have "
+       "dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other "
+       "coordinates have "
        "their\nvelocity."},
       {"mass_matrix",
        Shape::kMatrix,
@@ -68,13 +69,7 @@ const std::vector<FunctionInfo>& all_functions() {
        false,
        {},
        "Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J."},
-      {"outputs",
-       Shape::kOutputs,
-       "",
-       true,
-       false,
-       {},
-       "The outputs that the model description asks for."},
+      {"outputs", Shape::kOutputs, "", true, false, {}, "The outputs that the model description asks for."},
       {"rk4_step",
        Shape::kStep,
        "",

@@ -7,13 +7,13 @@
 namespace jourdain::emit {
 
 enum class Shape {
-  kState,   ///< returns a State
-  kScalar,  ///< returns a Real
+  kState,    ///< returns a State
+  kScalar,   ///< returns a Real
   kVector,   ///< fills Real (&)[nz]
   kRate,     ///< fills Real (&)[ny]
   kMatrix,   ///< fills Real (&)[nz][nz]
   kOutputs,  ///< fills an Outputs
-  kStep     ///< advances a State; its body is a template file, not a program
+  kStep      ///< advances a State; its body is a template file, not a program
 };
 
 struct FunctionInfo {

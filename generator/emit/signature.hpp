@@ -16,7 +16,8 @@ struct Argument {
 };
 
 /// For number type `real`.
-std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real, const SceneShape& scene);
+std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real,
+                                const SceneShape& scene);
 
 /// Without the closing semicolon. Arguments that `body` does not use are left unnamed; without a body all are named.
 std::string signature(const FunctionInfo& function, const std::string& real, const SceneShape& scene,

@@ -10,8 +10,9 @@ namespace jourdain::kinematics {
 
 struct JointStep {
   LinkKind kind = LinkKind::kTurn;
-  std::array<double, 3> axis{0, 0, 1};  ///< turn, slide, screw: in the frame that the joint moves, not normalised
-  std::size_t coordinate = 0;           ///< scalar coordinate of the joint
+  std::array<double, 3> axis{0, 0,
+                             1};  ///< turn, slide, screw: in the frame that the joint moves, not normalised
+  std::size_t coordinate = 0;     ///< scalar coordinate of the joint
 };
 
 /// In the order of the joint's coordinates; none for a fixed joint.

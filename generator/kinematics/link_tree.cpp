@@ -162,8 +162,7 @@ class Builder {
     const Ex inverse = statements_.bind("inverse_mass", 1 / about_origin.mass);
     link.shift = bound("c_" + link.name, inverse * about_origin.first);
     Matrix3 second = about_origin.second;
-    for (std::size_t k = 0; k < 3; ++k)
-      second[k] = second[k] - about_origin.first[k] * link.shift;
+    for (std::size_t k = 0; k < 3; ++k) second[k] = second[k] - about_origin.first[k] * link.shift;
     link.moments = {about_origin.mass, zero_vector(), bind_second(link.name, second)};
     for (std::size_t b = 0; b < tree_.bodies.size(); ++b) {
       BodyPose& pose = tree_.bodies[b];

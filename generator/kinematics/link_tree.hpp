@@ -70,7 +70,8 @@ struct LinkTree {
   MassMoments ground;       ///< what is fixed to the inertial frame
   Vector3 gravity;
   std::vector<BodyPose> bodies;  ///< by BodyIndex
-  std::vector<MassMoments> body_moments;  ///< by BodyIndex, about the origin of the body's link, before regrouping
+  std::vector<MassMoments>
+      body_moments;  ///< by BodyIndex, about the origin of the body's link, before regrouping
 };
 
 struct LinkTreeOptions {

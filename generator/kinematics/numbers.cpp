@@ -77,9 +77,8 @@ struct Jet {
     return a.bound(a.at.value - b.at.value, a.at.first - b.at.first, a.at.second - b.at.second);
   }
   friend Jet operator*(const Jet& a, const Jet& b) {
-    return a.bound(
-        a.at.value * b.at.value, a.at.first * b.at.value + a.at.value * b.at.first,
-        a.at.second * b.at.value + 2 * a.at.first * b.at.first + a.at.value * b.at.second);
+    return a.bound(a.at.value * b.at.value, a.at.first * b.at.value + a.at.value * b.at.first,
+                   a.at.second * b.at.value + 2 * a.at.first * b.at.first + a.at.value * b.at.second);
   }
   friend Jet operator/(const Jet& a, const Jet& b) {
     const Ex inverse = a.statements->bind("inverse", 1 / b.at.value);

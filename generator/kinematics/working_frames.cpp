@@ -10,13 +10,16 @@ namespace {
 
 /// Rotation matrix of a unit quaternion (w, x, y, z) without division: 1 − 2(y² + z²), 2(xy − wz), …
 Matrix3 quaternion_matrix(const std::array<Ex, 4>& q, const std::string& name, Statements& statements) {
+  Ex doubled[4];
+  for (std::size_t a = 1; a < 4; ++a) doubled[a] = statements.bind(fmt::format("{}d{}", name, a), 2 * q[a]);
   const auto twice = [&](std::size_t a, std::size_t b) {
-    return statements.bind(fmt::format("{}{}{}", name, a, b), 2 * (q[a] * q[b]));
+    return statements.bind(fmt::format("{}{}{}", name, a, b), doubled[b] * q[a]);
   };
   const Ex xx = twice(1, 1), yy = twice(2, 2), zz = twice(3, 3);
   const Ex xy = twice(1, 2), xz = twice(1, 3), yz = twice(2, 3);
   const Ex wx = twice(0, 1), wy = twice(0, 2), wz = twice(0, 3);
-  Matrix3 R = {{{1 - yy - zz, xy - wz, xz + wy}, {xy + wz, 1 - xx - zz, yz - wx}, {xz - wy, yz + wx, 1 - xx - yy}}};
+  Matrix3 R = {
+      {{1 - yy - zz, xy - wz, xz + wy}, {xy + wz, 1 - xx - zz, yz - wx}, {xz - wy, yz + wx, 1 - xx - yy}}};
   for (std::size_t i = 0; i < 3; ++i) R[i] = statements.bind(fmt::format("{}r{}", name, i), R[i]);
   return R;
 }

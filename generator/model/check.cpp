@@ -57,7 +57,8 @@ class NumberCheck {
       values({c.initial_position, c.initial_velocity, Expression(0.0)}, joint.where, "initial state " + name);
     }
     if (joint.type == JointType::kFree) check_free(joint);
-    if (joint.type == JointType::kFixed || joint.coordinates.empty() || joint.type == JointType::kCurve) return;
+    if (joint.type == JointType::kFixed || joint.coordinates.empty() || joint.type == JointType::kCurve)
+      return;
     const SourceRange where = first_known(joint.axis_where, joint.where);
     const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);
     if (!std::isfinite(length)) diagnostics_.error(where, fmt::format("axis {} is not finite", name));
@@ -82,7 +83,8 @@ class NumberCheck {
 
   void check_second_axis(const Joint& joint, const SourceRange& where, const std::string& name) {
     const std::array<double, 3>&a = joint.axis, &b = joint.second_axis;
-    const double cross = std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+    const double cross =
+        std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
     const double size = std::hypot(a[0], a[1], a[2]) * std::hypot(b[0], b[1], b[2]);
     if (!(cross > 1e-6 * size))
       diagnostics_.error(where, fmt::format("the axes {} are parallel", name),

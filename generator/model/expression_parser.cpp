@@ -72,7 +72,8 @@ class Parser {
   std::string_view dotted_name_at(std::size_t begin) const {
     const std::string_view word = name_at(begin);
     const std::size_t dot = begin + word.size();
-    if (word.empty() || dot + 1 >= text_.size() || text_[dot] != '.' || !starts_name(text_[dot + 1])) return word;
+    if (word.empty() || dot + 1 >= text_.size() || text_[dot] != '.' || !starts_name(text_[dot + 1]))
+      return word;
     return text_.substr(begin, word.size() + 1 + name_at(dot + 1).size());
   }
 

@@ -17,8 +17,13 @@ void check_motion(TomlFile& file, const TomlTable& table, const Expression& moti
   std::vector<Taylor<double>> parameters;
   for (const double value : file.values()) parameters.push_back({value, 0, 0});
   const Taylor<double> at_start = motion.evaluate<Taylor<double>>(
-      parameters, [](double v) { return Taylor<double>{v, 0, 0}; },
-      [](const Variable&) { return Taylor<double>{0, 1, 0}; });
+      parameters,
+      [](double v) {
+        return Taylor<double>{v, 0, 0};
+      },
+      [](const Variable&) {
+        return Taylor<double>{0, 1, 0};
+      });
   const char* what = !std::isfinite(at_start.value)    ? "value"
                      : !std::isfinite(at_start.first)  ? "velocity"
                      : !std::isfinite(at_start.second) ? "acceleration"
@@ -52,10 +57,9 @@ void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordin
 }
 
 const std::vector<std::string>& coordinate_keys() {
-  static const std::vector<std::string> keys = {"stiffness",        "rest",
-                                                "damping",          "friction",
-                                                "friction_speed",   "motion",
-                                                "initial_position", "initial_velocity"};
+  static const std::vector<std::string> keys = {
+      "stiffness",      "rest",   "damping",          "friction",
+      "friction_speed", "motion", "initial_position", "initial_velocity"};
   return keys;
 }
 

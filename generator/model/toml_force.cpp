@@ -70,9 +70,9 @@ void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanis
   std::size_t number = 0;
   for (const toml::node& node : section) {
     const std::string name = name_or_number(*node.as_table(), "force", ++number);
-    const TomlTable table(
-        file, *node.as_table(), fmt::format("force '{}'", shown(name)), file.range(node.source()),
-        {"name", "frame", "joint", "coordinate", "force", "moment", "axes", "value"});
+    const TomlTable table(file, *node.as_table(), fmt::format("force '{}'", shown(name)),
+                          file.range(node.source()),
+                          {"name", "frame", "joint", "coordinate", "force", "moment", "axes", "value"});
     if (table.has("frame") == table.has("joint"))
       file.error(file.range(node.source()),
                  fmt::format("force '{}' needs either 'frame' or 'joint'", shown(name)));
@@ -88,10 +88,11 @@ void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechani
   for (const toml::node& node : section) {
     Spring spring;
     spring.name = name_or_number(*node.as_table(), "spring", ++number);
-    const TomlTable table(
-        file, *node.as_table(), fmt::format("spring '{}'", shown(spring.name)), file.range(node.source()),
-        {"name", "from", "to", "stiffness", "damping", "free_length", "law", "potential"});
-    const auto from = find_frame(file, table, "from", mechanism), to = find_frame(file, table, "to", mechanism);
+    const TomlTable table(file, *node.as_table(), fmt::format("spring '{}'", shown(spring.name)),
+                          file.range(node.source()),
+                          {"name", "from", "to", "stiffness", "damping", "free_length", "law", "potential"});
+    const auto from = find_frame(file, table, "from", mechanism),
+               to = find_frame(file, table, "to", mechanism);
     spring.where = table.where("from");
     spring.stiffness = table.number("stiffness");
     spring.damping = table.number("damping");

@@ -23,7 +23,9 @@ const Scope kCurveScope = {{"s", {.kind = Variable::Kind::kArgument}}};
 /// Keys that a joint of this type has beside the common ones.
 std::vector<std::string> keys_of(JointType type) {
   std::vector<std::string> keys;
-  const auto add = [&keys](std::initializer_list<const char*> more) { keys.insert(keys.end(), more.begin(), more.end()); };
+  const auto add = [&keys](std::initializer_list<const char*> more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+  };
   const std::span<const CoordinateKind> kinds = coordinate_kinds(type);
   if (kinds.size() == 1) keys = coordinate_keys();
   if (kinds.size() > 1)
@@ -193,12 +195,18 @@ class JointReader {
     double speed = 0;
     for (const Expression& component : joint.curve) {
       const Taylor<double> at = component.evaluate<Taylor<double>>(
-          parameters, [](double v) { return Taylor<double>{v, 0, 0}; },
-          [start](const Variable&) { return Taylor<double>{start, 1, 0}; });
+          parameters,
+          [](double v) {
+            return Taylor<double>{v, 0, 0};
+          },
+          [start](const Variable&) {
+            return Taylor<double>{start, 1, 0};
+          });
       speed = std::hypot(speed, at.first);
     }
     if (!(speed > 0) || !std::isfinite(speed))
-      table_.error("curve", fmt::format("{} does not move with s at s = {:.6g}", table_.quoted("curve"), start),
+      table_.error("curve",
+                   fmt::format("{} does not move with s at s = {:.6g}", table_.quoted("curve"), start),
                    "a coordinate must change the position where it starts");
   }
 
@@ -225,8 +233,8 @@ std::vector<Joint> read_joints(TomlFile& file, const toml::array& section, const
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint) {
   const std::span<const CoordinateKind> kinds = coordinate_kinds(joint.type);
   if (kinds.empty()) {
-    const std::string reason = joint.type == JointType::kFixed ? "is fixed and takes no force"
-                                                               : "has no scalar coordinate";
+    const std::string reason =
+        joint.type == JointType::kFixed ? "is fixed and takes no force" : "has no scalar coordinate";
     table.error("joint", fmt::format("joint '{}' {}", shown(joint.name), reason),
                 joint.type == JointType::kFixed ? "" : "a load on a frame of its child takes its place");
     return {};

@@ -49,9 +49,10 @@ bool read_joint(TomlFile& file, const TomlTable& table, Output& output, const Me
   output.coordinate = *coordinate;
   const Coordinate& driven = mechanism.joints[*joint].coordinates[*coordinate];
   if (!driven.motion)
-    table.error("joint", fmt::format("coordinate '{}' has no prescribed motion that a drive could make",
-                                     shown(driven.name)),
-                "motion = \"...\" prescribes it");
+    table.error(
+        "joint",
+        fmt::format("coordinate '{}' has no prescribed motion that a drive could make", shown(driven.name)),
+        "motion = \"...\" prescribes it");
   return true;
 }
 
@@ -81,7 +82,8 @@ void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechani
     output.name = (*node.as_table())["name"].value_or(std::string());
     const TomlTable table(file, *node.as_table(),
                           output.name.empty() ? "an output" : fmt::format("output '{}'", shown(output.name)),
-                          file.range(node.source()), {"name", "kind", "frame", "joint", "coordinate", "value"});
+                          file.range(node.source()),
+                          {"name", "kind", "frame", "joint", "coordinate", "value"});
     table.required_text("name");
     output.where = table.where("name");
     if (!table.has("kind")) table.missing("kind", fmt::format("one of {}", fmt::join(kKinds, ", ")));
@@ -90,7 +92,8 @@ void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechani
     output.kind = static_cast<OutputKind>(*kind);
     check_identifier(file, output.where, "output", output.name);
     if (is_reserved(output.name))
-      table.error("name", fmt::format("'{}' is reserved in C++ and cannot name an output", shown(output.name)));
+      table.error("name",
+                  fmt::format("'{}' is reserved in C++ and cannot name an output", shown(output.name)));
     const bool sound = read_content(file, table, output, mechanism);
     if (sound && is_new_name(file, output.where, "outputs", output.name, mechanism.outputs))
       mechanism.outputs.push_back(output);

@@ -105,8 +105,8 @@ class TomlReader {
   TomlReader(Diagnostics& diagnostics, const toml::table& root) : file_(diagnostics), root_(root) {}
 
   Mechanism read() {
-    const std::vector<std::string> known{"model", "parameters", "body",   "joint", "frame",
-                                         "actuator", "input",   "force", "spring", "output"};
+    const std::vector<std::string> known{"model",    "parameters", "body",  "joint",  "frame",
+                                         "actuator", "input",      "force", "spring", "output"};
     const TomlTable top(file_, root_, "the file", {}, known);
     Mechanism mechanism;
     if (const toml::table* section = top.table("parameters"))

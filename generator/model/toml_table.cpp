@@ -50,8 +50,9 @@ TomlTable::TomlTable(TomlFile& file, const toml::table& table, std::string what,
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string close = support::nearest(name, known);
     file_.error(file_.range(key.source()), fmt::format("unknown key '{}' in {}", shown(name), what_),
-                close.empty() ? fmt::format("known are {}", fmt::join(shown_keys.empty() ? known : shown_keys, ", "))
-                              : fmt::format("did you mean '{}'?", close));
+                close.empty()
+                    ? fmt::format("known are {}", fmt::join(shown_keys.empty() ? known : shown_keys, ", "))
+                    : fmt::format("did you mean '{}'?", close));
   }
 }
 
@@ -138,8 +139,7 @@ Expression TomlTable::function(std::string_view key, const Scope& scope) const {
 Vector3 TomlTable::functions(std::string_view key, const Scope& scope) const {
   Vector3 result;
   const toml::array* array = has(key) ? numbers(key, 3) : nullptr;
-  for (std::size_t i = 0; array && i < 3; ++i)
-    result[i] = file_.expression((*array)[i], quoted(key), scope);
+  for (std::size_t i = 0; array && i < 3; ++i) result[i] = file_.expression((*array)[i], quoted(key), scope);
   return result;
 }
 

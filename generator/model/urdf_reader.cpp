@@ -233,10 +233,10 @@ class UrdfReader {
   void free_floating_children(std::size_t root) {
     for (Joint& joint : mechanism_.joints) {
       if (joint.type != JointType::kFree || joint.parent != BodyIndex(root)) continue;
-      const bool placed = std::any_of(
-          joint.placement.position.begin(), joint.placement.position.end(),
-          [](const Expression& e) { return !e.is_zero(); });
-      if (options_.root == RootJoint::kFixed && !placed && !is_turned(joint.placement.rotation)) joint.parent = {};
+      const bool placed = std::any_of(joint.placement.position.begin(), joint.placement.position.end(),
+                                      [](const Expression& e) { return !e.is_zero(); });
+      if (options_.root == RootJoint::kFixed && !placed && !is_turned(joint.placement.rotation))
+        joint.parent = {};
     }
   }
 

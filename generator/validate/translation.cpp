@@ -41,7 +41,8 @@ class Uniform {
 };
 
 /// For each entry of y whether it is an angle.
-std::vector<bool> angular_positions(const model::Mechanism& mechanism, const model::CoordinateLayout& layout) {
+std::vector<bool> angular_positions(const model::Mechanism& mechanism,
+                                    const model::CoordinateLayout& layout) {
   std::vector<bool> angular(layout.position_count(), false);
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
     for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
@@ -146,7 +147,9 @@ class Comparison {
     return 0;
   }
 
-  reference::State<long double> state() const { return {sample_.t, to_vector(sample_.y), to_vector(sample_.z)}; }
+  reference::State<long double> state() const {
+    return {sample_.t, to_vector(sample_.y), to_vector(sample_.z)};
+  }
 
   static Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
   static Eigen::Index at(int i) { return static_cast<Eigen::Index>(i); }
@@ -246,7 +249,8 @@ class Comparison {
       for (const dynamics::OutputValues& member : equations_.outputs[o])
         for (const kinematics::Ex& expected : member.values) {
           record(verdict_.entry_error,
-                 error(values[k++], to_double(exact_.value(expected)), outputs_[o].scales[entry++]), kTolerance,
+                 error(values[k++], to_double(exact_.value(expected)), outputs_[o].scales[entry++]),
+                 kTolerance,
                  fmt::format("output {} {} of the program", equations_.output_names[o], member.member));
         }
     }

@@ -33,8 +33,7 @@ Scalar value(const model::Expression& expression, const Scene<Scalar>& scene,
       case Variable::Kind::kFrameSpin:
         return scene.frames.at(i).omega[component];
       case Variable::Kind::kArgument:
-        JD_CHECK(v.component < arguments.size(), "argument {} of {}", v.component,
-                 arguments.size());
+        JD_CHECK(v.component < arguments.size(), "argument {} of {}", v.component, arguments.size());
         return arguments[v.component];
     }
     throw support::InternalError("a variable is of no known kind");

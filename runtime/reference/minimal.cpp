@@ -147,12 +147,8 @@ template <class Scalar>
 Terms<Scalar> Reference<Scalar>::all_columns(const Forces& at) const {
   const MatrixX<Scalar> square = MatrixX<Scalar>::Zero(column_count(), column_count());
   const VectorX<Scalar> column = VectorX<Scalar>::Zero(column_count());
-  Terms<Scalar> sum{.M = square,
-                    .k_bar = column,
-                    .q_bar = column,
-                    .M_scale = square,
-                    .k_scale = column,
-                    .q_scale = column};
+  Terms<Scalar> sum{
+      .M = square, .k_bar = column, .q_bar = column, .M_scale = square, .k_scale = column, .q_scale = column};
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     FrameMotion center = at.bodies[i];
     center.shift(center.R * bodies_[i].p_BC);

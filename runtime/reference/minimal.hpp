@@ -14,8 +14,8 @@
 
 #include <Eigen/Dense>
 
-#include <cstddef>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -147,7 +147,8 @@ class Reference {
   void add_joint_forces(const Forces& at, Terms<Scalar>& sum) const;
   void add_springs(const Forces& at, Terms<Scalar>& sum) const;
   void add_loads(const Forces& at, Terms<Scalar>& sum) const;
-  std::array<Bounded<Scalar>, 3> pull(const model::Spring& spring, const Forces& at, Terms<Scalar>* energy) const;
+  std::array<Bounded<Scalar>, 3> pull(const model::Spring& spring, const Forces& at,
+                                      Terms<Scalar>* energy) const;
 
   /// Second derivatives of all scalar velocities, with their scales.
   struct Accelerations {

@@ -149,8 +149,7 @@ std::array<Bounded<Scalar>, 3> Reference<Scalar>::pull(const model::Spring& spri
         [&](const model::Variable& v) { return v.component == 0 ? length : rate; });
   };
   const B stretch = length - B(value(spring.free_length));
-  const B tension =
-      B(value(spring.stiffness)) * stretch + B(value(spring.damping)) * rate + law(spring.law);
+  const B tension = B(value(spring.stiffness)) * stretch + B(value(spring.damping)) * rate + law(spring.law);
   if (energy) {
     B stored = B(value(spring.stiffness)) * stretch * stretch / B(2);
     if (spring.potential) stored = stored + law(*spring.potential);

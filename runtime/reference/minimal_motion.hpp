@@ -41,8 +41,13 @@ Taylor<Scalar> Reference<Scalar>::taylor(const model::Expression& expression, Sc
   std::vector<Taylor<Scalar>> parameters;
   for (const Scalar p : parameters_) parameters.push_back({p, 0, 0});
   return expression.evaluate<Taylor<Scalar>>(
-      parameters, [](double v) { return Taylor<Scalar>{Scalar(v), 0, 0}; },
-      [&](const model::Variable&) { return Taylor<Scalar>{variable, 1, 0}; });
+      parameters,
+      [](double v) {
+        return Taylor<Scalar>{Scalar(v), 0, 0};
+      },
+      [&](const model::Variable&) {
+        return Taylor<Scalar>{variable, 1, 0};
+      });
 }
 
 /// Value and rate of a scalar coordinate, and the acceleration of a prescribed one.
@@ -52,7 +57,8 @@ Taylor<Scalar> Reference<Scalar>::coordinate(std::size_t joint, std::size_t whic
   const model::Coordinate& coordinate = mechanism_.joints[joint].coordinates[which];
   if (coordinate.motion) return taylor(*coordinate.motion, state.t);
   const model::JointEntries& entries = layout_.joints[joint];
-  return {state.y[Eigen::Index(*entries.position[which])], state.z[Eigen::Index(*entries.velocity[which])], 0};
+  return {state.y[Eigen::Index(*entries.position[which])], state.z[Eigen::Index(*entries.velocity[which])],
+          0};
 }
 
 template <class Scalar>
@@ -69,7 +75,8 @@ typename Reference<Scalar>::FrameMotion Reference<Scalar>::child_motion(const Fr
   const model::Joint& joint = mechanism_.joints[index];
   FrameMotion child = parent;
   child.shift(parent.R * vector_value(joint.placement.position, std::span<const Scalar>(parameters_)));
-  child.R = parent.R * rotation_value(joint.placement.rotation, std::span<const Scalar>(parameters_), snapping_);
+  child.R =
+      parent.R * rotation_value(joint.placement.rotation, std::span<const Scalar>(parameters_), snapping_);
   const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
   const auto turn = [&](std::size_t which, const Vector3<Scalar>& axis) {
     const Taylor<Scalar> q = coordinate(index, which, state);
@@ -104,8 +111,7 @@ typename Reference<Scalar>::FrameMotion Reference<Scalar>::child_motion(const Fr
       turn(1, unit<Scalar>(joint.second_axis));
       break;
     case JointType::kPlanar: {
-      const auto directions =
-          model::plane_axes({double(axis.x()), double(axis.y()), double(axis.z())});
+      const auto directions = model::plane_axes({double(axis.x()), double(axis.y()), double(axis.z())});
       slide(0, unit<Scalar>(directions[0]), 1);
       slide(1, unit<Scalar>(directions[1]), 1);
       turn(2, axis);
@@ -241,7 +247,8 @@ VectorX<Scalar> Reference<Scalar>::position_rate(const State<Scalar>& state) con
   for (const model::JointIndex index : order_) {
     const model::JointEntries& entries = layout_.joints[index.value];
     for (std::size_t c = 0; c < entries.position.size(); ++c)
-      if (entries.position[c]) rate[Eigen::Index(*entries.position[c])] = state.z[Eigen::Index(*entries.velocity[c])];
+      if (entries.position[c])
+        rate[Eigen::Index(*entries.position[c])] = state.z[Eigen::Index(*entries.velocity[c])];
     const JointType type = mechanism_.joints[index.value].type;
     if (type != JointType::kFree && type != JointType::kSpherical) continue;
     auto y = Eigen::Index(entries.first_position), z = Eigen::Index(entries.first_velocity);

@@ -127,7 +127,8 @@ OutputValue<Scalar> Reference<Scalar>::reaction(std::size_t joint, const Forces&
     return body && carried[body->value];
   };
   const auto apply = [&](const std::array<Bounded<Scalar>, 3>& f, Scalar sign, std::size_t frame) {
-    const Vector3<Scalar> value(f[0].value, f[1].value, f[2].value), scale(f[0].scale, f[1].scale, f[2].scale);
+    const Vector3<Scalar> value(f[0].value, f[1].value, f[2].value),
+        scale(f[0].scale, f[1].scale, f[2].scale);
     add(-sign * value, scale, zero, zero, at.frames[frame]);
   };
   for (const model::Spring& spring : mechanism_.springs) {
@@ -169,8 +170,7 @@ std::vector<OutputValue<Scalar>> Reference<Scalar>::outputs(const State<Scalar>&
   all.values << zdot, prescribed;
   all.scales << zdot_scale, prescribed.cwiseAbs();
   std::vector<OutputValue<Scalar>> values;
-  for (const model::Output& wanted : mechanism_.outputs)
-    values.push_back(output(wanted, at, terms, all));
+  for (const model::Output& wanted : mechanism_.outputs) values.push_back(output(wanted, at, terms, all));
   return values;
 }
 

@@ -83,10 +83,12 @@ std::string driver(const std::vector<EmittedModel>& models, const std::string& r
     for (std::size_t i = 0; i < model.parameters.size(); ++i)
       assignments += fmt::format("  parameters.{} = static_cast<{}>(p[{}]);\n", model.parameters[i], real, i);
     text += fmt::format(
-        "extern \"C\" void evaluate_{0}(double t, const double* p, const double* y, const double* z, const double* u, "
+        "extern \"C\" void evaluate_{0}(double t, const double* p, const double* y, const double* z, const "
+        "double* u, "
         "const double* "
         "zdot, double h, double* out);\n"
-        "void evaluate_{0}(double t, const double* p, const double* y, const double* z, const double* u, const double* "
+        "void evaluate_{0}(double t, const double* p, const double* y, const double* z, const double* u, "
+        "const double* "
         "zdot, double "
         "h, double* out) {{\n  {0}::Parameters<{1}> parameters;\n  static_cast<void>(p);\n{2}"
         "  evaluate({0}::Model<{1}>(parameters), t, y, z, u, zdot, h, out);\n}}\n",
@@ -106,7 +108,10 @@ EmittedModel emit_model(const Derived& derived, const std::string& name) {
   compiled.module = derived.module;
   validate_and_emit(derived.mechanism, derived.equations, options, compiled);
   if (!compiled.verdict.accepted()) throw std::runtime_error(compiled.verdict.failures.front());
-  EmittedModel model{name, compiled.files, {}, derived.equations.initial_position.size(),
+  EmittedModel model{name,
+                     compiled.files,
+                     {},
+                     derived.equations.initial_position.size(),
                      derived.equations.initial_velocity.size()};
   for (const auto& output : derived.equations.outputs)
     for (const dynamics::OutputValues& member : output) model.outputs += member.values.size();

@@ -47,8 +47,8 @@ double relative(double value, double exact, long double scale) {
 reference::Terms<long double> reference_terms(const Derived& derived, const Sample& sample) {
   const std::vector<long double> parameters(sample.parameters.begin(), sample.parameters.end());
   const reference::Reference<long double> reference(derived.mechanism, parameters);
-  auto terms =
-      reference.evaluate({.t = sample.t, .y = to_vector(sample.y), .z = to_vector(sample.z)}, to_vector(sample.u));
+  auto terms = reference.evaluate({.t = sample.t, .y = to_vector(sample.y), .z = to_vector(sample.z)},
+                                  to_vector(sample.u));
   reference::widen_scales(terms);
   return terms;
 }

@@ -16,7 +16,8 @@ std::vector<bool> random_articulation(const model::Mechanism& mechanism, std::ui
   const Scene scene(mechanism, {});
   std::vector<bool> articulated;
   for (const kinematics::Link& link : scene.tree.links)
-    articulated.push_back((link.parent == kinematics::kGround || articulated[link.parent]) && random.chance(0.6));
+    articulated.push_back((link.parent == kinematics::kGround || articulated[link.parent]) &&
+                          random.chance(0.6));
   return articulated;
 }
 
@@ -29,7 +30,8 @@ TEST(Solver, GivesTheSameAccelerationsWhicheverLinksAreArticulated) {
     const tests::Sample sample = tests::random_sample(mechanism, seed);
     const tests::Judge judge(plain, sample);
     const tests::Derived mixed = tests::derive(mechanism, options);
-    EXPECT_LE(judge.backward_error(tests::interpreted<double>(mixed.module, "forward_dynamics", sample)), 1e-13)
+    EXPECT_LE(judge.backward_error(tests::interpreted<double>(mixed.module, "forward_dynamics", sample)),
+              1e-13)
         << seed;
   }
 }

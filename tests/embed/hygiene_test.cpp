@@ -49,7 +49,7 @@ TEST(EmittedCode, CompilesCleanAndNeedsNothingButElementaryFunctions) {
   const std::set<std::string> allowed = {"sin",  "cos",   "sincos",  "sqrt",   "sinf",
                                          "cosf", "sqrtf", "sincosf", "memcpy", "memset"};
   const support::TemporaryFolder folder;
-  ASSERT_EQ(emitted_models().size(), 7u);
+  ASSERT_GE(emitted_models().size(), 7u);
   for (const std::string compiler : {"g++", "clang++"}) {
     if (!have_compiler(compiler)) GTEST_SKIP() << "no " << compiler;
     for (const std::string& model : emitted_models()) {
