@@ -154,20 +154,20 @@ class Applied {
     const Ex ratio = tension_per_length(spring, s);
     const Vector3 pull = statements_.bind(spring.name + "f", ratio * s.difference);
     const std::vector<model::Frame>& frames = scene_.mechanism.frames;
-    pull_at(frames[spring.from.value], s.from_pose, s.from, pull, spring.name + "fa");
-    pull_at(frames[spring.to.value], s.to_pose, s.to, Ex(-1) * pull, spring.name + "fb");
+    pull_at(frames[spring.from.value], s.from, pull, spring.name + "fa");
+    pull_at(frames[spring.to.value], s.to, Ex(-1) * pull, spring.name + "fb");
   }
 
   /// A force at the end of a path: its share along each column on the way, and the wrench on the end's link.
-  void pull_at(const model::Frame& frame, const kinematics::BodyPose& pose, const PointPath& path,
-               const Vector3& force, const std::string& name) {
+  void pull_at(const model::Frame& frame, const PointPath& path, const Vector3& force,
+               const std::string& name) {
     const std::vector<Vector3> carried = carry_outward(scene_, path, force, name);
     for (std::size_t k = 0; k < path.links.size(); ++k) {
       const Wrench wrench{carried[k], kinematics::cross(path.levers[k], carried[k])};
       for (std::size_t c = 0; c < scene_.columns[path.links[k]].size(); ++c)
         push(path.links[k], c, power(wrench, scene_.columns[path.links[k]][c].twist));
     }
-    if (pose.link == kGround) return;
+    if (!frame.body) return;
     // A path that ends at the common ancestor itself has no link: there the force is in W of that link already.
     const bool at_ancestor = path.links.empty();
     const Vector3& f = at_ancestor ? force : carried.front();
@@ -176,8 +176,8 @@ class Applied {
   }
 
   void add_load(const model::Load& load) {
-    const kinematics::BodyPose pose = frame_pose(scene_, scene_.mechanism.frames[load.frame.value]);
-    if (pose.link == kGround) return;
+    const model::Frame& frame = scene_.mechanism.frames[load.frame.value];
+    const kinematics::BodyPose pose = frame_pose(scene_, frame);
     const auto components = [&](const model::Vector3& v, const char* what) {
       Vector3 value;
       for (std::size_t k = 0; k < 3; ++k) value[k] = general_value(scene_, load.name + what, v[k], inputs_);
@@ -187,17 +187,18 @@ class Applied {
     const Vector3 moment = to_working(load, pose, components(load.moment, "n"), load.name + "n");
     const Vector3 lever = scene_.frames.to_working(pose.link, pose.r_LB, load.name + "x");
     const Wrench wrench{force, statements_.bind(load.name + "m", moment + cross(lever, force))};
+    if (frame.body) forces_.on_bodies.push_back({*frame.body, wrench});
+    if (pose.link == kGround) return;
     Wrench& sum = forces_.on_link[pose.link];
     sum.force = statements_.bind(load.name + "sf", sum.force + wrench.force);
     sum.moment = statements_.bind(load.name + "sn", sum.moment + wrench.moment);
-    forces_.on_bodies.push_back({*scene_.mechanism.frames[load.frame.value].body, wrench});
   }
 
   Vector3 to_working(const model::Load& load, const kinematics::BodyPose& pose, const Vector3& v,
                      const std::string& name) {
     if (load.axes == model::LoadAxes::kFrame)
       return scene_.frames.to_working(pose.link, statements_.bind(name, pose.R_LB * v), name);
-    if (v[0].is_zero() && v[1].is_zero() && v[2].is_zero()) return v;
+    if (pose.link == kGround || (v[0].is_zero() && v[1].is_zero() && v[2].is_zero())) return v;
     const PointPath path = follow_point(scene_, pose.link, kinematics::zero_vector(), kGround, name);
     return carry_outward(scene_, path, v, name).front();
   }

@@ -10,7 +10,8 @@ namespace jourdain::dynamics {
 /// kZero: as if all inputs were zero.
 enum class Inputs { kGiven, kZero };
 
-/// Wrench of a load or a spring's end on a body: about the origin of the body's link, in W.
+/// Wrench of a load or a spring's end on a body: about the origin of the body's link, in W (the inertial frame for a body
+/// that is fixed to it).
 struct BodyWrench {
   model::BodyIndex body;
   Wrench wrench;

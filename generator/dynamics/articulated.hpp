@@ -25,11 +25,12 @@ ArticulatedInertia sum(const ArticulatedInertia& a, const ArticulatedInertia& b,
 /// Wrench that the acceleration `twist` needs.
 Wrench product(const ArticulatedInertia& inertia, const Twist& twist);
 
-/// inertia − U Uᵀ/D, with `share` = U/D. Where the twist that gave way is along one axis, its row becomes exactly 0.
+/// inertia − U Uᵀ/D for U = inertia · twist and D = twist · U, with `share` = U/D. Where the twist that gives way is along one
+/// axis, its row becomes exactly 0.
 ArticulatedInertia give_way(const ArticulatedInertia& inertia, const Wrench& U, const Wrench& share,
                             const Twist& twist, const std::string& name, kinematics::Statements& statements);
 
-/// inertia − G Gᵀ/D for a momentum G of a joint further out, with `share` = G/D.
+/// inertia − G Gᵀ/D with `share` = G/D: for the momentum G of a joint further out, or with a rotor's inertia in D.
 ArticulatedInertia reduced(const ArticulatedInertia& inertia, const Wrench& G, const Wrench& share,
                            const std::string& name, kinematics::Statements& statements);
 

@@ -253,7 +253,7 @@ class Outputs {
     }
     for (std::size_t k = 0; k < applied_.on_bodies.size(); ++k) {
       const BodyWrench& applied = applied_.on_bodies[k];
-      if (!carried[applied.body.value]) continue;
+      if (!carried[applied.body.value] || scene_.tree.bodies[applied.body.value].link == kGround) continue;
       add(scene_.tree.bodies[applied.body.value].link,
           {Ex(-1) * applied.wrench.force, Ex(-1) * applied.wrench.moment}, fmt::format("{}e{}", prefix, k));
     }
@@ -283,6 +283,11 @@ class Outputs {
       const kinematics::MassMoments& moments = scene_.tree.body_moments[b];
       sum.force = statements_.bind(name + "gf", sum.force + moments.mass * upward);
       sum.moment = statements_.bind(name + "gn", sum.moment + cross(moments.first, upward));
+    }
+    for (const BodyWrench& applied : applied_.on_bodies) {
+      if (!carried[applied.body.value] || scene_.tree.bodies[applied.body.value].link != kGround) continue;
+      sum.force = statements_.bind(name + "af", sum.force - applied.wrench.force);
+      sum.moment = statements_.bind(name + "an", sum.moment - applied.wrench.moment);
     }
     for (std::size_t i = 0; i < scene_.link_count(); ++i) {
       if (scene_.tree.links[i].parent != kGround) continue;

@@ -168,7 +168,9 @@ class Solver {
       row.share = scaled(row.inverse_D, row.G, step + "s");
       row.u = statements_.bind(step + "u", row.u - power(force, column.twist));
       if (link.parent == kGround && c == 0) break;
-      inertia = dynamics::give_way(inertia, row.G, row.share, column.twist, step + "I", statements_);
+      const bool rotor = !H_[*column.entry][*column.entry].is_zero();
+      inertia = rotor ? reduced(inertia, row.G, row.share, step + "I", statements_)
+                      : dynamics::give_way(inertia, row.G, row.share, column.twist, step + "I", statements_);
       add(force, row.share, row.u, step + "f");
     }
     if (link.parent == kGround) return;

@@ -39,6 +39,7 @@ Matrix3 frame_along(const Vector3& z) {
   if (z[2].is_equal(1)) return identity_matrix();
   if (z[0].is_equal(1)) return {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
   if (z[1].is_equal(1)) return {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}};
+  if (z[2].is_equal(-1)) return {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
   const Ex rho = square_root(z[0] * z[0] + z[1] * z[1]);
   const Vector3 x = {-z[1] / rho, z[0] / rho, 0};
   const Vector3 y = cross(z, x);

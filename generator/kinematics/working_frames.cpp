@@ -86,6 +86,7 @@ void WorkingFrames::set_translation(std::size_t i, const LinkState& state) {
 }
 
 Vector3 WorkingFrames::to_working(std::size_t link, const Vector3& v, const std::string& name) const {
+  if (link == kGround) return v;
   const Ex &c = cosine_[link], &s = sine_[link];
   return statements_.bind(name, Vector3{c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]});
 }

@@ -19,7 +19,7 @@ class WorkingFrames {
   const Ex& cosine(std::size_t link) const { return cosine_[link]; }
   const Ex& sine(std::size_t link) const { return sine_[link]; }
 
-  /// Components in W of a vector given in L, and back. Bound as `name`.
+  /// Components in W of a vector given in L, and back. Bound as `name`. Nothing changes for kGround.
   Vector3 to_working(std::size_t link, const Vector3& v_L, const std::string& name) const;
   Vector3 to_link(std::size_t link, const Vector3& v_W, const std::string& name) const;
 

@@ -122,7 +122,7 @@ TEST(Check, SaysOkInOneLine) {
 TEST(Info, ShowsTreeOperationsAndOmissions) {
   const support::ProcessResult result = jourdain({"info", "models/cart_pole.toml"});
   for (const char* part :
-       {"slide [prismatic along (1, 0, 0), y[0]] -> cart", "2 degrees of freedom", "input u[0] push",
+       {"slide [prismatic (1, 0, 0), y[0]] -> cart", "2 degrees of freedom", "input u[0] push",
         "parameter pole_mass = 0.1 kg", "forward_dynamics", "left out", "hoist", "assumes: "})
     expect(result, 0, part);
 }

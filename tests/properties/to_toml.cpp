@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+#include <vector>
+
+#include "model/coordinates.hpp"
+
 namespace jourdain::tests {
 
 namespace {
@@ -21,8 +26,11 @@ class Writer {
     for (const model::Body& body : mechanism_.bodies) add(body);
     for (const model::Joint& joint : mechanism_.joints) add(joint);
     for (const model::Actuator& actuator : mechanism_.actuators)
-      text_ += fmt::format("\n[[actuator]]\njoint = \"{}\"\nname = \"{}\"\n",
-                           mechanism_.joints[actuator.joint.value].name, actuator.name);
+      text_ += fmt::format("\n[[actuator]]\nname = \"{}\"\n{}gear_ratio = {}\nrotor_inertia = {}\n", actuator.name,
+                           coordinate(actuator.joint, actuator.coordinate), value(actuator.gear_ratio),
+                           value(actuator.rotor_inertia));
+    add_forces();
+    for (const model::Output& output : mechanism_.outputs) add(output);
     return text_;
   }
 
@@ -41,7 +49,7 @@ class Writer {
       case Expression::Op::kParameter:
         return mechanism_.parameters[node.parameter.value].name;
       case Expression::Op::kVariable:
-        return "t";
+        return variable(node.variable);
       case Expression::Op::kNegate:
         return fmt::format("(-{})", side(node.left));
       case Expression::Op::kAdd:
@@ -60,6 +68,31 @@ class Writer {
         return fmt::format("sin({})", side(node.left));
       case Expression::Op::kCos:
         return fmt::format("cos({})", side(node.left));
+    }
+    return "";
+  }
+
+  std::string variable(const model::Variable& v) const {
+    using Kind = model::Variable::Kind;
+    constexpr const char* kAxes[] = {"x", "y", "z"};
+    switch (v.kind) {
+      case Kind::kTime:
+        return "t";
+      case Kind::kPosition:
+      case Kind::kVelocity:
+        return mechanism_.joints[v.index].coordinates[v.component].name + (v.kind == Kind::kVelocity ? ".rate" : "");
+      case Kind::kInput:
+        return v.index < mechanism_.actuators.size()
+                   ? mechanism_.actuators[v.index].name
+                   : mechanism_.inputs[v.index - mechanism_.actuators.size()].name;
+      case Kind::kFramePosition:
+        return fmt::format("{}.{}", mechanism_.frames[v.index].name, kAxes[v.component]);
+      case Kind::kFrameVelocity:
+        return fmt::format("{}.v{}", mechanism_.frames[v.index].name, kAxes[v.component]);
+      case Kind::kFrameSpin:
+        return fmt::format("{}.w{}", mechanism_.frames[v.index].name, kAxes[v.component]);
+      case Kind::kArgument:
+        return arguments_[v.component];
     }
     return "";
   }
@@ -85,25 +118,113 @@ class Writer {
                          body.lumped ? "lumped" : "rigid");
   }
 
+  static const char* type_name(model::JointType type) {
+    static constexpr const char* kTypes[] = {"fixed",     "revolute", "prismatic", "screw", "cylindrical",
+                                             "universal", "planar",   "spherical", "free",  "curve"};
+    return kTypes[std::size_t(type)];
+  }
+
+  static std::string axis(const char* key, const std::array<double, 3>& a) {
+    return fmt::format("{} = [{}, {}, {}]\n", key, number(a[0]), number(a[1]), number(a[2]));
+  }
+
   void add(const model::Joint& joint) {
-    static constexpr const char* kTypes[] = {"fixed", "revolute", "prismatic"};
+    using Type = model::JointType;
     text_ += fmt::format("\n[[joint]]\nname = \"{}\"\ntype = \"{}\"\nparent = \"{}\"\nchild = \"{}\"\n",
-                         joint.name, kTypes[std::size_t(joint.type)],
+                         joint.name, type_name(joint.type),
                          joint.parent ? mechanism_.bodies[joint.parent->value].name : "world",
                          mechanism_.bodies[joint.child.value].name);
-    text_ += fmt::format("position = {}\nrpy = {}\n", vector(joint.placement.position),
-                         vector(joint.placement.rotation.rpy));
-    if (joint.type == model::JointType::kFixed) return;
-    text_ +=
-        fmt::format("axis = [{}, {}, {}]\nstiffness = {}\nrest = {}\ndamping = {}\n", number(joint.axis[0]),
-                    number(joint.axis[1]), number(joint.axis[2]), value(joint.coordinates[0].stiffness),
-                    value(joint.coordinates[0].rest), value(joint.coordinates[0].damping));
-    text_ += fmt::format("initial_position = {}\ninitial_velocity = {}\n",
-                         value(joint.coordinates[0].initial_position),
-                         value(joint.coordinates[0].initial_velocity));
+    if (joint.type != Type::kFree)
+      text_ += fmt::format("position = {}\nrpy = {}\n", vector(joint.placement.position),
+                           vector(joint.placement.rotation.rpy));
+    if (!joint.coordinates.empty() && joint.type != Type::kCurve) text_ += axis("axis", joint.axis);
+    if (joint.type == Type::kUniversal) text_ += axis("second_axis", joint.second_axis);
+    if (joint.type == Type::kScrew) text_ += fmt::format("pitch = {}\n", value(joint.pitch));
+    if (joint.type == Type::kCurve) text_ += fmt::format("curve = {}\n", with({"s"}, joint.curve));
+    if (joint.type == Type::kSpherical) text_ += fmt::format("damping = {}\n", value(joint.spin_damping));
+    if (joint.type == Type::kFree)
+      text_ += fmt::format("initial_position = {}\ninitial_velocity = {}\n", vector(joint.initial_origin),
+                           vector(joint.initial_origin_velocity));
+    if (joint.type == Type::kFree || joint.type == Type::kSpherical) {
+      const auto& q = joint.initial_orientation;
+      text_ += fmt::format("initial_orientation = [{}, {}, {}, {}]\ninitial_angular_velocity = {}\n", value(q[0]),
+                           value(q[1]), value(q[2]), value(q[3]), vector(joint.initial_spin));
+    }
+    const std::span<const model::CoordinateKind> kinds = model::coordinate_kinds(joint.type);
+    for (std::size_t c = 0; c < kinds.size(); ++c)
+      if (kinds.size() == 1)
+        text_ += element(joint.coordinates[c], "\n") + "\n";
+      else
+        text_ += fmt::format("{} = {{ {} }}\n", kinds[c].suffix, element(joint.coordinates[c], ", "));
+  }
+
+  std::string element(const model::Coordinate& c, const char* separator) const {
+    std::string text = fmt::format("stiffness = {1}{0}rest = {2}{0}damping = {3}{0}friction = {4}{0}friction_speed = {5}",
+                                   separator, value(c.stiffness), value(c.rest), value(c.damping),
+                                   value(c.friction), value(c.friction_speed));
+    if (c.motion) return text + fmt::format("{}motion = {}", separator, value(*c.motion));
+    return text + fmt::format("{0}initial_position = {1}{0}initial_velocity = {2}", separator,
+                              value(c.initial_position), value(c.initial_velocity));
+  }
+
+  /// A vector or value of functions of named arguments.
+  template <class Functions>
+  std::string with(std::vector<std::string> arguments, const Functions& functions) {
+    arguments_ = std::move(arguments);
+    if constexpr (std::is_same_v<Functions, Expression>)
+      return value(functions);
+    else
+      return vector(functions);
+  }
+
+  std::string coordinate(model::JointIndex joint, std::size_t which) const {
+    const model::Joint& j = mechanism_.joints[joint.value];
+    const std::span<const model::CoordinateKind> kinds = model::coordinate_kinds(j.type);
+    return fmt::format("joint = \"{}\"\n", j.name) +
+           (kinds.size() > 1 ? fmt::format("coordinate = \"{}\"\n", kinds[which].suffix) : "");
+  }
+
+  const std::string& frame(model::FrameIndex index) const { return mechanism_.frames[index.value].name; }
+
+  void add_forces() {
+    for (const model::Frame& f : mechanism_.frames)
+      text_ += fmt::format("\n[[frame]]\nname = \"{}\"\nbody = \"{}\"\nposition = {}\nrpy = {}\n", f.name,
+                           f.body ? mechanism_.bodies[f.body->value].name : "world",
+                           vector(f.placement.position), vector(f.placement.rotation.rpy));
+    for (const model::Input& input : mechanism_.inputs)
+      text_ += fmt::format("\n[[input]]\nname = \"{}\"\n", input.name);
+    for (const model::Load& load : mechanism_.loads)
+      text_ += fmt::format("\n[[force]]\nname = \"{}\"\nframe = \"{}\"\nforce = {}\nmoment = {}\naxes = \"{}\"\n",
+                           load.name, frame(load.frame), vector(load.force), vector(load.moment),
+                           load.axes == model::LoadAxes::kFrame ? "frame" : "world");
+    for (const model::CoordinateForce& force : mechanism_.coordinate_forces)
+      text_ += fmt::format("\n[[force]]\nname = \"{}\"\n{}value = {}\n", force.name,
+                           coordinate(force.joint, force.coordinate), value(force.force));
+    for (const model::Spring& spring : mechanism_.springs) {
+      text_ += fmt::format(
+          "\n[[spring]]\nname = \"{}\"\nfrom = \"{}\"\nto = \"{}\"\nstiffness = {}\ndamping = {}\n"
+          "free_length = {}\nlaw = {}\n",
+          spring.name, frame(spring.from), frame(spring.to), value(spring.stiffness), value(spring.damping),
+          value(spring.free_length), with({"length", "rate"}, spring.law));
+      if (spring.potential) text_ += fmt::format("potential = {}\n", with({"length"}, *spring.potential));
+    }
+  }
+
+  void add(const model::Output& output) {
+    using Kind = model::OutputKind;
+    static constexpr const char* kKinds[] = {"pose",  "velocity",       "acceleration",     "jacobian",  "reaction",
+                                             "drive", "kinetic_energy", "potential_energy", "expression"};
+    text_ += fmt::format("\n[[output]]\nname = \"{}\"\nkind = \"{}\"\n", output.name,
+                         kKinds[std::size_t(output.kind)]);
+    if (output.kind <= Kind::kJacobian) text_ += fmt::format("frame = \"{}\"\n", frame(output.frame));
+    if (output.kind == Kind::kReaction)
+      text_ += fmt::format("joint = \"{}\"\n", mechanism_.joints[output.joint.value].name);
+    if (output.kind == Kind::kDrive) text_ += coordinate(output.joint, output.coordinate);
+    if (output.kind == Kind::kExpression) text_ += fmt::format("value = {}\n", value(output.value));
   }
 
   const model::Mechanism& mechanism_;
+  std::vector<std::string> arguments_;  // names of kArgument where the writer is
   std::string text_;
 };
 
