@@ -178,7 +178,7 @@ class BodyPrinter {
   void print_part(Part& part, std::size_t index, const std::vector<std::size_t>& statements,
                   const std::vector<std::size_t>& part_of,
                   const std::map<std::size_t, std::size_t>& slots) const {
-    const std::size_t parts = part_of[statements.empty() ? 0 : statements.back()] + 1;
+    const std::size_t parts = statements.empty() ? 1 : part_of[statements.back()] + 1;
     if (index > 0)
       for (std::size_t i : needed_in(index, statements, part_of, parts))
         part.lines.push_back(fmt::format("const Real {} = w[{}];", name_[i], slots.at(i)));
