@@ -120,8 +120,19 @@ std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const
   return frames;
 }
 
-std::vector<Input> read_inputs(TomlFile& file, const toml::array& section,
-                               const std::vector<Actuator>& actuators) {
+namespace {
+
+/// Where a coordinate of that name is declared.
+std::optional<SourceRange> coordinate_named(const Mechanism& mechanism, const std::string& name) {
+  for (const Joint& joint : mechanism.joints)
+    for (const Coordinate& coordinate : joint.coordinates)
+      if (coordinate.name == name) return joint.where;
+  return {};
+}
+
+}  // namespace
+
+std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism) {
   std::vector<Input> inputs;
   for (const toml::node& node : section) {
     const TomlTable table(file, *node.as_table(), "an input", file.range(node.source()),
@@ -133,7 +144,10 @@ std::vector<Input> read_inputs(TomlFile& file, const toml::array& section,
     input.description = table.text("description").value_or("");
     if (input.name.empty()) continue;
     check_identifier(file, input.where, "input", input.name);
-    if (is_new_name(file, input.where, "actuators and inputs", input.name, actuators) &&
+    if (const auto joint = coordinate_named(mechanism, input.name))
+      table.error("name", fmt::format("input '{}' has the name of a coordinate", shown(input.name)),
+                  fmt::format("declared at line {}", joint->line));
+    if (is_new_name(file, input.where, "actuators and inputs", input.name, mechanism.actuators) &&
         is_new_name(file, input.where, "inputs", input.name, inputs))
       inputs.push_back(input);
   }

@@ -121,7 +121,7 @@ class TomlReader {
     if (const auto* section = tables(top, "frame"))
       mechanism.frames = read_frames(file_, *section, mechanism.bodies);
     if (const auto* section = tables(top, "input"))
-      mechanism.inputs = read_inputs(file_, *section, mechanism.actuators);
+      mechanism.inputs = read_inputs(file_, *section, mechanism);
     if (const auto* section = tables(top, "force")) read_forces(file_, *section, mechanism);
     if (const auto* section = tables(top, "spring")) read_springs(file_, *section, mechanism);
     if (const auto* section = tables(top, "output")) read_outputs(file_, *section, mechanism);

@@ -37,8 +37,7 @@ std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& 
 std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies);
 
 /// All [[input]] tables.
-std::vector<Input> read_inputs(TomlFile& file, const toml::array& section,
-                               const std::vector<Actuator>& actuators);
+std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism);
 
 /// [[force]], [[spring]] and [[output]]: what refers to bodies, joints, frames and inputs, which `mechanism` has already.
 /// Bodies that are named where a frame may stand become frames.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "dynamics/high_precision.hpp"
@@ -112,11 +113,18 @@ class Comparison {
         reference_(mechanism, parameters_),
         terms_(reference_.evaluate(state(), to_vector(sample.u))) {
     reference::widen_scales(terms_);
+    // An angle of many turns is rounded with its size.
+    const long double turns = reference_.largest_angle(state()) / std::numbers::pi_v<long double>;
+    terms_.M_scale *= turns;
+    terms_.k_scale *= turns;
+    terms_.q_scale *= turns;
     if (mechanism.outputs.empty()) return;
     const Vector zdot = reference::forward_dynamics<long double>(terms_);
     const Vector load = terms_.M_scale * zdot.cwiseAbs() + terms_.k_scale + terms_.q_scale;
     const Vector scale = zdot.cwiseAbs() + terms_.M.inverse().cwiseAbs() * load;
     outputs_ = reference_.outputs(state(), to_vector(sample.u), zdot, scale);
+    for (reference::OutputValue<long double>& output : outputs_)
+      for (long double& entry : output.scales) entry *= turns;
   }
 
   void run() {

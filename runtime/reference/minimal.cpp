@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "reference/minimal_forces.hpp"
 #include "reference/minimal_motion.hpp"
@@ -104,6 +105,15 @@ typename Reference<Scalar>::Forces Reference<Scalar>::forces(const State<Scalar>
     at.rates[state.z.size() + Eigen::Index(i)] =
         coordinate(prescribed_[i].first, prescribed_[i].second, state).first;
   return at;
+}
+
+template <class Scalar>
+Scalar Reference<Scalar>::largest_angle(const State<Scalar>& state) const {
+  Scalar largest = Scalar(std::numbers::pi_v<long double>);
+  for (const auto& [joint, which] : prescribed_)
+    if (mechanism_.joints[joint].coordinates[which].angular)
+      largest = std::max(largest, std::fabs(coordinate(joint, which, state).value));
+  return largest;
 }
 
 template <class Scalar>

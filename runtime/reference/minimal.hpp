@@ -101,6 +101,8 @@ class Reference {
   std::size_t input_count() const { return layout_.input_count(); }
   /// The state in which the model starts, t = 0.
   State<Scalar> initial_state() const;
+  /// Largest prescribed angle, rad, at least π: rounding an angle moves everything by its size times the unit roundoff.
+  Scalar largest_angle(const State<Scalar>& state) const;
   /// ẏ = Z z.
   VectorX<Scalar> position_rate(const State<Scalar>& state) const;
   /// Motion of every body's centre of mass, in the order of `Mechanism::bodies`.

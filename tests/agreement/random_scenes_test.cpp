@@ -108,7 +108,8 @@ class Comparison {
       long double scale = 1;
       for (const long double s : values[k].scales) scale = std::max(scale, s);
       for (std::size_t i = 0; i < expected.size(); ++i)
-        worst = larger_error(worst, double(std::fabs(values[k].values[i] - expected[i]) / scale) / condition());
+        worst =
+            larger_error(worst, double(std::fabs(values[k].values[i] - expected[i]) / scale) / condition());
     }
     return worst;
   }
@@ -156,11 +157,11 @@ TEST(RandomScenes, AgreeInInterpreterReferencesAndSixtyDigits) {
     w.condition = std::max(w.condition, compare.condition());
     ASSERT_FALSE(HasFailure());
   }
-  fmt::print("{:<13} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9}\n", "scenes", "", "backward", "fwd/cond",
-             "entries", "outputs", "reference", "descriptor", "cond(M)");
+  fmt::print("{:<13} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9}\n", "scenes", "", "backward",
+             "fwd/cond", "entries", "outputs", "reference", "descriptor", "cond(M)");
   for (const auto& [name, w] : worst)
-    fmt::print("{:<13} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>10.1e} {:>9.1e}\n", name, w.scenes,
-               w.backward, w.forward, w.entries, w.outputs, w.reference, w.descriptor, w.condition);
+    fmt::print("{:<13} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>10.1e} {:>9.1e}\n", name,
+               w.scenes, w.backward, w.forward, w.entries, w.outputs, w.reference, w.descriptor, w.condition);
 }
 
 TEST(RandomScenes, GiveTheSameOutputsWithEverySimplificationOff) {

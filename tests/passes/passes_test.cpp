@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ir/builder.hpp"
+#include "passes/constants.hpp"
 #include "passes/factor.hpp"
 #include "passes/hoist.hpp"
 #include "passes/pipeline.hpp"
@@ -58,6 +59,27 @@ TEST(Factor, NeverAddsOperationsAndKeepsValuesToRounding) {
   EXPECT_GT(saved, 0u);
 }
 
+TEST(GroupConstants, MultipliesConstantsWithEachOtherFirst) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), p = b.leaf(LeafKind::kParameter, 0);
+  b.output("r", 0, -1, b.multiply(b.literal(0.5), b.multiply(b.literal(2), x)));
+  b.output("r", 1, -1, b.divide(b.multiply(p, b.multiply(x, x)), b.multiply(p, p)));
+  EXPECT_EQ(print(group_constants(b.finish("p"))),
+            "program p\n%0 = y[0]\n%1 = parameter[0]\n%2 = mul %0 %0\n%3 = mul %1 %1\n%4 = div %1 %3\n"
+            "%5 = mul %2 %4\nr[0] := %0\nr[1] := %5\n");
+}
+
+TEST(GroupConstants, NeverAddsOperationsAndKeepsValuesToRounding) {
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
+    const Program before = random_program(seed), after = group_constants(before);
+    ASSERT_LE(operations(after), operations(remove_dead_code(before))) << print(before);
+    const auto leaves = random_leaves(seed);
+    const auto expected = ir::interpret(before, leaves), actual = ir::interpret(after, leaves);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      ASSERT_NEAR(actual[i], expected[i], 1e-9 * (1 + std::fabs(expected[i]))) << print(before);
+  }
+}
+
 TEST(RemoveDeadCode, GivesTheSameBits) {
   for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
     const Program before = random_program(seed), after = remove_dead_code(before);
@@ -104,10 +126,10 @@ TEST(Passes, AreIdempotent) {
 
 TEST(Pipeline, RecordsWhatEachPassDid) {
   const Optimised result = optimise(module_of(random_program(7)));
-  ASSERT_EQ(result.records.size(), 3u);
+  ASSERT_EQ(result.records.size(), 4u);
   EXPECT_EQ(result.records.back().name, "hoist");
   EXPECT_EQ(result.records.back().operations_after, arithmetic(result.module));
-  EXPECT_EQ(optimise(module_of(random_program(7)), {"factor"}).records.size(), 2u);
+  EXPECT_EQ(optimise(module_of(random_program(7)), {"factor"}).records.size(), 3u);
 }
 
 }  // namespace

@@ -23,9 +23,15 @@ constexpr double kLargestCondition = 1e8;
 constexpr std::size_t kMostBodies = 8;
 
 Expression operator+(const Expression& a, const Expression& b) { return Expression::binary(Op::kAdd, a, b); }
-Expression operator*(const Expression& a, const Expression& b) { return Expression::binary(Op::kMultiply, a, b); }
-Expression operator-(const Expression& a, const Expression& b) { return Expression::binary(Op::kSubtract, a, b); }
-Expression operator/(const Expression& a, const Expression& b) { return Expression::binary(Op::kDivide, a, b); }
+Expression operator*(const Expression& a, const Expression& b) {
+  return Expression::binary(Op::kMultiply, a, b);
+}
+Expression operator-(const Expression& a, const Expression& b) {
+  return Expression::binary(Op::kSubtract, a, b);
+}
+Expression operator/(const Expression& a, const Expression& b) {
+  return Expression::binary(Op::kDivide, a, b);
+}
 Expression sine(const Expression& a) { return Expression::unary(Op::kSin, a); }
 Expression cosine(const Expression& a) { return Expression::unary(Op::kCos, a); }
 
@@ -68,9 +74,9 @@ class Decoration {
   }
 
   void change_type(model::Joint& joint) {
-    static constexpr JointType kTypes[] = {JointType::kScrew,     JointType::kCylindrical, JointType::kUniversal,
-                                           JointType::kPlanar,    JointType::kSpherical,   JointType::kCurve,
-                                           JointType::kRevolute,  JointType::kPrismatic};
+    static constexpr JointType kTypes[] = {
+        JointType::kScrew,     JointType::kCylindrical, JointType::kUniversal, JointType::kPlanar,
+        JointType::kSpherical, JointType::kCurve,       JointType::kRevolute,  JointType::kPrismatic};
     const bool fixed = joint.type == JointType::kFixed;
     if (random_.chance(fixed ? 0.7 : 0.3)) return;
     joint.set_type(kTypes[random_.below(8)]);
@@ -87,8 +93,9 @@ class Decoration {
 
   void fill(model::Joint& joint) {
     joint.pitch = number(-0.3, 0.3);
-    joint.second_axis = random_.chance(0.5) ? std::array<double, 3>{1, 0, 0}
-                                            : std::array<double, 3>{random_.uniform(0.5, 1), random_.uniform(-1, 1), 0.1};
+    joint.second_axis = random_.chance(0.5)
+                            ? std::array<double, 3>{1, 0, 0}
+                            : std::array<double, 3>{random_.uniform(0.5, 1), random_.uniform(-1, 1), 0.1};
     if (joint.type == JointType::kUniversal && random_.chance(0.5)) joint.axis = {0, 0, random_.sign()};
     if (joint.type == JointType::kUniversal && are_near(joint.axis, joint.second_axis))
       joint.second_axis = {joint.axis[1], joint.axis[2], -joint.axis[0]};
@@ -151,7 +158,8 @@ class Decoration {
       if (i < 2) frame.body = model::BodyIndex(random_.below(mechanism_.bodies.size()));
       for (Expression& c : frame.placement.position) c = number(-0.5, 0.5);
       if (random_.chance(0.6))
-        frame.placement.rotation.rpy = {random_.uniform(-3, 3), random_.uniform(-1, 1), random_.uniform(-3, 3)};
+        frame.placement.rotation.rpy = {random_.uniform(-3, 3), random_.uniform(-1, 1),
+                                        random_.uniform(-3, 3)};
       mechanism_.frames.push_back(frame);
     }
   }

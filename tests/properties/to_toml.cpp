@@ -26,9 +26,9 @@ class Writer {
     for (const model::Body& body : mechanism_.bodies) add(body);
     for (const model::Joint& joint : mechanism_.joints) add(joint);
     for (const model::Actuator& actuator : mechanism_.actuators)
-      text_ += fmt::format("\n[[actuator]]\nname = \"{}\"\n{}gear_ratio = {}\nrotor_inertia = {}\n", actuator.name,
-                           coordinate(actuator.joint, actuator.coordinate), value(actuator.gear_ratio),
-                           value(actuator.rotor_inertia));
+      text_ += fmt::format("\n[[actuator]]\nname = \"{}\"\n{}gear_ratio = {}\nrotor_inertia = {}\n",
+                           actuator.name, coordinate(actuator.joint, actuator.coordinate),
+                           value(actuator.gear_ratio), value(actuator.rotor_inertia));
     add_forces();
     for (const model::Output& output : mechanism_.outputs) add(output);
     return text_;
@@ -80,7 +80,8 @@ class Writer {
         return "t";
       case Kind::kPosition:
       case Kind::kVelocity:
-        return mechanism_.joints[v.index].coordinates[v.component].name + (v.kind == Kind::kVelocity ? ".rate" : "");
+        return mechanism_.joints[v.index].coordinates[v.component].name +
+               (v.kind == Kind::kVelocity ? ".rate" : "");
       case Kind::kInput:
         return v.index < mechanism_.actuators.size()
                    ? mechanism_.actuators[v.index].name
@@ -147,8 +148,8 @@ class Writer {
                            vector(joint.initial_origin_velocity));
     if (joint.type == Type::kFree || joint.type == Type::kSpherical) {
       const auto& q = joint.initial_orientation;
-      text_ += fmt::format("initial_orientation = [{}, {}, {}, {}]\ninitial_angular_velocity = {}\n", value(q[0]),
-                           value(q[1]), value(q[2]), value(q[3]), vector(joint.initial_spin));
+      text_ += fmt::format("initial_orientation = [{}, {}, {}, {}]\ninitial_angular_velocity = {}\n",
+                           value(q[0]), value(q[1]), value(q[2]), value(q[3]), vector(joint.initial_spin));
     }
     const std::span<const model::CoordinateKind> kinds = model::coordinate_kinds(joint.type);
     for (std::size_t c = 0; c < kinds.size(); ++c)
@@ -159,9 +160,9 @@ class Writer {
   }
 
   std::string element(const model::Coordinate& c, const char* separator) const {
-    std::string text = fmt::format("stiffness = {1}{0}rest = {2}{0}damping = {3}{0}friction = {4}{0}friction_speed = {5}",
-                                   separator, value(c.stiffness), value(c.rest), value(c.damping),
-                                   value(c.friction), value(c.friction_speed));
+    std::string text = fmt::format(
+        "stiffness = {1}{0}rest = {2}{0}damping = {3}{0}friction = {4}{0}friction_speed = {5}", separator,
+        value(c.stiffness), value(c.rest), value(c.damping), value(c.friction), value(c.friction_speed));
     if (c.motion) return text + fmt::format("{}motion = {}", separator, value(*c.motion));
     return text + fmt::format("{0}initial_position = {1}{0}initial_velocity = {2}", separator,
                               value(c.initial_position), value(c.initial_velocity));
@@ -194,9 +195,10 @@ class Writer {
     for (const model::Input& input : mechanism_.inputs)
       text_ += fmt::format("\n[[input]]\nname = \"{}\"\n", input.name);
     for (const model::Load& load : mechanism_.loads)
-      text_ += fmt::format("\n[[force]]\nname = \"{}\"\nframe = \"{}\"\nforce = {}\nmoment = {}\naxes = \"{}\"\n",
-                           load.name, frame(load.frame), vector(load.force), vector(load.moment),
-                           load.axes == model::LoadAxes::kFrame ? "frame" : "world");
+      text_ +=
+          fmt::format("\n[[force]]\nname = \"{}\"\nframe = \"{}\"\nforce = {}\nmoment = {}\naxes = \"{}\"\n",
+                      load.name, frame(load.frame), vector(load.force), vector(load.moment),
+                      load.axes == model::LoadAxes::kFrame ? "frame" : "world");
     for (const model::CoordinateForce& force : mechanism_.coordinate_forces)
       text_ += fmt::format("\n[[force]]\nname = \"{}\"\n{}value = {}\n", force.name,
                            coordinate(force.joint, force.coordinate), value(force.force));
@@ -212,8 +214,9 @@ class Writer {
 
   void add(const model::Output& output) {
     using Kind = model::OutputKind;
-    static constexpr const char* kKinds[] = {"pose",  "velocity",       "acceleration",     "jacobian",  "reaction",
-                                             "drive", "kinetic_energy", "potential_energy", "expression"};
+    static constexpr const char* kKinds[] = {"pose",           "velocity",         "acceleration",
+                                             "jacobian",       "reaction",         "drive",
+                                             "kinetic_energy", "potential_energy", "expression"};
     text_ += fmt::format("\n[[output]]\nname = \"{}\"\nkind = \"{}\"\n", output.name,
                          kKinds[std::size_t(output.kind)]);
     if (output.kind <= Kind::kJacobian) text_ += fmt::format("frame = \"{}\"\n", frame(output.frame));
