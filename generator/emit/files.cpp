@@ -304,8 +304,8 @@ class Emitter {
           members += fmt::format("    Real {}{};\n", member.name, bounds);
       }
       if (!members.empty())
-        text += fmt::format("  /// {}\n  struct {{\n{}  }} {};\n", comment_text(output.comment), members,
-                            output.name);
+        text += wrapped_doc(comment_text(output.comment), 2) +
+                fmt::format("  struct {{\n{}  }} {};\n", members, output.name);
     }
     return text + "};\n\n";
   }

@@ -27,6 +27,11 @@ std::string wrapped(const std::string& line, std::size_t indent) {
   return broken(std::string(indent, ' ') + line, std::string(indent + 4, ' '), indent + 4);
 }
 
+std::string wrapped_doc(const std::string& content, std::size_t indent) {
+  const std::string margin(indent, ' ');
+  return broken(margin + "/// " + content, margin + "/// ", indent + 8);
+}
+
 std::string wrapped_comment(const std::string& content) { return broken("// " + content, "//   ", 8); }
 
 std::string prefixed(const std::string& prefix, const std::string& lines) {

@@ -8,6 +8,9 @@ namespace jourdain::emit {
 /// A statement, indented, broken at spaces so that its lines stay short; ends with a line break.
 std::string wrapped(const std::string& line, std::size_t indent);
 
+/// A doc comment, broken into lines that begin with "///".
+std::string wrapped_doc(const std::string& content, std::size_t indent);
+
 /// A `// ` comment of one or more lines.
 std::string wrapped_comment(const std::string& content);
 

@@ -118,7 +118,6 @@ class Builder {
         break;
       case LinkKind::kCurve:
         link.R_PJ = pose.R_LB;
-        link.parallel = options_.share_parallel && pose.link != kGround;
         break;
       case LinkKind::kTurn:
       case LinkKind::kSlide:

@@ -68,10 +68,6 @@ void WorkingFrames::set_translation(std::size_t i, const LinkState& state) {
     offset = statements_.bind(name + "c", offset + link.R_PJ * state.place);
     direction = statements_.bind(name + "d", link.R_PJ * state.slope);
     curvature = statements_.bind(name + "dd", link.R_PJ * state.curvature);
-    if (link.parallel) {
-      direction = to_working(link.parent, direction, name + "d");
-      curvature = to_working(link.parent, curvature, name + "dd");
-    }
   }
   if (link.kind == LinkKind::kFree) offset = state.origin + rotation_[i] * link.shift;
   if (link.parallel) offset = to_working(link.parent, offset, name);

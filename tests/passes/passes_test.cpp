@@ -62,8 +62,10 @@ TEST(Factor, NeverAddsOperationsAndKeepsValuesToRounding) {
 TEST(GroupConstants, MultipliesConstantsWithEachOtherFirst) {
   Builder b;
   const Signed x = b.leaf(LeafKind::kPosition, 0), p = b.leaf(LeafKind::kParameter, 0);
-  b.output("r", 0, -1, b.multiply(b.literal(0.5), b.multiply(b.literal(2), x)));
-  b.output("r", 1, -1, b.divide(b.multiply(p, b.multiply(x, x)), b.multiply(p, p)));
+  const Signed twice = b.multiply(b.literal(2), x);
+  b.output("r", 0, -1, b.multiply(b.literal(0.5), twice));
+  const Signed xx = b.multiply(x, x), pp = b.multiply(p, p);
+  b.output("r", 1, -1, b.divide(b.multiply(p, xx), pp));
   EXPECT_EQ(print(group_constants(b.finish("p"))),
             "program p\n%0 = y[0]\n%1 = parameter[0]\n%2 = mul %0 %0\n%3 = mul %1 %1\n%4 = div %1 %3\n"
             "%5 = mul %2 %4\nr[0] := %0\nr[1] := %5\n");
