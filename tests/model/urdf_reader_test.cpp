@@ -95,6 +95,30 @@ TEST(ReadUrdf, LeavesDampingOutOnRequest) {
   EXPECT_TRUE(read_cleanly(kArm, {.damping = false}).joints[0].coordinates[0].damping.is_zero());
 }
 
+TEST(ReadUrdf, PutsTheRootOnAFreeJoint) {
+  const Mechanism m = read_cleanly(kArm, {.root = RootJoint::kFree});
+  const JointIndex first = depth_first(m).front();
+  EXPECT_EQ(m.joints[first.value].type, JointType::kFree);
+  EXPECT_EQ(m.joints[first.value].name, "root");
+  EXPECT_FALSE(m.joints[first.value].parent);
+  EXPECT_EQ(m.actuators.size(), 2u);
+}
+
+TEST(ReadUrdf, ReadsPlanarJointsAndFloatingOnesOnTheRoot) {
+  const auto robot = [](const std::string& type) {
+    return "<robot name='r'><link name='base'/><link name='b'><inertial><mass value='1'/>"
+           "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+           "<joint name='j' type='" + type + "'><parent link='base'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>";
+  };
+  const Mechanism planar = read_cleanly(robot("planar"));
+  EXPECT_EQ(planar.joints[0].type, JointType::kPlanar);
+  EXPECT_EQ(planar.joints[0].coordinates.size(), 3u);
+  EXPECT_TRUE(planar.actuators.empty());
+  const Mechanism floating = read_cleanly(robot("floating"));
+  EXPECT_EQ(floating.joints[0].type, JointType::kFree);
+  EXPECT_FALSE(floating.joints[0].parent);
+}
+
 TEST(ReadUrdf, LocksJoints) {
   const Mechanism m = read_cleanly(kArm, {.locked_joints = {"slide"}});
   EXPECT_EQ(m.joints[1].type, JointType::kFixed);
