@@ -40,12 +40,13 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
-  rate = parameters.rate;
   radius = parameters.radius;
-  kW0w22 = rate * rate;
-  c2 = Real(0.1) * kW0w22;
-  c3 = radius * Real(0.9810000000000001);
-  c5 = radius * Real(0.1) * Real(9.81);
+  rate = parameters.rate;
+  kL0w22 = rate * rate;
+  c1 = Real(0.1) * kL0w22;
+  c2 = radius * Real(0.9810000000000001);
+  c4 = radius * Real(0.1) * Real(9.81);
+  c6 = Real(0.1) * (rate * Real(2.0));
 }
 
 template <class Real>
@@ -59,84 +60,54 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept {
-  const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
   const Real derivative = c * model.radius;
   const Real derivative_2 = model.radius * s;
-  Real s0, c0;
-  detail::sine_cosine(expression, s0, c0);
-  const Real r1d_x = derivative * c0;
-  const Real r1d_y = derivative * s0;
-  const Real M_0_0 = Real(0.1) * (r1d_y * r1d_y) + (derivative_2 * derivative_2 * Real(0.1) + Real(0.1) *
-      (r1d_x * r1d_x));
+  const Real M_0_0 = derivative * derivative * Real(0.1) + Real(0.1) * (derivative_2 * derivative_2);
   M[0][0] = M_0_0;
 }
 
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept {
-  const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
-  const Real expression_2 = s * model.radius;
+  const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
-  Real s0, c0;
-  detail::sine_cosine(expression, s0, c0);
-  const Real r1d_x = derivative * c0;
-  const Real r1d_y = derivative * s0;
-  const Real r1dd_x = expression_2 * c0;
-  const Real r1dd_y = expression_2 * s0;
-  const Real kQp10 = r1dd_x * model.c2;
-  const Real kQp11 = r1dd_y * model.c2;
-  const Real z2_1 = state.z[0] * Real(2.0);
+  const Real kQp10 = expression * model.c1;
   const Real zz_1 = state.z[0] * state.z[0];
-  const Real kco1_x = r1dd_x * zz_1 + model.rate * (r1d_y * z2_1);
-  const Real kco1_y = r1dd_y * zz_1 - model.rate * (r1d_x * z2_1);
+  const Real kco1_x = expression * zz_1;
   const Real kco1_z = derivative * zz_1;
   const Real kdf1t_x = kco1_x * Real(0.1);
-  const Real kdf1t_y = kco1_y * Real(0.1);
-  const Real kQ1_0 = r1d_x * (kQp10 + kdf1t_x) - (Real(0.1) * (expression_2 * kco1_z) - r1d_y * (kQp11 +
-      kdf1t_y));
-  k[0] = kQ1_0;
+  const Real kQ1_0 = Real(0.1) * (expression * kco1_z) - derivative * (kQp10 + kdf1t_x);
+  k[0] = -kQ1_0;
 }
 
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
   const Real s = detail::sine(state.y[0]);
   const Real push1_0 = state.z[0] * Real(0.01);
-  const Real q_0 = push1_0 + s * model.c3;
+  const Real q_0 = push1_0 + s * model.c2;
   q[0] = q_0;
 }
 
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
-  const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
-  const Real expression_2 = s * model.radius;
+  const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
-  Real s0, c0;
-  detail::sine_cosine(expression, s0, c0);
-  const Real r1d_x = derivative * c0;
-  const Real r1d_y = derivative * s0;
-  const Real r1dd_x = expression_2 * c0;
-  const Real r1dd_y = expression_2 * s0;
   const Real push1_0 = state.z[0] * Real(0.01);
-  const Real bQp10 = r1dd_x * model.c2;
-  const Real bQp11 = r1dd_y * model.c2;
-  const Real z2_1 = state.z[0] * Real(2.0);
+  const Real bQp10 = expression * model.c1;
   const Real zz_1 = state.z[0] * state.z[0];
-  const Real bco1_x = r1dd_x * zz_1 + model.rate * (r1d_y * z2_1);
-  const Real bco1_y = r1dd_y * zz_1 - model.rate * (r1d_x * z2_1);
+  const Real bco1_x = expression * zz_1;
   const Real bco1_z = derivative * zz_1;
   const Real bdf1t_x = bco1_x * Real(0.1);
-  const Real bdf1t_y = bco1_y * Real(0.1);
   const Real bdf1t_z = bco1_z * Real(0.1);
-  const Real b_0 = expression_2 * (bdf1t_z + Real(0.9810000000000001)) - (r1d_x * (bQp10 + bdf1t_x) - (push1_0
-      - r1d_y * (bQp11 + bdf1t_y)));
-  const Real M0_0 = Real(0.1) * (r1d_y * r1d_y) + (Real(0.1) * (expression_2 * expression_2) + Real(0.1) *
-      (r1d_x * r1d_x));
+  const Real b_0 = expression * (bdf1t_z + Real(0.9810000000000001)) + (push1_0 - derivative * (bQp10 +
+      bdf1t_x));
+  const Real M0_0 = Real(0.1) * (expression * expression) + Real(0.1) * (derivative * derivative);
   const Real invD_0 = Real(1.0) / M0_0;
   const Real y_0 = b_0 * invD_0;
   zdot[0] = -y_0;
@@ -145,63 +116,39 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
-  const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
-  const Real expression_2 = s * model.radius;
+  const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
-  Real s0, c0;
-  detail::sine_cosine(expression, s0, c0);
-  const Real r1d_x = derivative * c0;
-  const Real r1d_y = derivative * s0;
-  const Real r1dd_x = expression_2 * c0;
-  const Real r1dd_y = expression_2 * s0;
   const Real push1_0 = state.z[0] * Real(0.01);
-  const Real aQp10 = r1dd_x * model.c2;
-  const Real aQp11 = r1dd_y * model.c2;
-  const Real z2_1 = state.z[0] * Real(2.0);
+  const Real aQp10 = expression * model.c1;
   const Real zz_1 = state.z[0] * state.z[0];
-  const Real aco1_x = model.rate * (r1d_y * z2_1) - (r1d_x * zdot[0] - r1dd_x * zz_1);
-  const Real aco1_y = model.rate * (r1d_x * z2_1) + (r1d_y * zdot[0] - r1dd_y * zz_1);
-  const Real aco1_z = expression_2 * zdot[0] + derivative * zz_1;
+  const Real aco1_x = derivative * zdot[0] - expression * zz_1;
+  const Real aco1_z = expression * zdot[0] + derivative * zz_1;
   const Real adf1t_x = aco1_x * Real(0.1);
-  const Real adf1t_y = aco1_y * Real(0.1);
   const Real adf1t_z = aco1_z * Real(0.1);
-  const Real tau_1_0 = expression_2 * (adf1t_z + Real(0.9810000000000001)) - (r1d_x * (aQp10 + adf1t_x) -
-      (push1_0 - r1d_y * (aQp11 - adf1t_y)));
+  const Real tau_1_0 = expression * (adf1t_z + Real(0.9810000000000001)) + (push1_0 - derivative * (aQp10 -
+      adf1t_x));
   tau[0] = tau_1_0;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
-  const Real expression_2 = s * model.radius;
-  const Real derivative = c * model.radius;
-  Real s0, c0;
-  detail::sine_cosine(expression, s0, c0);
-  const Real r1d_x = derivative * c0;
-  const Real r1d_y = derivative * s0;
-  const Real r1_x = expression_2 * c0;
-  const Real r1_y = expression_2 * s0;
-  const Real D1 = r1_x * r1_x * Real(0.05) + Real(0.05) * (r1_y * r1_y);
-  const Real Jc1 = D1 * Real(2.0);
-  const Real J0 = Jc1 + Real(0.2);
-  const Real vrel1_x = r1d_x * state.z[0];
-  const Real vrel1_y = r1d_y * state.z[0];
-  const Real vrel1_z = expression_2 * state.z[0];
-  const Real v1P_x = vrel1_x * Real(0.1);
-  const Real v1P_y = vrel1_y * Real(0.1);
-  const Real T1 = (J0 * model.kW0w22 + (Real(0.1) * (vrel1_z * vrel1_z) + (vrel1_x * v1P_x + vrel1_y *
-      v1P_y))) * Real(0.5) - (model.rate * (r1_y * v1P_x) - model.rate * (r1_x * v1P_y));
+  const Real expression = s * model.radius;
+  const Real S1c_xx = expression * expression * Real(0.1) + Real(0.2);
+  const Real vrel1_x = model.radius * (c * state.z[0]);
+  const Real vrel1_z = expression * state.z[0];
+  const Real T1 = (Real(0.1) * (vrel1_z * vrel1_z) + (S1c_xx * model.kL0w22 + Real(0.1) * (vrel1_x *
+      vrel1_x))) * Real(0.5);
   return T1;
 }
 
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c = detail::cosine(state.y[0]);
-  const Real V = c * model.c5;
+  const Real V = c * model.c4;
   return -V;
 }
 
@@ -215,33 +162,12 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real derivative = c * model.radius;
   Real s0, c0;
   detail::sine_cosine(expression, s0, c0);
-  const Real r1d_x = derivative * c0;
-  const Real r1d_y = derivative * s0;
-  const Real r1dd_x = expression_2 * c0;
-  const Real r1dd_y = expression_2 * s0;
-  const Real push1_0 = state.z[0] * Real(0.01);
-  const Real bQp10 = r1dd_x * model.c2;
-  const Real bQp11 = r1dd_y * model.c2;
-  const Real z2_1 = state.z[0] * Real(2.0);
-  const Real zz_1 = state.z[0] * state.z[0];
-  const Real bco1_x = r1dd_x * zz_1 + model.rate * (r1d_y * z2_1);
-  const Real bco1_y = r1dd_y * zz_1 - model.rate * (r1d_x * z2_1);
-  const Real bco1_z = derivative * zz_1;
-  const Real bdf1t_x = bco1_x * Real(0.1);
-  const Real bdf1t_y = bco1_y * Real(0.1);
-  const Real bdf1t_z = bco1_z * Real(0.1);
-  const Real b_0 = expression_2 * (bdf1t_z + Real(0.9810000000000001)) - (r1d_x * (bQp10 + bdf1t_x) - (push1_0
-      - r1d_y * (bQp11 + bdf1t_y)));
-  const Real M0_0 = Real(0.1) * (r1d_y * r1d_y) + (Real(0.1) * (expression_2 * expression_2) + Real(0.1) *
-      (r1d_x * r1d_x));
-  const Real invD_0 = Real(1.0) / M0_0;
-  const Real y_0 = b_0 * invD_0;
-  const Real driveco1_x = bco1_x + r1d_x * y_0;
-  const Real driveco1_y = bco1_y + r1d_y * y_0;
-  const Real driven1c_z = Real(0.1) * (r1dd_x * driveco1_y) - Real(0.1) * (r1dd_y * driveco1_x);
-  result.motor_torque = -driven1c_z;
-  result.bead_pose.position[0] = r1dd_x;
-  result.bead_pose.position[1] = r1dd_y;
+  const Real driven1c_z = expression_2 * (derivative * state.z[0]) * model.c6;
+  const Real bead_bodyx1_x = expression_2 * c0;
+  const Real bead_bodyx1_y = expression_2 * s0;
+  result.motor_torque = driven1c_z;
+  result.bead_pose.position[0] = bead_bodyx1_x;
+  result.bead_pose.position[1] = bead_bodyx1_y;
   result.bead_pose.position[2] = -derivative;
   result.bead_pose.rotation[0][0] = c0;
   result.bead_pose.rotation[0][1] = -s0;

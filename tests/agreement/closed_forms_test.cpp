@@ -9,7 +9,13 @@
 #include <sstream>
 
 #include "agreement/shared_data.hpp"
-#include "embed/emitted_models.hpp"
+#include "flyball_governor/flyball_governor_kernels.hpp"
+#include "hoop_bead/hoop_bead_kernels.hpp"
+#include "lagrange_top/lagrange_top_kernels.hpp"
+#include "quadrotor/quadrotor_kernels.hpp"
+#include "shaking_cart/shaking_cart_kernels.hpp"
+#include "spring_pendulum/spring_pendulum_kernels.hpp"
+#include "tumbling_body/tumbling_body_kernels.hpp"
 
 namespace jourdain::tests {
 namespace {
