@@ -51,21 +51,25 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   rope = parameters.rope;
   load_mass = parameters.load_mass;
   mr_z = rope * load_mass;
-  S_zz = Real(75.0) + rope * mr_z;
-  Jx1 = Real(45.0) + S_zz;
+  S_zz = Real(67.5) + rope * mr_z;
+  Jx1 = S_zz + Real(52.5);
+  Jy1 = S_zz + Real(37.5);
   rate = parameters.rate;
   const Real derivative = rate * rate;
   stroke = parameters.stroke;
-  c2 = derivative * stroke;
-  kdS10 = Real(45.0) - S_zz;
-  c5 = mr_z * Real(9.81);
-  invD_1 = Real(1.0) / Jx1;
+  c3 = derivative * stroke;
+  kdS10 = S_zz - Real(52.5);
+  kdS11 = S_zz - Real(37.5);
+  c7 = mr_z * Real(9.81);
+  invD_1 = Real(1.0) / Jy1;
+  invD_0 = Real(1.0) / Jx1;
   suspension_m = load_mass + Real(300.0);
-  c7 = rate * stroke;
+  c10 = rate * stroke;
   mr_y = load_mass * Real(0.3);
   const Real react1b1tr = S_zz + Real(90.0);
-  c14 = Real(45.0) - react1b1tr;
-  c15 = Real(0.22222222222222224) * (S_zz - react1b1tr);
+  c17 = Real(37.5) - react1b1tr;
+  c18 = Real(52.5) - react1b1tr;
+  c19 = Real(0.011111111111111112) * (S_zz - react1b1tr);
 }
 
 template <class Real>
@@ -102,7 +106,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>&, Real (&M)[3][3]) 
   M[0][0] = model.Jx1;
   M[0][1] = M[1][0] = Real(0.0);
   M[0][2] = M[2][0] = Real(0.0);
-  M[1][1] = model.Jx1;
+  M[1][1] = model.Jy1;
   M[1][2] = M[2][1] = Real(0.0);
   M[2][2] = Real(90.0);
 }
@@ -111,7 +115,7 @@ template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept {
   const Real expression = state.t * model.rate;
   const Real s = detail::sine(expression);
-  const Real derivative = s * model.c2;
+  const Real derivative = s * model.c3;
   const Real q1d2 = state.y[2] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[3];
   const Real q122 = state.y[2] * q1d2;
@@ -126,13 +130,15 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real kQp1_y = ka1_x * model.mr_z;
   const Real kww10 = state.z[1] * state.z[2];
   const Real kww11 = state.z[2] * state.z[0];
+  const Real kww12 = state.z[1] * state.z[0];
   const Real kdn1_x = kww10 * model.kdS10;
-  const Real kdn1_y = kww11 * model.kdS10;
-  const Real kQ1_0 = kQp1_x - kdn1_x;
-  const Real kQ1_1 = kQp1_y + kdn1_y;
+  const Real kdn1_y = kww11 * model.kdS11;
+  const Real kdn1_z = kww12 * Real(15.0);
+  const Real kQ1_0 = kQp1_x + kdn1_x;
+  const Real kQ1_1 = kQp1_y - kdn1_y;
   k[0] = kQ1_0;
   k[1] = kQ1_1;
-  k[2] = Real(0.0);
+  k[2] = kdn1_z;
 }
 
 template <class Real>
@@ -147,8 +153,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real push1_0 = state.z[0] * Real(20.0);
   const Real push1_1 = Real(20.0) * state.z[1];
   const Real push1_2 = Real(20.0) * state.z[2];
-  const Real q_0 = push1_0 + q1r2_y * model.c5;
-  const Real q_1 = push1_1 - q1r2_x * model.c5;
+  const Real q_0 = push1_0 + q1r2_y * model.c7;
+  const Real q_1 = push1_1 - q1r2_x * model.c7;
   q[0] = q_0;
   q[1] = q_1;
   q[2] = push1_2;
@@ -159,7 +165,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   const Real expression = state.t * model.rate;
   const Real s = detail::sine(expression);
-  const Real derivative = s * model.c2;
+  const Real derivative = s * model.c3;
   const Real q1d2 = state.y[2] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[3];
   const Real q122 = state.y[2] * q1d2;
@@ -176,21 +182,25 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q1r2_y = q123 + q101;
   const Real push1_0 = state.z[0] * Real(20.0);
   const Real push1_1 = Real(20.0) * state.z[1];
+  const Real push1_2 = Real(20.0) * state.z[2];
   const Real ba1_x = q1r2_x * Real(9.81) + derivative * q1r0_x;
   const Real ba1_y = q1r2_y * Real(9.81) - derivative * q1r0_y;
   const Real bQp1_x = ba1_y * model.mr_z;
   const Real bQp1_y = ba1_x * model.mr_z;
   const Real bww10 = state.z[1] * state.z[2];
   const Real bww11 = state.z[0] * state.z[2];
+  const Real bww12 = state.z[0] * state.z[1];
   const Real bdn1_x = bww10 * model.kdS10;
-  const Real bdn1_y = bww11 * model.kdS10;
-  const Real b_0 = bdn1_x + (push1_0 + bQp1_x);
-  const Real b_1 = bdn1_y - (push1_1 - bQp1_y);
-  const Real y_0 = b_0 * model.invD_1;
+  const Real bdn1_y = bww11 * model.kdS11;
+  const Real bdn1_z = bww12 * Real(15.0);
+  const Real b_0 = bdn1_x - (push1_0 + bQp1_x);
+  const Real b_1 = bdn1_y + (push1_1 - bQp1_y);
+  const Real b_2 = push1_2 - bdn1_z;
+  const Real y_0 = b_0 * model.invD_0;
   const Real y_1 = b_1 * model.invD_1;
-  const Real y_2 = state.z[2] * Real(0.22222222222222224);
-  zdot[0] = -y_0;
-  zdot[1] = y_1;
+  const Real y_2 = b_2 * Real(0.011111111111111112);
+  zdot[0] = y_0;
+  zdot[1] = -y_1;
   zdot[2] = -y_2;
 }
 
@@ -199,7 +209,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[3]) noexcept {
   const Real expression = state.t * model.rate;
   const Real s = detail::sine(expression);
-  const Real derivative = s * model.c2;
+  const Real derivative = s * model.c3;
   const Real q1d2 = state.y[2] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[3];
   const Real q122 = state.y[2] * q1d2;
@@ -223,20 +233,20 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aQp1_y = aa1_x * model.mr_z;
   const Real aww10 = state.z[1] * state.z[2];
   const Real aww11 = state.z[0] * state.z[2];
-  const Real adn1_z = zdot[2] * Real(90.0);
-  const Real tau_1_0 = aww10 * model.kdS10 + (zdot[0] * model.Jx1 + (push1_0 + aQp1_x));
-  const Real tau_1_1 = aww11 * model.kdS10 - (model.Jx1 * zdot[1] + (push1_1 - aQp1_y));
-  const Real tau_1_2 = push1_2 + adn1_z;
-  tau[0] = tau_1_0;
-  tau[1] = -tau_1_1;
-  tau[2] = tau_1_2;
+  const Real aww12 = state.z[0] * state.z[1];
+  const Real tau_1_0 = aww10 * model.kdS10 - (zdot[0] * model.Jx1 + (push1_0 + aQp1_x));
+  const Real tau_1_1 = aww11 * model.kdS11 + (zdot[1] * model.Jy1 + (push1_1 - aQp1_y));
+  const Real tau_1_2 = aww12 * Real(15.0) - (push1_2 + zdot[2] * Real(90.0));
+  tau[0] = -tau_1_0;
+  tau[1] = tau_1_1;
+  tau[2] = -tau_1_2;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real expression = state.t * model.rate;
   const Real c = detail::cosine(expression);
-  const Real derivative = c * model.c7;
+  const Real derivative = c * model.c10;
   const Real q1d2 = state.y[2] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[3];
   const Real q122 = state.y[2] * q1d2;
@@ -248,7 +258,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1_x = derivative * q1r0_x;
   const Real v1_y = derivative * q1r0_y;
   const Real T1 = (derivative * derivative * model.suspension_m + (state.z[2] * state.z[2] * Real(90.0) +
-      (state.z[0] * state.z[0] * model.Jx1 + model.Jx1 * (state.z[1] * state.z[1])))) * Real(0.5) + (v1_x *
+      (state.z[0] * state.z[0] * model.Jx1 + state.z[1] * state.z[1] * model.Jy1))) * Real(0.5) + (v1_x *
       state.z[1] * model.mr_z + model.mr_z * (v1_y * state.z[0]));
   return T1;
 }
@@ -271,8 +281,8 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = s * model.stroke;
-  const Real derivative = c * model.c7;
-  const Real derivative_2 = s * model.c2;
+  const Real derivative = c * model.c10;
+  const Real derivative_2 = s * model.c3;
   const Real q1d1 = state.y[1] * Real(2.0);
   const Real q1d2 = Real(2.0) * state.y[2];
   const Real q1d3 = Real(2.0) * state.y[3];
@@ -297,25 +307,29 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real q1r2_z = q122 + t34;
   const Real push1_0 = state.z[0] * Real(20.0);
   const Real push1_1 = Real(20.0) * state.z[1];
+  const Real push1_2 = Real(20.0) * state.z[2];
   const Real ba1_x = q1r2_x * Real(9.81) + derivative_2 * q1r0_x;
   const Real ba1_y = q1r2_y * Real(9.81) - derivative_2 * q1r0_y;
   const Real bQp1_x = ba1_y * model.mr_z;
   const Real bQp1_y = ba1_x * model.mr_z;
   const Real bww10 = state.z[1] * state.z[2];
   const Real bww11 = state.z[0] * state.z[2];
+  const Real bww12 = state.z[0] * state.z[1];
   const Real bdn1_x = bww10 * model.kdS10;
-  const Real bdn1_y = bww11 * model.kdS10;
-  const Real b_0 = bdn1_x + (push1_0 + bQp1_x);
-  const Real b_1 = bdn1_y - (push1_1 - bQp1_y);
-  const Real y_0 = b_0 * model.invD_1;
+  const Real bdn1_y = bww11 * model.kdS11;
+  const Real bdn1_z = bww12 * Real(15.0);
+  const Real b_0 = bdn1_x - (push1_0 + bQp1_x);
+  const Real b_1 = bdn1_y + (push1_1 - bQp1_y);
+  const Real b_2 = push1_2 - bdn1_z;
+  const Real y_0 = b_0 * model.invD_0;
   const Real y_1 = b_1 * model.invD_1;
   const Real drivedf0t_z = derivative_2 * model.suspension_m;
   const Real driveuh1 = state.z[2] * model.mr_z;
   const Real driveuw1 = state.z[2] * state.z[2] + (state.z[0] * state.z[0] + state.z[1] * state.z[1]);
-  const Real t77 = model.mr_z * y_1;
-  const Real drivedf1_x = state.z[0] * driveuh1 + t77;
-  const Real t80 = model.mr_z * y_0;
-  const Real drivedf1_y = state.z[1] * driveuh1 + t80;
+  const Real t84 = model.mr_z * y_1;
+  const Real drivedf1_x = state.z[0] * driveuh1 - t84;
+  const Real t87 = model.mr_z * y_0;
+  const Real drivedf1_y = state.z[1] * driveuh1 - t87;
   const Real drivedf1_z = state.z[2] * driveuh1 - model.mr_z * driveuw1;
   const Real drivef0_z = q1r0_z * drivedf1_z + (q1r0_y * drivedf1_y + (drivedf0t_z - q1r0_x * drivedf1_x));
   const Real hookx1p_x = q1r1_z * model.rope;
@@ -330,18 +344,18 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real reactla1t_z = q1r2_z * Real(9.81) + derivative_2 * q1r0_z;
   const Real react1b1wh_x = state.z[1] * model.mr_z;
   const Real react1b1wh_y = state.z[0] * model.mr_z;
-  const Real react1b1Sw_x = state.z[0] * Real(45.0);
-  const Real react1b1Sw_y = state.z[1] * Real(45.0);
+  const Real react1b1Sw_x = state.z[0] * Real(37.5);
+  const Real react1b1Sw_y = state.z[1] * Real(52.5);
   const Real react1b1Sw_z = state.z[2] * model.S_zz;
-  const Real react1b1F_x = state.z[2] * react1b1wh_y + (t77 - ba1_x * model.load_mass);
-  const Real react1b1F_y = state.z[2] * react1b1wh_x + (t80 - ba1_y * model.load_mass);
+  const Real react1b1F_x = state.z[2] * react1b1wh_y - (t84 + ba1_x * model.load_mass);
+  const Real react1b1F_y = state.z[2] * react1b1wh_x - (t87 + ba1_y * model.load_mass);
   const Real react1b1F_z = state.z[1] * react1b1wh_x - (reactla1t_z * model.load_mass - state.z[0] *
       react1b1wh_y);
-  const Real react1b1N_x = y_0 * model.c14 + (state.z[2] * react1b1Sw_y + (bQp1_x - state.z[1] *
+  const Real react1b1N_x = y_0 * model.c17 - (state.z[2] * react1b1Sw_y + (bQp1_x - state.z[1] *
       react1b1Sw_z));
-  const Real react1b1N_y = y_1 * model.c14 + (state.z[2] * react1b1Sw_x + (bQp1_y - state.z[0] *
+  const Real react1b1N_y = y_1 * model.c18 - (state.z[2] * react1b1Sw_x + (bQp1_y - state.z[0] *
       react1b1Sw_z));
-  const Real react1b1N_z = state.z[2] * model.c15 - (state.z[0] * react1b1Sw_y - state.z[1] * react1b1Sw_x);
+  const Real react1b1N_z = b_2 * model.c19 - (state.z[0] * react1b1Sw_y - state.z[1] * react1b1Sw_x);
   result.drive_force = -drivef0_z;
   result.hook_pose.position[0] = hookx0_x;
   result.hook_pose.position[1] = -hookx1p_x;
@@ -364,8 +378,8 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   result.suspension_force.force[0] = -react1b1F_x;
   result.suspension_force.force[1] = -react1b1F_y;
   result.suspension_force.force[2] = react1b1F_z;
-  result.suspension_force.moment[0] = react1b1N_x;
-  result.suspension_force.moment[1] = -react1b1N_y;
+  result.suspension_force.moment[0] = -react1b1N_x;
+  result.suspension_force.moment[1] = react1b1N_y;
   result.suspension_force.moment[2] = react1b1N_z;
 }
 

@@ -65,6 +65,26 @@ TEST(Mutation, SwappedOperandsOfEverySubtractionAndDivisionAreRefused) {
   }
 }
 
+// Quaternions, prescribed motion, springs, loads and outputs.
+TEST(Mutation, SwappedOperandsAreRefusedInEveryFunctionOfOtherScenes) {
+  for (const char* model : {"crane.toml", "quadrotor.toml", "hoop_bead.toml", "flyball_governor.toml"}) {
+    const Derived correct = derive(read_model(model_path(model)));
+    Derived mutant = correct;
+    for (std::size_t f = 0; f < correct.module.functions.size(); ++f)
+      for (std::size_t i = 0; i < correct.module.functions[f].nodes.size(); ++i) {
+        ir::Node& node = mutant.module.functions[f].nodes[i];
+        if (node.op != ir::Op::kSubtract && node.op != ir::Op::kDivide) continue;
+        // A spring's energy is even in its stretch and in the components of its length.
+        if (mutant.module.functions[f].name == "potential_energy") continue;
+        std::swap(node.a, node.b);
+        EXPECT_TRUE(refuses(mutant)) << model << " " << mutant.module.functions[f].name << " value " << i
+                                     << "\n"
+                                     << print(mutant.module.functions[f]);
+        std::swap(node.a, node.b);
+      }
+  }
+}
+
 TEST(Mutation, AChangedLiteralIsRefused) {
   const Derived correct = derive(read_model(model_path("ur5.toml")));
   Derived mutant = correct;

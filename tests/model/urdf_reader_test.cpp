@@ -108,7 +108,8 @@ TEST(ReadUrdf, ReadsPlanarJointsAndFloatingOnesOnTheRoot) {
   const auto robot = [](const std::string& type) {
     return "<robot name='r'><link name='base'/><link name='b'><inertial><mass value='1'/>"
            "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>"
-           "<joint name='j' type='" + type + "'><parent link='base'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>";
+           "<joint name='j' type='" +
+           type + "'><parent link='base'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>";
   };
   const Mechanism planar = read_cleanly(robot("planar"));
   EXPECT_EQ(planar.joints[0].type, JointType::kPlanar);

@@ -40,7 +40,8 @@ TEST(RandomScene, DrawsEveryJointAndElement) {
   }
   EXPECT_EQ(joints.size(), 10u);
   EXPECT_EQ(outputs.size(), 9u);
-  for (const int count : {motions, free, loads, springs, laws, inputs, rotors, frictions}) EXPECT_GE(count, 5);
+  for (const int count : {motions, free, loads, springs, laws, inputs, rotors, frictions})
+    EXPECT_GE(count, 5);
 }
 
 TEST(RandomScene, ComesBackFromItsDescription) {
