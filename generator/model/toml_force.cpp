@@ -15,11 +15,11 @@ const Scope kLengthScope = {{"length", {.kind = Variable::Kind::kArgument}}};
 const Scope kLawScope = {{"length", {.kind = Variable::Kind::kArgument}},
                          {"rate", {.kind = Variable::Kind::kArgument, .component = 1}}};
 
-void read_load(TomlFile& file, const TomlTable& table, const std::string& name, Mechanism& mechanism) {
+void read_load(TomlFile& file, const TomlTable& table, const std::string& name, const Scope& scope,
+               Mechanism& mechanism) {
   const auto frame = find_frame(file, table, "frame", mechanism);
   if (!table.has("force") && !table.has("moment"))
     table.missing("force", "or a moment, or both: three expressions each");
-  const Scope scope = general_scope(mechanism);
   Load load;
   load.name = name;
   load.where = table.where("frame");
@@ -38,7 +38,7 @@ void read_load(TomlFile& file, const TomlTable& table, const std::string& name, 
 }
 
 void read_coordinate_force(TomlFile& file, const TomlTable& table, const std::string& name,
-                           Mechanism& mechanism) {
+                           const Scope& scope, Mechanism& mechanism) {
   for (const char* key : {"force", "moment", "axes"})
     if (table.has(key))
       table.error(key, fmt::format("{} acts on a joint and has no '{}'", table.what(), key),
@@ -50,7 +50,7 @@ void read_coordinate_force(TomlFile& file, const TomlTable& table, const std::st
   CoordinateForce force;
   force.name = name;
   force.where = table.where("joint");
-  force.force = settled(table.function("value", general_scope(mechanism)), mechanism);
+  force.force = settled(table.function("value", scope), mechanism);
   if (!joint) return;
   const auto coordinate = find_coordinate(table, mechanism.joints[*joint]);
   if (!coordinate) return;
@@ -67,6 +67,7 @@ std::string name_or_number(const toml::table& table, const char* what, std::size
 }  // namespace
 
 void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+  const Scope scope = general_scope(mechanism);
   std::size_t number = 0;
   for (const toml::node& node : section) {
     const std::string name = name_or_number(*node.as_table(), "force", ++number);
@@ -77,9 +78,9 @@ void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanis
       file.error(file.range(node.source()),
                  fmt::format("force '{}' needs either 'frame' or 'joint'", shown(name)));
     else if (table.has("frame"))
-      read_load(file, table, name, mechanism);
+      read_load(file, table, name, scope, mechanism);
     else
-      read_coordinate_force(file, table, name, mechanism);
+      read_coordinate_force(file, table, name, scope, mechanism);
   }
 }
 

@@ -63,19 +63,19 @@ std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std
 }
 
 Scope general_scope(const Mechanism& mechanism) {
-  Scope scope = {{"t", {.kind = Variable::Kind::kTime}}};
-  std::size_t input = 0;
-  for (const Actuator& actuator : mechanism.actuators)
-    scope.push_back({actuator.name, {Variable::Kind::kInput, input++, 0}});
-  for (const Input& own : mechanism.inputs) scope.push_back({own.name, {Variable::Kind::kInput, input++, 0}});
+  using Kind = Variable::Kind;
+  Scope scope = {{"t", {.kind = Kind::kTime}}};
+  // An actuator is called like its coordinate unless it has a name of its own: the coordinate comes first and wins.
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
     for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c) {
       const std::string& name = mechanism.joints[j].coordinates[c].name;
-      scope.push_back({name + ".rate", {Variable::Kind::kVelocity, j, c}});
-      // An actuator is called like its coordinate unless it has a name of its own: the coordinate wins.
-      const ScopeEntry entry{name, {Variable::Kind::kPosition, j, c}};
-      scope.insert(scope.begin(), entry);
+      scope.push_back({name, {Kind::kPosition, j, c}});
+      scope.push_back({name + ".rate", {Kind::kVelocity, j, c}});
     }
+  std::size_t input = 0;
+  for (const Actuator& actuator : mechanism.actuators)
+    scope.push_back({actuator.name, {Kind::kInput, input++, 0}});
+  for (const Input& own : mechanism.inputs) scope.push_back({own.name, {Kind::kInput, input++, 0}});
   for (std::size_t i = 0; i < mechanism.frames.size(); ++i) add_frame(scope, mechanism.frames[i].name, i);
   for (std::size_t i = 0; i < mechanism.bodies.size(); ++i)
     add_frame(scope, mechanism.bodies[i].name, kBodies + i);

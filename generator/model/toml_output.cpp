@@ -56,7 +56,8 @@ bool read_joint(TomlFile& file, const TomlTable& table, Output& output, const Me
   return true;
 }
 
-bool read_content(TomlFile& file, const TomlTable& table, Output& output, Mechanism& mechanism) {
+bool read_content(TomlFile& file, const TomlTable& table, Output& output, const Scope& scope,
+                  Mechanism& mechanism) {
   const std::vector<std::string> keys = keys_of(output.kind);
   for (const char* key : {"frame", "joint", "coordinate", "value"})
     if (table.has(key) && std::find(keys.begin(), keys.end(), key) == keys.end())
@@ -70,13 +71,14 @@ bool read_content(TomlFile& file, const TomlTable& table, Output& output, Mechan
     return frame.has_value();
   }
   if (!table.has("value")) table.missing("value", "an expression");
-  output.value = settled(table.function("value", general_scope(mechanism)), mechanism);
+  output.value = settled(table.function("value", scope), mechanism);
   return true;
 }
 
 }  // namespace
 
 void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+  const Scope scope = general_scope(mechanism);
   for (const toml::node& node : section) {
     Output output;
     output.name = (*node.as_table())["name"].value_or(std::string());
@@ -94,7 +96,7 @@ void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechani
     if (is_reserved(output.name))
       table.error("name",
                   fmt::format("'{}' is reserved in C++ and cannot name an output", shown(output.name)));
-    const bool sound = read_content(file, table, output, mechanism);
+    const bool sound = read_content(file, table, output, scope, mechanism);
     if (sound && is_new_name(file, output.where, "outputs", output.name, mechanism.outputs))
       mechanism.outputs.push_back(output);
   }
