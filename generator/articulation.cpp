@@ -14,6 +14,10 @@ namespace {
 
 /// Fewer coordinates than this always go without articulated bodies.
 constexpr std::size_t kSmallScene = 5;
+/// From this many on M is not factored as a whole even to be counted.
+constexpr std::size_t kLargeScene = 64;
+/// Depths in a row without a saving that end a search.
+constexpr std::size_t kPatience = 3;
 
 class Choice {
  public:
@@ -34,13 +38,19 @@ class Choice {
 
   Articulation choose() {
     Articulation result;
-    result.links.assign(parent_.size(), false);
-    result.operations = result.factorised = operations(result.links);
+    result.links.assign(parent_.size(), velocities_ >= kLargeScene);
+    result.operations = operations(result.links);
     if (velocities_ < kSmallScene) return result;
     const std::size_t deepest = *std::max_element(depth_.begin(), depth_.end()) + 1;
     result.articulated = operations(std::vector<bool>(parent_.size(), true));
-    std::size_t worse = 0;  // depths in a row without a saving
-    for (std::size_t depth = 1; depth <= deepest && worse < 3; ++depth)
+    std::size_t worse = 0;
+    if (velocities_ >= kLargeScene) {
+      for (std::size_t depth = deepest; depth-- > 0 && worse < kPatience;)
+        worse = keep(result, down_to(depth)) ? 0 : worse + 1;
+      return result;
+    }
+    result.factorised = result.operations;
+    for (std::size_t depth = 1; depth <= deepest && worse < kPatience; ++depth)
       worse = keep(result, down_to(depth)) ? 0 : worse + 1;
     refine(result);
     return result;

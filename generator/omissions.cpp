@@ -28,10 +28,6 @@ const std::vector<Switch>& switches() {
        [](model::Mechanism&, CompileOptions& o) { o.derivation.link_tree.share_parallel = false; }},
       {"snapped rotations", "rotations by multiples of a right angle are permutations",
        [](model::Mechanism& m, CompileOptions&) { m.snap = false; }},
-      {"elimination from M", "joints are eliminated through articulated bodies where that is cheaper",
-       [](model::Mechanism&, CompileOptions& o) {
-         o.derivation.articulated.assign(o.derivation.articulated.size(), false);
-       }},
       {"common factors", "factors that several terms of a sum share are multiplied once",
        [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("factor"); }, true},
       {"constant factors", "constant factors of a product are multiplied with each other first",
@@ -56,6 +52,12 @@ ir::Module forward_module(const dynamics::Equations& equations, const emit::Scen
 std::size_t optimised_operations(const ir::Module& module, const CompileOptions& options) {
   return forward_operations(passes::optimise(module, options.passes_off).module);
 }
+
+const Switch kElimination = {"elimination from M",
+                             "joints are eliminated through articulated bodies where that is cheaper",
+                             [](model::Mechanism&, CompileOptions& o) {
+                               o.derivation.articulated.assign(o.derivation.articulated.size(), false);
+                             }};
 
 /// The operations that the scene would have with gravity.
 void add_gravity(model::Mechanism& mechanism, CompileOptions&) { mechanism.gravity = {0.0, 0.0, -9.81}; }
@@ -119,6 +121,7 @@ std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const Co
   const long with = static_cast<long>(optimised_operations(lowered, options));
   std::vector<Omission> list;
   std::vector<Switch> all = switches();
+  if (compiled.articulation.factorised > 0) all.push_back(kElimination);
   if (is_zero(mechanism.gravity)) all.push_back({"gravity", "zero", add_gravity});
   for (const Switch& s : all) {
     model::Mechanism other = mechanism;

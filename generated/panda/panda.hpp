@@ -14,10 +14,10 @@
 //   of forward_dynamics)
 // - snapped rotations: rotations by multiples of a right angle are permutations (758 operations of
 //   forward_dynamics)
-// - elimination from M: joints are eliminated through articulated bodies where that is cheaper (1 operations
-//   of forward_dynamics)
 // - common factors: factors that several terms of a sum share are multiplied once (1 operations of
 //   forward_dynamics)
+// - elimination from M: joints are eliminated through articulated bodies where that is cheaper (1 operations
+//   of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time
 // - joint springs: none

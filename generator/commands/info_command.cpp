@@ -70,12 +70,13 @@ std::string tree_text(const model::Mechanism& mechanism) {
 std::string algorithm_text(const Articulation& articulation) {
   if (articulation.articulated == 0 || articulation.links.size() == 1) return "";
   const auto links = std::count(articulation.links.begin(), articulation.links.end(), true);
+  const std::string factorised =
+      articulation.factorised == 0 ? "" : fmt::format("{} by factoring M, ", articulation.factorised);
   return fmt::format(
-      "  accelerations: {} of {} links as articulated bodies ({} operations; {} by factoring M, {} with all "
-      "links "
-      "articulated; before passes)\n",
-      links, articulation.links.size(), articulation.operations, articulation.factorised,
-      articulation.articulated);
+      "  accelerations: {} of {} links as articulated bodies ({} operations; {}{} with all links "
+      "articulated; "
+      "before passes)\n",
+      links, articulation.links.size(), articulation.operations, factorised, articulation.articulated);
 }
 
 int run(const ModelArguments& arguments) {
