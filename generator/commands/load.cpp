@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "model/names.hpp"
+#include "start_check.hpp"
 
 namespace jourdain::commands {
 
@@ -60,6 +61,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   read.root = arguments.root == "free" ? model::RootJoint::kFree : model::RootJoint::kFixed;
   std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
   if (mechanism) check_inertia(*mechanism, diagnostics);
+  if (mechanism) check_start(*mechanism, diagnostics);
   fmt::print(stderr, "{}", diagnostics.format());
   if (!mechanism || diagnostics.has_errors()) return std::nullopt;
   LoadedMechanism loaded{std::move(*mechanism), {}};

@@ -41,6 +41,9 @@ class Uniform {
   std::mt19937_64 engine_{20061};
 };
 
+/// Steps towards the initial state where a random state has no values.
+constexpr int kTries = 40;
+
 /// For each entry of y whether it is an angle.
 std::vector<bool> angular_positions(const model::Mechanism& mechanism,
                                     const model::CoordinateLayout& layout) {
@@ -67,6 +70,32 @@ void start(const model::Mechanism& mechanism, Sample& sample) {
     sample.z[i] = static_cast<double>(state.z[static_cast<Eigen::Index>(i)]);
 }
 
+Vector to_vector(const std::vector<double>& values) {
+  Vector v(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) v[static_cast<Eigen::Index>(i)] = values[i];
+  return v;
+}
+
+/// Whether all that the equations consist of has a value there: a root of a negative number has none.
+bool is_defined(const model::Mechanism& mechanism, const Sample& sample) {
+  const Reference reference(mechanism,
+                            std::vector<long double>(sample.parameters.begin(), sample.parameters.end()));
+  const auto terms =
+      reference.evaluate({sample.t, to_vector(sample.y), to_vector(sample.z)}, to_vector(sample.u));
+  return std::isfinite(terms.kinetic_energy + terms.potential_energy) && terms.k_bar.allFinite() &&
+         terms.q_bar.allFinite();
+}
+
+/// Half the way towards the initial state.
+void move_to_start(const model::Mechanism& mechanism, Sample& sample) {
+  Sample initial = sample;
+  start(mechanism, initial);
+  sample.t /= 2;
+  for (std::size_t i = 0; i < sample.y.size(); ++i) sample.y[i] = (sample.y[i] + initial.y[i]) / 2;
+  for (std::size_t i = 0; i < sample.z.size(); ++i) sample.z[i] = (sample.z[i] + initial.z[i]) / 2;
+  for (const std::size_t q : model::lay_out_coordinates(mechanism).quaternions) normalise(&sample.y[q]);
+}
+
 std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t count) {
   Uniform uniform;
   std::vector<Sample> samples;
@@ -86,15 +115,11 @@ std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t 
     for (std::size_t i = 0; i < layout.input_count(); ++i) sample.u.push_back(uniform(-5, 5));
     for (const std::size_t q : layout.quaternions) normalise(&sample.y[q]);
     if (k == 0) start(mechanism, sample);
+    for (int i = 0; k > 0 && i < kTries && !is_defined(mechanism, sample); ++i)
+      move_to_start(mechanism, sample);
     samples.push_back(sample);
   }
   return samples;
-}
-
-Vector to_vector(const std::vector<double>& values) {
-  Vector v(static_cast<Eigen::Index>(values.size()));
-  for (std::size_t i = 0; i < values.size(); ++i) v[static_cast<Eigen::Index>(i)] = values[i];
-  return v;
 }
 
 /// The comparison at one sample; worst errors and failures go into a verdict.

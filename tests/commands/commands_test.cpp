@@ -65,6 +65,31 @@ TEST(CommandLine, EveryMalformedModelEndsWithStatusOne) {
   EXPECT_GT(models, 100);
 }
 
+TEST(CommandLine, AForceWithoutAValueAtTheStartIsTheModelsFault) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/start.toml";
+  for (const std::string value : {"1/hinge", "sqrt(-1 - hinge^2)"}) {
+    support::write_file(
+        file,
+        "[model]\nname = \"start\"\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n"
+        "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nparent = \"world\"\nchild = \"b\"\n"
+        "[[force]]\njoint = \"hinge\"\nvalue = \"" +
+            value + "\"\n");
+    expect(jourdain({"check", file}), 1, "force 'force1' has no finite value at the initial state");
+  }
+}
+
+TEST(CommandLine, AMotionThatEndsIsValidatedWhereItIsDefined) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/motion.toml";
+  support::write_file(
+      file,
+      "[model]\nname = \"motion\"\n[[body]]\nname = \"b\"\nmass = 1\n[[joint]]\nname = \"slide\"\n"
+      "type = \"prismatic\"\nparent = \"world\"\nchild = \"b\"\nmotion = \"sqrt(0.3 - t)\"\n"
+      "[[output]]\nname = \"force\"\nkind = \"drive\"\njoint = \"slide\"\n");
+  expect(jourdain({"check", file}), 0, "ok: motion");
+}
+
 TEST(CommandLine, AFolderThatCannotBeMadeIsTheEnvironmentsFault) {
   const support::TemporaryFolder folder;
   const std::string file = folder.path() + "/file";

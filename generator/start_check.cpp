@@ -1,0 +1,74 @@
+#include "start_check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "reference/minimal.hpp"
+
+namespace jourdain {
+
+namespace {
+
+using Vector = reference::VectorX<double>;
+
+bool is_finite(const std::vector<reference::OutputValue<double>>& outputs) {
+  for (const auto& output : outputs)
+    for (const double value : output.values)
+      if (!std::isfinite(value)) return false;
+  return true;
+}
+
+/// Everything that the equations consist of, at the initial state.
+bool starts(const model::Mechanism& mechanism) {
+  const reference::Reference<double> reference(mechanism);
+  const auto state = reference.initial_state();
+  const Vector u = Vector::Zero(Eigen::Index(reference.input_count()));
+  const auto terms = reference.evaluate(state, u);
+  const Vector none = Vector::Zero(Eigen::Index(reference.coordinate_count()));
+  return std::isfinite(terms.kinetic_energy + terms.potential_energy) && terms.M.allFinite() &&
+         terms.k_bar.allFinite() && terms.q_bar.allFinite() &&
+         is_finite(reference.outputs(state, u, none, none));
+}
+
+/// The mechanism without forces and outputs.
+model::Mechanism bare(const model::Mechanism& mechanism) {
+  model::Mechanism rest = mechanism;
+  rest.loads.clear();
+  rest.springs.clear();
+  rest.coordinate_forces.clear();
+  rest.outputs.clear();
+  return rest;
+}
+
+/// Tries each element alone and reports those that have no value.
+template <class Element>
+void report(const model::Mechanism& mechanism, std::vector<Element> model::Mechanism::*list, const char* what,
+            support::Diagnostics& diagnostics) {
+  for (const Element& element : mechanism.*list) {
+    model::Mechanism alone = bare(mechanism);
+    alone.*list = {element};
+    if (!starts(alone))
+      diagnostics.error(
+          element.where,
+          fmt::format("{} '{}' has no finite value at the initial state", what, support::shown(element.name)),
+          "at t = 0, with inputs zero");
+  }
+}
+
+}  // namespace
+
+void check_start(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
+  if (starts(mechanism)) return;
+  if (!starts(bare(mechanism))) {
+    diagnostics.error({}, "the mechanism's equations have no finite values at the initial state",
+                      "a curve or a motion may be singular there");
+    return;
+  }
+  report(mechanism, &model::Mechanism::coordinate_forces, "force", diagnostics);
+  report(mechanism, &model::Mechanism::loads, "force", diagnostics);
+  report(mechanism, &model::Mechanism::springs, "spring", diagnostics);
+  report(mechanism, &model::Mechanism::outputs, "output", diagnostics);
+}
+
+}  // namespace jourdain
