@@ -8,6 +8,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
+#include "support/interruption.hpp"
 
 namespace {
 
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
                "jourdain");
   app.set_version_flag("--version", fmt::format("jourdain {}", emit::kVersion));
   app.require_subcommand(1);
+  support::handle_interruptions();
   int status = commands::kSuccess;
   commands::add_all(app, status);
   if (is_unknown_command(app, argc, argv)) return commands::kUsage;

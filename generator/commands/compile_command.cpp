@@ -27,15 +27,6 @@ std::string check_function(const std::string& function) {
                       : fmt::format("no function '{}'; did you mean '{}'?", function, near);
 }
 
-void write_files(const std::string& folder, const std::vector<emit::File>& files) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw support::EnvironmentError(fmt::format("cannot make folder '{}': {}", folder, error.message()));
-  for (const emit::File& file : files)
-    support::write_file((std::filesystem::path(folder) / file.name).string(), file.text);
-}
-
 int run(const Arguments& arguments) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
@@ -45,7 +36,7 @@ int run(const Arguments& arguments) {
     print_refusal(compiled.verdict);
     return kInternal;
   }
-  write_files(arguments.folder, compiled.files);
+  support::write_files(arguments.folder, compiled.files);
   const std::size_t freedom = compiled.shape.velocities;
   fmt::print("{}: {} degree{} of freedom\n", loaded->options.name, freedom, freedom == 1 ? "" : "s");
   for (const emit::File& file : compiled.files)
@@ -63,7 +54,9 @@ void add_compile(CLI::App& app, int& status) {
       app.add_subcommand("compile", "emit C++ for a model: jourdain compile arm.toml -o src/arm");
   arguments->model.add_to(*command);
   command->add_option("-o,--output", arguments->folder, "folder to write into")->required();
-  command->add_option("--functions", arguments->functions, "functions to emit (default: all)")
+  command
+      ->add_option("--functions", arguments->functions,
+                   "functions to emit (default: all, of the steps rk4_step)")
       ->delimiter(',')
       ->check(check_function);
   command->add_flag("--explain", arguments->explain, "print what each pass did and what was left out");

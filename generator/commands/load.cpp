@@ -13,6 +13,7 @@
 
 #include "model/names.hpp"
 #include "start_check.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::commands {
 

@@ -6,6 +6,7 @@
 
 #include "emit/functions.hpp"
 #include "ir/module.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::emit {
 
@@ -49,10 +50,7 @@ struct ModelText {
   double condition = 0;                  ///< cond(M), worst over the sampled states
 };
 
-struct File {
-  std::string name;
-  std::string text;
-};
+using File = support::FileText;
 
 /// NAME.hpp, NAME_kernels.hpp, NAME.cpp and NAME.json, in this order. `functions` are those to emit; each but kStep has a
 /// program of the same name in `module`.

@@ -57,11 +57,4 @@ std::string shown(std::string_view text);
 /// its length, at least 1, and less than its length), or "".
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// Reads a whole file. Throws EnvironmentError naming the path when it cannot be read.
-std::string read_file(const std::string& path);
-
-/// Writes through a temporary file in the same folder and renames it, so that no reader sees half a file.
-/// Throws EnvironmentError naming the path.
-void write_file(const std::string& path, std::string_view text);
-
 }  // namespace jourdain::support

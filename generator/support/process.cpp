@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -27,7 +28,15 @@ ProcessResult run_process(const std::vector<std::string>& command) {
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   pid_t child = 0;
-  const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setpgroup(&attributes, 0);  // so that all that it starts can be ended with it
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  const int error = posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   ProcessResult result;
@@ -35,6 +44,7 @@ ProcessResult run_process(const std::vector<std::string>& command) {
     close(ends[0]);
     throw EnvironmentError("cannot run '" + command[0] + "': " + std::strerror(error));
   }
+  const EndedOnInterruption ended(child);
   char buffer[4096];
   for (ssize_t count; (count = read(ends[0], buffer, sizeof buffer)) > 0;)
     result.output.append(buffer, static_cast<std::size_t>(count));
@@ -50,6 +60,7 @@ TemporaryFolder::TemporaryFolder() {
   if (!mkdtemp(pattern.data()))
     throw EnvironmentError("cannot make a folder like '" + pattern + "': " + std::strerror(errno));
   path_ = pattern;
+  removed_ = std::make_unique<RemovedOnInterruption>(path_);
 }
 
 TemporaryFolder::~TemporaryFolder() {

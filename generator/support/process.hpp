@@ -1,8 +1,11 @@
 // Running another program and keeping what it prints.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "support/interruption.hpp"
 
 namespace jourdain::support {
 
@@ -15,7 +18,8 @@ struct ProcessResult {
 /// EnvironmentError when it cannot be started.
 ProcessResult run_process(const std::vector<std::string>& command);
 
-/// A fresh folder under the system's temporary one, removed with its contents at the end of its life.
+/// A fresh folder under the system's temporary one, removed with its contents at the end of its life
+/// or when the program is interrupted.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -27,6 +31,7 @@ class TemporaryFolder {
 
  private:
   std::string path_;
+  std::unique_ptr<RemovedOnInterruption> removed_;
 };
 
 }  // namespace jourdain::support

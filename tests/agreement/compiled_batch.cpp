@@ -7,6 +7,7 @@
 
 #include "compile.hpp"
 #include "support/diagnostics.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::tests {
 

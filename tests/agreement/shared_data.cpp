@@ -1,4 +1,5 @@
 #include "shared_data.hpp"
+#include "support/files.hpp"
 
 #include <fmt/format.h>
 

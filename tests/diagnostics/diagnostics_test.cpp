@@ -11,6 +11,7 @@
 
 #include "model/read.hpp"
 #include "support/diagnostics.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::model {
 namespace {

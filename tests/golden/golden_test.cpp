@@ -10,6 +10,7 @@
 #include "properties/random_tree.hpp"
 #include "properties/to_toml.hpp"
 #include "support/diagnostics.hpp"
+#include "support/files.hpp"
 #include "support/process.hpp"
 
 namespace jourdain::tests {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "model/read.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::model {
 namespace {

@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 
 #include "support/check.hpp"
 #include "support/diagnostics.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::support {
 namespace {
@@ -45,6 +50,44 @@ TEST_F(Files, NameThePathWhenTheyAreMissing) {
   } catch (const EnvironmentError& error) {
     EXPECT_EQ(std::string(error.what()), path("missing") + ": cannot be read: No such file or directory");
   }
+}
+
+TEST_F(Files, AreWrittenTogether) {
+  write_files(path("new/folder"), {{"a", "1"}, {"b", "2"}});
+  EXPECT_EQ(read_file(path("new/folder/a")) + read_file(path("new/folder/b")), "12");
+  write_files(path("new/folder"), {{"a", "3"}});
+  EXPECT_EQ(read_file(path("new/folder/a")) + read_file(path("new/folder/b")), "32");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(Files, LeaveNothingWhereTheLastOneCannotBeWritten) {
+  std::filesystem::create_directories(path("folder/b"));
+  EXPECT_THROW(write_files(path("folder"), {{"a", "1"}, {"b", "2"}}), EnvironmentError);
+  EXPECT_FALSE(std::filesystem::exists(path("folder/a")));
+  write_file(path("file"), "x");
+  EXPECT_THROW(check_writable(path("file/folder")), EnvironmentError);
+  check_writable(path("other/folder"));
+  EXPECT_FALSE(std::filesystem::exists(path("other")));
+}
+
+/// A limit on the size of files stands for a full disk: writing fails half-way.
+TEST_F(Files, LeaveNothingOnAFullDisk) {
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{100000, 100000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      write_files(path("new"), {{"small", "text"}, {"large", std::string(200000, 'x')}});
+      _exit(1);
+    } catch (const EnvironmentError& error) {
+      _exit(std::string(error.what()).find("large: cannot be written") != std::string::npos ? 0 : 2);
+    }
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(entries(), 0u);
 }
 
 TEST_F(Files, AreNotFolders) {

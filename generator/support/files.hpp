@@ -1,0 +1,30 @@
+// Whole files in, whole files out.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace jourdain::support {
+
+/// A file that is to be written.
+struct FileText {
+  std::string name;
+  std::string text;
+};
+
+/// Reads a whole file. Throws EnvironmentError naming the path when it cannot be read.
+std::string read_file(const std::string& path);
+
+/// Writes through a temporary file in the same folder and renames it, so that no reader sees half a file.
+/// Throws EnvironmentError naming the path.
+void write_file(const std::string& path, std::string_view text);
+
+/// Writes all files into `folder`, which is made where it is missing: all under temporary names, then all renamed. Throws
+/// EnvironmentError naming the path; nothing of it is left then. A signal waits until it is done.
+void write_files(const std::string& folder, const std::vector<FileText>& files);
+
+/// Throws EnvironmentError where no file can be written into `folder`, or where it cannot be made. Leaves nothing behind.
+void check_writable(const std::string& folder);
+
+}  // namespace jourdain::support
