@@ -194,6 +194,8 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
   CompiledModel result;
   result.shape = shape_of(mechanism);
   result.input_count = model::lay_out_coordinates(mechanism).input_count();
+  for (const model::Parameter& parameter : mechanism.parameters)
+    result.parameter_names.push_back(parameter.name);
   result.functions = emit::with_needed(options.functions, result.shape);
   CompileOptions chosen = options;
   if (options.derivation.articulated.empty())

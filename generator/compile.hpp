@@ -16,7 +16,7 @@ namespace jourdain {
 
 struct CompileOptions {
   std::string name;  ///< namespace and file name; empty: made from the model's name
-  std::vector<std::string> functions = emit::function_names();
+  std::vector<std::string> functions = emit::default_functions();
   dynamics::DerivationOptions derivation;
   std::vector<std::string> passes_off;  ///< names of passes to leave out
   std::string path;                     ///< of the description, as printed in the emitted files
@@ -34,6 +34,7 @@ struct Omission {
 struct CompiledModel {
   emit::SceneShape shape;
   std::size_t input_count = 0;
+  std::vector<std::string> parameter_names;  ///< as in the emitted Parameters
   Articulation articulation;
   std::vector<emit::FunctionInfo> functions;
   ir::Module module;

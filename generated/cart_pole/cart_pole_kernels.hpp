@@ -29,11 +29,32 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+// Inputs at a stage: held over the step, or sampled there.
 template <class Real>
-void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
-           Real (&ydot)[2], Real (&zdot)[2]) noexcept {
+const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
+  return held;
+}
+template <class Real, class InputAt>
+Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
+  return sampled(stage);
+}
+
+template <class Real>
+void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[2]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
-  forward_dynamics(model, stage, input, zdot);
+}
+
+template <class Real, class Inputs>
+void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
+                   Real (&zdot)[2]) noexcept {
+  forward_dynamics(model, stage, input_at(input, stage), zdot);
+}
+
+template <class Real, class Inputs>
+void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[2],
+           Real (&zdot)[2]) noexcept {
+  velocities(model, stage, ydot);
+  accelerations(model, stage, input, zdot);
 }
 
 }  // namespace detail
@@ -142,8 +163,9 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   return V;
 }
 
-template <class Real>
-void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
+// `input` may be a function that gives the Input at the state of a stage.
+template <class Real, class InputAt>
+void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage = state;
@@ -166,6 +188,11 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& i
   for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
   state.t = state.t + h;
+}
+
+template <class Real>
+void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
+  rk4_step<Real, Input<Real>>(model, state, input, h);
 }
 
 }  // namespace cart_pole

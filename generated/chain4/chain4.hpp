@@ -22,6 +22,8 @@
 // - frame forces: none
 // - outputs: none asked for
 // - parameters: all numbers are baked in
+// - functions not asked for: euler_step, semi_implicit_euler_step, heun_step, rk5_step,
+//   adams_bashforth2_step, adams_bashforth3_step
 // Checked before this file was written
 // - 8 random states: backward error of M zdot = k_bar - q_bar 1.0e-16 of the sum of absolute terms against
 //   60-digit arithmetic, entries of the functions 3.8e-15; symbolic equations against the numeric reference
@@ -116,6 +118,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
+/// 737 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -30,10 +30,21 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 }
 
 template <class Real>
-void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
-           Real (&ydot)[4], Real (&zdot)[3]) noexcept {
+void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[4]) noexcept {
   position_rate(model, stage, ydot);
+}
+
+template <class Real>
+void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+                   Real (&zdot)[3]) noexcept {
   forward_dynamics(model, stage, input, zdot);
+}
+
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[4],
+           Real (&zdot)[3]) noexcept {
+  velocities(model, stage, ydot);
+  accelerations(model, stage, input, zdot);
 }
 
 template <class Real>

@@ -18,9 +18,11 @@
 // - inputs: none
 // - frame forces: none
 // - coupling: M is diagonal, nothing is factored
+// - functions not asked for: euler_step, semi_implicit_euler_step, heun_step, rk5_step,
+//   adams_bashforth2_step, adams_bashforth3_step
 // Checked before this file was written
 // - 8 random states: backward error of M zdot = k_bar - q_bar 3.5e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 2.2e-16; symbolic equations against the numeric reference
+//   60-digit arithmetic, entries of the functions 1.6e-16; symbolic equations against the numeric reference
 //   0.0e+00; cond(M) up to 5.7e+01
 #pragma once
 
@@ -134,6 +136,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
+/// 117 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

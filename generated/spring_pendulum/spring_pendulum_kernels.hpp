@@ -30,10 +30,21 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 }
 
 template <class Real>
-void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
-           Real (&ydot)[2], Real (&zdot)[2]) noexcept {
+void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[2]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+}
+
+template <class Real>
+void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
+                   Real (&zdot)[2]) noexcept {
   forward_dynamics(model, stage, input, zdot);
+}
+
+template <class Real>
+void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[2],
+           Real (&zdot)[2]) noexcept {
+  velocities(model, stage, ydot);
+  accelerations(model, stage, input, zdot);
 }
 
 }  // namespace detail

@@ -10,6 +10,7 @@
 #include "emit/manifest.hpp"
 #include "emit/names.hpp"
 #include "emit/signature.hpp"
+#include "emit/step_text.hpp"
 #include "emit/templates.hpp"
 
 namespace jourdain::emit {
@@ -29,7 +30,7 @@ class Emitter {
       : model_(model), functions_(functions), module_(module), scene_(shape_of(model)) {
     Names names({"Scalar", "Parameters", "State", "Input", "Model", "Real", "position_count",
                  "velocity_count", "input_count", "parameter_count", "output_count", "Outputs", "parameters",
-                 "model", "detail", "w"});
+                 "model", "detail", "w", "RateHistory"});
     for (const ir::Output& output : module.constants.outputs) {
       const ir::Node& node = module.constants[output.value];
       const bool is_parameter = node.op == ir::Op::kLeaf;
@@ -55,7 +56,8 @@ class Emitter {
         {"OUTPUTS", output_struct()},
         {"OUTPUTS_ALIAS",
          scene_.outputs == 0 ? "" : fmt::format("  using Outputs = {}::Outputs<Real>;\n", model_.name)},
-        {"STEP_SUPPORT", step_support()},
+        {"STEP_SUPPORT", step_support(step_scene(), functions_)},
+        {"HISTORY", history_struct(step_scene(), functions_)},
         {"NU", fmt::format("{}", model_.inputs.size())},
         {"NP", fmt::format("{}", model_.parameters.size())},
         {"CONSTANTS", constant_members()},
@@ -65,10 +67,11 @@ class Emitter {
       instantiations += fmt::format("template struct Model<{}>;\n", real);
     bodies += constructor(parts);
     for (const FunctionInfo& function : functions_) {
-      declarations += prefixed("/// ", function.comment) + operations_comment(function);
+      declarations += function.stepper ? step_comment(function)
+                                       : prefixed("/// ", function.comment) + operations_comment(function);
       declarations +=
           "template <class Real>\n" + wrapped(signature(function, "Real", scene_) + ";", 0) + "\n";
-      bodies += function.shape == Shape::kStep ? step_body(function) : program_body(function, parts);
+      bodies += function.stepper ? step_definitions(step_scene(), function) : program_body(function, parts);
       for (const char* real : {"double", "float"})
         instantiations += wrapped("template " + signature(function, real, scene_) + ";", 0);
     }
@@ -79,10 +82,17 @@ class Emitter {
     return {{model_.name + ".hpp", fill(template_text("model.hpp.in"), holes)},
             {model_.name + "_kernels.hpp", fill(template_text("kernels.hpp.in"), holes)},
             {model_.name + ".cpp", fill(template_text("source.cpp.in"), holes)},
-            {model_.name + ".json", manifest(model_, functions_, module_)}};
+            {model_.name + ".json", manifest(model_, functions_, module_, step_records())}};
   }
 
  private:
+  std::vector<StepRecord> step_records() const {
+    std::vector<StepRecord> records;
+    for (const FunctionInfo& function : functions_)
+      if (function.stepper) records.push_back({function.stepper, operations_of(*function.stepper)});
+    return records;
+  }
+
   const Program& program(const std::string& name) const {
     for (const Program& candidate : module_.functions)
       if (candidate.name == name) return candidate;
@@ -149,11 +159,32 @@ class Emitter {
   }
 
   std::string operations_comment(const FunctionInfo& function) const {
-    if (function.shape == Shape::kStep) return "";
     const ir::Operations count = ir::count_operations(program(function.name));
     return fmt::format("/// {} operations ({} mul, {} add and sub, {} div), {} sin and cos.\n",
                        count.arithmetic(), count.multiply, count.add + count.subtract, count.divide,
                        count.sin + count.cos);
+  }
+
+  std::string step_comment(const FunctionInfo& function) const {
+    std::string text = wrapped_doc(function.comment, 0);
+    if (scene_.velocities == 0) return text;
+    std::string more = fmt::format("{} operations.", operations_of(*function.stepper));
+    if (!model_.inputs.empty())
+      more += fmt::format(
+          " For inputs sampled at the stages include {}_kernels.hpp and pass a function of the state instead "
+          "of "
+          "`input`.",
+          model_.name);
+    return text + wrapped_doc(more, 0);
+  }
+
+  long operations_of(const Stepper& stepper) const {
+    if (scene_.velocities == 0) return 1;
+    const auto count = [this](const char* name) {
+      return static_cast<long>(ir::count_operations(program(name)).arithmetic());
+    };
+    return step_operations(scene_, stepper, count("forward_dynamics"),
+                           scene_.quaternions > 0 ? count("position_rate") : 0);
   }
 
   std::string leaf(LeafKind kind, std::size_t index) const {
@@ -310,38 +341,7 @@ class Emitter {
     return text + "};\n\n";
   }
 
-  /// What every step calls: the rates of y and z at a stage.
-  std::string step_support() const {
-    const bool steps = std::any_of(functions_.begin(), functions_.end(),
-                                   [](const FunctionInfo& f) { return f.shape == Shape::kStep; });
-    if (!steps || scene_.velocities == 0) return "";
-    const char* rate =
-        scene_.quaternions > 0
-            ? "  position_rate(model, stage, ydot);\n"
-            : "  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];\n";
-    std::string text = fmt::format(
-        "\ntemplate <class Real>\nvoid rates(const Model<Real>& model, const State<Real>& stage, const "
-        "Input<Real>& "
-        "input,\n           Real (&ydot)[{}], Real (&zdot)[{}]) noexcept {{\n{}"
-        "  forward_dynamics(model, stage, input, zdot);\n}}\n",
-        scene_.positions, scene_.velocities, rate);
-    if (scene_.quaternions > 0)
-      text +=
-          "\ntemplate <class Real>\nvoid normalise(Real* quaternion) noexcept {\n  Real square = Real(0.0);\n"
-          "  for (int i = 0; i < 4; ++i) square = square + quaternion[i] * quaternion[i];\n"
-          "  const Real factor = Real(1.0) / square_root(square);\n"
-          "  for (int i = 0; i < 4; ++i) quaternion[i] = factor * quaternion[i];\n}\n";
-    return text;
-  }
-
-  std::string step_body(const FunctionInfo& function) const {
-    std::string text = "  state.t = state.t + h;\n";
-    if (scene_.velocities > 0) text = std::string(template_text(function.name + ".in"));
-    for (const std::size_t first : model_.quaternions)
-      text += fmt::format("  detail::normalise(state.y + {});\n", first);
-    return "\ntemplate <class Real>\n" + wrapped(signature(function, "Real", scene_, &text) + " {", 0) +
-           text + "}\n";
-  }
+  StepScene step_scene() const { return {scene_, !model_.inputs.empty(), model_.quaternions}; }
 
   const ModelText& model_;
   const std::vector<FunctionInfo>& functions_;

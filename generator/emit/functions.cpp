@@ -5,8 +5,10 @@
 
 namespace jourdain::emit {
 
-const std::vector<FunctionInfo>& all_functions() {
-  static const std::vector<FunctionInfo> functions = {
+namespace {
+
+std::vector<FunctionInfo> computed_functions() {
+  return {
       {"initial_state",
        Shape::kState,
        "",
@@ -70,22 +72,49 @@ const std::vector<FunctionInfo>& all_functions() {
        {},
        "Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J."},
       {"outputs", Shape::kOutputs, "", true, false, {}, "The outputs that the model description asks for."},
-      {"rk4_step",
-       Shape::kStep,
-       "",
-       true,
-       false,
-       {"position_rate", "forward_dynamics"},
-       "One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the "
-       "step.\n"
-       "Four calls of forward_dynamics."},
   };
+}
+
+std::string number_word(int n) {
+  static const char* const words[] = {"no", "One", "Two", "Three", "Four", "Five", "Six", "Seven"};
+  return n < 8 ? words[n] : std::to_string(n);
+}
+
+FunctionInfo step_function(const Stepper& stepper) {
+  FunctionInfo info;
+  info.name = stepper.name + "_step";
+  info.shape = Shape::kStep;
+  info.takes_input = true;
+  info.needs = {"position_rate", "forward_dynamics"};
+  for (const std::string& used : stepper.uses) info.needs.push_back(used + "_step");
+  info.comment = "One step of length h (s) with the " + stepper.comment +
+                 "; inputs are held over the step. " + number_word(stepper.evaluations) + " call" +
+                 (stepper.evaluations == 1 ? "" : "s") + " of forward_dynamics.";
+  info.stepper = &stepper;
+  return info;
+}
+
+}  // namespace
+
+const std::vector<FunctionInfo>& all_functions() {
+  static const std::vector<FunctionInfo> functions = [] {
+    std::vector<FunctionInfo> list = computed_functions();
+    for (const Stepper& stepper : all_steppers()) list.push_back(step_function(stepper));
+    return list;
+  }();
   return functions;
 }
 
 std::vector<std::string> function_names() {
   std::vector<std::string> names;
   for (const FunctionInfo& function : all_functions()) names.push_back(function.name);
+  return names;
+}
+
+std::vector<std::string> default_functions() {
+  std::vector<std::string> names;
+  for (const FunctionInfo& function : all_functions())
+    if (!function.stepper || function.stepper->name == "rk4") names.push_back(function.name);
   return names;
 }
 
@@ -108,8 +137,11 @@ bool has_function(const FunctionInfo& function, const SceneShape& shape) {
 
 std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, const SceneShape& shape) {
   std::set<std::string> names(wanted.begin(), wanted.end());
-  for (const FunctionInfo& function : all_functions())
-    if (names.count(function.name)) names.insert(function.needs.begin(), function.needs.end());
+  for (std::size_t before = 0; before != names.size();) {
+    before = names.size();
+    for (const FunctionInfo& function : all_functions())
+      if (names.count(function.name)) names.insert(function.needs.begin(), function.needs.end());
+  }
   std::vector<FunctionInfo> chosen;
   for (const FunctionInfo& function : all_functions())
     if (names.count(function.name) && has_function(function, shape)) chosen.push_back(function);

@@ -1,8 +1,11 @@
-// The functions that can be emitted. A new one is one line in the table of functions.cpp.
+// The functions that can be emitted. A new one is one line in the table of functions.cpp; steps come from the list of
+// steppers.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "emit/steppers.hpp"
 
 namespace jourdain::emit {
 
@@ -21,9 +24,10 @@ struct FunctionInfo {
   Shape shape = Shape::kVector;
   std::string result;  ///< name of the array, and of the program's outputs
   bool takes_input = false;
-  bool takes_acceleration = false;  ///< Real (&zdot)[nz]
-  std::vector<std::string> needs;   ///< functions that its body calls
-  std::string comment;              ///< doc comment, lines separated by '\n'
+  bool takes_acceleration = false;   ///< Real (&zdot)[nz]
+  std::vector<std::string> needs;    ///< functions that its body calls
+  std::string comment;               ///< doc comment, lines separated by '\n'
+  const Stepper* stepper = nullptr;  ///< of a step
 };
 
 /// What decides whether a function has anything to compute, and its arguments' bounds.
@@ -38,8 +42,10 @@ bool has_function(const FunctionInfo& function, const SceneShape& shape);
 /// In the order of emission.
 const std::vector<FunctionInfo>& all_functions();
 
-/// Names of all functions; what is emitted unless the user says otherwise.
 std::vector<std::string> function_names();
+
+/// What is emitted unless the user says otherwise: all functions, and of the steps rk4_step.
+std::vector<std::string> default_functions();
 
 /// `wanted` with the functions they need, in the order of emission, as far as the scene has them.
 std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, const SceneShape& shape);

@@ -25,7 +25,7 @@ std::string operations_object(const ir::Operations& count) {
 }  // namespace
 
 std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions,
-                     const ir::Module& module) {
+                     const ir::Module& module, const std::vector<StepRecord>& steps) {
   std::string text = "{\n";
   const auto field = [&text](const std::string& key, const std::string& value) {
     text += fmt::format("  \"{}\": {},\n", key, value);
@@ -62,6 +62,14 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
   for (const ir::Program& program : module.functions)
     text += fmt::format(",\n    \"{}\": {}", program.name, operations_object(ir::count_operations(program)));
   text += "\n  },\n";
+  text += "  \"steps\": {";
+  const char* separator = "\n";
+  for (const StepRecord& step : steps) {
+    text += fmt::format(R"({}    "{}_step": {{"order": {}, "evaluations": {}, "operations": {}}})", separator,
+                        step.stepper->name, step.stepper->order, step.stepper->evaluations, step.operations);
+    separator = ",\n";
+  }
+  text += steps.empty() ? "},\n" : "\n  },\n";
   field("assumptions", string_array(model.assumptions));
   field("left_out", string_array(model.left_out));
   field("backward_error", fmt::format("{:.2g}", model.backward_error));

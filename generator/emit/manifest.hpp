@@ -7,7 +7,13 @@
 
 namespace jourdain::emit {
 
+/// A step and the operations of one call.
+struct StepRecord {
+  const Stepper* stepper = nullptr;
+  long operations = 0;
+};
+
 std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions,
-                     const ir::Module& module);
+                     const ir::Module& module, const std::vector<StepRecord>& steps);
 
 }  // namespace jourdain::emit

@@ -21,6 +21,8 @@ std::vector<Argument> arguments(const FunctionInfo& function, const std::string&
   if (function.takes_input) list.push_back({fmt::format("const Input<{}>&", real), "input", ""});
   if (function.takes_acceleration) list.push_back({"const " + real, "zdot", fmt::format("[{}]", nz)});
   if (step) list.push_back({real, "h", ""});
+  if (step && function.stepper->history > 0)
+    list.push_back({fmt::format("RateHistory<{}, {}>&", function.stepper->history, real), "history", ""});
   if (function.shape == Shape::kVector) list.push_back({real, function.result, fmt::format("[{}]", nz)});
   if (function.shape == Shape::kRate)
     list.push_back({real, function.result, fmt::format("[{}]", scene.positions)});

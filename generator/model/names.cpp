@@ -35,8 +35,9 @@ constexpr std::array<std::string_view, 52> kMacros{
     "M_PI_4",         "M_1_PI",   "M_2_PI",     "M_2_SQRTPI", "M_SQRT2",      "M_SQRT1_2",
     "DOMAIN",         "OVERFLOW", "UNDERFLOW",  "MAXFLOAT"};
 
-constexpr std::array<std::string_view, 9> kEmitted{
-    "Real", "Model", "State", "Input", "Parameters", "Outputs", "Linearization", "detail", "jourdain"};
+constexpr std::array<std::string_view, 10> kEmitted{"Real",       "Model",   "State",         "Input",
+                                                    "Parameters", "Outputs", "Linearization", "RateHistory",
+                                                    "detail",     "jourdain"};
 
 /// Functions and types that C headers put into the global namespace: no namespace can have these names.
 constexpr std::array<std::string_view, 101> kGlobalNames{

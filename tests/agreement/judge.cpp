@@ -98,7 +98,7 @@ template std::vector<float> interpreted(const ir::Module&, const std::string&, c
 Derived derive(model::Mechanism mechanism, const dynamics::DerivationOptions& options) {
   Derived derived{std::move(mechanism), {}, {}};
   derived.equations = dynamics::derive_equations(derived.mechanism, options);
-  const auto functions = emit::with_needed(emit::function_names(), shape_of(derived.mechanism));
+  const auto functions = emit::with_needed(emit::default_functions(), shape_of(derived.mechanism));
   derived.module = passes::optimise(lower_functions(derived.equations, functions)).module;
   return derived;
 }

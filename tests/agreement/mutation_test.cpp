@@ -12,7 +12,7 @@ namespace {
 
 bool refuses(const Derived& derived) {
   CompiledModel compiled;
-  compiled.functions = emit::with_needed(emit::function_names(), shape_of(derived.mechanism));
+  compiled.functions = emit::with_needed(emit::default_functions(), shape_of(derived.mechanism));
   compiled.module = derived.module;
   validate_and_emit(derived.mechanism, derived.equations, {}, compiled);
   EXPECT_EQ(compiled.files.empty(), !compiled.verdict.accepted());

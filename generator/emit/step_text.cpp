@@ -1,0 +1,120 @@
+#include "emit/step_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "emit/layout.hpp"
+#include "emit/signature.hpp"
+#include "emit/templates.hpp"
+
+namespace jourdain::emit {
+
+namespace {
+
+constexpr const char* kInputAt = R"(
+// Inputs at a stage: held over the step, or sampled there.
+template <class Real>
+const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
+  return held;
+}
+template <class Real, class InputAt>
+Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
+  return sampled(stage);
+}
+)";
+
+constexpr const char* kNormalise = R"(
+template <class Real>
+void normalise(Real* quaternion) noexcept {
+  Real square = Real(0.0);
+  for (int i = 0; i < 4; ++i) square = square + quaternion[i] * quaternion[i];
+  const Real factor = Real(1.0) / square_root(square);
+  for (int i = 0; i < 4; ++i) quaternion[i] = factor * quaternion[i];
+}
+)";
+
+bool any_step(const std::vector<FunctionInfo>& functions) {
+  return std::any_of(functions.begin(), functions.end(),
+                     [](const FunctionInfo& f) { return f.shape == Shape::kStep; });
+}
+
+std::string body(const StepScene& scene, const FunctionInfo& function) {
+  std::string text = "  state.t = state.t + h;\n";
+  if (scene.shape.velocities > 0) text = std::string(template_text(function.name + ".in"));
+  for (const std::size_t first : scene.quaternions)
+    text += fmt::format("  detail::normalise(state.y + {});\n", first);
+  return text;
+}
+
+}  // namespace
+
+std::string step_support(const StepScene& scene, const std::vector<FunctionInfo>& functions) {
+  if (!any_step(functions) || scene.shape.velocities == 0) return "";
+  std::map<std::string, std::string> holes = {
+      {"NY", fmt::format("{}", scene.shape.positions)},
+      {"NZ", fmt::format("{}", scene.shape.velocities)},
+      {"VELOCITIES", scene.shape.quaternions > 0
+                         ? "  position_rate(model, stage, ydot);\n"
+                         : "  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];\n"},
+      {"TEMPLATE", scene.has_input ? "template <class Real, class Inputs>" : "template <class Real>"},
+      {"INPUTS", scene.has_input ? "const Inputs&" : "const Input<Real>&"},
+      {"INPUT", scene.has_input ? "input_at(input, stage)" : "input"},
+      {"VELOCITIES_MODEL", scene.shape.quaternions > 0 ? " model" : ""}};
+  std::string text = scene.has_input ? kInputAt : "";
+  text += fill(template_text("rates.in"), holes);
+  if (scene.shape.quaternions > 0) text += kNormalise;
+  return text;
+}
+
+std::string history_struct(const StepScene& scene, const std::vector<FunctionInfo>& functions) {
+  const bool remembers = std::any_of(functions.begin(), functions.end(), [](const FunctionInfo& f) {
+    return f.stepper && f.stepper->history > 0;
+  });
+  if (!remembers) return "";
+  std::string text = wrapped_doc(
+      "What a multistep method remembers: rates of y and z at the last `count` of `depth` steps, newest "
+      "first. One "
+      "trajectory and one step length have one; a fresh one starts anew.",
+      0);
+  text += "template <int depth, class Real = double>\nstruct RateHistory {\n  int count = 0;\n";
+  if (scene.shape.velocities > 0)
+    text += fmt::format("  Real ydot[depth][{}] = {{}};\n  Real zdot[depth][{}] = {{}};\n",
+                        scene.shape.positions, scene.shape.velocities);
+  return text + "};\n\n";
+}
+
+std::string step_definitions(const StepScene& scene, const FunctionInfo& function) {
+  const std::string text = body(scene, function);
+  const bool sampled = scene.has_input && scene.shape.velocities > 0;
+  const std::string held =
+      wrapped(signature(function, "Real", scene.shape, sampled ? nullptr : &text) + " {", 0);
+  if (!sampled) return "\ntemplate <class Real>\n" + held + text + "}\n";
+
+  std::string general, call;
+  for (Argument argument : arguments(function, "Real", scene.shape)) {
+    if (argument.name == "input") argument.type = "const InputAt&";
+    general += (general.empty() ? "" : ", ") + argument.text(true);
+    call += (call.empty() ? "" : ", ") + argument.name;
+  }
+  std::string definitions = fmt::format(
+      "\n// `input` may be a function that gives the Input at the state of a stage.\n"
+      "template <class Real, class InputAt>\n{}{}}}\n",
+      wrapped(fmt::format("void {}({}) noexcept {{", function.name, general), 0), text);
+  std::string named;
+  for (const Argument& argument : arguments(function, "Real", scene.shape))
+    named += (named.empty() ? "" : ", ") + argument.text(true);
+  definitions += "\ntemplate <class Real>\n" +
+                 wrapped(fmt::format("void {}({}) noexcept {{", function.name, named), 0) +
+                 wrapped(fmt::format("{}<Real, Input<Real>>({});", function.name, call), 2) + "}\n";
+  return definitions;
+}
+
+long step_operations(const SceneShape& shape, const Stepper& stepper, long dynamics, long rate) {
+  const long entries = static_cast<long>(shape.positions + shape.velocities);
+  return stepper.evaluations * (dynamics + rate) + stepper.fixed_operations +
+         stepper.entry_operations * entries + kNormaliseOperations * static_cast<long>(shape.quaternions);
+}
+
+}  // namespace jourdain::emit

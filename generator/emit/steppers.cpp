@@ -1,0 +1,45 @@
+#include "emit/steppers.hpp"
+
+namespace jourdain::emit {
+
+const std::vector<Stepper>& all_steppers() {
+  static const std::vector<Stepper> steppers = {
+      {"euler", 1, 1, 0, {}, 1, 2, "explicit Euler method of order 1"},
+      {"semi_implicit_euler",
+       1,
+       1,
+       0,
+       {},
+       1,
+       2,
+       "semi-implicit Euler method of order 1: velocities first, positions with the new velocities"},
+      {"heun", 2, 2, 0, {}, 3, 5, "Heun method (explicit trapezoidal rule) of order 2"},
+      {"rk4", 4, 4, 0, {}, 5, 12, "classical Runge-Kutta method of order 4"},
+      {"rk5", 5, 6, 0, {}, 10, 46, "Runge-Kutta method of order 5 by Dormand and Prince, six stages"},
+      {"adams_bashforth2",
+       2,
+       1,
+       1,
+       {"rk4"},
+       2,
+       4,
+       "Adams-Bashforth method of order 2; the first step is one of rk4_step"},
+      {"adams_bashforth3",
+       3,
+       1,
+       2,
+       {"rk4"},
+       2,
+       7,
+       "Adams-Bashforth method of order 3; the first two steps are those of rk4_step"},
+  };
+  return steppers;
+}
+
+const Stepper* find_stepper(const std::string& name) {
+  for (const Stepper& stepper : all_steppers())
+    if (stepper.name == name) return &stepper;
+  return nullptr;
+}
+
+}  // namespace jourdain::emit

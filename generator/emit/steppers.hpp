@@ -1,0 +1,30 @@
+// The steppers that can be emitted. A new one is a template file of its name and one line in the list of steppers.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace jourdain::emit {
+
+/// A fixed-step method, emitted as `<name>_step` from the template `<name>_step.in`.
+struct Stepper {
+  std::string name;
+  int order = 0;
+  int evaluations = 0;            ///< of forward_dynamics per step
+  int history = 0;                ///< earlier steps whose rates it remembers
+  std::vector<std::string> uses;  ///< steppers that its template calls
+  long fixed_operations = 0;  ///< per step, beside those per entry; quotients of literals count as literals
+  long entry_operations = 0;  ///< per step and entry of y and z
+  std::string comment;        ///< a sentence for the declaration
+};
+
+/// In the order of emission.
+const std::vector<Stepper>& all_steppers();
+
+/// Nothing where no stepper has the name.
+const Stepper* find_stepper(const std::string& name);
+
+/// Operations per quaternion that bring it back to unit length.
+inline constexpr long kNormaliseOperations = 14;
+
+}  // namespace jourdain::emit
