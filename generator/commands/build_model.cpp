@@ -4,53 +4,173 @@
 
 #include <cstdlib>
 
+#include "emit/step_text.hpp"
 #include "emit/templates.hpp"
-#include "support/diagnostics.hpp"
+#include "support/files.hpp"
+#include "support/process.hpp"
 
 namespace jourdain::commands {
 
 namespace {
 
+struct NumberText {
+  const char* type;
+  const char* include;
+  int parts;
+  std::vector<std::string> compiler_options, link_options;
+};
+
+NumberText text_of(NumberType number) {
+  switch (number) {
+    case NumberType::kDouble:
+      return {"double", "", 1, {"-O2"}, {}};
+    case NumberType::kFloat:
+      return {"float", "", 1, {"-O2"}, {}};
+    case NumberType::kLong:
+      return {"jourdain::LongReal", "#include \"long_real.hpp\"\n", 4, {"-O1"}, {"-lcln"}};
+  }
+  return {};
+}
+
+std::string stepper_struct(const std::string& name, const emit::Stepper& stepper) {
+  const bool remembers = stepper.history > 0;
+  return fmt::format(
+      "struct {0}_method {{\n  static constexpr int depth = {1};\n  using History = {2};\n  template <class "
+      "In>\n"
+      "  static void step(State& state, const In& input, const Real& h, [[maybe_unused]] History& history) "
+      "{{\n"
+      "    ::{3}::{0}_step(model(), state, input, h{4});\n  }}\n}};\n\n",
+      stepper.name, stepper.history,
+      remembers ? fmt::format("::{}::RateHistory<{}, Real>", name, stepper.history) : "int", name,
+      remembers ? ", history" : "");
+}
+
+bool has(const CompiledModel& compiled, const std::string& function) {
+  for (const emit::FunctionInfo& info : compiled.functions)
+    if (info.name == function) return true;
+  return false;
+}
+
+long operations_of(const CompiledModel& compiled, const std::string& function) {
+  for (const ir::Program& program : compiled.module.functions)
+    if (program.name == function) return static_cast<long>(ir::count_operations(program).arithmetic());
+  return 0;
+}
+
 /// Arrays of length zero are no members of the emitted structs.
-std::string shim(const std::string& name, const std::string& real, const CompiledModel& compiled) {
+std::string shim(const std::string& name, const NumberText& number, const CompiledModel& compiled) {
   const auto copy = [](std::size_t count, const char* line) { return std::string(count > 0 ? line : ""); };
   const emit::SceneShape& shape = compiled.shape;
+  const long dynamics = operations_of(compiled, "forward_dynamics");
+  const long rate = operations_of(compiled, "position_rate");
+  std::string steppers, methods;
+  int method_count = 0;
+  for (const emit::FunctionInfo& function : compiled.functions) {
+    if (!function.stepper) continue;
+    const emit::Stepper& s = *function.stepper;
+    steppers += stepper_struct(name, s);
+    methods += fmt::format("\n    {{\"{0}\", {1}, {2}, {3}, {4}L, steps<{0}_method>}},", s.name, s.order,
+                           s.evaluations, s.history, emit::step_operations(shape, s, dynamics, rate));
+    ++method_count;
+  }
+  std::string parameters;
+  for (std::size_t i = 0; i < compiled.parameter_names.size(); ++i)
+    parameters +=
+        fmt::format("  parameters.{} = joined<Real>(values + {} * parts);\n", compiled.parameter_names[i], i);
+  std::string rates, inverse, outputs;
+  if (shape.velocities > 0) {
+    rates = "  const State state = to_state(t, y, z);\n  Real zd[Model::velocity_count];\n";
+    rates += fmt::format("  ::{}::forward_dynamics(model(), state, to_input(u), zd);\n", name);
+    rates += "  write(zd, zdot, Model::velocity_count);\n";
+    rates += fmt::format(
+        "  Real yd[Model::position_count];\n  ::{}::detail::velocities(model(), state, yd);\n", name);
+    rates += "  write(yd, ydot, Model::position_count);\n";
+  }
+  if (has(compiled, "inverse_dynamics"))
+    inverse = fmt::format(
+        "  Real zd[Model::velocity_count], forces[Model::velocity_count];\n"
+        "  read(zd, zdot, Model::velocity_count);\n"
+        "  ::{}::inverse_dynamics(model(), to_state(t, y, z), zd, forces);\n"
+        "  write(forces, tau, Model::velocity_count);\n",
+        name);
+  const bool with_outputs = has(compiled, "outputs");
+  if (with_outputs)
+    outputs = fmt::format(
+        "\n// An Outputs is numbers only, one after the other.\n"
+        "void outputs(const double* t, const double* y, const double* z, const double* u, double* "
+        "values) {{\n  Model::Outputs result;\n  ::{}::outputs(model(), to_state(t, y, z), "
+        "to_input(u), result);\n  write(reinterpret_cast<const Real*>(&result), values, "
+        "sizeof result / sizeof(Real));\n}}\n",
+        name);
   return emit::fill(
       emit::template_text("shim.cpp.in"),
       {{"NAME", name},
-       {"REAL", real},
-       {"READ_STATE", copy(shape.positions, "  to_model(state.y, y, Model::position_count);\n") +
-                          copy(shape.velocities, "  to_model(state.z, z, Model::velocity_count);\n")},
-       {"WRITE_STATE", copy(shape.positions, "  from_model(state.y, y, Model::position_count);\n") +
-                           copy(shape.velocities, "  from_model(state.z, z, Model::velocity_count);\n")},
-       {"READ_INPUT", copy(compiled.input_count, "  to_model(input.u, u, Model::input_count);\n")}});
+       {"REAL", number.type},
+       {"INCLUDE", number.include},
+       {"PARTS", fmt::format("{}", number.parts)},
+       {"READ_STATE", copy(shape.positions, "  read(state.y, y, Model::position_count);\n") +
+                          copy(shape.velocities, "  read(state.z, z, Model::velocity_count);\n")},
+       {"WRITE_STATE", copy(shape.positions, "  write(state.y, y, Model::position_count);\n") +
+                           copy(shape.velocities, "  write(state.z, z, Model::velocity_count);\n")},
+       {"READ_INPUT", copy(compiled.input_count, "  if (u) read(input.u, u, Model::input_count);\n")},
+       {"READ_PARAMETERS", parameters},
+       {"STEPPERS", steppers},
+       {"RATES", rates},
+       {"INVERSE", inverse},
+       {"OUTPUTS", outputs},
+       {"METHODS", methods},
+       {"OUTPUT_COUNT", with_outputs ? "sizeof(Model::Outputs) / sizeof(Real)" : "0"},
+       {"METHOD_COUNT", fmt::format("{}", method_count)},
+       {"DYNAMICS_OPERATIONS", fmt::format("{}L", dynamics + rate)},
+       {"OUTPUTS_POINTER", with_outputs ? "outputs" : "nullptr"}});
+}
+
+std::string compiler() {
+  const char* chosen = std::getenv("CXX");
+  return chosen && *chosen ? chosen : "c++";
 }
 
 }  // namespace
 
-studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled,
-                                 const std::string& real) {
+std::vector<std::string> loadable_functions(const std::vector<std::string>& steppers) {
+  std::vector<std::string> functions = {"initial_state",    "position_rate",  "forward_dynamics",
+                                        "inverse_dynamics", "kinetic_energy", "potential_energy",
+                                        "outputs"};
+  for (const std::string& stepper : steppers) functions.push_back(stepper + "_step");
+  return functions;
+}
+
+studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, NumberType number) {
   const support::TemporaryFolder folder;
   const auto in_folder = [&folder](const std::string& file) { return folder.path() + "/" + file; };
+  const NumberText text = text_of(number);
   for (const emit::File& file : compiled.files) support::write_file(in_folder(file.name), file.text);
-  support::write_file(in_folder("model_table.h"), emit::template_text("model_table.h"));
-  support::write_file(in_folder("shim.cpp"), shim(name, real, compiled));
-  const char* chosen = std::getenv("CXX");
-  const std::string compiler = chosen && *chosen ? chosen : "c++";
-  const std::vector<std::string> command = {compiler,
-                                            "-std=c++17",
-                                            "-O2",
-                                            "-fPIC",
-                                            "-shared",
-                                            in_folder("shim.cpp"),
-                                            in_folder(name + ".cpp"),
-                                            "-o",
-                                            in_folder("model.so")};
+  for (const char* header : {"model_table.h", "long_real.hpp"})
+    support::write_file(in_folder(header), emit::template_text(header));
+  support::write_file(in_folder("shim.cpp"), shim(name, text, compiled));
+  std::vector<std::string> command = {compiler(), "-std=c++17", "-fPIC", "-shared"};
+  command.insert(command.end(), text.compiler_options.begin(), text.compiler_options.end());
+  for (const std::string& argument : {in_folder("shim.cpp"), std::string("-o"), in_folder("model.so")})
+    command.push_back(argument);
+  command.insert(command.end(), text.link_options.begin(), text.link_options.end());
   const support::ProcessResult result = support::run_process(command);
   if (result.status != 0)
     throw support::EnvironmentError(fmt::format("'{}' cannot compile the emitted code (exit status {}):\n{}",
-                                                compiler, result.status, result.output.substr(0, 2000)));
+                                                compiler(), result.status, result.output.substr(0, 2000)));
   return studies::LoadedModel(in_folder("model.so"));
+}
+
+void set_parameters(const jourdain_model_table& table, const std::vector<double>& values) {
+  const auto parts = static_cast<std::size_t>(table.parts);
+  std::vector<double> numbers(parts * values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) numbers[i * parts] = values[i];
+  table.set_parameters(numbers.data());
+}
+
+std::string compiler_text(NumberType number) {
+  std::string text = compiler();
+  for (const std::string& option : text_of(number).compiler_options) text += " " + option;
+  return text;
 }
 
 }  // namespace jourdain::commands

@@ -1,17 +1,28 @@
-// Emitted sources to a loaded model: the system's C++ compiler at work.
+// From emitted sources to a loaded model, by the C++ compiler of the machine.
 #pragma once
 
 #include <string>
 
 #include "compile.hpp"
 #include "studies/loaded_model.hpp"
-#include "support/process.hpp"
 
 namespace jourdain::commands {
 
-/// Compiles the emitted files with $CXX (default c++) in a temporary folder, which the loaded model does not need any
-/// more. `real` is double or float. Throws EnvironmentError with the compiler's words when that fails.
-studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled,
-                                 const std::string& real);
+/// What the loaded model computes in; "long" has 50 digits (jourdain/long_real.hpp).
+enum class NumberType { kDouble, kFloat, kLong };
+
+/// Functions of the table of a loaded model that has these steppers.
+std::vector<std::string> loadable_functions(const std::vector<std::string>& steppers);
+
+/// Compiles the files of `compiled` with the C++ compiler (environment variable CXX, else c++) in a temporary folder and
+/// loads the result. `compiled` must have the functions of `loadable_functions`. Throws EnvironmentError with the
+/// compiler's words when that fails.
+studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, NumberType number);
+
+/// From now on the model has these values of its parameters, in the mechanism's order.
+void set_parameters(const jourdain_model_table& table, const std::vector<double>& values);
+
+/// The compiler's name and the options that decide speed.
+std::string compiler_text(NumberType number);
 
 }  // namespace jourdain::commands

@@ -13,5 +13,6 @@ void add_check(CLI::App& app, int& status);
 void add_info(CLI::App& app, int& status);
 void add_equations(CLI::App& app, int& status);
 void add_simulate(CLI::App& app, int& status);
+void add_report(CLI::App& app, int& status);
 
 }  // namespace jourdain::commands

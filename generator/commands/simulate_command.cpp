@@ -1,62 +1,44 @@
 #include <fmt/format.h>
-#include <unistd.h>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
-#include "commands/build_model.hpp"
 #include "commands/commands.hpp"
-#include "commands/load.hpp"
-#include "model/coordinates.hpp"
+#include "commands/energy.hpp"
+#include "commands/method_names.hpp"
+#include "commands/plot.hpp"
+#include "commands/progress.hpp"
+#include "commands/run_setup.hpp"
+#include "studies/flow.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::commands {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using studies::Flow;
+using studies::Point;
 
 constexpr double kLongestRun = 1e9;  ///< steps
+constexpr std::size_t kPlottedPoints = 2000;
 
 struct Arguments {
-  ModelArguments model;
+  RunArguments run;
   double duration = 10, step = 1e-3;
   long every = 10;
+  std::string method = "rk4";
   std::string output;
-  std::string real = "double";
-  std::vector<double> input;
+  std::string plot;
 };
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
-
-/// A bar on a terminal, once a run has taken a second.
-class Progress {
- public:
-  explicit Progress(long total) : total_(total), shown_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
-    if (drawn_) fmt::print(stderr, "\r{:50}\r", "");
-  }
-
-  void update(long done) {
-    constexpr int kWidth = 40;
-    if (!shown_ || seconds_since(begin_) < 1 || seconds_since(last_) < 0.1) return;
-    last_ = Clock::now();
-    drawn_ = true;
-    const int filled = static_cast<int>(kWidth * done / total_);
-    fmt::print(stderr, "\r[{:=<{}}{:{}}] {:3}%", "", filled, "", kWidth - filled, 100 * done / total_);
-    std::fflush(stderr);
-  }
-
- private:
-  long total_;
-  bool shown_, drawn_ = false;
-  Clock::time_point begin_ = Clock::now(), last_ = begin_;
-};
 
 /// A CSV field; names from a URDF may hold commas and quotes.
 std::string field(const std::string& name) {
@@ -67,8 +49,8 @@ std::string field(const std::string& name) {
 }
 
 struct Trajectory {
-  std::vector<double> y, z;
-  double t = 0;
+  Point<double> end;
+  std::vector<Point<double>> points;  ///< every one that was written
   double first_energy = 0, largest_drift = 0;
   double stepping_time = 0;  ///< s of wall time spent in steps
   bool finite = true;
@@ -76,30 +58,30 @@ struct Trajectory {
 
 class Simulation {
  public:
-  Simulation(const jourdain_model_table& table, const Arguments& arguments)
-      : table_(table), arguments_(arguments) {
-    state_.y.resize(static_cast<std::size_t>(table.position_count));
-    state_.z.resize(static_cast<std::size_t>(table.velocity_count));
-    table.initial_state(state_.y.data(), state_.z.data());
-  }
+  Simulation(const Flow<double>& flow, const Arguments& arguments)
+      : flow_(flow), table_(flow.table()), arguments_(arguments) {}
 
   /// Steps from the initial state, appending a CSV row every so many steps.
   Trajectory run(long steps, std::string& csv) {
+    const jourdain_method& method =
+        *std::find_if(table_.methods, table_.methods + table_.method_count,
+                      [this](const jourdain_method& m) { return arguments_.method == m.name; });
+    studies::Memory memory = flow_.fresh_memory(method);
+    state_.end = flow_.start();
     header(csv);
     state_.first_energy = row(csv);
-    Progress progress(steps);
+    ProgressBar progress;
     for (long done = 0; done < steps && state_.finite;) {
       const long block = std::min(arguments_.every, steps - done);
       const auto begin = Clock::now();
-      table_.rk4_steps(&state_.t, state_.y.data(), state_.z.data(), arguments_.input.data(), arguments_.step,
-                       block);
+      flow_.step(method, state_.end, arguments_.step, block, memory);
       state_.stepping_time += seconds_since(begin);
       done += block;
-      state_.t = static_cast<double>(done) * arguments_.step;
+      state_.end.t = static_cast<double>(done) * arguments_.step;
       const double energy = row(csv);
       state_.finite = std::isfinite(energy);
       state_.largest_drift = std::max(state_.largest_drift, std::fabs(energy - state_.first_energy));
-      progress.update(done);
+      progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
     }
     return state_;
   }
@@ -114,58 +96,67 @@ class Simulation {
   }
 
   /// Total energy, J.
-  double row(std::string& csv) const {
-    const double kinetic = table_.kinetic_energy(state_.t, state_.y.data(), state_.z.data());
-    const double potential = table_.potential_energy(state_.t, state_.y.data(), state_.z.data());
-    csv += fmt::format("{}", state_.t);
-    for (double value : state_.y) csv += fmt::format(",{}", value);
-    for (double value : state_.z) csv += fmt::format(",{}", value);
+  double row(std::string& csv) {
+    const Point<double>& now = state_.end;
+    if (!arguments_.plot.empty()) state_.points.push_back(now);
+    double kinetic = 0, potential = 0;
+    const double* z = now.x.data() + table_.position_count;
+    table_.kinetic_energy(&now.t, now.x.data(), z, &kinetic);
+    table_.potential_energy(&now.t, now.x.data(), z, &potential);
+    csv += fmt::format("{}", now.t);
+    for (double value : now.x) csv += fmt::format(",{}", value);
     csv += fmt::format(",{},{},{}\n", kinetic, potential, kinetic + potential);
     return kinetic + potential;
   }
 
+  const Flow<double>& flow_;
   const jourdain_model_table& table_;
   const Arguments& arguments_;
   Trajectory state_;
 };
 
-bool conserves_energy(const model::Mechanism& mechanism, const std::vector<double>& input) {
-  for (const model::Joint& joint : mechanism.joints) {
-    if (!joint.spin_damping.is_zero()) return false;
-    for (const model::Coordinate& c : joint.coordinates)
-      if (!c.damping.is_zero() || !c.friction.is_zero() || c.motion) return false;
-  }
-  for (const model::Spring& spring : mechanism.springs)
-    if (!spring.damping.is_zero() || (!spring.law.is_zero() && !spring.potential)) return false;
-  if (!mechanism.loads.empty() || !mechanism.coordinate_forces.empty()) return false;
-  for (double u : input)
-    if (u != 0) return false;
-  return true;
-}
-
-void print_summary(const LoadedMechanism& loaded, const Arguments& arguments,
-                   const jourdain_model_table& table, const Trajectory& end, long steps) {
-  const double microseconds = end.stepping_time / static_cast<double>(steps) * 1e6;
-  fmt::print("{}: {} steps of {:g} s with RK4 in {}\n", loaded.mechanism.name, steps, arguments.step,
-             arguments.real);
+void print_summary(const RunModel& model, const RunInputs& inputs, const Arguments& arguments,
+                   const jourdain_model_table& table, const Trajectory& result, long steps) {
+  const double microseconds = result.stepping_time / static_cast<double>(steps) * 1e6;
+  const std::string driven = inputs.what.empty() ? "" : ", " + inputs.what;
+  fmt::print("{}: {} steps of {:g} s with {} in {}{}\n", model.loaded.mechanism.name, steps, arguments.step,
+             arguments.method, arguments.run.real, driven);
   fmt::print("  {:.3g} us a step on average, {:.3g} times faster than real time\n", microseconds,
              arguments.step * 1e6 / microseconds);
-  if (conserves_energy(loaded.mechanism, arguments.input))
-    fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", end.first_energy, end.largest_drift);
-  fmt::print("  at t = {:g} s:\n", end.t);
-  if (table.position_count == table.velocity_count) {
-    for (int i = 0; i < table.position_count; ++i)
+  if (inputs.what.empty() && conserves_energy(model.loaded.mechanism))
+    fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", result.first_energy, result.largest_drift);
+  fmt::print("  at t = {:g} s:\n", result.end.t);
+  const std::vector<double>& x = result.end.x;
+  const int ny = table.position_count, nz = table.velocity_count;
+  if (ny == nz) {
+    for (int i = 0; i < ny; ++i)
       fmt::print("    {:<24} {:>12.6f}   rate {:>12.6f}\n", table.position_names[i],
-                 end.y[static_cast<std::size_t>(i)], end.z[static_cast<std::size_t>(i)]);
+                 x[static_cast<std::size_t>(i)], x[static_cast<std::size_t>(ny + i)]);
     return;
   }
-  for (int i = 0; i < table.position_count; ++i)
-    fmt::print("    {:<24} {:>12.6f}\n", table.position_names[i], end.y[static_cast<std::size_t>(i)]);
-  for (int i = 0; i < table.velocity_count; ++i)
-    fmt::print("    {:<24} {:>12.6f}\n", table.velocity_names[i], end.z[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < ny; ++i)
+    fmt::print("    {:<24} {:>12.6f}\n", table.position_names[i], x[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < nz; ++i)
+    fmt::print("    {:<24} {:>12.6f}\n", table.velocity_names[i], x[static_cast<std::size_t>(ny + i)]);
 }
 
-int run(Arguments arguments) {
+/// Coordinates over time.
+std::string plot_text(const std::string& title, const jourdain_model_table& table,
+                      const std::vector<Point<double>>& points) {
+  Plot plot{"trajectory", title, "t, s", "coordinates, rad or m", false, false, {}};
+  const std::size_t stride = points.size() / kPlottedPoints + 1;
+  for (int i = 0; i < table.position_count; ++i) {
+    Series series{table.position_names[i], {}, {}, i, true, false, i >= 8};
+    for (std::size_t k = 0; k < points.size(); k += stride) {
+      series.x.push_back(points[k].t);
+      series.y.push_back(points[k].x[static_cast<std::size_t>(i)]);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return draw({plot}).front();
+}
+
+int run(const Arguments& arguments) {
   const double exact_steps = arguments.duration / arguments.step;
   if (!(exact_steps >= 1 && exact_steps <= kLongestRun)) {
     fmt::print(stderr,
@@ -173,37 +164,42 @@ int run(Arguments arguments) {
                arguments.duration, arguments.step, exact_steps, kLongestRun);
     return kUsage;
   }
-  std::optional<LoadedMechanism> loaded = load(arguments.model);
-  if (!loaded) return kModelWrong;
-  const std::size_t inputs = model::lay_out_coordinates(loaded->mechanism).input_count();
-  if (!arguments.input.empty() && arguments.input.size() != inputs) {
-    fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",
-               arguments.input.size(), inputs);
-    return kUsage;
-  }
-  arguments.input.resize(inputs, 0.0);
-  const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
+  if (!arguments.plot.empty()) check_plotter();
+  int status = kSuccess;
+  std::optional<RunModel> model = read_run(arguments.run, status);
+  if (!model) return status;
+  CompileOptions& options = model->loaded.options;
+  options.functions = loadable_functions({arguments.method});
+  const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) {
     print_refusal(compiled.verdict);
     return kInternal;
   }
-  const studies::LoadedModel model = build_model(loaded->options.name, compiled, arguments.real);
+  const studies::LoadedModel loaded = build_model(options.name, compiled, number_type(arguments.run.real));
+  set_parameters(loaded.table(), model->parameters);
+  const std::optional<RunInputs> inputs = read_inputs(arguments.run, *model, loaded.table(), nullptr, status);
+  if (!inputs) return status;
+  Flow<double> flow(loaded.table(), *inputs->inputs);
+  flow.set_start(inputs->start);
   const long steps = std::lround(exact_steps);
   std::string csv;
-  const Trajectory end = Simulation(model.table(), arguments).run(steps, csv);
-  if (!end.finite) {
+  const Trajectory result = Simulation(flow, arguments).run(steps, csv);
+  if (!result.finite) {
     fmt::print(stderr, "error: the state is not finite at t = {:g} s; a step of {:g} s may be too long\n",
-               end.t, arguments.step);
+               result.end.t, arguments.step);
     return kModelWrong;
   }
+  const std::string plot =
+      arguments.plot.empty() ? "" : plot_text(model->loaded.mechanism.name, loaded.table(), result.points);
+  if (!plot.empty()) support::write_file(arguments.plot, plot);
   if (arguments.output == "-") {
     fmt::print("{}", csv);
     return kSuccess;
   }
-  const std::string output = arguments.output.empty() ? loaded->options.name + ".csv" : arguments.output;
+  const std::string output = arguments.output.empty() ? options.name + ".csv" : arguments.output;
   support::write_file(output, csv);
-  print_summary(*loaded, arguments, model.table(), end, steps);
-  fmt::print("  wrote {}\n", output);
+  print_summary(*model, *inputs, arguments, loaded.table(), result, steps);
+  fmt::print("  wrote {}{}\n", output, plot.empty() ? "" : ", " + arguments.plot);
   return kSuccess;
 }
 
@@ -211,23 +207,20 @@ int run(Arguments arguments) {
 
 void add_simulate(CLI::App& app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "simulate", "compile, step with RK4, write CSV: jourdain simulate arm.toml --duration 5");
-  arguments->model.add_to(*command);
+  CLI::App* command =
+      app.add_subcommand("simulate", "compile, step, write CSV: jourdain simulate arm.toml --duration 5");
+  arguments->run.add_to(*command);
   command->add_option("--duration", arguments->duration, "s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--step", arguments->step, "s")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--method", arguments->method, "stepper")->check(check_method)->capture_default_str();
   command->add_option("--every", arguments->every, "write every so many steps")
       ->check(CLI::Range(1L, 1000000000L))
       ->capture_default_str();
   command->add_option("--output", arguments->output,
                       "CSV file, or - for standard output (default: NAME.csv)");
-  command->add_option("--constant-input", arguments->input, "value of each input, N m or N (default: 0)")
-      ->delimiter(',');
-  command->add_option("--real", arguments->real, "number type")
-      ->check(CLI::IsMember({"double", "float"}))
-      ->capture_default_str();
+  command->add_option("--plot", arguments->plot, "SVG file of the coordinates over time; needs gnuplot");
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

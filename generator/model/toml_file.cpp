@@ -4,9 +4,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/nesting.hpp"
 #include "model/toml_table.hpp"
 
 namespace jourdain::model {
+
+namespace {
+
+/// "Error while parsing array: …" of toml++ in our words.
+std::string syntax_message(std::string_view description) {
+  constexpr std::string_view kPrefix = "Error while parsing ";
+  if (description.starts_with(kPrefix)) description.remove_prefix(kPrefix.size());
+  return fmt::format("TOML syntax, {}", description);
+}
+
+}  // namespace
+
+std::optional<toml::table> parse_toml(support::Diagnostics& diagnostics) {
+  const support::LineIndex lines(diagnostics.text());
+  if (const auto offset = deep_toml_nesting(diagnostics.text())) {
+    diagnostics.error(lines.range(*offset, 1), fmt::format("nested deeper than {} levels", kMaximumNesting));
+    return {};
+  }
+  try {
+    return toml::parse(std::string_view(diagnostics.text()));
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    diagnostics.error({static_cast<int>(begin.line), static_cast<int>(begin.column), 1},
+                      syntax_message(error.description()));
+    return {};
+  }
+}
 
 void TomlFile::declare(const std::vector<Parameter>& parameters) {
   names_.clear();

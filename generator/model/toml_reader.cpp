@@ -87,7 +87,6 @@
 #include <fmt/format.h>
 
 #include "model/finish.hpp"
-#include "model/nesting.hpp"
 #include "model/read.hpp"
 #include "model/toml_sections.hpp"
 #include "support/utf8.hpp"
@@ -181,38 +180,20 @@ class TomlReader {
   const toml::table& root_;
 };
 
-/// "Error while parsing array: …" of toml++ in our words.
-std::string syntax_message(std::string_view description) {
-  constexpr std::string_view kPrefix = "Error while parsing ";
-  if (description.starts_with(kPrefix)) description.remove_prefix(kPrefix.size());
-  return fmt::format("TOML syntax, {}", description);
-}
-
 }  // namespace
 
 std::optional<Mechanism> read_toml(Diagnostics& diagnostics, const ReadOptions& options) {
-  const support::LineIndex lines(diagnostics.text());
-  if (const auto offset = deep_toml_nesting(diagnostics.text())) {
-    diagnostics.error(lines.range(*offset, 1), fmt::format("nested deeper than {} levels", kMaximumNesting));
-    return {};
-  }
   if (options.root == RootJoint::kFree) {
     diagnostics.error({}, "a free root can be asked for with URDF files only",
                       "declare the root's joint in the file");
     return {};
   }
-  try {
-    const toml::table root = toml::parse(std::string_view(diagnostics.text()));
-    TomlReader reader(diagnostics, root);
-    Mechanism mechanism = reader.read();
-    return finish_reading(std::move(mechanism), reader.complete(), options, support::Severity::kError,
-                          diagnostics);
-  } catch (const toml::parse_error& error) {
-    const auto& begin = error.source().begin;
-    diagnostics.error({static_cast<int>(begin.line), static_cast<int>(begin.column), 1},
-                      syntax_message(error.description()));
-    return {};
-  }
+  const std::optional<toml::table> root = parse_toml(diagnostics);
+  if (!root) return {};
+  TomlReader reader(diagnostics, *root);
+  Mechanism mechanism = reader.read();
+  return finish_reading(std::move(mechanism), reader.complete(), options, support::Severity::kError,
+                        diagnostics);
 }
 
 }  // namespace jourdain::model

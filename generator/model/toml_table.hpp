@@ -15,6 +15,9 @@
 
 namespace jourdain::model {
 
+/// The text of `diagnostics` as TOML; nothing after a diagnostic.
+std::optional<toml::table> parse_toml(support::Diagnostics& diagnostics);
+
 /// One TOML file while it is read.
 class TomlFile {
  public:

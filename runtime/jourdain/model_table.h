@@ -1,25 +1,60 @@
 /* SPDX-License-Identifier: MIT
  *
- * An emitted model as a table of C functions, so that one program can load any model. Quantities are double whatever
- * number type the model computes in. */
+ * An emitted model as a table of C functions, so that one program can load any model in any number type. Every number
+ * passes as `parts` consecutive doubles whose sum it is: one for models that compute in double or float. */
 #ifndef JOURDAIN_MODEL_TABLE_H
 #define JOURDAIN_MODEL_TABLE_H
 
+/* Inputs: `held` over the step, or where `at` is not null its values at the state of each stage. */
+typedef struct jourdain_inputs {
+  const double* held;
+  void (*at)(void* context, const double* t, const double* y, const double* z, double* u);
+  void* context;
+} jourdain_inputs;
+
+typedef struct jourdain_method {
+  const char* name; /* of the stepper, without "_step" */
+  int order;
+  int evaluations; /* of forward_dynamics per step */
+  int history;     /* earlier steps whose rates it remembers */
+  long operations; /* arithmetic operations per step */
+  /* Makes `count` steps of length h (s) from t, y, z and replaces them by the result. `memory` is the caller's: a
+   * double that counts the earlier steps in it, then their rates of y, newest step first, then those of z; zero at the
+   * start of a trajectory, null where `history` is 0. */
+  void (*steps)(double* t, double* y, double* z, const jourdain_inputs* inputs, const double* h, long count,
+                double* memory);
+} jourdain_method;
+
 typedef struct jourdain_model_table {
-  int position_count; /* entries of y */
-  int velocity_count; /* entries of z */
-  int input_count;    /* entries of u */
+  int parts;           /* doubles per number */
+  int position_count;  /* entries of y */
+  int velocity_count;  /* entries of z */
+  int input_count;     /* entries of u */
+  int parameter_count; /* tunable parameters */
+  int output_count;    /* numbers of all outputs */
+  int method_count;
+  long dynamics_operations; /* arithmetic operations of the rates of y and z at one state */
   /* Names in order, closed by a null pointer. */
   const char* const* position_names;
   const char* const* velocity_names;
   const char* const* input_names;
+  const char* const* parameter_names;
+  const jourdain_method* methods;
+  /* Values of all parameters from now on; not while another thread computes. */
+  void (*set_parameters)(const double* values);
   /* y and z that the description starts from, at t = 0. */
   void (*initial_state)(double* y, double* z);
-  /* Makes `count` steps of length h (s) from t, y, z; u is held. The result replaces t, y and z. */
-  void (*rk4_steps)(double* t, double* y, double* z, const double* u, double h, long count);
+  /* dy/dt and dz/dt. */
+  void (*rates)(const double* t, const double* y, const double* z, const double* u, double* ydot,
+                double* zdot);
+  /* Generalized forces (N m, N) that are missing for dz/dt at u = 0; null where not emitted. */
+  void (*inverse_dynamics)(const double* t, const double* y, const double* z, const double* zdot,
+                           double* tau);
   /* J */
-  double (*kinetic_energy)(double t, const double* y, const double* z);
-  double (*potential_energy)(double t, const double* y, const double* z);
+  void (*kinetic_energy)(const double* t, const double* y, const double* z, double* energy);
+  void (*potential_energy)(const double* t, const double* y, const double* z, double* energy);
+  /* All outputs of the description, in its order, matrices row by row; null where there are none. */
+  void (*outputs)(const double* t, const double* y, const double* z, const double* u, double* values);
 } jourdain_model_table;
 
 #endif

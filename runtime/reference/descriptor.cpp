@@ -247,12 +247,19 @@ void DescriptorReference<Scalar>::recover_velocity_rates(std::size_t joint, cons
 }
 
 template <class Scalar>
-DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& system) const {
+Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::index1_matrix(const System& system) {
   const Eigen::Index nx = system.M.rows(), constraints = system.G.rows();
   Eigen::MatrixX<Scalar> matrix = Eigen::MatrixX<Scalar>::Zero(nx + constraints, nx + constraints);
   matrix.topLeftCorner(nx, nx) = system.M;
   matrix.topRightCorner(nx, constraints) = system.G.transpose();
   matrix.bottomLeftCorner(constraints, nx) = system.G;
+  return matrix;
+}
+
+template <class Scalar>
+DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& system) const {
+  const Eigen::Index nx = system.M.rows(), constraints = system.G.rows();
+  const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
   Eigen::VectorX<Scalar> right(nx + constraints);
   right << system.forces, -system.gamma;
   const Eigen::FullPivLU<Eigen::MatrixX<Scalar>> factors(matrix);
@@ -289,6 +296,59 @@ DescriptorSolution<Scalar> DescriptorReference<Scalar>::solve(Scalar t, const Ei
   add_forces(scene_at(t, u, system), system);
   add_inertia(system);
   return solution(system);
+}
+
+template <class Scalar>
+AbsoluteRates<Scalar> DescriptorReference<Scalar>::rates(const AbsoluteState<Scalar>& state,
+                                                         const Eigen::VectorX<Scalar>& u) const {
+  System system = linearise(state.bodies, coordinates_near(state.t, state.near));
+  const descriptor::Scene<Scalar> scene = scene_at(state.t, u, system);
+  add_forces(scene, system);
+  add_inertia(system);
+  const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
+  Eigen::VectorX<Scalar> right(matrix.rows());
+  right << system.forces, -system.gamma;
+  const Eigen::VectorX<Scalar> unknowns = matrix.partialPivLu().solve(right);
+  return {unknowns.head(system.M.rows()), system.g, system.g_rate, scene.position, matrix.rows()};
+}
+
+/// Change of x that moves the constraints' linearisation by −violation.
+template <class Scalar>
+Eigen::VectorX<Scalar> DescriptorReference<Scalar>::correction(
+    const System& system, const Eigen::VectorX<Scalar>& violation) const {
+  const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
+  Eigen::VectorX<Scalar> right = Eigen::VectorX<Scalar>::Zero(matrix.rows());
+  right.tail(violation.size()) = -violation;
+  return matrix.partialPivLu().solve(right).head(system.M.rows());
+}
+
+template <class Scalar>
+AbsoluteState<Scalar> DescriptorReference<Scalar>::projected(AbsoluteState<Scalar> state) const {
+  constexpr int kNewtonSteps = 2;
+  const auto at_state = [&] {
+    System system = linearise(state.bodies, coordinates_near(state.t, state.near));
+    system.forces = Eigen::VectorX<Scalar>::Zero(6 * Eigen::Index(bodies_.size()));
+    add_inertia(system);
+    return system;
+  };
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const System system = at_state();
+    const Eigen::VectorX<Scalar> change = correction(system, system.g);
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+      AbsoluteBody<Scalar>& body = state.bodies[b];
+      const Vector3<Scalar> turn = change.template segment<3>(6 * Eigen::Index(b) + 3) / 2;
+      body.p_WC += change.template segment<3>(6 * Eigen::Index(b));
+      body.orientation =
+          (body.orientation * Eigen::Quaternion<Scalar>(1, turn.x(), turn.y(), turn.z())).normalized();
+    }
+  }
+  const System system = at_state();
+  const Eigen::VectorX<Scalar> change = correction(system, system.g_rate);
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    state.bodies[b].v_C += change.template segment<3>(6 * Eigen::Index(b));
+    state.bodies[b].omega += change.template segment<3>(6 * Eigen::Index(b) + 3);
+  }
+  return state;
 }
 
 template class DescriptorReference<double>;

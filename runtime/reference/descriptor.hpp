@@ -67,6 +67,24 @@ struct DescriptorSolution {
   Scalar reciprocal_condition = 0;  ///< of that matrix, estimated in the 1-norm, units taken as they are
 };
 
+/// Every body in absolute coordinates; it may leave the constraints.
+template <class Scalar>
+struct AbsoluteState {
+  Scalar t = 0;  ///< s
+  std::vector<AbsoluteBody<Scalar>> bodies;
+  std::vector<std::vector<Scalar>> near;  ///< by joint, its scalar coordinates approximately (see `measure`)
+};
+
+/// What the index-1 system gives at an absolute state.
+template <class Scalar>
+struct AbsoluteRates {
+  Eigen::VectorX<Scalar> xdot;       ///< of (v_C, ω) body by body, 6 nb
+  Eigen::VectorX<Scalar> g, g_rate;  ///< constraint violation g and G x + g_t
+  std::vector<std::vector<Scalar>>
+      near;                   ///< scalar coordinates measured there, prescribed ones as prescribed
+  Eigen::Index unknowns = 0;  ///< of the linear system: accelerations and multipliers
+};
+
 /// A mechanism with its parameters' values put in. Evaluations are const and independent of each other. Bodies
 /// without mass are taken as they are: `rank` tells whether their accelerations are determined.
 template <class Scalar>
@@ -89,6 +107,17 @@ class DescriptorReference {
   DescriptorSolution<Scalar> solve(Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z,
                                    const Eigen::VectorX<Scalar>& u) const;
 
+  /// The same state in absolute coordinates.
+  AbsoluteState<Scalar> absolute(Scalar t, const Eigen::VectorX<Scalar>& y,
+                                 const Eigen::VectorX<Scalar>& z) const;
+
+  /// Accelerations at an absolute state with inputs `u`.
+  AbsoluteRates<Scalar> rates(const AbsoluteState<Scalar>& state, const Eigen::VectorX<Scalar>& u) const;
+
+  /// The state brought back to the constraints: two Newton steps on the positions, then the velocities, each along
+  /// M⁻¹ Gᵀ (the smallest change, weighted by mass).
+  AbsoluteState<Scalar> projected(AbsoluteState<Scalar> state) const;
+
  private:
   using Coordinates = std::vector<std::vector<descriptor::TimeJet<Scalar>>>;  // by joint
   struct System;
@@ -99,6 +128,9 @@ class DescriptorReference {
   descriptor::Pose<descriptor::TimeJet<Scalar>> body_pose(
       std::size_t joint, const descriptor::Pose<descriptor::TimeJet<Scalar>>& parent,
       const Coordinates& coordinates, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z) const;
+  Coordinates coordinates_near(Scalar t, const std::vector<std::vector<Scalar>>& near) const;
+  Eigen::VectorX<Scalar> correction(const System& system, const Eigen::VectorX<Scalar>& violation) const;
+  static Eigen::MatrixX<Scalar> index1_matrix(const System& system);
   System linearise(const std::vector<AbsoluteBody<Scalar>>& motions, const Coordinates& coordinates) const;
   descriptor::Scene<Scalar> scene_at(Scalar t, const Eigen::VectorX<Scalar>& u, const System& system) const;
   Eigen::VectorX<Scalar> spin_damping(std::size_t joint,

@@ -79,6 +79,30 @@ typename DescriptorReference<Scalar>::Coordinates DescriptorReference<Scalar>::c
 }
 
 template <class Scalar>
+typename DescriptorReference<Scalar>::Coordinates DescriptorReference<Scalar>::coordinates_near(
+    Scalar t, const std::vector<std::vector<Scalar>>& near) const {
+  Coordinates result(joints_.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const auto& coordinates = mechanism_.joints[j].coordinates;
+    for (std::size_t i = 0; i < coordinates.size(); ++i)
+      result[j].push_back(coordinates[i].motion ? prescribed(*coordinates[i].motion, t)
+                                                : TimeJet<Scalar>(near[j][i], 0, 0));
+  }
+  return result;
+}
+
+template <class Scalar>
+AbsoluteState<Scalar> DescriptorReference<Scalar>::absolute(Scalar t, const Eigen::VectorX<Scalar>& y,
+                                                            const Eigen::VectorX<Scalar>& z) const {
+  AbsoluteState<Scalar> state{t, absolute_state(t, y, z), {}};
+  for (const auto& joint : coordinates_at(t, y, z)) {
+    state.near.emplace_back();
+    for (const TimeJet<Scalar>& coordinate : joint) state.near.back().push_back(coordinate.value);
+  }
+  return state;
+}
+
+template <class Scalar>
 Pose<TimeJet<Scalar>> DescriptorReference<Scalar>::body_pose(std::size_t joint,
                                                              const Pose<TimeJet<Scalar>>& parent,
                                                              const Coordinates& coordinates,
@@ -126,14 +150,18 @@ std::vector<AbsoluteBody<Scalar>> DescriptorReference<Scalar>::absolute_state(
   return bodies;
 }
 
-#define JOURDAIN_INSTANTIATE(S)                                                                 \
-  template TimeJet<S> DescriptorReference<S>::prescribed(const model::Expression&, S) const;    \
-  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_at( \
-      S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                             \
-  template Pose<TimeJet<S>> DescriptorReference<S>::body_pose(                                  \
-      std::size_t, const Pose<TimeJet<S>>&, const DescriptorReference<S>::Coordinates&,         \
-      const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                \
-  template std::vector<AbsoluteBody<S>> DescriptorReference<S>::absolute_state(                 \
+#define JOURDAIN_INSTANTIATE(S)                                                                   \
+  template TimeJet<S> DescriptorReference<S>::prescribed(const model::Expression&, S) const;      \
+  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_at(   \
+      S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                               \
+  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_near( \
+      S, const std::vector<std::vector<S>>&) const;                                               \
+  template AbsoluteState<S> DescriptorReference<S>::absolute(S, const Eigen::VectorX<S>&,         \
+                                                             const Eigen::VectorX<S>&) const;     \
+  template Pose<TimeJet<S>> DescriptorReference<S>::body_pose(                                    \
+      std::size_t, const Pose<TimeJet<S>>&, const DescriptorReference<S>::Coordinates&,           \
+      const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                  \
+  template std::vector<AbsoluteBody<S>> DescriptorReference<S>::absolute_state(                   \
       S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;
 JOURDAIN_INSTANTIATE(double)
 JOURDAIN_INSTANTIATE(long double)

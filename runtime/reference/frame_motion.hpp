@@ -27,7 +27,7 @@ struct Reference<Scalar>::FrameMotion {
   /// Moves the reference point by `r` (m, inertial components), as if fixed in the frame.
   void shift(const Vector3<Scalar>& r) {
     p += r;
-    p_scale += r.cwiseAbs();
+    p_scale += Vector3<Scalar>::Constant(r.norm());  // a rounded angle moves r across itself, too
     for (Eigen::Index i = 0; i < J_t.cols(); ++i) {
       J_t.col(i) += Vector3<Scalar>(J_r.col(i)).cross(r);
       J_t_scale.col(i) += cross_scale<Scalar>(J_r_scale.col(i), r);

@@ -7,39 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "agreement/compiled_batch.hpp"
+#include "agreement/exact_pendulum.hpp"
 #include "agreement/shared_data.hpp"
 
 namespace jourdain::tests {
 namespace {
-
-/// Jacobi's sn, cn and dn by the arithmetic-geometric mean (Abramowitz and Stegun 16.4).
-struct Jacobi {
-  long double sn, cn, dn;
-};
-
-Jacobi jacobi(long double u, long double modulus) {
-  constexpr int kLevels = 12;
-  long double a[kLevels + 1], c[kLevels + 1];
-  a[0] = 1;
-  c[0] = modulus;
-  long double b = std::sqrt(1 - modulus * modulus);
-  for (int i = 0; i < kLevels; ++i) {
-    a[i + 1] = (a[i] + b) / 2;
-    c[i + 1] = (a[i] - b) / 2;
-    b = std::sqrt(a[i] * b);
-  }
-  long double phi = std::ldexp(a[kLevels] * u, kLevels);
-  for (int i = kLevels; i > 0; --i) phi = (phi + std::asin(c[i] * std::sin(phi) / a[i])) / 2;
-  const long double sn = std::sin(phi);
-  return {sn, std::cos(phi), std::sqrt(1 - modulus * modulus * sn * sn)};
-}
-
-/// Angle from the downward vertical of a pendulum released at rest at −90°: sin(θ/2) = −k cd(ω t), k = sin 45°.
-long double exact_angle(long double t) {
-  const long double omega = std::sqrt(9.81L), k = std::sqrt(0.5L);
-  const Jacobi j = jacobi(omega * t, k);
-  return -2 * std::asin(k * j.cn / j.dn);
-}
 
 Sample start(const model::Mechanism& mechanism) {
   const reference::Reference<double> reference(mechanism);
@@ -69,7 +41,7 @@ double largest_error(const CompiledBatch& batch, Sample sample, int steps) {
   double worst = 0;
   for (int i = 1; i <= steps; ++i) {
     sample = stepped(batch, sample, double(h), 1);
-    worst = larger_error(worst, std::fabs(double(sample.y[0] - exact_angle(i * h))));
+    worst = larger_error(worst, std::fabs(double(sample.y[0] - exact_pendulum_angle(i * h))));
   }
   return worst;
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "support/diagnostics.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -80,11 +81,22 @@ TEST(Layering, GinacStaysInDerivationAndItsBridge) {
 }
 
 TEST(Layering, RuntimeKnowsOnlyTheModel) {
-  const std::set<std::string> allowed = {"reference", "studies", "jourdain", "model", "support", "Eigen", ""};
+  const std::set<std::string> allowed = {"reference", "studies",   "jourdain",  "model", "support",
+                                         "Eigen",     "fmt",       "nlohmann",  "cln",   "cvode",
+                                         "nvector",   "sunlinsol", "sunmatrix", ""};
   for (const fs::path& file : sources("runtime"))
     for (const std::string& include : includes(file))
       EXPECT_TRUE(allowed.count(first_folder(include)))
           << fs::relative(file, kSource) << " includes " << include;
+}
+
+TEST(Layering, StudiesNameNoModel) {
+  for (const auto& model : fs::directory_iterator(kSource / "models")) {
+    if (model.path().extension() != ".toml") continue;
+    for (const fs::path& file : sources("runtime/studies"))
+      EXPECT_EQ(support::read_file(file.string()).find(model.path().stem().string()), std::string::npos)
+          << fs::relative(file, kSource) << " names " << model.path().stem();
+  }
 }
 
 TEST(Layering, FilesHoldOneIdea) {

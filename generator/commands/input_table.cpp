@@ -1,0 +1,164 @@
+#include "commands/input_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace jourdain::commands {
+
+namespace {
+
+using support::SourceRange;
+
+struct Row {
+  double t = 0;
+  std::vector<double> values;  // by input
+};
+
+class InputTable : public studies::Inputs {
+ public:
+  explicit InputTable(std::vector<Row> rows) : rows_(std::move(rows)) {}
+
+  std::vector<double> at(double t) const override {
+    const auto [before, after] = around(t);
+    if (before == after) return before->values;
+    return mixed<double>(*before, *after, (t - before->t) / (after->t - before->t));
+  }
+
+  std::vector<LongReal> at(const LongReal& t) const override {
+    const auto [before, after] = around(double(t));
+    if (before == after) return {before->values.begin(), before->values.end()};
+    const LongReal begin(before->t), end(after->t);
+    return mixed<LongReal>(*before, *after, (t - begin) / (end - begin));
+  }
+
+ private:
+  /// The rows next to time t; the same one twice beyond the ends.
+  std::pair<const Row*, const Row*> around(double t) const {
+    const auto after = std::upper_bound(rows_.begin(), rows_.end(), t,
+                                        [](double time, const Row& row) { return time < row.t; });
+    if (after == rows_.begin()) return {&rows_.front(), &rows_.front()};
+    if (after == rows_.end()) return {&rows_.back(), &rows_.back()};
+    return {&*(after - 1), &*after};
+  }
+
+  template <class Real>
+  static std::vector<Real> mixed(const Row& before, const Row& after, const Real& share) {
+    std::vector<Real> values;
+    for (std::size_t i = 0; i < before.values.size(); ++i) {
+      const Real begin(before.values[i]), end(after.values[i]);
+      values.push_back(begin + share * (end - begin));
+    }
+    return values;
+  }
+
+  std::vector<Row> rows_;
+};
+
+/// Fields of one line with their columns (1 is the first character).
+struct Field {
+  std::string text;
+  int column = 1;
+};
+
+std::vector<Field> fields_of(std::string_view line) {
+  std::vector<Field> fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    std::size_t first = begin, last = end;
+    while (first < last && (line[first] == ' ' || line[first] == '\t')) ++first;
+    while (last > first && (line[last - 1] == ' ' || line[last - 1] == '\t')) --last;
+    fields.push_back({std::string(line.substr(first, last - first)), static_cast<int>(first) + 1});
+    begin = end + 1;
+  }
+  return fields;
+}
+
+class TableReader {
+ public:
+  TableReader(support::Diagnostics& diagnostics, const std::vector<std::string>& names)
+      : diagnostics_(diagnostics), names_(names) {}
+
+  std::vector<Row> read() {
+    const std::string_view text = diagnostics_.text();
+    for (std::size_t begin = 0; begin < text.size();) {
+      std::size_t end = std::min(text.find('\n', begin), text.size());
+      std::string_view line = text.substr(begin, end - begin);
+      if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+      ++line_;
+      if (!line.empty()) columns_.empty() ? read_header(fields_of(line)) : read_row(fields_of(line));
+      if (diagnostics_.has_errors()) return {};
+      begin = end + 1;
+    }
+    if (rows_.empty())
+      diagnostics_.error({}, "the file has no rows of numbers", "a header, then a row per time");
+    return std::move(rows_);
+  }
+
+ private:
+  void error(const Field& field, std::string message, std::string hint = "") {
+    const int length = std::max(1, static_cast<int>(field.text.size()));
+    diagnostics_.error({line_, field.column, length}, std::move(message), std::move(hint));
+  }
+
+  void read_header(const std::vector<Field>& fields) {
+    if (fields.front().text != "time")
+      return error(fields.front(),
+                   fmt::format("the first column is '{}', not 'time'", support::shown(fields.front().text)),
+                   "the header names the columns: time, then inputs");
+    columns_.push_back(0);
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+      const auto found = std::find(names_.begin(), names_.end(), fields[i].text);
+      if (found == names_.end()) {
+        const std::string near = support::nearest(fields[i].text, names_);
+        return error(fields[i], fmt::format("no input '{}'", support::shown(fields[i].text)),
+                     near.empty() ? fmt::format("the inputs are {}", fmt::join(names_, ", "))
+                                  : fmt::format("did you mean '{}'?", near));
+      }
+      columns_.push_back(static_cast<std::size_t>(found - names_.begin()));
+    }
+  }
+
+  std::optional<double> number(const Field& field) {
+    double value = 0;
+    const char* end = field.text.data() + field.text.size();
+    const auto [rest, code] = std::from_chars(field.text.data(), end, value);
+    if (code == std::errc() && rest == end && std::isfinite(value)) return value;
+    error(field, fmt::format("'{}' is not a finite number", support::shown(field.text)));
+    return {};
+  }
+
+  void read_row(const std::vector<Field>& fields) {
+    if (fields.size() != columns_.size())
+      return error(fields.front(), fmt::format("{} values for {} columns", fields.size(), columns_.size()));
+    Row row{0, std::vector<double>(names_.size())};
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const std::optional<double> value = number(fields[i]);
+      if (!value) return;
+      (i == 0 ? row.t : row.values[columns_[i]]) = *value;
+    }
+    if (!rows_.empty() && row.t <= rows_.back().t)
+      return error(fields.front(), fmt::format("time {} does not come after {}", row.t, rows_.back().t));
+    rows_.push_back(std::move(row));
+  }
+
+  support::Diagnostics& diagnostics_;
+  const std::vector<std::string>& names_;
+  int line_ = 0;
+  std::vector<std::size_t> columns_;  // input of each column; the first one is time
+  std::vector<Row> rows_;
+};
+
+}  // namespace
+
+std::unique_ptr<studies::Inputs> read_input_table(support::Diagnostics& diagnostics,
+                                                  const std::vector<std::string>& input_names) {
+  std::vector<Row> rows = TableReader(diagnostics, input_names).read();
+  if (diagnostics.has_errors()) return nullptr;
+  return std::make_unique<InputTable>(std::move(rows));
+}
+
+}  // namespace jourdain::commands

@@ -1,0 +1,33 @@
+// Plots by gnuplot, as SVG that follows the reader's light or dark theme.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace jourdain::commands {
+
+/// One line or set of marks.
+struct Series {
+  std::string title;
+  std::vector<double> x, y;
+  int colour = 0;     ///< index into the palette
+  bool lines = true;  ///< join the points
+  bool marks = true;  ///< mark the points
+  bool dashed = false;
+};
+
+struct Plot {
+  std::string name;  ///< of the file, without ending; an identifier
+  std::string title, x_title, y_title;
+  bool x_logarithmic = true, y_logarithmic = true;
+  std::vector<Series> series;
+  int height = 520;
+};
+
+/// Throws EnvironmentError with a remedy where gnuplot cannot be run.
+void check_plotter();
+
+/// The plots as SVG texts, in order. Throws EnvironmentError with gnuplot's words when it fails.
+std::vector<std::string> draw(const std::vector<Plot>& plots);
+
+}  // namespace jourdain::commands

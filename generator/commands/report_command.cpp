@@ -1,0 +1,206 @@
+#include <fmt/format.h>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "commands/commands.hpp"
+#include "commands/energy.hpp"
+#include "commands/figure.hpp"
+#include "commands/method_names.hpp"
+#include "commands/plot.hpp"
+#include "commands/progress.hpp"
+#include "commands/report_page.hpp"
+#include "commands/run_setup.hpp"
+#include "model/coordinates.hpp"
+#include "studies/report.hpp"
+#include "studies/study.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+constexpr long kLargeScene =
+    5000;  ///< operations of forward dynamics beyond which 50 digits must be asked for
+
+struct Arguments {
+  RunArguments run;
+  studies::StudyOptions study;
+  std::vector<std::string> methods;
+  std::string folder;
+  std::string reference = "auto";
+  double tolerance = 0, budget = 0;
+  bool plots = true;
+};
+
+studies::ReferenceKind reference_kind(const std::string& name) {
+  if (name == "extrapolation") return studies::ReferenceKind::kExtrapolation;
+  if (name == "cvode") return studies::ReferenceKind::kCvode;
+  return studies::ReferenceKind::kAutomatic;
+}
+
+studies::ReportHead head_of(const Arguments& arguments, const LoadedMechanism& loaded,
+                            const std::string& scenario) {
+  return {loaded.options.name,
+          loaded.mechanism.description,
+          loaded.options.path,
+          loaded.options.sha256,
+          arguments.run.real,
+          compiler_text(number_type(arguments.run.real)),
+          fmt::format("Jourdain {}", emit::kVersion),
+          scenario};
+}
+
+/// The model in the number type under study and, where it is worth its cost, in 50 digits.
+struct LoadedModels {
+  studies::LoadedModel working;
+  std::optional<studies::LoadedModel> precise;
+};
+
+LoadedModels build_models(const Arguments& arguments, const std::string& name, const CompiledModel& compiled,
+                          ProgressBar& bar) {
+  bar.show("compiling the emitted code", 0);
+  LoadedModels models{build_model(name, compiled, number_type(arguments.run.real)), {}};
+  const bool large = models.working.table().dynamics_operations > kLargeScene;
+  if (arguments.reference == "cvode" || (large && arguments.reference == "auto")) return models;
+  bar.show("compiling the emitted code for 50 digits", 0);
+  models.precise = build_model(name, compiled, NumberType::kLong);
+  return models;
+}
+
+int run(Arguments arguments) {
+  int status = kSuccess;
+  const std::optional<RunModel> model = read_run(arguments.run, status);
+  if (!model) return status;
+  const std::string& name = model->loaded.options.name;
+  const std::string folder = arguments.folder.empty() ? name + "_report" : arguments.folder;
+  support::check_writable(folder);
+  if (arguments.plots) check_plotter();
+  if (model::lay_out_coordinates(model->loaded.mechanism).velocity_count() == 0) {
+    fmt::print(stderr, "error: '{}' has no degree of freedom: nothing is integrated\n", name);
+    return kModelWrong;
+  }
+
+  ProgressBar bar;
+  const Figure figure = make_figure(model->loaded.mechanism);
+  CompileOptions options = model->loaded.options;
+  if (arguments.methods.empty())
+    for (const emit::Stepper& stepper : emit::all_steppers()) arguments.methods.push_back(stepper.name);
+  options.functions = loadable_functions(arguments.methods);
+  bar.show("deriving the equations", 0);
+  const CompiledModel compiled = compile(figure.mechanism, options);
+  if (!compiled.verdict.accepted()) {
+    print_refusal(compiled.verdict);
+    return kInternal;
+  }
+  const LoadedModels models = build_models(arguments, name, compiled, bar);
+  const jourdain_model_table& table = models.working.table();
+  const jourdain_model_table* long_table = models.precise ? &models.precise->table() : nullptr;
+  for (const jourdain_model_table* t : {&table, long_table})
+    if (t) set_parameters(*t, model->parameters);
+  const std::optional<RunInputs> inputs = read_inputs(arguments.run, *model, table, long_table, status);
+  if (!inputs) return status;
+
+  studies::Flow<double> flow(table, *inputs->inputs);
+  flow.set_start(inputs->start);
+  std::optional<studies::Flow<LongReal>> long_flow;
+  if (long_table) {
+    long_flow.emplace(*long_table, *inputs->inputs);
+    long_flow->set_start(flow.start().x);
+  }
+  arguments.study.reference = reference_kind(arguments.reference);
+  if (arguments.tolerance > 0) arguments.study.question.tolerance = arguments.tolerance;
+  if (arguments.budget > 0) arguments.study.question.budget = arguments.budget;
+  arguments.study.conserves_energy = inputs->what.empty() && conserves_energy(model->loaded.mechanism);
+  const studies::Study study = studies::run_study(
+      model->loaded.mechanism, model->parameters, flow, long_flow ? &*long_flow : nullptr, *inputs->inputs,
+      arguments.study, [&bar](const std::string& what, double done) { bar.show(what, done); });
+
+  const studies::ReportHead head = head_of(arguments, model->loaded, inputs->what);
+  std::vector<support::FileText> files = studies::report_csv(table, study);
+  files.push_back({"report.json", studies::report_json(head, table, study)});
+  if (arguments.plots) {
+    bar.show("drawing", 0.5);
+    for (support::FileText& file : report_pages(head, flow, study, figure)) files.push_back(std::move(file));
+  }
+  support::write_files(folder, files);
+  bar.clear();
+  fmt::print("{}", studies::report_text(head, table, study));
+  fmt::print("  wrote");
+  for (const support::FileText& file : files)
+    fmt::print(" {}", (std::filesystem::path(folder) / file.name).generic_string());
+  fmt::print("\n");
+  return kSuccess;
+}
+
+/// "20us", "1ms", "0.5 s": a time in s.
+std::string read_time(std::string& text) {
+  double value = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
+  unit.erase(std::remove(unit.begin(), unit.end(), ' '), unit.end());
+  const double scale = unit == "s" || unit.empty() ? 1
+                       : unit == "ms"              ? 1e-3
+                       : unit == "us"              ? 1e-6
+                       : unit == "ns"              ? 1e-9
+                                                   : 0;
+  if (error != std::errc() || scale == 0 || !(value > 0) || !std::isfinite(value))
+    return fmt::format("'{}' is no time; write 20us, 1ms or 0.5s", text);
+  text = fmt::format("{}", value * scale);
+  return "";
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, int& status) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "report",
+      "error against run time, and where the error comes from: jourdain report arm.toml --tolerance 1e-6");
+  const CLI::Validator time(read_time, "TIME", "time");
+  arguments->run.add_to(*command);
+  command->add_option("-o,--output", arguments->folder, "folder to write into (default: NAME_report)");
+  command->add_option("--duration", arguments->study.duration, "simulated time, as 2s; whole longest steps")
+      ->transform(time)
+      ->default_str("2s");
+  command
+      ->add_option("--longest-step", arguments->study.longest_step,
+                   "longest step, as 16ms; halved again and again")
+      ->transform(time)
+      ->default_str("16ms");
+  command->add_option("--halvings", arguments->study.halvings, "of the longest step")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  command->add_option("--methods", arguments->methods, "steppers to compare (default: all)")
+      ->delimiter(',')
+      ->check(check_method);
+  auto* tolerance = command
+                        ->add_option("--tolerance", arguments->tolerance,
+                                     "recommend the cheapest within this position error, rad or m")
+                        ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--budget", arguments->budget,
+                   "recommend the most accurate within this run time, as 20us, per period")
+      ->transform(time)
+      ->excludes(tolerance);
+  command
+      ->add_option("--period", arguments->study.question.period,
+                   "simulated time that the budget is for, as 1ms")
+      ->transform(time)
+      ->default_str("1ms");
+  command->add_option("--reference", arguments->reference, "reference solution")
+      ->check(CLI::IsMember({"auto", "extrapolation", "cvode"}))
+      ->capture_default_str();
+  command->add_option("--effort", arguments->study.seconds, "s of work for each costly part, about")
+      ->check(CLI::Range(0.1, 1e5))
+      ->capture_default_str();
+  command->add_flag("!--no-forms", arguments->study.forms,
+                    "leave out the comparison with equations of the first kind");
+  command->add_flag("!--no-plots", arguments->plots, "leave out plots and the page, which need gnuplot");
+  command->callback([arguments, &status] { status = run(*arguments); });
+}
+
+}  // namespace jourdain::commands

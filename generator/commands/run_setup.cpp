@@ -1,0 +1,140 @@
+#include "commands/run_setup.hpp"
+
+#include <fmt/format.h>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+
+#include <charconv>
+#include <cmath>
+
+#include "commands/input_table.hpp"
+#include "model/coordinates.hpp"
+#include "model/scenario.hpp"
+#include "studies/driven_inputs.hpp"
+#include "support/files.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// False after a message where a setting is no known NAME=VALUE.
+bool apply_settings(const std::vector<std::string>& settings, const model::Mechanism& mechanism,
+                    std::vector<double>& values) {
+  std::vector<std::string> names;
+  for (const model::Parameter& parameter : mechanism.parameters) {
+    names.push_back(parameter.name);
+    values.push_back(parameter.value);
+  }
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const std::string name = setting.substr(0, equals);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      const std::string near = support::nearest(name, names);
+      fmt::print(stderr, "error: --set {}: no parameter '{}'; {}\n", setting, name,
+                 !near.empty()   ? fmt::format("did you mean '{}'?", near)
+                 : names.empty() ? std::string("the model has none")
+                                 : fmt::format("there are {}", fmt::join(names, ", ")));
+      return false;
+    }
+    double value = 0;
+    const char* begin = equals == std::string::npos ? setting.data() + setting.size() : &setting[equals + 1];
+    const char* end = setting.data() + setting.size();
+    const auto [rest, error] = std::from_chars(begin, end, value);
+    if (error != std::errc() || rest != end || !std::isfinite(value)) {
+      fmt::print(stderr, "error: --set {}: a number must follow, as in {}=0.5\n", setting, name);
+      return false;
+    }
+    values[static_cast<std::size_t>(found - names.begin())] = value;
+  }
+  return true;
+}
+
+std::optional<RunInputs> read_scenario_file(const std::string& path, const RunModel& model,
+                                            const jourdain_model_table& table,
+                                            const jourdain_model_table* long_table) {
+  support::Diagnostics diagnostics(path, support::read_file(path));
+  const auto scenario = model::read_scenario(diagnostics, model.loaded.mechanism);
+  fmt::print(stderr, "{}", diagnostics.format());
+  if (!scenario) return {};
+  RunInputs run;
+  if (scenario->follow.empty()) {
+    run.inputs = std::make_unique<studies::ExpressionInputs>(scenario->inputs, model.parameters);
+    run.what = "inputs as functions of time";
+    return run;
+  }
+  auto following = std::make_unique<studies::FollowingInputs>(model.loaded.mechanism, scenario->follow,
+                                                              model.parameters, table, long_table);
+  run.start = following->state_at(0);
+  run.inputs = std::move(following);
+  run.what = "following a motion by inverse dynamics";
+  return run;
+}
+
+}  // namespace
+
+void RunArguments::add_to(CLI::App& command) {
+  model.add_to(command);
+  command.add_option("--set", settings, "value of a parameter, NAME=VALUE; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  auto* constant = command.add_option("--constant-input", constant_input, "value of each input (default: 0)")
+                       ->delimiter(',');
+  command
+      .add_option("--inputs", inputs,
+                  "inputs over time: .csv (time, input names), or .toml with [input] or [follow]")
+      ->excludes(constant);
+  command.add_option("--real", real, "number type")
+      ->check(CLI::IsMember({"double", "float"}))
+      ->capture_default_str();
+}
+
+std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
+  std::optional<LoadedMechanism> loaded = load(arguments.model);
+  status = kModelWrong;
+  if (!loaded) return {};
+  RunModel model{std::move(*loaded), {}};
+  status = kUsage;
+  if (!apply_settings(arguments.settings, model.loaded.mechanism, model.parameters)) return {};
+  const std::size_t inputs = model::lay_out_coordinates(model.loaded.mechanism).input_count();
+  if (!arguments.constant_input.empty() && arguments.constant_input.size() != inputs) {
+    fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",
+               arguments.constant_input.size(), inputs);
+    return {};
+  }
+  status = kSuccess;
+  return model;
+}
+
+std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunModel& model,
+                                     const jourdain_model_table& table,
+                                     const jourdain_model_table* long_table, int& status) {
+  status = kModelWrong;
+  std::optional<RunInputs> run;
+  if (ends_with(arguments.inputs, ".toml")) {
+    run = read_scenario_file(arguments.inputs, model, table, long_table);
+  } else if (!arguments.inputs.empty()) {
+    const model::CoordinateLayout layout = model::lay_out_coordinates(model.loaded.mechanism);
+    support::Diagnostics diagnostics(arguments.inputs, support::read_file(arguments.inputs));
+    auto inputs = read_input_table(diagnostics, layout.input_names);
+    fmt::print(stderr, "{}", diagnostics.format());
+    if (inputs) run = RunInputs{std::move(inputs), {}, "inputs from a table"};
+  } else {
+    std::vector<double> values = arguments.constant_input;
+    values.resize(static_cast<std::size_t>(table.input_count));
+    const bool any = std::any_of(values.begin(), values.end(), [](double u) { return u != 0; });
+    run = RunInputs{std::make_unique<studies::ConstantInputs>(values), {}, any ? "constant inputs" : ""};
+  }
+  if (run) status = kSuccess;
+  return run;
+}
+
+NumberType number_type(const std::string& real) {
+  return real == "float" ? NumberType::kFloat : NumberType::kDouble;
+}
+
+}  // namespace jourdain::commands

@@ -1,0 +1,48 @@
+// What simulations and studies share: parameter values, inputs, the loaded model.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/build_model.hpp"
+#include "commands/load.hpp"
+#include "studies/inputs.hpp"
+
+namespace jourdain::commands {
+
+struct RunArguments {
+  ModelArguments model;
+  std::vector<std::string> settings;   ///< NAME=VALUE
+  std::vector<double> constant_input;  ///< one value per input; empty: zeros
+  std::string inputs;                  ///< a file: .csv or .toml; empty: constant
+  std::string real = "double";
+
+  void add_to(CLI::App& command);
+};
+
+/// A mechanism with the values of its parameters.
+struct RunModel {
+  LoadedMechanism loaded;
+  std::vector<double> parameters;  ///< in the mechanism's order
+};
+
+/// Reads the model and the settings. On a mistake of the user prints it and leaves the exit status in `status`.
+std::optional<RunModel> read_run(const RunArguments& arguments, int& status);
+
+/// Inputs of a run and the state that it starts from (empty: the description's).
+struct RunInputs {
+  std::unique_ptr<studies::Inputs> inputs;
+  std::vector<double> start;
+  std::string what;  ///< in words; empty where there are no inputs
+};
+
+/// Reads what drives the model. `long_table` may be null. On a mistake prints it and leaves the exit status in `status`.
+std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunModel& model,
+                                     const jourdain_model_table& table,
+                                     const jourdain_model_table* long_table, int& status);
+
+NumberType number_type(const std::string& real);
+
+}  // namespace jourdain::commands

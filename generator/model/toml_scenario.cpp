@@ -1,0 +1,74 @@
+// Scenario files.
+#include <fmt/format.h>
+
+#include "model/scenario.hpp"
+#include "model/toml_table.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+const Scope kTimeScope = {{"t", {.kind = Variable::Kind::kTime}}};
+
+/// One expression per name; zero where it is left out.
+std::vector<Expression> expressions(const TomlTable& table, const std::vector<std::string>& names) {
+  std::vector<Expression> result;
+  for (const std::string& name : names) result.push_back(table.function(name, kTimeScope));
+  return result;
+}
+
+bool is_actuated(const Mechanism& mechanism, const CoordinateLayout& layout, std::size_t entry) {
+  for (const Actuator& actuator : mechanism.actuators)
+    if (layout.joints[actuator.joint.value].velocity[actuator.coordinate] == entry) return true;
+  return false;
+}
+
+std::vector<Expression> read_follow(const TomlTable& table, const Mechanism& mechanism,
+                                    const CoordinateLayout& layout) {
+  if (!layout.quaternions.empty()) {
+    table.error("", "a mechanism with quaternions cannot follow a motion", "drive it with [input]");
+    return {};
+  }
+  for (std::size_t i = 0; i < layout.velocity_count(); ++i) {
+    const std::string& name = layout.position_names[i];
+    if (!table.has(name))
+      table.missing(name, "every coordinate needs a motion");
+    else if (!is_actuated(mechanism, layout, i))
+      table.error(name, fmt::format("coordinate '{}' has no actuator", name),
+                  "inverse dynamics needs one for each");
+  }
+  return expressions(table, layout.position_names);
+}
+
+Scenario read_root(TomlFile& file, const toml::table& root, const Mechanism& mechanism) {
+  const CoordinateLayout layout = lay_out_coordinates(mechanism);
+  const TomlTable top(file, root, "the file", {}, {"input", "follow"});
+  Scenario scenario;
+  if (top.has("input") == top.has("follow")) {
+    file.error({}, "the file must have [input] or [follow], and not both");
+    return scenario;
+  }
+  if (const toml::table* section = top.has("input") ? top.table("input") : nullptr) {
+    const TomlTable table(file, *section, "[input]", top.where("input"), layout.input_names);
+    scenario.inputs = expressions(table, layout.input_names);
+  }
+  if (const toml::table* section = top.has("follow") ? top.table("follow") : nullptr) {
+    const TomlTable table(file, *section, "[follow]", top.where("follow"), layout.position_names);
+    scenario.follow = read_follow(table, mechanism, layout);
+  }
+  return scenario;
+}
+
+}  // namespace
+
+std::optional<Scenario> read_scenario(support::Diagnostics& diagnostics, const Mechanism& mechanism) {
+  const std::optional<toml::table> root = parse_toml(diagnostics);
+  if (!root) return {};
+  TomlFile file(diagnostics);
+  file.declare(mechanism.parameters);
+  Scenario scenario = read_root(file, *root, mechanism);
+  if (file.error_count() > 0) return {};
+  return scenario;
+}
+
+}  // namespace jourdain::model

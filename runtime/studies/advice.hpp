@@ -1,0 +1,33 @@
+// Which method and step to take, confirmed by a run.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "studies/work_precision.hpp"
+
+namespace jourdain::studies {
+
+/// What is asked for: the cheapest within `tolerance`, or the most accurate within `budget`.
+struct Question {
+  std::optional<double> tolerance;  ///< largest position error along the way, rad or m
+  std::optional<double> budget;     ///< s of run time per `period`
+  double period = 1e-3;  ///< s of simulated time; with a budget, whole numbers of steps make a period
+};
+
+struct Advice {
+  std::size_t method = 0;
+  double h = 0;
+  ErrorNorms error;        ///< largest along the way, of the run that confirms it
+  double run_time = 0;     ///< s per simulated second, measured with it
+  double step_time = 0;    ///< s
+  bool confirmed = false;  ///< error within the tolerance, run time within the budget
+};
+
+/// Nothing where no point of the study answers the question. Within a tolerance the step is then made as long as the
+/// tolerance allows, by whole numbers of steps per sampling interval, each length tried.
+std::optional<Advice> advise(const Question& question, const WorkPrecision& study, const Flow<double>& flow,
+                             double sampling, const ReferenceSolution& reference,
+                             const std::vector<double>& held_inputs);
+
+}  // namespace jourdain::studies

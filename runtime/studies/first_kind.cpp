@@ -1,0 +1,236 @@
+#include "studies/first_kind.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "reference/descriptor.hpp"
+#include "reference/minimal.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Eigen::VectorXd;
+using Bodies = std::vector<reference::AbsoluteBody<double>>;
+using Descriptor = reference::DescriptorReference<double>;
+
+constexpr double kLost = 1e3;  ///< m; a run that is further off counts as failed
+
+VectorXd to_vector(const std::vector<double>& values) {
+  return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// One classical Runge-Kutta step of x' = f(t, x).
+template <class Rates>
+VectorXd rk4(double t, const VectorXd& x, double h, Rates&& f) {
+  const VectorXd k1 = f(t, x), k2 = f(t + h / 2, x + h / 2 * k1), k3 = f(t + h / 2, x + h / 2 * k2),
+                 k4 = f(t + h, x + h * k3);
+  return x + h / 6 * (k1 + 2 * (k2 + k3) + k4);
+}
+
+/// The scene in one form: its state as a vector, steps, and where the bodies are.
+class Form {
+ public:
+  virtual ~Form() = default;
+  virtual void step(double t, double h) = 0;
+  virtual Bodies bodies(double t) const = 0;
+  /// |g| and |G x + g_t| now.
+  virtual std::pair<double, double> drift(double) const { return {0, 0}; }
+  virtual bool finite() const = 0;
+};
+
+class MinimalForm : public Form {
+ public:
+  MinimalForm(const reference::Reference<double>& model, const Descriptor& absolute, const Inputs& inputs,
+              const Point<double>& start)
+      : model_(model), absolute_(absolute), inputs_(inputs), x_(to_vector(start.x)) {}
+
+  void step(double t, double h) override {
+    x_ = rk4(t, x_, h, [this](double time, const VectorXd& x) { return rates(time, x); });
+    for (const std::size_t first : absolute_.layout().quaternions)
+      x_.segment<4>(Eigen::Index(first)).normalize();
+  }
+  Bodies bodies(double t) const override {
+    return absolute_.absolute_state(t, x_.head(positions()), x_.tail(x_.size() - positions()));
+  }
+  bool finite() const override { return x_.allFinite(); }
+
+ private:
+  Eigen::Index positions() const { return static_cast<Eigen::Index>(model_.position_count()); }
+
+  VectorXd rates(double t, const VectorXd& x) const {
+    const reference::State<double> state{t, x.head(positions()), x.tail(x.size() - positions())};
+    const reference::Terms<double> terms = model_.evaluate(state, to_vector(inputs_.at(t)));
+    VectorXd f(x.size());
+    f << model_.position_rate(state), reference::forward_dynamics(terms);
+    return f;
+  }
+
+  const reference::Reference<double>& model_;
+  const Descriptor& absolute_;
+  const Inputs& inputs_;
+  VectorXd x_;
+};
+
+class DescriptorForm : public Form {
+ public:
+  DescriptorForm(const Descriptor& model, const Inputs& inputs, const Point<double>& start, bool projecting)
+      : model_(model), inputs_(inputs), projecting_(projecting) {
+    const auto ny = static_cast<Eigen::Index>(model.layout().position_count());
+    const VectorXd x = to_vector(start.x);
+    state_ = model.absolute(start.t, x.head(ny), x.tail(x.size() - ny));
+  }
+
+  void step(double t, double h) override {
+    const auto rates = [this](double time, const VectorXd& x) { return derivative(time, x); };
+    state_ = unpacked(t + h, rk4(t, packed(state_), h, rates));
+    for (auto& body : state_.bodies) body.orientation.normalize();
+    if (projecting_) state_ = model_.projected(std::move(state_));
+  }
+  Bodies bodies(double) const override { return state_.bodies; }
+  std::pair<double, double> drift(double t) const override {
+    const auto rates = model_.rates(state_, to_vector(inputs_.at(t)));
+    const auto largest = [](const VectorXd& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; };
+    return {largest(rates.g), largest(rates.g_rate)};
+  }
+  bool finite() const override { return packed(state_).allFinite(); }
+
+ private:
+  /// Body by body: centre of mass, quaternion w x y z, v, ω.
+  static constexpr Eigen::Index kEntries = 13;
+
+  static VectorXd packed(const reference::AbsoluteState<double>& state) {
+    VectorXd x(kEntries * Eigen::Index(state.bodies.size()));
+    Eigen::Index first = 0;
+    for (const auto& body : state.bodies) {
+      const Eigen::Quaterniond& q = body.orientation;
+      x.segment<kEntries>(first) << body.p_WC, q.w(), q.x(), q.y(), q.z(), body.v_C, body.omega;
+      first += kEntries;
+    }
+    return x;
+  }
+
+  reference::AbsoluteState<double> unpacked(double t, const VectorXd& x) const {
+    reference::AbsoluteState<double> state{t, {}, state_.near};
+    for (Eigen::Index first = 0; first < x.size(); first += kEntries) {
+      const auto entry = x.segment<kEntries>(first);
+      state.bodies.push_back({entry.head<3>(), Eigen::Quaterniond(entry[3], entry[4], entry[5], entry[6]),
+                              entry.segment<3>(7), entry.tail<3>()});
+    }
+    return state;
+  }
+
+  VectorXd derivative(double t, const VectorXd& x) {
+    reference::AbsoluteState<double> state = unpacked(t, x);
+    for (auto& body : state.bodies) body.orientation.normalize();
+    const auto rates = model_.rates(state, to_vector(inputs_.at(t)));
+    state_.near = rates.near;
+    VectorXd f(x.size());
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+      const Eigen::Index first = kEntries * Eigen::Index(b);
+      const Eigen::Vector3d& omega = state.bodies[b].omega;
+      const Eigen::Quaterniond spin(0, omega.x() / 2, omega.y() / 2, omega.z() / 2);
+      const Eigen::Quaterniond turn = state.bodies[b].orientation * spin;
+      f.segment<kEntries>(first) << state.bodies[b].v_C, turn.w(), turn.x(), turn.y(), turn.z(),
+          rates.xdot.segment<6>(6 * Eigen::Index(b));
+    }
+    return f;
+  }
+
+  const Descriptor& model_;
+  const Inputs& inputs_;
+  bool projecting_;
+  reference::AbsoluteState<double> state_;
+};
+
+void compare(const Bodies& bodies, const Bodies& exact, FormPoint& point) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    point.position_error = std::max(point.position_error, (bodies[b].p_WC - exact[b].p_WC).norm());
+    point.angle_error =
+        std::max(point.angle_error, bodies[b].orientation.angularDistance(exact[b].orientation));
+  }
+}
+
+/// Bodies of the reference solution at the sampling times.
+std::vector<Bodies> exact_bodies(const Descriptor& absolute, const ReferenceSolution& reference,
+                                 double sampling) {
+  const auto stride = static_cast<std::size_t>(std::lround(sampling / reference.interval));
+  const auto ny = static_cast<Eigen::Index>(absolute.layout().position_count());
+  std::vector<Bodies> result;
+  for (std::size_t k = 0; k < reference.points.size(); k += stride) {
+    const VectorXd x = to_vector(reference.points[k].x);
+    result.push_back(absolute.absolute_state(reference.points[k].t, x.head(ny), x.tail(x.size() - ny)));
+  }
+  return result;
+}
+
+FormPoint run(Form& form, double h, double sampling, const std::vector<Bodies>& exact) {
+  FormPoint point;
+  point.h = h;
+  const long block = std::lround(sampling / h);
+  double time = 0;
+  for (std::size_t k = 1; k < exact.size() && point.finite; ++k) {
+    const double t = sampling * static_cast<double>(k - 1);
+    const auto begin = Clock::now();
+    for (long i = 0; i < block; ++i) form.step(t + static_cast<double>(i) * h, h);
+    time += std::chrono::duration<double>(Clock::now() - begin).count();
+    point.step_time = time / static_cast<double>(static_cast<long>(k) * block);
+    point.finite = form.finite();
+    if (!point.finite) break;
+    compare(form.bodies(t + sampling), exact[k], point);
+    point.finite = point.position_error < kLost;
+    const auto [g, g_rate] = form.drift(t + sampling);
+    point.drift = std::max(point.drift, g);
+    point.rate_drift = std::max(point.rate_drift, g_rate);
+  }
+  return point;
+}
+
+}  // namespace
+
+std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std::vector<double>& parameters,
+                                   const Inputs& inputs, const std::vector<double>& steps, double sampling,
+                                   const ReferenceSolution& reference, double seconds,
+                                   const Progress& progress) {
+  const reference::Reference<double> minimal(mechanism, std::span<const double>(parameters));
+  const Descriptor absolute(mechanism, std::span<const double>(parameters));
+  const Point<double>& start = reference.points.front();
+  const std::vector<Bodies> exact = exact_bodies(absolute, reference, sampling);
+  const auto nz = static_cast<int>(minimal.coordinate_count());
+  const auto nb = static_cast<int>(mechanism.bodies.size());
+  std::vector<FormCurve> curves = {
+      {"minimal coordinates", static_cast<int>(start.x.size()), nz, {}},
+      {"descriptor form", 13 * nb, 0, {}},
+      {"descriptor form, projected", 13 * nb, 0, {}},
+  };
+  const auto ny = static_cast<Eigen::Index>(minimal.position_count());
+  const VectorXd x = to_vector(start.x);
+  const auto first = absolute.rates(absolute.absolute(start.t, x.head(ny), x.tail(x.size() - ny)),
+                                    to_vector(inputs.at(start.t)));
+  curves[1].unknowns = curves[2].unknowns = static_cast<int>(first.unknowns);
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    double spent = 0, step_time = 0;
+    for (const double h : steps) {
+      const double expected = step_time * sampling / h * static_cast<double>(exact.size() - 1);
+      const bool any = std::any_of(curves[c].points.begin(), curves[c].points.end(),
+                                   [](const FormPoint& point) { return point.finite; });
+      if (spent + expected > (any ? seconds : 4 * seconds)) break;
+      progress("equations of the first kind",
+               (double(c) + std::min(1.0, spent / seconds)) / double(curves.size()));
+      std::unique_ptr<Form> form;
+      if (c == 0)
+        form = std::make_unique<MinimalForm>(minimal, absolute, inputs, start);
+      else
+        form = std::make_unique<DescriptorForm>(absolute, inputs, start, c == 2);
+      const auto begin = Clock::now();
+      curves[c].points.push_back(run(*form, h, sampling, exact));
+      spent += std::chrono::duration<double>(Clock::now() - begin).count();
+      step_time = curves[c].points.back().step_time;
+    }
+  }
+  return curves;
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,145 @@
+#include "studies/flow.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "support/check.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+void append(double number, std::vector<double>& parts) { parts.push_back(number); }
+void append(const LongReal& number, std::vector<double>& parts) {
+  parts.resize(parts.size() + kParts<LongReal>);
+  number.split(parts.data() + parts.size() - kParts<LongReal>, kParts<LongReal>);
+}
+
+template <class Real>
+Real number_at(const double* parts) {
+  if constexpr (kParts<Real> == 1)
+    return *parts;
+  else
+    return Real::joined(parts, kParts<Real>);
+}
+
+template <class Real>
+std::vector<double> to_parts(std::span<const Real> numbers) {
+  std::vector<double> parts;
+  parts.reserve(numbers.size() * kParts<Real>);
+  for (const Real& number : numbers) append(number, parts);
+  return parts;
+}
+
+template <class Real>
+std::vector<Real> from_parts(std::span<const double> parts) {
+  std::vector<Real> numbers;
+  numbers.reserve(parts.size() / kParts<Real>);
+  for (std::size_t i = 0; i < parts.size(); i += kParts<Real>) numbers.push_back(number_at<Real>(&parts[i]));
+  return numbers;
+}
+
+/// jourdain_inputs::at; `context` is the Inputs.
+template <class Real>
+void sample(void* context, const double* t, const double*, const double*, double* u) {
+  const auto& inputs = *static_cast<const Inputs*>(context);
+  const std::vector<Real> values = inputs.at(number_at<Real>(t));
+  const std::vector<double> parts = to_parts<Real>(values);
+  std::copy(parts.begin(), parts.end(), u);
+}
+
+}  // namespace
+
+template <class Real>
+Flow<Real>::Flow(const jourdain_model_table& table, const Inputs& inputs) : table_(table), inputs_(inputs) {
+  JD_CHECK(table.parts == kParts<Real>, "the table has {} parts per number", table.parts);
+  JD_CHECK(inputs.at(0.0).size() == static_cast<std::size_t>(table.input_count), "{} values for {} inputs",
+           inputs.at(0.0).size(), table.input_count);
+}
+
+template <class Real>
+Point<Real> Flow<Real>::start() const {
+  Point<Real> point{Real(0.0), std::vector<Real>(start_.begin(), start_.end())};
+  if (start_.empty()) {
+    std::vector<double> parts(size() * kParts<Real>);
+    table_.initial_state(parts.data(), parts.data() + position_count() * kParts<Real>);
+    point.x = from_parts<Real>(parts);
+  }
+  Memory memory = fresh_memory(table_.methods[0]);
+  step(table_.methods[0], point, 0, 1, memory);
+  return point;
+}
+
+template <class Real>
+std::vector<Real> Flow<Real>::rates(const Real& t, const std::vector<Real>& x) const {
+  const std::vector<double> time = to_parts<Real>(std::span(&t, 1)), state = to_parts<Real>(x),
+                            u = to_parts<Real>(inputs_.at(t));
+  std::vector<double> f(state.size());
+  const std::size_t velocities = position_count() * kParts<Real>;
+  table_.rates(time.data(), state.data(), state.data() + velocities, u.data(), f.data(),
+               f.data() + velocities);
+  return from_parts<Real>(f);
+}
+
+template <class Real>
+Memory Flow<Real>::fresh_memory(const jourdain_method& method) const {
+  return Memory(1 + static_cast<std::size_t>(method.history) * size() * kParts<Real>);
+}
+
+template <class Real>
+Memory Flow<Real>::memory_of(const jourdain_method& method, const std::vector<Point<Real>>& earlier) const {
+  JD_CHECK(earlier.size() == static_cast<std::size_t>(method.history), "{} points for {}", earlier.size(),
+           method.history);
+  Memory memory = {static_cast<double>(method.history)};
+  std::vector<std::vector<Real>> rates_at;
+  for (const Point<Real>& point : earlier) rates_at.push_back(rates(point.t, point.x));
+  for (const auto& f : rates_at)
+    for (std::size_t i = 0; i < position_count(); ++i) append(f[i], memory);
+  for (const auto& f : rates_at)
+    for (std::size_t i = position_count(); i < size(); ++i) append(f[i], memory);
+  return memory;
+}
+
+template <class Real>
+void Flow<Real>::step(const jourdain_method& method, Point<Real>& point, double h, long count,
+                      Memory& memory) const {
+  std::vector<double> time = to_parts<Real>(std::span(&point.t, 1)), state = to_parts<Real>(point.x);
+  const Real length(h);
+  const std::vector<double> h_parts = to_parts<Real>(std::span(&length, 1));
+  const jourdain_inputs inputs{nullptr, sample<Real>, const_cast<Inputs*>(&inputs_)};
+  method.steps(time.data(), state.data(), state.data() + position_count() * kParts<Real>, &inputs,
+               h_parts.data(), count, memory.data());
+  point = {number_at<Real>(time.data()), from_parts<Real>(state)};
+}
+
+template <class Real>
+double Flow<Real>::energy(const Point<Real>& point) const {
+  const std::vector<double> time = to_parts<Real>(std::span(&point.t, 1)), state = to_parts<Real>(point.x);
+  std::vector<double> kinetic(kParts<Real>), potential(kParts<Real>);
+  const double* z = state.data() + position_count() * kParts<Real>;
+  table_.kinetic_energy(time.data(), state.data(), z, kinetic.data());
+  table_.potential_energy(time.data(), state.data(), z, potential.data());
+  return static_cast<double>(number_at<Real>(kinetic.data()) + number_at<Real>(potential.data()));
+}
+
+template <class Real>
+std::vector<Real> inverse_dynamics(const jourdain_model_table& table, const Real& t,
+                                   const std::vector<Real>& y, const std::vector<Real>& z,
+                                   const std::vector<Real>& zdot) {
+  const std::vector<double> time = to_parts<Real>(std::span(&t, 1)), position = to_parts<Real>(y),
+                            velocity = to_parts<Real>(z), acceleration = to_parts<Real>(zdot);
+  std::vector<double> forces(acceleration.size());
+  table.inverse_dynamics(time.data(), position.data(), velocity.data(), acceleration.data(), forces.data());
+  return from_parts<Real>(forces);
+}
+
+template std::vector<double> inverse_dynamics(const jourdain_model_table&, const double&,
+                                              const std::vector<double>&, const std::vector<double>&,
+                                              const std::vector<double>&);
+template std::vector<LongReal> inverse_dynamics(const jourdain_model_table&, const LongReal&,
+                                                const std::vector<LongReal>&, const std::vector<LongReal>&,
+                                                const std::vector<LongReal>&);
+template class Flow<double>;
+template class Flow<LongReal>;
+
+}  // namespace jourdain::studies

@@ -1,0 +1,70 @@
+// A loaded model with its inputs as a system of first-order equations dx/dt = f(t, x), x = (y, z).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "jourdain/long_real.hpp"
+#include "jourdain/model_table.h"
+#include "studies/inputs.hpp"
+
+namespace jourdain::studies {
+
+/// Doubles per number in a table.
+template <class Real>
+inline constexpr int kParts = 1;
+template <>
+inline constexpr int kParts<LongReal> = 4;
+
+/// Time (s) and x = (y, z).
+template <class Real>
+struct Point {
+  Real t = Real(0.0);
+  std::vector<Real> x;
+};
+
+/// What a multistep method remembers, as jourdain_method describes it.
+using Memory = std::vector<double>;
+
+/// Real: double (also for tables that compute in float) or LongReal; the table must have kParts<Real>.
+template <class Real>
+class Flow {
+ public:
+  /// Both must outlive this. `inputs` gives as many values as the table has inputs.
+  Flow(const jourdain_model_table& table, const Inputs& inputs);
+
+  const jourdain_model_table& table() const { return table_; }
+  std::size_t position_count() const { return static_cast<std::size_t>(table_.position_count); }
+  std::size_t size() const { return position_count() + static_cast<std::size_t>(table_.velocity_count); }
+
+  /// The state that the description starts from, or the one that was set, after a step of no length: its quaternions have
+  /// unit length in this number type.
+  Point<Real> start() const;
+  void set_start(const std::vector<double>& x) { start_ = x; }
+  /// f(t, x).
+  std::vector<Real> rates(const Real& t, const std::vector<Real>& x) const;
+  /// An empty memory for `method`.
+  Memory fresh_memory(const jourdain_method& method) const;
+  /// A memory that holds the rates at `earlier` points, newest first; as many as `method` remembers.
+  Memory memory_of(const jourdain_method& method, const std::vector<Point<Real>>& earlier) const;
+  /// `count` steps of length h; inputs are sampled at the stages.
+  void step(const jourdain_method& method, Point<Real>& point, double h, long count, Memory& memory) const;
+  /// Kinetic and potential energy together, J.
+  double energy(const Point<Real>& point) const;
+
+ private:
+  const jourdain_model_table& table_;
+  const Inputs& inputs_;
+  std::vector<double> start_;  ///< empty: the description's
+};
+
+/// Generalized forces (N m, N) that are missing for `zdot` at zero inputs.
+template <class Real>
+std::vector<Real> inverse_dynamics(const jourdain_model_table& table, const Real& t,
+                                   const std::vector<Real>& y, const std::vector<Real>& z,
+                                   const std::vector<Real>& zdot);
+
+extern template class Flow<double>;
+extern template class Flow<LongReal>;
+
+}  // namespace jourdain::studies

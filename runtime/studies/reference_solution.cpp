@@ -1,0 +1,108 @@
+#include "studies/reference_solution.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "studies/cvode.hpp"
+#include "studies/extrapolation.hpp"
+#include "support/check.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kTolerance = 1e-23, kLooserTolerance = 1e-20;
+constexpr double kCvodeTolerance = 1e-13, kLooserCvodeTolerance = 1e-12;
+constexpr double kEvaluationsPerInterval = 45;  ///< of extrapolation to kTolerance, about
+
+/// Wall time of one evaluation, s.
+double evaluation_time(const Flow<LongReal>& flow) {
+  const Point<LongReal> start = flow.start();
+  const auto begin = Clock::now();
+  constexpr int kRuns = 5;
+  for (int i = 0; i < kRuns; ++i) flow.rates(start.t + LongReal(1e-3 * i), start.x);
+  return std::chrono::duration<double>(Clock::now() - begin).count() / kRuns;
+}
+
+/// Largest difference of an entry, over 1 + |x|; `a` has `stride` points for one of `b`.
+template <class Real>
+double difference(const std::vector<Point<Real>>& a, const std::vector<Point<Real>>& b, std::size_t stride) {
+  double largest = 0;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    for (std::size_t i = 0; i < b[k].x.size(); ++i) {
+      const Real& value = a[k * stride].x[i];
+      largest = std::max(largest, std::fabs(double(value - b[k].x[i])) / (1 + std::fabs(double(value))));
+    }
+  return largest;
+}
+
+std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, double interval, long count,
+                                                  int halvings, double seconds, bool required,
+                                                  const Progress& progress) {
+  progress("reference in 50 digits", 0);
+  const double evaluation = evaluation_time(flow);
+  const double coarsest = evaluation * kEvaluationsPerInterval * static_cast<double>(count);
+  if (!required && coarsest > seconds) return {};
+  int level = 0;
+  while (level < halvings && coarsest * std::ldexp(1.0, level + 1) <= seconds) ++level;
+  const long fine = count << level;
+  ExtrapolationOptions options{.tolerance = kLooserTolerance};
+  options.evaluation_limit = static_cast<long>(3 * seconds / evaluation);
+  const int looser_level = std::max(0, level - 1);
+  const auto looser =
+      extrapolated(flow, flow.start(), std::ldexp(interval, -looser_level), count << looser_level, options);
+  if (!looser) return {};
+  progress("reference in 50 digits", 0.3);
+  options.tolerance = kTolerance;
+  auto exact = extrapolated(flow, flow.start(), std::ldexp(interval, -level), fine, options);
+  if (!exact) return {};
+  ReferenceSolution solution;
+  solution.method = "Gragg-Bulirsch-Stoer in 50 digits";
+  solution.interval = std::ldexp(interval, -level);
+  solution.error = difference(*exact, *looser, std::size_t(1) << (level - looser_level));
+  for (const Point<LongReal>& point : *exact) {
+    Point<double>& rounded = solution.points.emplace_back();
+    rounded.t = double(point.t);
+    for (const LongReal& entry : point.x) rounded.x.push_back(double(entry));
+  }
+  solution.exact = std::move(*exact);
+  progress("reference in 50 digits", 1);
+  return solution;
+}
+
+std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double interval, long count,
+                                          const Progress& progress) {
+  progress("reference by CVODE", 0);
+  auto points = solved_by_cvode(flow, flow.start(), interval, count, kCvodeTolerance);
+  const auto looser = solved_by_cvode(flow, flow.start(), interval, count, kLooserCvodeTolerance);
+  if (!points || !looser) return {};
+  ReferenceSolution solution;
+  solution.method = "CVODE (Adams) in double";
+  solution.interval = interval;
+  solution.error = difference(*points, *looser, 1);
+  solution.points = std::move(*points);
+  return solution;
+}
+
+}  // namespace
+
+ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>* long_flow,
+                                  ReferenceKind kind, double interval, long count, int halvings,
+                                  double seconds, const Progress& progress) {
+  if (kind != ReferenceKind::kCvode && long_flow) {
+    const bool required = kind == ReferenceKind::kExtrapolation;
+    if (auto solution = by_extrapolation(*long_flow, interval, count, halvings, seconds, required, progress))
+      return *solution;
+    if (required)
+      throw support::EnvironmentError(
+          "the reference in 50 digits takes too many evaluations; try --reference cvode");
+  }
+  if (auto solution = by_cvode(flow, interval, count, progress)) return *solution;
+  throw support::EnvironmentError(
+      "CVODE found no reference solution: the motion is not smooth enough, or it ends");
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,35 @@
+// The solution that all errors of a study are measured against, with its own error.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/flow.hpp"
+
+namespace jourdain::studies {
+
+enum class ReferenceKind { kAutomatic, kExtrapolation, kCvode };
+
+/// Reports what is being done and how much of it is, from 0 to 1.
+using Progress = std::function<void(const std::string& what, double done)>;
+
+/// States at start.t + k `interval`.
+struct ReferenceSolution {
+  std::string method;                  ///< in words
+  double interval = 0;                 ///< s
+  std::vector<Point<double>> points;   ///< rounded to double
+  std::vector<Point<LongReal>> exact;  ///< in 50 digits; empty with CVODE
+  double error =
+      0;  ///< largest difference of an entry to the solution with the other, looser tolerance, over 1 + |x|
+};
+
+/// By extrapolation on `long_flow` where there is one and its cost allows, otherwise by CVODE on `flow`. `interval`
+/// times `count` is the duration (s); extrapolation keeps the times between as well, in intervals of `interval`
+/// / 2^k, as fine as `seconds` of work allow. Throws EnvironmentError where no method gets through.
+ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>* long_flow,
+                                  ReferenceKind kind, double interval, long count, int halvings,
+                                  double seconds, const Progress& progress);
+
+}  // namespace jourdain::studies

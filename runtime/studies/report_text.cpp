@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "studies/report.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+std::string number(const std::optional<double>& value, const char* format = "{:.2f}") {
+  return value ? fmt::format(fmt::runtime(format), *value) : "-";
+}
+
+std::string error(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
+
+std::string methods_table(const jourdain_model_table& table, const Study& study) {
+  std::string text = fmt::format("  {:<20} {:>5} {:>8} {:>11} {:>10} {:>10} {:>21}\n", "method", "order",
+                                 "measured", "evaluations", "operations", "us a step", "quartiles");
+  for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
+    const jourdain_method& method = table.methods[m];
+    const StepTime& time = study.work.step_times[m];
+    text += fmt::format("  {:<20} {:>5} {:>8} {:>11} {:>10} {:>10.3g} {:>10.3g} {:>10.3g}\n", method.name,
+                        method.order, number(study.work.orders[m]), method.evaluations, method.operations,
+                        time.median * 1e6, time.lower_quartile * 1e6, time.upper_quartile * 1e6);
+  }
+  return text;
+}
+
+std::string errors_table(const jourdain_model_table& table, const Study& study) {
+  std::string text =
+      fmt::format("\n  largest position error along the way (rad, m); * on the Pareto front\n  {:<20}", "h");
+  for (const double h : study.steps) text += fmt::format(" {:>9}", time_text(h));
+  std::size_t method = static_cast<std::size_t>(-1);
+  for (const WorkPoint& point : study.work.points) {
+    if (point.method != method) text += fmt::format("\n  {:<20}", table.methods[point.method].name);
+    method = point.method;
+    text += fmt::format(" {:>8}{}", point.finite ? error(point.largest.position) : "fails",
+                        point.pareto ? '*' : ' ');
+  }
+  return text + "\n";
+}
+
+/// One of the method's, halfway between its longest and its shortest step.
+const ErrorSources* middle_of(std::size_t method, const std::vector<ErrorSources>& sources) {
+  std::vector<const ErrorSources*> own;
+  for (const ErrorSources& source : sources)
+    if (source.method == method) own.push_back(&source);
+  return own.empty() ? nullptr : own[own.size() / 2];
+}
+
+std::string sources_table(const jourdain_model_table& table, const Study& study) {
+  if (study.sources.empty()) return "";
+  std::string text = fmt::format(
+      "\n  where the position error at the end comes from (rad, m), at one step of each method\n  {:<20} "
+      "{:>9} {:>10} "
+      "{:>10} {:>10} {:>10} {:>10} {:>6}\n",
+      "method", "h", "truncation", "propagated", "rounding", "predicted", "measured", "ratio");
+  for (const SourceSummary& summary : study.summaries) {
+    const ErrorSources* s = middle_of(summary.method, study.sources);
+    if (s)
+      text += fmt::format("  {:<20} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>6.2f}\n",
+                          table.methods[s->method].name, time_text(s->h), s->truncation.position,
+                          s->propagated.position, s->rounding.position, s->predicted.position,
+                          s->measured.position, s->predicted.position / s->measured.position);
+  }
+  text += fmt::format("\n  {:<20} {:>17} {:>17} {:>15} {:>27}\n", "slopes over h", "truncation", "propagated",
+                      "rounding", "rounding dominates below h");
+  for (const SourceSummary& s : study.summaries)
+    text += fmt::format("  {:<20} {:>17} {:>17} {:>15} {:>27}\n", table.methods[s.method].name,
+                        number(s.truncation_slope), number(s.propagation_slope), number(s.rounding_slope),
+                        s.rounding_step ? time_text(*s.rounding_step) +
+                                              (s.rounding_step_extrapolated ? " (extrapolated)" : "")
+                                        : "-");
+  return text;
+}
+
+std::string forms_table(const Study& study) {
+  if (study.forms.empty()) return "";
+  std::string text = fmt::format(
+      "\n  the same scene in other coordinates, numeric code, classical Runge-Kutta method\n  {:<28} {:>7} "
+      "{:>8} "
+      "{:>9} {:>9} {:>9} {:>9}\n",
+      "form", "states", "unknowns", "h", "error, m", "drift", "us a step");
+  for (const FormCurve& curve : study.forms) {
+    std::vector<FormPoint> points;
+    for (const FormPoint& point : curve.points)
+      if (point.finite) points.push_back(point);
+    if (points.empty()) text += fmt::format("  {:<28} fails at every step tried\n", curve.form);
+    for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 2)) {
+      const FormPoint& point = points[i];
+      text += fmt::format("  {:<28} {:>7} {:>8} {:>9} {:>9} {:>9} {:>9.4g}\n", curve.form, curve.states,
+                          curve.unknowns, time_text(point.h), error(point.position_error), error(point.drift),
+                          point.step_time * 1e6);
+    }
+  }
+  return text;
+}
+
+/// How much slower the plain numeric forms are than the emitted code with the same method.
+std::string forms_ratio(const jourdain_model_table& table, const Study& study) {
+  std::string text;
+  for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
+    if (std::string_view(table.methods[m].name) != "rk4") continue;
+    for (const FormCurve& curve : study.forms)
+      if (!curve.points.empty())
+        text +=
+            fmt::format("{}{} {:.3g}", text.empty() ? "  a step takes, in steps of the emitted code: " : ", ",
+                        curve.form, curve.points.back().step_time / study.work.step_times[m].median);
+  }
+  return text.empty() ? "" : text + "\n";
+}
+
+}  // namespace
+
+std::string time_text(double seconds) {
+  if (seconds >= 1) return fmt::format("{:.4g} s", seconds);
+  if (seconds >= 0.9995e-3) return fmt::format("{:.4g} ms", seconds * 1e3);
+  if (seconds >= 0.9995e-6) return fmt::format("{:.4g} us", seconds * 1e6);
+  return fmt::format("{:.4g} ns", seconds * 1e9);
+}
+
+std::string advice_text(const jourdain_model_table& table, const Study& study) {
+  const Question& question = study.options.question;
+  if (!question.tolerance && !question.budget) return "";
+  const std::string asked =
+      question.tolerance ? fmt::format("a position error of {:.3g} (rad, m)", *question.tolerance)
+                         : fmt::format("{} per {}", time_text(*question.budget), time_text(question.period));
+  if (!study.advice) return fmt::format("no method and step of this study keep within {}", asked);
+  const Advice& a = *study.advice;
+  return fmt::format(
+      "within {}: {}_step with h = {}; a run confirms it{}: position error {:.2g}, velocity error {:.2g}, {} "
+      "a step, "
+      "{:.3g} times faster than real time",
+      asked, table.methods[a.method].name, time_text(a.h), a.confirmed ? "" : " NOT", a.error.position,
+      a.error.velocity, time_text(a.step_time), 1 / a.run_time);
+}
+
+std::vector<std::string> remarks(const jourdain_model_table& table, const Study& study) {
+  std::vector<std::string> list;
+  list.push_back(fmt::format("reference: {}; its own error is {:.1e} (difference to a looser tolerance)",
+                             study.reference.method, study.reference.error));
+  const double growth = study.divergence.growth.back();
+  const double followed = study.divergence.interval * static_cast<double>(study.divergence.growth.size() - 1);
+  list.push_back(
+      fmt::format("nearby trajectories separate by a factor of {:.2g} within {}, {:.2g}/s in the exponent",
+                  growth, time_text(followed), study.divergence.exponent));
+  if (study.judged < study.options.duration)
+    list.push_back(fmt::format("beyond {} that factor passes {:g}: errors are judged up to there only",
+                               time_text(study.judged), kJudgedGrowth));
+  if (study.reference.exact.empty())
+    list.push_back("no solution in 50 digits (too costly here): the sources of the error are not told apart");
+  if (study.reference.error > 1e-13)
+    list.push_back(fmt::format("errors below {:.0e} say nothing: the reference is no better",
+                               10 * study.reference.error));
+  for (const SourceSummary& s : study.summaries) {
+    const std::string name = table.methods[s.method].name;
+    double longest = 0;
+    for (const ErrorSources& source : study.sources)
+      if (source.method == s.method) longest = std::max(longest, source.h);
+    if (longest == 0) continue;
+    if (!s.linear_until)
+      list.push_back(fmt::format("{}: errors are outside the linear regime at every step tried", name));
+    else if (*s.linear_until < 0.99 * longest)
+      list.push_back(
+          fmt::format("{}: the linear regime ends beyond h = {}", name, time_text(*s.linear_until)));
+  }
+  return list;
+}
+
+std::string report_text(const ReportHead& head, const jourdain_model_table& table, const Study& study) {
+  std::string text =
+      fmt::format("{}: error against run time over {} in {}{}\n", head.name, time_text(study.judged),
+                  head.real, head.scenario.empty() ? "" : ", " + head.scenario);
+  for (const std::string& remark : remarks(table, study)) text += "  " + remark + "\n";
+  text += "\n" + methods_table(table, study) + errors_table(table, study) + sources_table(table, study) +
+          forms_table(study) + forms_ratio(table, study);
+  const std::string advice = advice_text(table, study);
+  if (!advice.empty()) text += "\n  " + advice + "\n";
+  return text;
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,190 @@
+#include "studies/study.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "support/check.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr long kFewestIntervals = 4;
+constexpr double kLinear = 0.1;    ///< share of the error by which the parts may miss it in the linear regime
+constexpr double kRegular = 1e-2;  ///< relative error above which no parts are computed
+
+std::size_t best_method(const jourdain_model_table& table) {
+  const auto* end = table.methods + table.method_count;
+  const auto* best =
+      std::max_element(table.methods, end, [](const auto& a, const auto& b) { return a.order < b.order; });
+  return static_cast<std::size_t>(best - table.methods);
+}
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+const WorkPoint& point_of(const WorkPrecision& work, std::size_t method, double h) {
+  for (const WorkPoint& point : work.points)
+    if (point.method == method && std::fabs(point.h - h) < 1e-9 * h) return point;
+  JD_CHECK(false, "no point of method {} at h = {}", method, h);
+  return work.points.front();
+}
+
+/// Parts of the errors, from the longest step to shorter ones, as far as the time allows.
+std::vector<ErrorSources> study_sources(const Flow<double>& flow, const Flow<LongReal>& long_flow,
+                                        const Study& study, const Progress& progress) {
+  std::vector<ErrorSources> sources;
+  const std::vector<Eigen::MatrixXd> transitions = transition_matrices(flow, study.reference.points);
+  const auto begin = Clock::now();
+  double last_level = 0;
+  for (const double h : study.steps) {
+    const double ratio = h / study.reference.interval;
+    // The next level takes twice the time of the last one.
+    if (ratio < 0.99 || seconds_since(begin) + 2 * last_level > study.options.seconds) break;
+    const auto level_begin = Clock::now();
+    for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
+      progress("error sources", std::min(1.0, seconds_since(begin) / study.options.seconds));
+      const WorkPoint& point = point_of(study.work, m, h);
+      const bool regular = point.finite && point.relative_largest.position < kRegular &&
+                           point.relative_largest.velocity < 10 * kRegular;
+      if (!regular) continue;
+      sources.push_back(error_sources(flow, long_flow, m, study.reference, transitions,
+                                      static_cast<std::size_t>(std::lround(ratio))));
+    }
+    last_level = seconds_since(level_begin);
+  }
+  std::stable_sort(sources.begin(), sources.end(),
+                   [](const ErrorSources& a, const ErrorSources& b) { return a.method < b.method; });
+  return sources;
+}
+
+/// Rounding at the steps that `study_sources` left out, as far as the time allows.
+std::vector<RoundingPoint> study_roundings(const Flow<double>& flow, const Flow<LongReal>& long_flow,
+                                           const Study& study, const Progress& progress) {
+  std::vector<RoundingPoint> points;
+  double shortest = INFINITY;
+  for (const ErrorSources& source : study.sources) shortest = std::min(shortest, source.h);
+  const auto begin = Clock::now();
+  double last_level = 0;
+  for (const double h : study.steps) {
+    if (h > 0.99 * shortest) continue;
+    if (seconds_since(begin) + 2 * last_level > study.options.seconds / 2) break;
+    const auto level_begin = Clock::now();
+    for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
+      progress("rounding", std::min(1.0, 2 * seconds_since(begin) / study.options.seconds));
+      const WorkPoint& point = point_of(study.work, m, h);
+      if (point.finite && point.relative_largest.position < kRegular)
+        points.push_back({m, h, rounding_error(flow, long_flow, m, h, std::lround(study.judged / h))});
+    }
+    last_level = seconds_since(level_begin);
+  }
+  std::stable_sort(points.begin(), points.end(),
+                   [](const RoundingPoint& a, const RoundingPoint& b) { return a.method < b.method; });
+  return points;
+}
+
+/// Slope of log(values) over log(h) by least squares; none with fewer than two positive values.
+struct Line {
+  double slope = 0, offset = 0;  ///< log(value) = offset + slope log(h)
+};
+std::optional<Line> fitted(const std::vector<double>& h, const std::vector<double>& values) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    if (!(values[i] > 0)) continue;
+    const double x = std::log(h[i]), y = std::log(values[i]);
+    n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const double determinant = n * sxx - sx * sx;
+  if (n < 2 || !(determinant > 0)) return {};
+  const double slope = (n * sxy - sx * sy) / determinant;
+  return Line{slope, (sy - slope * sx) / n};
+}
+
+/// The last entries, at most `count`.
+std::vector<double> tail(const std::vector<double>& values, std::size_t count) {
+  return {values.end() - static_cast<std::ptrdiff_t>(std::min(count, values.size())), values.end()};
+}
+
+SourceSummary summarise(std::size_t method, const Study& study) {
+  SourceSummary summary;
+  summary.method = method;
+  std::vector<double> h, truncation, propagated, rounding_h, rounding;
+  for (const ErrorSources& source : study.sources) {
+    if (source.method != method) continue;
+    h.push_back(source.h);
+    truncation.push_back(source.truncation.position);
+    propagated.push_back(source.propagated.position);
+    rounding_h.push_back(source.h);
+    rounding.push_back(source.rounding.position);
+    const bool linear = source.difference.position <= kLinear * source.measured.position;
+    if (linear && !summary.linear_until) summary.linear_until = source.h;
+    if (!linear) summary.linear_until.reset();
+  }
+  for (const RoundingPoint& point : study.roundings) {
+    if (point.method != method) continue;
+    rounding_h.push_back(point.h);
+    rounding.push_back(point.rounding.position);
+  }
+  constexpr std::size_t kTail = 3;  // the shortest steps: asymptotic
+  const auto truncation_line = fitted(tail(h, kTail), tail(truncation, kTail));
+  const auto propagated_line = fitted(tail(h, kTail), tail(propagated, kTail));
+  const auto rounding_line = fitted(rounding_h, rounding);
+  if (truncation_line) summary.truncation_slope = truncation_line->slope;
+  if (propagated_line) summary.propagation_slope = propagated_line->slope;
+  if (rounding_line) summary.rounding_slope = rounding_line->slope;
+  if (propagated_line && rounding_line && propagated_line->slope > rounding_line->slope + 0.5) {
+    const double crossing =
+        (rounding_line->offset - propagated_line->offset) / (propagated_line->slope - rounding_line->slope);
+    summary.rounding_step = std::exp(crossing);
+    summary.rounding_step_extrapolated = *summary.rounding_step < rounding_h.back();
+  }
+  return summary;
+}
+
+}  // namespace
+
+Study run_study(const model::Mechanism& mechanism, const std::vector<double>& parameters,
+                const Flow<double>& flow, const Flow<LongReal>* long_flow, const Inputs& inputs,
+                const StudyOptions& options, const Progress& progress) {
+  Study study;
+  study.options = options;
+  for (int i = 0; i <= options.halvings; ++i) study.steps.push_back(std::ldexp(options.longest_step, -i));
+  const double sampling = options.longest_step;
+  const long wanted =
+      std::max(kFewestIntervals, static_cast<long>(std::ceil(options.duration / sampling - 1e-9)));
+  study.options.duration = static_cast<double>(wanted) * sampling;
+
+  progress("nearby trajectories", 0);
+  const jourdain_model_table& table = flow.table();
+  study.divergence =
+      measure_divergence(flow, table.methods[best_method(table)], study.steps.back(), sampling, wanted);
+  const long count = std::max(kFewestIntervals, intervals_until(study.divergence, kJudgedGrowth));
+  study.judged = static_cast<double>(count) * sampling;
+
+  study.reference = solve_reference(flow, long_flow, options.reference, sampling, count, options.halvings,
+                                    options.seconds, progress);
+  const std::vector<double> held = inputs.at(0.0);
+  study.work = study_work_precision(flow, study.steps, sampling, study.reference, options.conserves_energy,
+                                    held, progress);
+  if (!study.reference.exact.empty() && long_flow) {
+    study.sources = study_sources(flow, *long_flow, study, progress);
+    study.roundings = study_roundings(flow, *long_flow, study, progress);
+    for (std::size_t m = 0; m < study.work.step_times.size(); ++m)
+      study.summaries.push_back(summarise(m, study));
+  }
+  if (options.forms)
+    study.forms = study_forms(mechanism, parameters, inputs, study.steps, sampling, study.reference,
+                              options.seconds / 4, progress);
+  if (options.question.tolerance || options.question.budget) {
+    progress("recommendation", 0);
+    study.advice = advise(options.question, study.work, flow, sampling, study.reference, held);
+  }
+  progress("", 1);
+  return study;
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,67 @@
+// Everything that a report says about one model, method by method and step by step.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/mechanism.hpp"
+#include "studies/advice.hpp"
+#include "studies/error_sources.hpp"
+#include "studies/first_kind.hpp"
+#include "studies/sensitivity.hpp"
+#include "studies/work_precision.hpp"
+
+namespace jourdain::studies {
+
+struct StudyOptions {
+  double duration = 2;          ///< s; rounded up to whole longest steps
+  double longest_step = 0.016;  ///< s; also the interval at which errors are taken
+  int halvings = 8;             ///< of the longest step down to the shortest
+  ReferenceKind reference = ReferenceKind::kAutomatic;
+  Question question;
+  bool conserves_energy = false;
+  bool forms = true;   ///< compare with equations of the first kind
+  double seconds = 8;  ///< of work for each costly part, about
+};
+
+/// How a method's error comes about, over the steps where the parts could be computed.
+struct SourceSummary {
+  std::size_t method = 0;
+  std::optional<double> truncation_slope, propagation_slope, rounding_slope;  ///< of log(part) over log(h)
+  std::optional<double> rounding_step;  ///< below this h (s) rounding is larger than what was propagated
+  bool rounding_step_extrapolated = false;
+  std::optional<double> linear_until;  ///< longest h (s) at which the parts predict the error within 10 %
+};
+
+/// Rounding alone, at steps too short for the other parts.
+struct RoundingPoint {
+  std::size_t method = 0;
+  double h = 0;         ///< s
+  ErrorNorms rounding;  ///< at the end
+};
+
+struct Study {
+  StudyOptions options;
+  double judged = 0;  ///< s: duration, or less where nearby trajectories part
+  Divergence divergence;
+  std::vector<double> steps;  ///< s, descending
+  ReferenceSolution reference;
+  WorkPrecision work;
+  std::vector<ErrorSources> sources;     ///< method by method; empty without 50 digits
+  std::vector<RoundingPoint> roundings;  ///< method by method, steps shorter than those of `sources`
+  std::vector<SourceSummary> summaries;
+  std::vector<FormCurve> forms;
+  std::optional<Advice> advice;
+};
+
+/// Separation of nearby trajectories beyond which errors are not judged.
+inline constexpr double kJudgedGrowth = 1e5;
+
+/// `long_flow` may be null: no 50 digits then. Inputs and starts of the flows are the same. `parameters` in the mechanism's
+/// order.
+Study run_study(const model::Mechanism& mechanism, const std::vector<double>& parameters,
+                const Flow<double>& flow, const Flow<LongReal>* long_flow, const Inputs& inputs,
+                const StudyOptions& options, const Progress& progress);
+
+}  // namespace jourdain::studies

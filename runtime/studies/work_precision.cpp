@@ -1,0 +1,184 @@
+#include "studies/work_precision.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace jourdain::studies {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kTimingRepeats = 15;
+constexpr double kShortestBlock = 1e-3;  ///< s
+constexpr double kAgreement = 0.12;      ///< of neighbouring slopes on one straight line
+constexpr double kAboveFloor = 30;
+constexpr double kLargest = 0.1;  ///< relative error up to which slopes mean anything
+
+double largest_entry(const std::vector<Point<double>>& points, std::size_t first, std::size_t last) {
+  double largest = 0;
+  for (const Point<double>& point : points)
+    for (std::size_t i = first; i < last; ++i) largest = std::max(largest, std::fabs(point.x[i]));
+  return largest;
+}
+
+void widen(double& largest, double value) { largest = std::max(largest, value); }
+
+ErrorNorms errors_at(const std::vector<double>& x, const std::vector<double>& reference,
+                     std::size_t positions) {
+  ErrorNorms norms;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    widen(i < positions ? norms.position : norms.velocity, std::fabs(x[i] - reference[i]));
+  return norms;
+}
+
+bool all_finite(const std::vector<double>& x) {
+  return std::all_of(x.begin(), x.end(), [](double entry) { return std::isfinite(entry); });
+}
+
+ErrorNorms divided(const ErrorNorms& errors, const ErrorNorms& scale) {
+  return {scale.position > 0 ? errors.position / scale.position : 0,
+          scale.velocity > 0 ? errors.velocity / scale.velocity : 0};
+}
+
+/// Smallest position error of all points but zero: what rounding leaves.
+double smallest_error(const std::vector<WorkPoint>& points) {
+  double smallest = 1;
+  for (const WorkPoint& point : points)
+    if (point.finite && point.largest.position > 0) smallest = std::min(smallest, point.largest.position);
+  return smallest;
+}
+
+std::optional<double> order_of(std::size_t method, const std::vector<WorkPoint>& points, double floor) {
+  std::vector<double> h, errors;
+  for (const WorkPoint& point : points) {
+    if (point.method != method || !point.finite || point.relative_largest.position > kLargest) continue;
+    h.push_back(point.h);
+    errors.push_back(point.largest.position);
+  }
+  return measured_order(h, errors, floor);
+}
+
+/// Runs blocks of steps of one method; the time of a step, s.
+class Timer {
+ public:
+  Timer(const jourdain_model_table& table, const jourdain_method& method, const Point<double>& start,
+        const std::vector<double>& inputs, double h)
+      : table_(table), method_(method), start_(start), inputs_(inputs), h_(h) {
+    while (seconds() < kShortestBlock && block_ < 1000000) block_ *= 2;
+  }
+
+  double step_time() { return seconds() / static_cast<double>(block_); }
+
+ private:
+  double seconds() {
+    Point<double> point = start_;
+    const auto depth = static_cast<std::size_t>(method_.history);
+    std::vector<double> memory(1 + depth * point.x.size());
+    const jourdain_inputs inputs{inputs_.data(), nullptr, nullptr};
+    const auto begin = Clock::now();
+    method_.steps(&point.t, point.x.data(), point.x.data() + table_.position_count, &inputs, &h_, block_,
+                  memory.data());
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  const jourdain_model_table& table_;
+  const jourdain_method& method_;
+  const Point<double>& start_;
+  const std::vector<double>& inputs_;
+  double h_;
+  long block_ = 16;
+};
+
+}  // namespace
+
+WorkPoint measure_errors(const Flow<double>& flow, std::size_t index, double h, double sampling,
+                         const ReferenceSolution& reference, bool conserves_energy) {
+  const jourdain_method& method = flow.table().methods[index];
+  const std::size_t positions = flow.position_count();
+  const auto stride = static_cast<std::size_t>(std::lround(sampling / reference.interval));
+  const long steps = std::lround(sampling / h);
+  WorkPoint result;
+  result.method = index;
+  result.h = h;
+  Point<double> point = flow.start();
+  Memory memory = flow.fresh_memory(method);
+  const double energy = flow.energy(point);
+  double drift = 0;
+  for (std::size_t k = stride; k < reference.points.size(); k += stride) {
+    flow.step(method, point, h, steps, memory);
+    result.finite = all_finite(point.x);
+    if (!result.finite) return result;
+    point.t = reference.points[k].t;
+    result.end = errors_at(point.x, reference.points[k].x, positions);
+    widen(result.largest.position, result.end.position);
+    widen(result.largest.velocity, result.end.velocity);
+    if (conserves_energy) widen(drift, std::fabs(flow.energy(point) - energy));
+  }
+  const ErrorNorms scale{largest_entry(reference.points, 0, positions),
+                         largest_entry(reference.points, positions, flow.size())};
+  result.relative_end = divided(result.end, scale);
+  result.relative_largest = divided(result.largest, scale);
+  if (conserves_energy) result.energy_drift = drift;
+  return result;
+}
+
+std::vector<StepTime> measure_step_times(const jourdain_model_table& table, const Point<double>& start,
+                                         const std::vector<double>& inputs, double h) {
+  std::vector<Timer> timers;
+  for (int m = 0; m < table.method_count; ++m) timers.emplace_back(table, table.methods[m], start, inputs, h);
+  std::vector<std::vector<double>> samples(timers.size());
+  for (int repeat = 0; repeat < kTimingRepeats; ++repeat)
+    for (std::size_t m = 0; m < timers.size(); ++m) samples[m].push_back(timers[m].step_time());
+  std::vector<StepTime> times;
+  for (std::vector<double>& sample : samples) {
+    std::sort(sample.begin(), sample.end());
+    times.push_back({sample[sample.size() / 2], sample[sample.size() / 4], sample[3 * sample.size() / 4]});
+  }
+  return times;
+}
+
+WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<double>& steps,
+                                   double sampling, const ReferenceSolution& reference, bool conserves_energy,
+                                   const std::vector<double>& held_inputs, const Progress& progress) {
+  WorkPrecision study;
+  study.duration = reference.interval * static_cast<double>(reference.points.size() - 1);
+  const auto methods = static_cast<std::size_t>(flow.table().method_count);
+  progress("step times", 0);
+  study.step_times = measure_step_times(flow.table(), flow.start(), held_inputs, steps.back());
+  for (std::size_t m = 0; m < methods; ++m)
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      progress("errors of the methods", double(m * steps.size() + i) / double(methods * steps.size()));
+      WorkPoint point = measure_errors(flow, m, steps[i], sampling, reference, conserves_energy);
+      point.run_time = study.step_times[m].median / steps[i];
+      study.points.push_back(point);
+    }
+  const double floor = std::max(reference.error, smallest_error(study.points));
+  for (std::size_t m = 0; m < methods; ++m) study.orders.push_back(order_of(m, study.points, floor));
+  mark_pareto_front(study.points);
+  return study;
+}
+
+void mark_pareto_front(std::vector<WorkPoint>& points) {
+  const auto beats = [](const WorkPoint& a, const WorkPoint& b) {
+    const double error_a = a.largest.position, error_b = b.largest.position;
+    return a.finite && a.run_time <= b.run_time && error_a <= error_b &&
+           (a.run_time < b.run_time || error_a < error_b);
+  };
+  for (WorkPoint& point : points)
+    point.pareto = point.finite && std::none_of(points.begin(), points.end(),
+                                                [&](const WorkPoint& other) { return beats(other, point); });
+}
+
+std::optional<double> measured_order(const std::vector<double>& h, const std::vector<double>& errors,
+                                     double floor) {
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i + 1 < h.size() && errors[i + 1] > kAboveFloor * floor; ++i)
+    slopes.push_back(std::log(errors[i] / errors[i + 1]) / std::log(h[i] / h[i + 1]));
+  for (std::size_t i = slopes.size(); i-- > 1;)
+    if (std::fabs(slopes[i] - slopes[i - 1]) < kAgreement) return 2 * slopes[i] - slopes[i - 1];
+  return {};
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,61 @@
+// Error against run time of every method over a ladder of step sizes.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "studies/error_sources.hpp"
+#include "studies/flow.hpp"
+#include "studies/reference_solution.hpp"
+
+namespace jourdain::studies {
+
+/// Run time of one step, s: medians of interleaved repeats.
+struct StepTime {
+  double median = 0, lower_quartile = 0, upper_quartile = 0;
+};
+
+/// One method and step size.
+struct WorkPoint {
+  std::size_t method = 0;
+  double h = 0;  ///< s
+  bool finite = true;
+  ErrorNorms end;                             ///< at the end: rad, m; rad/s, m/s
+  ErrorNorms largest;                         ///< along the way
+  ErrorNorms relative_end, relative_largest;  ///< over the largest entry of the reference along the way
+  std::optional<double> energy_drift;         ///< largest along the way, J; where the scene conserves energy
+  double run_time = 0;                        ///< s per simulated second
+  bool pareto = false;                        ///< no other point is both faster and more accurate
+};
+
+struct WorkPrecision {
+  double duration = 0;                        ///< s
+  std::vector<StepTime> step_times;           ///< by method
+  std::vector<WorkPoint> points;              ///< method by method, from the longest step to the shortest
+  std::vector<std::optional<double>> orders;  ///< by method: measured; none where no range of steps shows one
+};
+
+/// `step` runs `count` steps of length h and compares with the reference at every multiple of `sampling` (s), a
+/// multiple of h and of the reference's interval.
+WorkPoint measure_errors(const Flow<double>& flow, std::size_t method, double h, double sampling,
+                         const ReferenceSolution& reference, bool conserves_energy);
+
+/// Time of a step of each method of the table, from its start, inputs held; interleaved repeats of blocks that take a
+/// millisecond at least.
+std::vector<StepTime> measure_step_times(const jourdain_model_table& table, const Point<double>& start,
+                                         const std::vector<double>& inputs, double h);
+
+/// Points for every method and every step of `steps` (s, descending).
+WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<double>& steps,
+                                   double sampling, const ReferenceSolution& reference, bool conserves_energy,
+                                   const std::vector<double>& held_inputs, const Progress& progress);
+
+/// Marks the points that no other one beats in both run time and largest position error.
+void mark_pareto_front(std::vector<WorkPoint>& points);
+
+/// Slope of log(error) over log(h), extrapolated to h = 0, from the two neighbouring slopes at the shortest steps that agree
+/// with each other and whose errors are well above `floor`. None where there are no such slopes. `h` falls by halves.
+std::optional<double> measured_order(const std::vector<double>& h, const std::vector<double>& errors,
+                                     double floor);
+
+}  // namespace jourdain::studies

@@ -1,0 +1,287 @@
+// Reports as their users make them: orders, sources of the error, recommendations, failures.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "agreement/exact_pendulum.hpp"
+#include "pendulum/pendulum_kernels.hpp"
+#include "support/files.hpp"
+#include "support/process.hpp"
+
+extern char** environ;
+
+namespace jourdain::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kSource = JOURDAIN_SOURCE_DIR;
+
+support::ProcessResult jourdain(std::vector<std::string> arguments,
+                                std::vector<std::string> environment = {}) {
+  std::vector<std::string> command = {"env"};
+  command.insert(command.end(), environment.begin(), environment.end());
+  command.push_back(JOURDAIN_BINARY);
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return support::run_process(command);
+}
+
+std::string model(const std::string& name) { return (kSource / "models" / (name + ".toml")).string(); }
+
+/// The Panda arm with linear springs and dampers in its joints.
+std::string compliant_panda(const std::string& folder) {
+  std::string text = support::read_file(model("panda"));
+  const std::string revolute = "type = \"revolute\"\n", elements = "stiffness = 20\ndamping = 0.5\n";
+  for (std::size_t at = 0; (at = text.find(revolute, at)) != std::string::npos;
+       at += revolute.size() + elements.size())
+    text.insert(at + revolute.size(), elements);
+  const std::string path = folder + "/panda.toml";
+  support::write_file(path, text);
+  return path;
+}
+
+/// The reports that the issue of errors is judged by, made once.
+class Reports : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new support::TemporaryFolder;
+    const std::string sweep = (kSource / "models/scenarios/panda_sweep.toml").string();
+    for (const char* name : {"pendulum", "double_pendulum", "lagrange_top", "spring_pendulum"})
+      make(name, {model(name), "--effort", "1"});
+    // The load hardly swings: errors of the best methods vanish in rounding unless steps are long.
+    make("crane", {model("crane"), "--longest-step", "64ms", "--halvings", "9", "--effort", "1"});
+    make("panda", {compliant_panda(folder_->path()), "--inputs", sweep, "--effort", "4"});
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static void make(const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "report");
+    const std::string out = folder_->path() + "/" + name;
+    for (const std::string& argument :
+         {std::string("--tolerance"), std::string("1e-6"), std::string("-o"), out})
+      arguments.push_back(argument);
+    const support::ProcessResult result = jourdain(arguments);
+    ASSERT_EQ(result.status, 0) << result.output;
+    texts_[name] = result.output;
+    reports_[name] = json::parse(support::read_file(folder_->path() + "/" + name + "/report.json"));
+  }
+
+  static json point(const std::string& name, const std::string& method, double h) {
+    for (const json& p : reports_[name]["points"])
+      if (p["method"] == method && std::fabs(p["step_s"].get<double>() - h) < 1e-12) return p;
+    ADD_FAILURE() << "no point of " << method << " at " << h;
+    return {};
+  }
+
+  static support::TemporaryFolder* folder_;
+  static std::map<std::string, json> reports_;
+  static std::map<std::string, std::string> texts_;
+};
+
+support::TemporaryFolder* Reports::folder_ = nullptr;
+std::map<std::string, json> Reports::reports_;
+std::map<std::string, std::string> Reports::texts_;
+
+TEST_F(Reports, OrdersAreTheMethodsOwn) {
+  EXPECT_EQ(reports_.size(), 6u);
+  for (const auto& [name, report] : reports_) {
+    std::string line = fmt::format("{:<16}", name);
+    EXPECT_EQ(report["methods"].size(), 7u);
+    for (const json& method : report["methods"]) {
+      ASSERT_FALSE(method["measured_order"].is_null()) << name << " " << method["name"];
+      const double measured = method["measured_order"];
+      EXPECT_NEAR(measured, method["order"].get<double>(), 0.1) << name << " " << method["name"];
+      line += fmt::format(" {:.3f}", measured);
+    }
+    fmt::print("{}\n", line);
+  }
+}
+
+TEST_F(Reports, PartsOfTheErrorPredictIt) {
+  // What they miss where errors are large is the quadratic part; these are small beside 1 rad.
+  constexpr double kSmall = 1e-3;
+  for (const auto& [name, report] : reports_) {
+    double worst = 0;
+    int judged = 0;
+    const bool solvable = name == "pendulum" || name == "lagrange_top" || name == "panda";
+    for (const json& s : report["error_sources"]) {
+      const double measured = s["measured"]["position"], missed = s["difference"]["position"];
+      if (measured > kSmall) continue;
+      EXPECT_TRUE(!solvable || missed < 0.1 * measured) << name << " " << s["method"] << " " << s["step_s"];
+      worst = std::max(worst, missed / measured);
+      ++judged;
+    }
+    fmt::print("{:<16} {:>3} points, parts miss at most {:.1e} of the error\n", name, judged, worst);
+  }
+}
+
+TEST_F(Reports, ErrorsOnThePendulumAreTheExactOnes) {
+  for (const double h : {0.016, 0.008, 0.004, 0.002, 0.001, 0.0005}) {
+    const pendulum::Model<> emitted;
+    auto state = initial_state(emitted);
+    for (long i = 0; i < std::lround(2 / h); ++i) rk4_step(emitted, state, {}, h);
+    const double exact = double(std::fabs(static_cast<long double>(state.y[0]) - exact_pendulum_angle(2)));
+    const double stated = point("pendulum", "rk4", h)["end"]["position"];
+    fmt::print("pendulum, rk4, h = {:<7g} stated {:.10e}, exact {:.10e}\n", h, stated, exact);
+    EXPECT_NEAR(stated, exact, 1e-15) << h;  // the closed form in long double has about 1e-17
+  }
+}
+
+TEST_F(Reports, RoundingShowsOnThePendulum) {
+  for (const char* method : {"rk4", "rk5"})
+    for (const double h : {0.00025, 0.000125, 0.0000625}) {
+      const double error = point("pendulum", method, h)["largest"]["position"];
+      EXPECT_LT(error, 1e-12);
+      EXPECT_GT(error, 1e-16);
+    }
+  for (const json& method : reports_["pendulum"]["methods"])
+    if (method["name"] == "rk5") {
+      EXPECT_GT(method["sources"]["rounding_dominates_below_s"].get<double>(), 1e-4);
+      EXPECT_LT(method["sources"]["rounding_dominates_below_s"].get<double>(), 1e-2);
+      EXPECT_LT(method["sources"]["rounding_slope"].get<double>(), 0);
+    }
+}
+
+TEST_F(Reports, RecommendationsAreConfirmedByTheirRun) {
+  for (const auto& [name, report] : reports_) {
+    const json& advice = report["recommendation"];
+    EXPECT_TRUE(advice["confirmed"].get<bool>()) << name;
+    EXPECT_LE(advice["largest_error"]["position"].get<double>(), 1e-6) << name;
+    EXPECT_NE(texts_[name].find("a run confirms it:"), std::string::npos);
+  }
+}
+
+TEST_F(Reports, TheReferenceIsBetterThanEveryMethod) {
+  for (const auto& [name, report] : reports_) {
+    EXPECT_LT(report["reference"]["error"].get<double>(), 1e-17) << name;
+    EXPECT_EQ(report["judged_s"], report["duration_s"]) << name;
+  }
+}
+
+TEST_F(Reports, AFollowedMotionIsItsOwnExactSolution) {
+  // The sweep ends where it starts, so that the error at the end is the distance to the start.
+  const std::string csv = folder_->path() + "/sweep.csv";
+  const support::ProcessResult result =
+      jourdain({"simulate", folder_->path() + "/panda.toml", "--inputs",
+                (kSource / "models/scenarios/panda_sweep.toml").string(), "--duration", "2", "--step",
+                "0.008", "--every", "250", "--output", csv});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const std::string text = support::read_file(csv);
+  const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
+  double t = 0, y[7] = {};
+  ASSERT_EQ(std::sscanf(text.c_str() + last, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &y[0], &y[1], &y[2],
+                        &y[3], &y[4], &y[5], &y[6]),
+            8);
+  const double start[7] = {0, -0.5, 0, -2, 0, 1.6, 0.8};
+  double error = 0;
+  for (int i = 0; i < 7; ++i) error = std::max(error, std::fabs(y[i] - start[i]));
+  EXPECT_NEAR(error, point("panda", "rk4", 0.008)["end"]["position"].get<double>(), 1e-12);
+}
+
+TEST_F(Reports, DescriptorFormDriftsAndProjectionStopsIt) {
+  for (const auto& [name, report] : reports_) {
+    ASSERT_EQ(report["first_kind"].size(), 3u);
+    const json &minimal = report["first_kind"][0], &plain = report["first_kind"][1],
+               &projected = report["first_kind"][2];
+    EXPECT_GT(plain["unknowns"], minimal["unknowns"]);
+    for (const json& p : projected["points"])
+      EXPECT_TRUE(!p["finite"] || p["drift"].get<double>() < 1e-8) << name;
+    // With the longest step the plain form has left its constraints further than the projected one.
+    EXPECT_GT(plain["points"][0]["drift"].get<double>(), 10 * projected["points"][0]["drift"].get<double>())
+        << name;
+  }
+}
+
+TEST_F(Reports, ThePageIsWholeAndNeedsNothingElse) {
+  const std::string page = support::read_file(folder_->path() + "/pendulum/report.html");
+  EXPECT_EQ(page.find("<link"), std::string::npos);
+  EXPECT_EQ(page.find(" src="), std::string::npos);
+  EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
+  EXPECT_NE(page.find("id=\"work_precision\""), std::string::npos);
+  EXPECT_NE(page.find("\"frames\":["), std::string::npos);
+  EXPECT_EQ(page.substr(page.size() - 8), "</html>\n");
+}
+
+TEST(Report, MostAccurateWithinABudget) {
+  const support::TemporaryFolder folder;
+  const support::ProcessResult result =
+      jourdain({"report", model("double_pendulum"), "--budget", "20us", "--effort", "0.3", "--no-forms",
+                "--no-plots", "-o", folder.path() + "/out"});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const json advice = json::parse(support::read_file(folder.path() + "/out/report.json"))["recommendation"];
+  EXPECT_TRUE(advice["confirmed"].get<bool>());
+  EXPECT_LE(advice["run_time_per_simulated_second_s"].get<double>() * 1e-3, 20e-6);
+  const double steps = 1e-3 / advice["step_s"].get<double>();
+  EXPECT_NEAR(steps, std::round(steps), 1e-9);
+}
+
+TEST(Report, JudgesChaoticMotionOnlyWhileErrorsMeanSomething) {
+  const support::TemporaryFolder folder;
+  std::string text = support::read_file(model("double_pendulum"));
+  for (std::size_t at = 0; (at = text.find("45*deg", at)) != std::string::npos;)
+    text.replace(at, 6, "150*deg");
+  const std::string path = folder.path() + "/chaos.toml";
+  support::write_file(path, text);
+  const support::ProcessResult result =
+      jourdain({"report", path, "--duration", "30s", "--effort", "0.3", "--no-forms", "--no-plots",
+                "--methods", "rk4,rk5", "-o", folder.path() + "/out"});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const json report = json::parse(support::read_file(folder.path() + "/out/report.json"));
+  EXPECT_LT(report["judged_s"].get<double>(), 25);
+  EXPECT_GT(report["judged_s"].get<double>(), 2);
+  EXPECT_NE(result.output.find("errors are judged up to there only"), std::string::npos);
+}
+
+TEST(Report, FailuresOfTheEnvironmentEndWithStatusThree) {
+  const support::TemporaryFolder folder;
+  const std::string out = folder.path() + "/out";
+  const auto expect = [](const support::ProcessResult& result, int status, const std::string& part) {
+    EXPECT_EQ(result.status, status) << result.output;
+    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+  };
+  expect(jourdain({"report", model("pendulum"), "-o", out}, {"PATH=/nowhere"}), 3, "gnuplot");
+  expect(jourdain({"report", model("pendulum"), "-o", out, "--no-plots"}, {"PATH=/nowhere"}), 3,
+         "cannot run 'c++'");
+  expect(jourdain({"report", model("pendulum"), "-o", "/proc/nowhere/out"}), 3, "/proc/nowhere");
+  expect(jourdain({"report", model("pendulum"), "-o", model("pendulum")}), 3, "pendulum.toml");
+  expect(jourdain({"report", model("pendulum"), "-o", out, "--tolerance", "1e-6", "--budget", "1us"}), 2,
+         "--budget");
+  expect(jourdain({"report", model("pendulum"), "-o", out, "--budget", "1 parsec"}), 2, "20us");
+  expect(jourdain({"report", model("pendulum"), "-o", out, "--set", "length=1"}), 2, "no parameter 'length'");
+  expect(jourdain({"report", model("pendulum"), "-o", out, "--methods", "rk44"}), 2, "did you mean 'rk4'");
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Report, KilledHalfWayLeavesNothing) {
+  const support::TemporaryFolder folder, temporary;
+  const std::string out = folder.path() + "/out";
+  for (const int delay : {100, 500, 1500}) {
+    const std::string setting = "TMPDIR=" + temporary.path();
+    const std::string path = model("lagrange_top");
+    const char* arguments[] = {"env", setting.c_str(), JOURDAIN_BINARY, "report", path.c_str(),
+                               "-o",  out.c_str(),     nullptr};
+    pid_t child = 0;
+    ASSERT_EQ(posix_spawnp(&child, "env", nullptr, nullptr, const_cast<char**>(arguments), environ), 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+    kill(child, SIGTERM);
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_TRUE(fs::is_empty(temporary.path())) << delay;
+  }
+}
+
+}  // namespace
+}  // namespace jourdain::tests

@@ -1,0 +1,196 @@
+// Parts of a study against an oscillator whose solution is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "studies/advice.hpp"
+#include "studies/cvode.hpp"
+#include "studies/error_sources.hpp"
+#include "studies/extrapolation.hpp"
+#include "studies/sensitivity.hpp"
+#include "studies/study.hpp"
+#include "studies/tables.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+using namespace studies;
+
+const Progress kSilent = [](const std::string&, double) {};
+constexpr double kSampling = 0.0625;
+
+TEST(LongReal, HasFiftyDigitsAndSplitsIntoDoublesWithoutLoss) {
+  const LongReal third = LongReal(1.0) / LongReal(3.0);
+  EXPECT_LT(std::fabs(double(third * LongReal(3.0) - LongReal(1.0))), 1e-50);
+  const LongReal angle(0.7), one = sin(angle) * sin(angle) + cos(angle) * cos(angle);
+  EXPECT_LT(std::fabs(double(one - LongReal(1.0))), 1e-50);
+  double parts[4];
+  third.split(parts, 4);
+  EXPECT_EQ(double(LongReal::joined(parts, 4) - third), 0);
+  EXPECT_EQ(parts[0], 1.0 / 3.0);
+}
+
+TEST(Extrapolation, GivesTheCosineToItsTolerance) {
+  const NoForce none;
+  const Flow<LongReal> flow(oscillator(LongReal()), none);
+  const auto points = extrapolated(flow, flow.start(), 0.25, 8, {.tolerance = 1e-30});
+  ASSERT_TRUE(points);
+  for (const Point<LongReal>& point : *points) {
+    EXPECT_LT(std::fabs(double(point.x[0] - cos(point.t))), 1e-29);
+    EXPECT_LT(std::fabs(double(point.x[1] + sin(point.t))), 1e-29);
+  }
+}
+
+TEST(Extrapolation, GivesUpWhereItsLimitWillBePassed) {
+  const NoForce none;
+  const Flow<LongReal> flow(oscillator(LongReal()), none);
+  EXPECT_FALSE(extrapolated(flow, flow.start(), 0.25, 1000, {.tolerance = 1e-30, .evaluation_limit = 5000}));
+}
+
+TEST(Cvode, GivesTheCosine) {
+  const NoForce none;
+  const Flow<double> flow(oscillator(0.0), none);
+  const auto points = solved_by_cvode(flow, flow.start(), 0.25, 8, 1e-12);
+  ASSERT_TRUE(points);
+  for (const Point<double>& point : *points) EXPECT_NEAR(point.x[0], std::cos(point.t), 1e-10);
+}
+
+TEST(ReferenceSolution, StatesAnErrorThatCoversTheTrueOne) {
+  const NoForce none;
+  const Flow<double> flow(oscillator(0.0), none);
+  const Flow<LongReal> long_flow(oscillator(LongReal()), none);
+  const ReferenceSolution exact =
+      solve_reference(flow, &long_flow, ReferenceKind::kAutomatic, kSampling, 32, 3, 2, kSilent);
+  ASSERT_FALSE(exact.exact.empty());
+  const Point<LongReal>& end = exact.exact.back();
+  EXPECT_EQ(double(end.t), 2);
+  EXPECT_LE(std::fabs(double(end.x[0] - cos(end.t))), exact.error + 1e-40);
+  EXPECT_LT(exact.error, 1e-18);
+  const ReferenceSolution cheap =
+      solve_reference(flow, nullptr, ReferenceKind::kAutomatic, kSampling, 32, 3, 2, kSilent);
+  EXPECT_TRUE(cheap.exact.empty());
+  EXPECT_LE(std::fabs(cheap.points.back().x[0] - std::cos(2.0)), 20 * cheap.error + 1e-15);
+}
+
+TEST(Divergence, IsThatOfTheHyperbolicCosine) {
+  const NoForce none;
+  const Flow<double> flow(unstable(0.0), none);
+  const Divergence divergence = measure_divergence(flow, flow.table().methods[1], 1e-3, 0.1, 40);
+  // Separations grow as exp(5 t); cosh and the direction's share of the growing mode cost a constant factor.
+  EXPECT_NEAR(std::log(divergence.growth[40] / divergence.growth[20]) / 2, 5, 0.01);
+  EXPECT_EQ(intervals_until(divergence, 1e30), 40);
+  const long trusted = intervals_until(divergence, 1e4);
+  EXPECT_LE(divergence.growth[std::size_t(trusted)], 1e4);
+  EXPECT_GT(divergence.growth[std::size_t(trusted) + 1], 1e4);
+}
+
+TEST(Transitions, TurnThePhasePlane) {
+  const NoForce none;
+  const Flow<double> flow(oscillator(0.0), none);
+  std::vector<Point<double>> points;
+  for (int k = 0; k <= 100; ++k) points.push_back({0.01 * k, {std::cos(0.01 * k), -std::sin(0.01 * k)}});
+  Eigen::MatrixXd product = Eigen::Matrix2d::Identity();
+  for (const Eigen::MatrixXd& transition : transition_matrices(flow, points)) product = transition * product;
+  Eigen::Matrix2d turn;
+  turn << std::cos(1.0), std::sin(1.0), -std::sin(1.0), std::cos(1.0);
+  EXPECT_LT((product - turn).norm(), 1e-4);
+}
+
+/// The oscillator's study.
+struct Oscillator {
+  NoForce none;
+  Flow<double> flow{oscillator(0.0), none};
+  Flow<LongReal> long_flow{oscillator(LongReal()), none};
+  ReferenceSolution reference =
+      solve_reference(flow, &long_flow, ReferenceKind::kAutomatic, kSampling, 32, 4, 4, kSilent);
+  std::vector<double> steps = {kSampling, kSampling / 2, kSampling / 4, kSampling / 8, kSampling / 16};
+
+  WorkPrecision work() { return study_work_precision(flow, steps, kSampling, reference, true, {0}, kSilent); }
+};
+
+TEST(WorkPrecision, ErrorsAreTheTrueOnesAndOrdersTheMethodsOwn) {
+  Oscillator study;
+  const WorkPrecision work = study.work();
+  ASSERT_EQ(work.points.size(), 10u);
+  // One step of the method multiplies y + i y' by 1 − ih (Euler) or the first five terms of exp(−ih).
+  for (const WorkPoint& point : work.points) {
+    std::complex<long double> factor = 1, x = 1, power = 1;
+    for (int k = 1; k <= (point.method == 0 ? 1 : 4); ++k) {
+      power *= std::complex<long double>(0, -static_cast<long double>(point.h)) / static_cast<long double>(k);
+      factor += power;
+    }
+    for (long i = 0; i < std::lround(2 / point.h); ++i) x *= factor;
+    const long double error = std::fabs(x.real() - std::cos(2.0L));
+    EXPECT_NEAR(point.end.position, double(error), 1e-14);
+    ASSERT_TRUE(point.energy_drift);
+    EXPECT_GT(*point.energy_drift, 0);
+  }
+  EXPECT_NEAR(*work.orders[0], 1, 0.01);
+  EXPECT_NEAR(*work.orders[1], 4, 0.01);
+}
+
+TEST(WorkPrecision, TheParetoFrontHasNoPointThatAnotherBeats) {
+  std::vector<WorkPoint> points(4);
+  const auto set = [](WorkPoint& point, double time, double error) {
+    point.run_time = time;
+    point.largest.position = error;
+  };
+  set(points[0], 1, 1e-3);
+  set(points[1], 2, 1e-6);
+  set(points[2], 3, 1e-5);
+  set(points[3], 0.5, 1e-9);
+  points[3].finite = false;
+  mark_pareto_front(points);
+  EXPECT_TRUE(points[0].pareto);
+  EXPECT_TRUE(points[1].pareto);
+  EXPECT_FALSE(points[2].pareto);
+  EXPECT_FALSE(points[3].pareto);
+}
+
+TEST(ErrorSources, TogetherPredictTheMeasuredError) {
+  Oscillator study;
+  const auto transitions = transition_matrices(study.flow, study.reference.points);
+  for (std::size_t method = 0; method < 2; ++method)
+    for (std::size_t stride : {1u, 2u, 4u}) {
+      const ErrorSources s =
+          error_sources(study.flow, study.long_flow, method, study.reference, transitions, stride);
+      EXPECT_LT(s.difference.position, 0.03 * s.measured.position);
+      EXPECT_LT(s.rounding.position, 1e-14);
+      // Each step of Euler's method misses h²/2 |x''|, of the fourth-order one h⁵/120: summed over |cos| on 2 s.
+      const double local = method == 0 ? s.h / 2 : std::pow(s.h, 4) / 120;
+      EXPECT_GT(s.truncation.position, local);
+      EXPECT_LT(s.truncation.position, 2 * local);
+    }
+}
+
+TEST(Advice, IsTheCheapestThatKeepsTheTolerance) {
+  Oscillator study;
+  const WorkPrecision work = study.work();
+  const auto advice = advise({1e-6, {}}, work, study.flow, kSampling, study.reference, {0});
+  ASSERT_TRUE(advice);
+  EXPECT_EQ(advice->method, 1u);
+  EXPECT_LE(advice->error.position, 1e-6);
+  EXPECT_TRUE(advice->confirmed);
+  for (const WorkPoint& point : work.points) {
+    if (point.largest.position <= 1e-6) {
+      EXPECT_GE(advice->h, point.h);
+    }
+  }
+  EXPECT_FALSE(advise({1e-30, {}}, work, study.flow, kSampling, study.reference, {0}));
+  EXPECT_FALSE(advise({{}, 1e-15}, work, study.flow, kSampling, study.reference, {0}));
+}
+
+TEST(Advice, IsTheMostAccurateWithinABudget) {
+  Oscillator study;
+  const WorkPrecision work = study.work();
+  Question question;
+  question.budget = 1.0;
+  question.period = kSampling;
+  const auto advice = advise(question, work, study.flow, kSampling, study.reference, {0});
+  ASSERT_TRUE(advice);
+  for (const WorkPoint& point : work.points) EXPECT_LE(advice->error.position, point.largest.position);
+}
+
+}  // namespace
+}  // namespace jourdain::tests
