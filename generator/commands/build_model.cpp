@@ -17,17 +17,18 @@ struct NumberText {
   const char* type;
   const char* include;
   int parts;
+  const char* unit_roundoff;
   std::vector<std::string> compiler_options, link_options;
 };
 
 NumberText text_of(NumberType number) {
   switch (number) {
     case NumberType::kDouble:
-      return {"double", "", 1, {"-O2"}, {}};
+      return {"double", "", 1, "0x1p-53", {"-O2"}, {}};
     case NumberType::kFloat:
-      return {"float", "", 1, {"-O2"}, {}};
+      return {"float", "", 1, "0x1p-24", {"-O2"}, {}};
     case NumberType::kLong:
-      return {"jourdain::LongReal", "#include \"long_real.hpp\"\n", 4, {"-O1"}, {"-lcln"}};
+      return {"jourdain::LongReal", "#include \"long_real.hpp\"\n", 4, "0x1p-166", {"-O1"}, {"-lcln"}};
   }
   return {};
 }
@@ -120,6 +121,7 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
        {"OUTPUTS", outputs},
        {"METHODS", methods},
        {"OUTPUT_COUNT", with_outputs ? "sizeof(Model::Outputs) / sizeof(Real)" : "0"},
+       {"UNIT_ROUNDOFF", number.unit_roundoff},
        {"METHOD_COUNT", fmt::format("{}", method_count)},
        {"DYNAMICS_OPERATIONS", fmt::format("{}L", dynamics + rate)},
        {"OUTPUTS_POINTER", with_outputs ? "outputs" : "nullptr"}});

@@ -65,13 +65,22 @@ LoadedModels build_models(const Arguments& arguments, const std::string& name, c
   bar.show("compiling the emitted code", 0);
   LoadedModels models{build_model(name, compiled, number_type(arguments.run.real)), {}};
   const bool large = models.working.table().dynamics_operations > kLargeScene;
-  if (arguments.reference == "cvode" || (large && arguments.reference == "auto")) return models;
+  const bool needed = arguments.run.real != "double";  // CVODE needs rates in double
+  if (!needed && (arguments.reference == "cvode" || (large && arguments.reference == "auto"))) return models;
   bar.show("compiling the emitted code for 50 digits", 0);
   models.precise = build_model(name, compiled, NumberType::kLong);
   return models;
 }
 
 int run(Arguments arguments) {
+  if (arguments.run.real != "double") {
+    if (arguments.reference == "cvode") {
+      fmt::print(stderr, "error: --reference cvode works in double; leave it out with --real {}\n",
+                 arguments.run.real);
+      return kUsage;
+    }
+    arguments.reference = "extrapolation";
+  }
   int status = kSuccess;
   const std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;

@@ -33,6 +33,7 @@ typedef struct jourdain_model_table {
   int parameter_count; /* tunable parameters */
   int output_count;    /* numbers of all outputs */
   int method_count;
+  double unit_roundoff;     /* largest relative error of one rounding */
   long dynamics_operations; /* arithmetic operations of the rates of y and z at one state */
   /* Names in order, closed by a null pointer. */
   const char* const* position_names;

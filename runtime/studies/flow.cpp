@@ -16,14 +16,6 @@ void append(const LongReal& number, std::vector<double>& parts) {
 }
 
 template <class Real>
-Real number_at(const double* parts) {
-  if constexpr (kParts<Real> == 1)
-    return *parts;
-  else
-    return Real::joined(parts, kParts<Real>);
-}
-
-template <class Real>
 std::vector<double> to_parts(std::span<const Real> numbers) {
   std::vector<double> parts;
   parts.reserve(numbers.size() * kParts<Real>);

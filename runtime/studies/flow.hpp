@@ -16,6 +16,15 @@ inline constexpr int kParts = 1;
 template <>
 inline constexpr int kParts<LongReal> = 4;
 
+/// The number that kParts<Real> doubles are the sum of.
+template <class Real>
+Real number_at(const double* parts) {
+  if constexpr (kParts<Real> == 1)
+    return *parts;
+  else
+    return Real::joined(parts, kParts<Real>);
+}
+
 /// Time (s) and x = (y, z).
 template <class Real>
 struct Point {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "studies/report.hpp"
@@ -148,6 +149,15 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
   if (study.judged < study.options.duration)
     list.push_back(fmt::format("beyond {} that factor passes {:g}: errors are judged up to there only",
                                time_text(study.judged), kJudgedGrowth));
+  double failing = INFINITY;  // shortest of the steps at which nothing works
+  for (const double h : study.steps) {
+    const bool works = std::any_of(study.work.points.begin(), study.work.points.end(),
+                                   [h](const WorkPoint& p) { return p.h == h && p.finite; });
+    if (works) break;
+    failing = h;
+  }
+  if (std::isfinite(failing))
+    list.push_back(fmt::format("every method fails with steps of {} and longer", time_text(failing)));
   if (study.reference.exact.empty())
     list.push_back("no solution in 50 digits (too costly here): the sources of the error are not told apart");
   if (study.reference.error > 1e-13)

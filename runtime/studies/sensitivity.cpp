@@ -11,7 +11,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSeparation = 1e-7;  ///< initial, over 1 + |x|: rounding is small beside it, the square too
+/// Initial separation, over 1 + |x|: rounding is small beside it, the square too.
+double separation_of(const Flow<double>& flow) { return 6 * std::sqrt(flow.table().unit_roundoff); }
+
 constexpr int kDirections = 4;
 
 Eigen::Map<const VectorXd> as_vector(const std::vector<double>& x) {
@@ -30,7 +32,8 @@ MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point) {
   const auto n = static_cast<Eigen::Index>(flow.size());
   MatrixXd result(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double entry = point.x[std::size_t(i)], delta = 6e-6 * (1 + std::fabs(entry));
+    const double entry = point.x[std::size_t(i)],
+                 delta = std::cbrt(2 * flow.table().unit_roundoff) * (1 + std::fabs(entry));
     std::vector<double> above = point.x, below = point.x;
     above[std::size_t(i)] = entry + delta;
     below[std::size_t(i)] = entry - delta;
@@ -80,12 +83,13 @@ Divergence measure_divergence(const Flow<double>& flow, const jourdain_method& m
   std::mt19937_64 random(20261121);
   const auto uniform = [&random] { return 2 * std::ldexp(static_cast<double>(random()), -64) - 1; };
   Point<double> base = flow.start();
+  const auto length = [&] { return separation_of(flow) * scale_of(base.x).maxCoeff(); };
   std::vector<VectorXd> separations;
   std::vector<double> logarithms(kDirections, 0.0);
   for (int d = 0; d < kDirections; ++d) {
     VectorXd direction = VectorXd::NullaryExpr(static_cast<Eigen::Index>(flow.size()), uniform);
     direction = direction.cwiseProduct(scale_of(base.x));
-    separations.push_back(kSeparation * direction / direction.norm());
+    separations.push_back(length() * direction / direction.norm());
   }
   Divergence result{interval, {1.0}, 0};
   const long steps = std::lround(interval / h);
@@ -101,8 +105,8 @@ Divergence measure_divergence(const Flow<double>& flow, const jourdain_method& m
       const VectorXd separation = as_vector(near[d].x) - as_vector(base.x);
       const double norm = separation.norm();
       if (!std::isfinite(norm) || norm == 0) return result;
-      logarithms[d] += std::log(norm / kSeparation);
-      separations[d] = kSeparation * separation / norm;
+      logarithms[d] += std::log(norm / separations[d].norm());
+      separations[d] = length() * separation / norm;
       growth = std::max(growth, std::exp(std::min(logarithms[d], 600.0)));
     }
     result.growth.push_back(growth);

@@ -50,17 +50,23 @@ std::string compliant_panda(const std::string& folder) {
   return path;
 }
 
-/// The reports that the issue of errors is judged by, made once.
+/// Reports on six scenes, made once.
 class Reports : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new support::TemporaryFolder;
     const std::string sweep = (kSource / "models/scenarios/panda_sweep.toml").string();
-    for (const char* name : {"pendulum", "double_pendulum", "lagrange_top", "spring_pendulum"})
+#ifdef JOURDAIN_SANITIZED  // arithmetic in 50 digits is too slow there; the release build makes all of them
+    make("pendulum", {model("pendulum"), "--effort", "0.5"});
+    return;
+#endif
+    make("pendulum", {model("pendulum"), "--effort", "3"});
+    for (const char* name : {"double_pendulum", "lagrange_top", "spring_pendulum"})
       make(name, {model(name), "--effort", "1"});
     // The load hardly swings: errors of the best methods vanish in rounding unless steps are long.
     make("crane", {model("crane"), "--longest-step", "64ms", "--halvings", "9", "--effort", "1"});
-    make("panda", {compliant_panda(folder_->path()), "--inputs", sweep, "--effort", "4"});
+    make("panda", {compliant_panda(folder_->path()), "--inputs", sweep, "--effort", "4", "--reference",
+                   "extrapolation"});
   }
   static void TearDownTestSuite() { delete folder_; }
 
@@ -93,7 +99,9 @@ std::map<std::string, json> Reports::reports_;
 std::map<std::string, std::string> Reports::texts_;
 
 TEST_F(Reports, OrdersAreTheMethodsOwn) {
+#ifndef JOURDAIN_SANITIZED
   EXPECT_EQ(reports_.size(), 6u);
+#endif
   for (const auto& [name, report] : reports_) {
     std::string line = fmt::format("{:<16}", name);
     EXPECT_EQ(report["methods"].size(), 7u);
@@ -144,12 +152,14 @@ TEST_F(Reports, RoundingShowsOnThePendulum) {
       EXPECT_LT(error, 1e-12);
       EXPECT_GT(error, 1e-16);
     }
+#ifndef JOURDAIN_SANITIZED  // too few steps in 50 digits for slopes
   for (const json& method : reports_["pendulum"]["methods"])
     if (method["name"] == "rk5") {
       EXPECT_GT(method["sources"]["rounding_dominates_below_s"].get<double>(), 1e-4);
       EXPECT_LT(method["sources"]["rounding_dominates_below_s"].get<double>(), 1e-2);
       EXPECT_LT(method["sources"]["rounding_slope"].get<double>(), 0);
     }
+#endif
 }
 
 TEST_F(Reports, RecommendationsAreConfirmedByTheirRun) {
@@ -169,6 +179,7 @@ TEST_F(Reports, TheReferenceIsBetterThanEveryMethod) {
 }
 
 TEST_F(Reports, AFollowedMotionIsItsOwnExactSolution) {
+  if (!reports_.count("panda")) GTEST_SKIP() << "the Panda's report is made in the release build only";
   // The sweep ends where it starts, so that the error at the end is the distance to the start.
   const std::string csv = folder_->path() + "/sweep.csv";
   const support::ProcessResult result =

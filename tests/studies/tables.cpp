@@ -7,14 +7,7 @@ namespace jourdain::tests {
 namespace {
 
 using studies::kParts;
-
-template <class Real>
-Real number_at(const double* parts) {
-  if constexpr (kParts<Real> == 1)
-    return *parts;
-  else
-    return Real::joined(parts, kParts<Real>);
-}
+using studies::number_at;
 
 void put(double number, double* parts) { *parts = number; }
 void put(const LongReal& number, double* parts) { number.split(parts, kParts<LongReal>); }
@@ -83,9 +76,10 @@ struct System {
     static const char* const no_names[] = {nullptr};
     static const jourdain_method methods[] = {{"first", 1, 1, 0, 8, steps<false>},
                                               {"fourth", 4, 4, 0, 40, steps<true>}};
-    static const jourdain_model_table result = {P,       1,     1,       1,       0,         0,       2,
-                                                4,       names, names,   names,   no_names,  methods, nullptr,
-                                                initial, rates, nullptr, kinetic, potential, nullptr};
+    const double roundoff = P == 1 ? 0x1p-53 : 0x1p-166;
+    static const jourdain_model_table result = {
+        P,     1,        1,       1,       0,       0,     2,       roundoff, 4,         names,  names,
+        names, no_names, methods, nullptr, initial, rates, nullptr, kinetic,  potential, nullptr};
     return result;
   }
 };
