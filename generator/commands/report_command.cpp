@@ -72,7 +72,20 @@ LoadedModels build_models(const Arguments& arguments, const std::string& name, c
   return models;
 }
 
+/// False after a message.
+bool check_steps(const studies::StudyOptions& options) {
+  const double steps = std::ldexp(options.duration / options.longest_step, options.halvings);
+  if (steps <= kMostSteps) return true;
+  fmt::print(stderr,
+             "error: --duration {:g} with --longest-step {:g} and {} halvings is {:.3g} of the shortest "
+             "steps; {:g} are "
+             "possible\n",
+             options.duration, options.longest_step, options.halvings, steps, kMostSteps);
+  return false;
+}
+
 int run(Arguments arguments) {
+  if (!check_steps(arguments.study)) return kUsage;
   if (arguments.run.real != "double") {
     if (arguments.reference == "cvode") {
       fmt::print(stderr, "error: --reference cvode works in double; leave it out with --real {}\n",

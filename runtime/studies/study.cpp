@@ -129,6 +129,7 @@ SourceSummary summarise(std::size_t method, const Study& study) {
     rounding_h.push_back(point.h);
     rounding.push_back(point.rounding.position);
   }
+  constexpr double kReach = 100;    // how far beyond the steps tried the lines are trusted to cross
   constexpr std::size_t kTail = 3;  // the shortest steps: asymptotic
   const auto truncation_line = fitted(tail(h, kTail), tail(truncation, kTail));
   const auto propagated_line = fitted(tail(h, kTail), tail(propagated, kTail));
@@ -139,8 +140,11 @@ SourceSummary summarise(std::size_t method, const Study& study) {
   if (propagated_line && rounding_line && propagated_line->slope > rounding_line->slope + 0.5) {
     const double crossing =
         (rounding_line->offset - propagated_line->offset) / (propagated_line->slope - rounding_line->slope);
-    summary.rounding_step = std::exp(crossing);
-    summary.rounding_step_extrapolated = *summary.rounding_step < rounding_h.back();
+    const double step = std::exp(crossing);
+    if (step > rounding_h.back() / kReach && step < h.front() * kReach) {
+      summary.rounding_step = step;
+      summary.rounding_step_extrapolated = step < rounding_h.back() || step > h.front();
+    }
   }
   return summary;
 }

@@ -29,7 +29,9 @@ struct StudyOptions {
 struct SourceSummary {
   std::size_t method = 0;
   std::optional<double> truncation_slope, propagation_slope, rounding_slope;  ///< of log(part) over log(h)
-  std::optional<double> rounding_step;  ///< below this h (s) rounding is larger than what was propagated
+  std::optional<double>
+      rounding_step;  ///< below this h (s) rounding is larger than what was propagated; none
+                      ///< where that is far from the steps tried
   bool rounding_step_extrapolated = false;
   std::optional<double> linear_until;  ///< longest h (s) at which the parts predict the error within 10 %
 };

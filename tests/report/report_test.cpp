@@ -268,6 +268,9 @@ TEST(Report, FailuresOfTheEnvironmentEndWithStatusThree) {
   expect(jourdain({"report", model("pendulum"), "-o", out, "--tolerance", "1e-6", "--budget", "1us"}), 2,
          "--budget");
   expect(jourdain({"report", model("pendulum"), "-o", out, "--budget", "1 parsec"}), 2, "20us");
+  expect(jourdain({"report", model("pendulum"), "-o", out, "--duration", "1000000s"}), 2, "are possible");
+  expect(jourdain({"report", model("pendulum"), "-o", out, "--real", "float", "--reference", "cvode"}), 2,
+         "double");
   expect(jourdain({"report", model("pendulum"), "-o", out, "--set", "length=1"}), 2, "no parameter 'length'");
   expect(jourdain({"report", model("pendulum"), "-o", out, "--methods", "rk44"}), 2, "did you mean 'rk4'");
   EXPECT_FALSE(fs::exists(out));
