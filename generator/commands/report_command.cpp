@@ -23,6 +23,7 @@ namespace jourdain::commands {
 
 namespace {
 
+constexpr double kMostSteps = 2e7;  ///< of the shortest length
 constexpr long kLargeScene =
     5000;  ///< operations of forward dynamics beyond which 50 digits must be asked for
 
