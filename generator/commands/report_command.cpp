@@ -85,16 +85,61 @@ bool check_steps(const studies::StudyOptions& options) {
   return false;
 }
 
-int run(Arguments arguments) {
-  if (!check_steps(arguments.study)) return kUsage;
+/// Settles what the options leave open; false after a message.
+bool settle(Arguments& arguments) {
+  if (!check_steps(arguments.study)) return false;
   if (arguments.run.real != "double") {
     if (arguments.reference == "cvode") {
       fmt::print(stderr, "error: --reference cvode works in double; leave it out with --real {}\n",
                  arguments.run.real);
-      return kUsage;
+      return false;
     }
     arguments.reference = "extrapolation";
   }
+  arguments.study.reference = reference_kind(arguments.reference);
+  if (arguments.tolerance > 0) arguments.study.question.tolerance = arguments.tolerance;
+  if (arguments.budget > 0) arguments.study.question.budget = arguments.budget;
+  if (arguments.methods.empty())
+    for (const emit::Stepper& stepper : emit::all_steppers()) arguments.methods.push_back(stepper.name);
+  return true;
+}
+
+studies::Study make_study(const Arguments& arguments, const RunModel& model, const RunInputs& inputs,
+                          studies::Flow<double>& flow, const jourdain_model_table* long_table,
+                          ProgressBar& bar) {
+  flow.set_start(inputs.start);
+  std::optional<studies::Flow<LongReal>> long_flow;
+  if (long_table) {
+    long_flow.emplace(*long_table, *inputs.inputs);
+    long_flow->set_start(flow.start().x);
+  }
+  studies::StudyOptions options = arguments.study;
+  options.conserves_energy = inputs.what.empty() && conserves_energy(model.loaded.mechanism);
+  return studies::run_study(model.loaded.mechanism, model.parameters, flow, long_flow ? &*long_flow : nullptr,
+                            *inputs.inputs, options,
+                            [&bar](const std::string& what, double done) { bar.show(what, done); });
+}
+
+/// Writes the files and prints what they say.
+void write_report(const Arguments& arguments, const std::string& folder, const studies::ReportHead& head,
+                  const studies::Flow<double>& flow, const studies::Study& study, const Figure& figure,
+                  ProgressBar& bar) {
+  std::vector<support::FileText> files = studies::report_csv(flow.table(), study);
+  files.push_back({"report.json", studies::report_json(head, flow.table(), study)});
+  if (arguments.plots) {
+    bar.show("drawing", 0.5);
+    for (support::FileText& file : report_pages(head, flow, study, figure)) files.push_back(std::move(file));
+  }
+  support::write_files(folder, files);
+  bar.clear();
+  fmt::print("{}  wrote", studies::report_text(head, flow.table(), study));
+  for (const support::FileText& file : files)
+    fmt::print(" {}", (std::filesystem::path(folder) / file.name).generic_string());
+  fmt::print("\n");
+}
+
+int run(Arguments arguments) {
+  if (!settle(arguments)) return kUsage;
   int status = kSuccess;
   const std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
@@ -106,14 +151,11 @@ int run(Arguments arguments) {
     fmt::print(stderr, "error: '{}' has no degree of freedom: nothing is integrated\n", name);
     return kModelWrong;
   }
-
   ProgressBar bar;
+  bar.show("deriving the equations", 0);
   const Figure figure = make_figure(model->loaded.mechanism);
   CompileOptions options = model->loaded.options;
-  if (arguments.methods.empty())
-    for (const emit::Stepper& stepper : emit::all_steppers()) arguments.methods.push_back(stepper.name);
   options.functions = loadable_functions(arguments.methods);
-  bar.show("deriving the equations", 0);
   const CompiledModel compiled = compile(figure.mechanism, options);
   if (!compiled.verdict.accepted()) {
     print_refusal(compiled.verdict);
@@ -126,36 +168,9 @@ int run(Arguments arguments) {
     if (t) set_parameters(*t, model->parameters);
   const std::optional<RunInputs> inputs = read_inputs(arguments.run, *model, table, long_table, status);
   if (!inputs) return status;
-
   studies::Flow<double> flow(table, *inputs->inputs);
-  flow.set_start(inputs->start);
-  std::optional<studies::Flow<LongReal>> long_flow;
-  if (long_table) {
-    long_flow.emplace(*long_table, *inputs->inputs);
-    long_flow->set_start(flow.start().x);
-  }
-  arguments.study.reference = reference_kind(arguments.reference);
-  if (arguments.tolerance > 0) arguments.study.question.tolerance = arguments.tolerance;
-  if (arguments.budget > 0) arguments.study.question.budget = arguments.budget;
-  arguments.study.conserves_energy = inputs->what.empty() && conserves_energy(model->loaded.mechanism);
-  const studies::Study study = studies::run_study(
-      model->loaded.mechanism, model->parameters, flow, long_flow ? &*long_flow : nullptr, *inputs->inputs,
-      arguments.study, [&bar](const std::string& what, double done) { bar.show(what, done); });
-
-  const studies::ReportHead head = head_of(arguments, model->loaded, inputs->what);
-  std::vector<support::FileText> files = studies::report_csv(table, study);
-  files.push_back({"report.json", studies::report_json(head, table, study)});
-  if (arguments.plots) {
-    bar.show("drawing", 0.5);
-    for (support::FileText& file : report_pages(head, flow, study, figure)) files.push_back(std::move(file));
-  }
-  support::write_files(folder, files);
-  bar.clear();
-  fmt::print("{}", studies::report_text(head, table, study));
-  fmt::print("  wrote");
-  for (const support::FileText& file : files)
-    fmt::print(" {}", (std::filesystem::path(folder) / file.name).generic_string());
-  fmt::print("\n");
+  const studies::Study study = make_study(arguments, *model, *inputs, flow, long_table, bar);
+  write_report(arguments, folder, head_of(arguments, model->loaded, inputs->what), flow, study, figure, bar);
   return kSuccess;
 }
 
