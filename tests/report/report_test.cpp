@@ -279,13 +279,15 @@ TEST(Report, FailuresOfTheEnvironmentEndWithStatusThree) {
 TEST(Report, KilledHalfWayLeavesNothing) {
   const support::TemporaryFolder folder, temporary;
   const std::string out = folder.path() + "/out";
-  for (const int delay : {100, 500, 1500}) {
+  for (const int delay : {0, 300, 1500}) {  // ms after it began to compile
     const std::string setting = "TMPDIR=" + temporary.path();
     const std::string path = model("lagrange_top");
     const char* arguments[] = {"env", setting.c_str(), JOURDAIN_BINARY, "report", path.c_str(),
                                "-o",  out.c_str(),     nullptr};
     pid_t child = 0;
     ASSERT_EQ(posix_spawnp(&child, "env", nullptr, nullptr, const_cast<char**>(arguments), environ), 0);
+    for (int i = 0; i < 3000 && fs::is_empty(temporary.path()); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::milliseconds(delay));
     kill(child, SIGTERM);
     int status = 0;
