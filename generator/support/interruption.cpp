@@ -21,7 +21,7 @@ constexpr int kExitStatus = 3;
 
 /// A signal concerns the whole program, so this is the one state that the program shares.
 struct Interruption {
-  std::mutex mutex;  ///< held while nothing may be interrupted
+  std::recursive_mutex mutex;  ///< held while nothing may be interrupted
   std::set<std::string> folders;
   std::set<pid_t> processes;
 };
@@ -47,16 +47,21 @@ void end(pid_t process) {
   kill(-process, SIGKILL);
 }
 
+/// The rest of the program may still be writing into it: again, then.
+void remove_folder(const std::string& folder) {
+  constexpr int kPatience = 100;
+  std::error_code ignored;
+  for (int i = 0; i < kPatience && std::filesystem::exists(folder, ignored); ++i)
+    std::filesystem::remove_all(folder, ignored);
+}
+
 [[noreturn]] void wait_for_signal() {
   const sigset_t signals = ending_signals();
   int signal = 0;
   while (sigwait(&signals, &signal) != 0) continue;
   const std::lock_guard lock(interruption().mutex);
   for (const pid_t process : interruption().processes) end(process);
-  for (const std::string& folder : interruption().folders) {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
-  }
+  for (const std::string& folder : interruption().folders) remove_folder(folder);
   fmt::print(stderr, "\nerror: interrupted; what was not finished was not written\n");
   std::fflush(stderr);
   _exit(kExitStatus);

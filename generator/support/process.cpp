@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "support/check.hpp"
 
@@ -16,18 +17,14 @@ extern char** environ;
 
 namespace jourdain::support {
 
-ProcessResult run_process(const std::vector<std::string>& command) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    throw EnvironmentError(std::string("cannot make a pipe: ") + std::strerror(errno));
+namespace {
+
+/// Starts `command` with both its outputs going to `output`; throws EnvironmentError.
+pid_t start(const std::vector<std::string>& command, int output) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  std::vector<char*> arguments;
-  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
-  pid_t child = 0;
+  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none;
@@ -35,20 +32,54 @@ ProcessResult run_process(const std::vector<std::string>& command) {
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setpgroup(&attributes, 0);  // so that all that it starts can be ended with it
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  pid_t child = 0;
   const int error = posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  ProcessResult result;
-  if (error != 0) {
-    close(ends[0]);
-    throw EnvironmentError("cannot run '" + command[0] + "': " + std::strerror(error));
+  if (error != 0) throw EnvironmentError("cannot run '" + command[0] + "': " + std::strerror(error));
+  return child;
+}
+
+/// A pipe, closed at the end of its life.
+struct Pipe {
+  int ends[2] = {-1, -1};
+
+  Pipe() {
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw EnvironmentError(std::string("cannot make a pipe: ") + std::strerror(errno));
   }
-  const EndedOnInterruption ended(child);
+  ~Pipe() {
+    close(ends[0]);
+    close_input();
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  void close_input() {
+    if (ends[1] >= 0) close(ends[1]);
+    ends[1] = -1;
+  }
+};
+
+}  // namespace
+
+ProcessResult run_process(const std::vector<std::string>& command) {
+  Pipe pipe;
+  pid_t child = 0;
+  std::optional<EndedOnInterruption> ended;
+  {
+    const Uninterrupted until_known;
+    child = start(command, pipe.ends[1]);
+    ended.emplace(child);
+  }
+  pipe.close_input();
+  ProcessResult result;
   char buffer[4096];
-  for (ssize_t count; (count = read(ends[0], buffer, sizeof buffer)) > 0;)
+  for (ssize_t count; (count = read(pipe.ends[0], buffer, sizeof buffer)) > 0;)
     result.output.append(buffer, static_cast<std::size_t>(count));
-  close(ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -56,6 +87,7 @@ ProcessResult run_process(const std::vector<std::string>& command) {
 }
 
 TemporaryFolder::TemporaryFolder() {
+  const Uninterrupted until_known;
   std::string pattern = (std::filesystem::temp_directory_path() / "jourdain-XXXXXX").string();
   if (!mkdtemp(pattern.data()))
     throw EnvironmentError("cannot make a folder like '" + pattern + "': " + std::strerror(errno));
