@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "ir/lower.hpp"
 #include "model/coordinates.hpp"
@@ -170,7 +171,7 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
 ir::Module lower_functions(const Equations& equations, const std::vector<emit::FunctionInfo>& functions) {
   ir::Module module;
   for (const emit::FunctionInfo& function : functions)
-    if (function.shape != emit::Shape::kStep)
+    if (function.shape != emit::Shape::kStep && !function.holds_derivatives)
       module.functions.push_back(
           ir::lower(equations.statements, targets_of(function.name, equations), function.name));
   return module;
@@ -178,8 +179,14 @@ ir::Module lower_functions(const Equations& equations, const std::vector<emit::F
 
 emit::SceneShape shape_of(const model::Mechanism& mechanism) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  return {layout.position_count(), layout.velocity_count(), layout.quaternions.size(),
-          mechanism.outputs.size()};
+  emit::SceneShape shape;
+  shape.positions = layout.position_count();
+  shape.velocities = layout.velocity_count();
+  shape.quaternions = layout.quaternions.size();
+  shape.outputs = mechanism.outputs.size();
+  shape.inputs = layout.input_count();
+  shape.rheonomic = layout.rheonomic;
+  return shape;
 }
 
 void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
@@ -202,8 +209,11 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
     result.articulation = choose_articulation(mechanism, options.derivation);
   chosen.derivation.articulated = result.articulation.links;
   const Equations equations = dynamics::derive_equations(mechanism, chosen.derivation);
-  passes::Optimised optimised =
-      passes::optimise(lower_functions(equations, result.functions), options.passes_off);
+  ir::Module lowered = lower_functions(equations, result.functions);
+  for (ir::Program& program :
+       derivative_programs(mechanism, options.derivation, result.functions, options.derivative_terms))
+    lowered.functions.push_back(std::move(program));
+  passes::Optimised optimised = passes::optimise(std::move(lowered), options.passes_off);
   result.module = std::move(optimised.module);
   result.passes = std::move(optimised.records);
   result.omissions = find_omissions(mechanism, chosen, equations, result);
@@ -211,10 +221,22 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
   return result;
 }
 
+namespace {
+
+Equations weightless(model::Mechanism mechanism) {
+  mechanism.gravity = {0.0, 0.0, 0.0};
+  return dynamics::derive_equations(mechanism);
+}
+
+}  // namespace
+
 void validate_and_emit(const model::Mechanism& mechanism, const Equations& equations,
                        const CompileOptions& options, CompiledModel& result) {
   result.files.clear();
-  result.verdict = validate::validate_translation(mechanism, equations, result.module);
+  std::optional<Equations> load;
+  if (options.derivative_terms == DerivativeTerms::kApplied) load = weightless(mechanism);
+  result.verdict =
+      validate::validate_translation(mechanism, equations, result.module, 8, load ? &*load : nullptr);
   result.assumptions = assumptions(mechanism, options, result.verdict);
   if (!result.verdict.accepted()) return;
   emit::ModelText text = model_text(mechanism, options);

@@ -7,6 +7,7 @@
 #include "articulation.hpp"
 #include "dynamics/equations.hpp"
 #include "emit/files.hpp"
+#include "linearization.hpp"
 #include "model/mechanism.hpp"
 #include "passes/pipeline.hpp"
 #include "support/diagnostics.hpp"
@@ -18,6 +19,7 @@ struct CompileOptions {
   std::string name;  ///< namespace and file name; empty: made from the model's name
   std::vector<std::string> functions = emit::default_functions();
   dynamics::DerivationOptions derivation;
+  DerivativeTerms derivative_terms = DerivativeTerms::kAll;
   std::vector<std::string> passes_off;  ///< names of passes to leave out
   std::string path;                     ///< of the description, as printed in the emitted files
   std::string sha256;                   ///< of the description
@@ -59,7 +61,7 @@ void validate_and_emit(const model::Mechanism& mechanism, const dynamics::Equati
 
 emit::SceneShape shape_of(const model::Mechanism& mechanism);
 
-/// Equations lowered to one program per function, before any pass.
+/// Equations lowered to one program per function that holds no derivatives, before any pass.
 ir::Module lower_functions(const dynamics::Equations& equations,
                            const std::vector<emit::FunctionInfo>& functions);
 

@@ -43,12 +43,17 @@ class Derivation {
     equations.k_bar = k_bar();
     equations.q_bar = q_bar(applied);
     equations.zdot = accelerations(applied);
-    equations.tau = inverse_dynamics();
+    equations.tau = inverse_dynamics("a", derive_applied_forces(scene_, Inputs::kZero));
+    if (options_.for_derivatives) {
+      equations.residual = inverse_dynamics("r", applied);
+      equations.load = load(applied);
+    }
     equations.kinetic_energy = derive_kinetic_energy(scene_);
     equations.potential_energy = derive_potential_energy(scene_);
     set_initial_state(equations);
     for (const model::Output& output : mechanism_.outputs) equations.output_names.push_back(output.name);
-    equations.outputs = derive_outputs(scene_, equations, applied);
+    equations.outputs = derive_outputs(
+        scene_, equations, options_.for_derivatives ? scene_.leaves.zdot : equations.zdot, applied);
     equations.statements = std::move(scene_.statements);
     return equations;
   }
@@ -191,6 +196,13 @@ class Derivation {
     return rows;
   }
 
+  /// q̄ without gravity.
+  std::vector<Ex> load(const AppliedForces& applied) {
+    std::vector<Ex> forces = external_rows(pushes(applied, "l"), "l");
+    for (Ex& force : forces) force = -force;
+    return forces;
+  }
+
   std::vector<Ex> q_bar(const AppliedForces& applied) {
     std::vector<Ex> q = external_rows(pushes(applied, "q"), "q");
     std::vector<Vector3> gravity;
@@ -245,16 +257,20 @@ class Derivation {
           statements_.bind(fmt::format("zdot_{}", first + k), turned[k] + scene_.tree.gravity[k]);
   }
 
-  std::vector<Ex> inverse_dynamics() {
-    const AppliedForces applied = derive_applied_forces(scene_, Inputs::kZero);
-    std::vector<std::vector<Ex>> rows =
-        generalized(inertia_forces("a", scene_.leaves.zdot, Gravity::kAsAcceleration), applied.on_link, "a");
+  /// M ż − k̄ + q̄ with ż a leaf.
+  std::vector<Ex> inverse_dynamics(const std::string& name, const AppliedForces& applied) {
+    std::vector<std::vector<Ex>> rows = generalized(
+        inertia_forces(name, scene_.leaves.zdot, Gravity::kAsAcceleration), applied.on_link, name);
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (std::size_t c = 0; c < rows[i].size(); ++c)
         rows[i][c] = statements_.bind(named("tau", i, c), rows[i][c] - applied.along[i][c]);
-    std::vector<Ex> tau = external_rows(rows, "a");
+    std::vector<Ex> tau = external_rows(rows, name);
     for (std::size_t i = 0; i < scene_.link_count(); ++i)
       if (scene_.tree.links[i].kind == LinkKind::kFree) add_falling_mass(tau, i);
+    return with_rotors(std::move(tau));
+  }
+
+  std::vector<Ex> with_rotors(std::vector<Ex> tau) {
     for (const model::Actuator& actuator : mechanism_.actuators) {
       if (actuator.rotor_inertia.is_zero()) continue;
       const std::size_t e = *scene_.states[scene_.link_of(actuator.joint, actuator.coordinate)].entry;

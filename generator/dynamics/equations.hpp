@@ -17,6 +17,7 @@ struct DerivationOptions {
   kinematics::LinkTreeOptions link_tree;
   std::vector<bool> articulated;    ///< see ArticulatedLinks; empty: none but free links
   bool accelerations_only = false;  ///< nothing but zdot
+  bool for_derivatives = false;     ///< fills in residual and load; outputs take ż as a leaf
 };
 
 /// One requested output; entries are numbered row by row.
@@ -37,6 +38,8 @@ struct Equations {
   std::vector<Ex> q_bar;           ///< applied forces; a force along z makes it negative
   std::vector<Ex> zdot;            ///< M⁻¹ (k̄ − q̄)
   std::vector<Ex> tau;             ///< M ż − k̄ + q̄ at u = 0, with ż a leaf (inverse dynamics)
+  std::vector<Ex> residual;        ///< M ż − k̄ + q̄, with ż a leaf; only for derivatives
+  std::vector<Ex> load;            ///< of q̄ all but gravity; only for derivatives
   Ex kinetic_energy;               ///< J
   Ex potential_energy;             ///< J; gravity (zero at the inertial origin), joint springs and springs
   std::vector<Ex> initial_position;

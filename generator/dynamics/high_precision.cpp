@@ -21,9 +21,21 @@ cln::cl_R to_real(const GiNaC::numeric& number) {
 
 }  // namespace
 
+cln::cl_R to_exact(double value) { return to_real(ex_to<GiNaC::numeric>(kinematics::exact(value))); }
+
 HighPrecision::HighPrecision(const kinematics::Statements& statements, const LeafValue& leaf) {
-  for (const kinematics::Leaf& l : statements.leaves())
-    values_[l.symbol] = to_real(ex_to<GiNaC::numeric>(kinematics::exact(leaf(l.kind, l.index))));
+  evaluate(statements,
+           [&leaf](kinematics::LeafKind kind, std::size_t index) { return to_exact(leaf(kind, index)); });
+}
+
+HighPrecision HighPrecision::at(const kinematics::Statements& statements, const ExactLeafValue& leaf) {
+  HighPrecision result;
+  result.evaluate(statements, leaf);
+  return result;
+}
+
+void HighPrecision::evaluate(const kinematics::Statements& statements, const ExactLeafValue& leaf) {
+  for (const kinematics::Leaf& l : statements.leaves()) values_[l.symbol] = leaf(l.kind, l.index);
   for (const kinematics::Statement& statement : statements.all())
     values_[statement.name] = value(statement.value);
 }

@@ -125,8 +125,8 @@ class FrameView {
 
 class Outputs {
  public:
-  Outputs(Scene& scene, const Equations& equations, const AppliedForces& applied)
-      : scene_(scene), statements_(scene.statements), equations_(equations), applied_(applied) {}
+  Outputs(Scene& scene, const Equations& equations, const std::vector<Ex>& zdot, const AppliedForces& applied)
+      : scene_(scene), statements_(scene.statements), equations_(equations), zdot_(zdot), applied_(applied) {}
 
   std::vector<OutputValues> derive(const model::Output& output) {
     switch (output.kind) {
@@ -140,7 +140,7 @@ class Outputs {
       }
       case OutputKind::kAcceleration: {
         const Twist twist =
-            view(output).acceleration(link_accelerations(scene_, equations_.zdot, Gravity::kNone, "out"));
+            view(output).acceleration(link_accelerations(scene_, zdot_, Gravity::kNone, "out"));
         return {vector_values("a", twist.linear), vector_values("omega_dot", twist.angular)};
       }
       case OutputKind::kJacobian:
@@ -227,8 +227,7 @@ class Outputs {
   /// Newton's and Euler's equations of everything that the joint carries, with the parameters of the single bodies.
   std::vector<OutputValues> reaction(model::JointIndex joint) {
     const std::vector<bool> carried = carried_bodies(joint);
-    const std::vector<Twist> at =
-        link_accelerations(scene_, equations_.zdot, Gravity::kAsAcceleration, "react");
+    const std::vector<Twist> at = link_accelerations(scene_, zdot_, Gravity::kAsAcceleration, "react");
     const model::BodyIndex child = scene_.mechanism.joints[joint.value].child;
     const kinematics::BodyPose& pose = scene_.tree.bodies[child.value];
     if (pose.link == kGround) return ground_reaction(carried, at, pose);
@@ -305,8 +304,7 @@ class Outputs {
   /// The row of the equations of motion that belongs to a prescribed coordinate.
   Ex drive(const model::Output& output) {
     const std::size_t link = scene_.link_of(output.joint, output.coordinate);
-    const JointAccelerations motion =
-        joint_accelerations(scene_, equations_.zdot, Gravity::kAsAcceleration, "drive");
+    const JointAccelerations motion = joint_accelerations(scene_, zdot_, Gravity::kAsAcceleration, "drive");
     const InertiaForces inertia =
         derive_inertia_forces(scene_.tree, scene_.frames, scene_.states, scene_.composites, scene_.omega,
                               motion, "drive", statements_);
@@ -318,14 +316,16 @@ class Outputs {
   Scene& scene_;
   kinematics::Statements& statements_;
   const Equations& equations_;
+  const std::vector<Ex>& zdot_;
   const AppliedForces& applied_;
 };
 
 }  // namespace
 
 std::vector<std::vector<OutputValues>> derive_outputs(Scene& scene, const Equations& equations,
+                                                      const std::vector<Ex>& zdot,
                                                       const AppliedForces& applied) {
-  Outputs outputs(scene, equations, applied);
+  Outputs outputs(scene, equations, zdot, applied);
   std::vector<std::vector<OutputValues>> values;
   for (const model::Output& output : scene.mechanism.outputs) values.push_back(outputs.derive(output));
   return values;

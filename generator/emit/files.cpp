@@ -11,6 +11,7 @@
 #include "emit/names.hpp"
 #include "emit/signature.hpp"
 #include "emit/step_text.hpp"
+#include "emit/structs.hpp"
 #include "emit/templates.hpp"
 
 namespace jourdain::emit {
@@ -21,7 +22,13 @@ using ir::Program;
 namespace {
 
 SceneShape shape_of(const ModelText& model) {
-  return {model.positions.size(), model.velocities.size(), model.quaternions.size(), model.outputs.size()};
+  std::size_t numbers = 0;
+  for (const OutputDeclaration& output : model.outputs)
+    for (const OutputMember& member : output.members)
+      numbers += static_cast<std::size_t>(member.rows) * static_cast<std::size_t>(member.columns);
+  return {model.positions.size(), model.velocities.size(), model.quaternions.size(),
+          model.outputs.size(),   model.inputs.size(),     numbers,
+          model.rheonomic};
 }
 
 class Emitter {
@@ -30,7 +37,7 @@ class Emitter {
       : model_(model), functions_(functions), module_(module), scene_(shape_of(model)) {
     Names names({"Scalar", "Parameters", "State", "Input", "Model", "Real", "position_count",
                  "velocity_count", "input_count", "parameter_count", "output_count", "Outputs", "parameters",
-                 "model", "detail", "w", "RateHistory"});
+                 "model", "detail", "w", "RateHistory", "Linearization"});
     for (const ir::Output& output : module.constants.outputs) {
       const ir::Node& node = module.constants[output.value];
       const bool is_parameter = node.op == ir::Op::kLeaf;
@@ -53,9 +60,14 @@ class Emitter {
         {"NZ", fmt::format("{}", scene_.velocities)},
         {"NO", fmt::format("{}", scene_.outputs)},
         {"STATE", state_members()},
-        {"OUTPUTS", output_struct()},
+        {"OUTPUTS", output_struct(model_)},
         {"OUTPUTS_ALIAS",
          scene_.outputs == 0 ? "" : fmt::format("  using Outputs = {}::Outputs<Real>;\n", model_.name)},
+        {"LINEARIZATION", linearization_struct(functions_, scene_)},
+        {"LINEARIZATION_ALIAS",
+         linearizes(functions_)
+             ? fmt::format("  using Linearization = {}::Linearization<Real>;\n", model_.name)
+             : ""},
         {"STEP_SUPPORT", step_support(step_scene(), functions_)},
         {"HISTORY", history_struct(step_scene(), functions_)},
         {"NU", fmt::format("{}", model_.inputs.size())},
@@ -266,6 +278,9 @@ class Emitter {
                                       "w",     "initial", "detail", "Real"};
     reserved.insert(function.result);
     reserved.insert("result");
+    for (const ArrayResult& array : function.arrays) reserved.insert(array.name);
+    if (function.shape == Shape::kArrays || function.shape == Shape::kLinearization)
+      reserved.insert({"i", "j"});
     const auto output = [&](const ir::Output& out, const std::string& value) {
       return output_text(function, out, value);
     };
@@ -273,6 +288,8 @@ class Emitter {
         program(function.name), Names(reserved),
         [this](LeafKind kind, std::size_t i) { return leaf(kind, i); }, output);
     std::string text = body_text(function.name, body, list, parts);
+    for (const ArrayResult& array : function.arrays)
+      if (scene_.has(array)) text = cleared(function, array) + text;
     if (function.shape == Shape::kState)
       text = "  State<Real> initial;\n  initial.t = Real(0.0);\n" + text + "  return initial;\n";
     return "\ntemplate <class Real>\n" + wrapped(signature(function, "Real", scene_, &text) + " {", 0) +
@@ -291,6 +308,10 @@ class Emitter {
         return fmt::format("{}[{}] = {};", function.result, output.row, value);
       case Shape::kOutputs:
         return output_line(output, value);
+      case Shape::kArrays:
+        return fmt::format("{}{} = {};", output.name, subscripts(output), value);
+      case Shape::kLinearization:
+        return fmt::format("result.{}{} = {};", output.name, subscripts(output), value);
       case Shape::kMatrix:
         if (output.row == output.column)
           return fmt::format("{}[{}][{}] = {};", function.result, output.row, output.column, value);
@@ -304,10 +325,29 @@ class Emitter {
   }
 
   static std::string output_line(const ir::Output& output, const std::string& value) {
-    std::string subscripts;
-    if (output.row >= 0) subscripts += fmt::format("[{}]", output.row);
-    if (output.column >= 0) subscripts += fmt::format("[{}]", output.column);
-    return fmt::format("result.{}{} = {};", output.name, subscripts, value);
+    return fmt::format("result.{}{} = {};", output.name, subscripts(output), value);
+  }
+
+  static std::string subscripts(const ir::Output& output) {
+    std::string text;
+    if (output.row >= 0) text += fmt::format("[{}]", output.row);
+    if (output.column >= 0) text += fmt::format("[{}]", output.column);
+    return text;
+  }
+
+  /// Zeros for an array of which the program does not write every entry.
+  std::string cleared(const FunctionInfo& function, const ArrayResult& array) const {
+    std::size_t entries = 1;
+    for (const Extent extent : array.extents) entries *= scene_.count(extent);
+    for (const ir::Output& output : program(function.name).outputs) entries -= output.name == array.name;
+    if (entries == 0) return "";
+    const std::string name = (function.shape == Shape::kLinearization ? "result." : "") + array.name;
+    if (array.extents.size() == 1)
+      return fmt::format("  for (int i = 0; i < {}; ++i) {}[i] = Real(0.0);\n",
+                         scene_.count(array.extents[0]), name);
+    return fmt::format(
+        "  for (int i = 0; i < {}; ++i)\n    for (int j = 0; j < {}; ++j) {}[i][j] = Real(0.0);\n",
+        scene_.count(array.extents[0]), scene_.count(array.extents[1]), name);
   }
 
   std::string state_members() const {
@@ -315,30 +355,6 @@ class Emitter {
     if (scene_.positions > 0) text += fmt::format("  Real y[{}];\n", scene_.positions);
     if (scene_.velocities > 0) text += fmt::format("  Real z[{}];\n", scene_.velocities);
     return text;
-  }
-
-  std::string output_struct() const {
-    if (model_.outputs.empty()) return "";
-    std::string text =
-        "/// What the model description asks for; lengths in m, angles in rad, forces in N, moments in N "
-        "m.\n";
-    text += "template <class Real = double>\nstruct Outputs {\n";
-    for (const OutputDeclaration& output : model_.outputs) {
-      std::string members;
-      for (const OutputMember& member : output.members) {
-        std::string bounds;
-        if (member.rows > 1) bounds += fmt::format("[{}]", member.rows);
-        if (member.is_matrix) bounds += fmt::format("[{}]", member.columns);
-        if (member.name.empty())
-          text += fmt::format("  Real {}{};  ///< {}\n", output.name, bounds, comment_text(output.comment));
-        else
-          members += fmt::format("    Real {}{};\n", member.name, bounds);
-      }
-      if (!members.empty())
-        text += wrapped_doc(comment_text(output.comment), 2) +
-                fmt::format("  struct {{\n{}  }} {};\n", members, output.name);
-    }
-    return text + "};\n\n";
   }
 
   StepScene step_scene() const { return {scene_, !model_.inputs.empty(), model_.quaternions}; }

@@ -75,6 +75,48 @@ std::vector<FunctionInfo> computed_functions() {
   };
 }
 
+FunctionInfo array_function(const std::string& name, bool takes_acceleration, std::vector<ArrayResult> arrays,
+                            const std::string& comment) {
+  FunctionInfo info;
+  info.name = name;
+  info.shape = Shape::kArrays;
+  info.takes_input = true;
+  info.takes_acceleration = takes_acceleration;
+  info.comment = comment;
+  info.on_request = info.holds_derivatives = true;
+  info.arrays = std::move(arrays);
+  return info;
+}
+
+/// Functions of derivatives. Positions are differentiated by small displacements, one per velocity.
+std::vector<FunctionInfo> derivative_functions() {
+  constexpr Extent z = Extent::kVelocities, x = Extent::kStates, u = Extent::kInputs, o = Extent::kOutputs;
+  const std::string displacement =
+      "\nBy y means by displacements, one per velocity: small rotations in body axes for quaternions.";
+  std::vector<FunctionInfo> list = {
+      array_function("residual", true, {{"r", {z}}},
+                     "r = M zdot - k_bar + q_bar for the given accelerations and inputs, N m or N: zero "
+                     "where they fit."),
+      array_function("residual_derivatives", true,
+                     {{"M", {z, z}}, {"r_y", {z, z}}, {"r_z", {z, z}}, {"r_u", {z, u}}, {"r_t", {z}, true}},
+                     "Mass matrix, and derivatives of the residual by y, z, u and t at fixed accelerations." +
+                         displacement),
+      array_function("forward_dynamics_derivatives", false,
+                     {{"zdot", {z}}, {"zdot_y", {z, z}}, {"zdot_z", {z, z}}},
+                     "Accelerations zdot and their derivatives by y and z." + displacement),
+      array_function("linearize", false,
+                     {{"A", {x, x}},
+                      {"B", {x, u}},
+                      {"C", {o, x}},
+                      {"D", {o, u}},
+                      {"rate_t", {x}, true},
+                      {"output_t", {o}, true}},
+                     "Linearisation at a state and input, not only at an equilibrium; see Linearization."),
+  };
+  list.back().shape = Shape::kLinearization;
+  return list;
+}
+
 std::string number_word(int n) {
   static const char* const words[] = {"no", "One", "Two", "Three", "Four", "Five", "Six", "Seven"};
   return n < 8 ? words[n] : std::to_string(n);
@@ -96,9 +138,29 @@ FunctionInfo step_function(const Stepper& stepper) {
 
 }  // namespace
 
+std::size_t SceneShape::count(Extent extent) const {
+  switch (extent) {
+    case Extent::kVelocities:
+      return velocities;
+    case Extent::kStates:
+      return 2 * velocities;
+    case Extent::kInputs:
+      return inputs;
+    case Extent::kOutputs:
+      return output_numbers;
+  }
+  return 0;
+}
+
+bool SceneShape::has(const ArrayResult& array) const {
+  return (rheonomic || !array.rheonomic) &&
+         std::all_of(array.extents.begin(), array.extents.end(), [this](Extent e) { return count(e) > 0; });
+}
+
 const std::vector<FunctionInfo>& all_functions() {
   static const std::vector<FunctionInfo> functions = [] {
     std::vector<FunctionInfo> list = computed_functions();
+    for (const FunctionInfo& function : derivative_functions()) list.push_back(function);
     for (const Stepper& stepper : all_steppers()) list.push_back(step_function(stepper));
     return list;
   }();
@@ -114,7 +176,8 @@ std::vector<std::string> function_names() {
 std::vector<std::string> default_functions() {
   std::vector<std::string> names;
   for (const FunctionInfo& function : all_functions())
-    if (!function.stepper || function.stepper->name == "rk4") names.push_back(function.name);
+    if (function.stepper ? function.stepper->name == "rk4" : !function.on_request)
+      names.push_back(function.name);
   return names;
 }
 
@@ -126,6 +189,8 @@ bool has_function(const FunctionInfo& function, const SceneShape& shape) {
       return true;
     case Shape::kVector:
     case Shape::kMatrix:
+    case Shape::kArrays:
+    case Shape::kLinearization:
       return shape.velocities > 0;
     case Shape::kRate:
       return shape.quaternions > 0;

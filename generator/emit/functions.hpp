@@ -10,13 +10,30 @@
 namespace jourdain::emit {
 
 enum class Shape {
-  kState,    ///< returns a State
-  kScalar,   ///< returns a Real
-  kVector,   ///< fills Real (&)[nz]
-  kRate,     ///< fills Real (&)[ny]
-  kMatrix,   ///< fills Real (&)[nz][nz]
-  kOutputs,  ///< fills an Outputs
-  kStep      ///< advances a State; its body is a template file, not a program
+  kState,          ///< returns a State
+  kScalar,         ///< returns a Real
+  kVector,         ///< fills Real (&)[nz]
+  kRate,           ///< fills Real (&)[ny]
+  kMatrix,         ///< fills Real (&)[nz][nz]
+  kOutputs,        ///< fills an Outputs
+  kArrays,         ///< fills several arrays
+  kLinearization,  ///< fills a Linearization, whose members are the arrays
+  kStep            ///< advances a State; its body is a template file, not a program
+};
+
+/// How far a subscript runs.
+enum class Extent {
+  kVelocities,  ///< nz
+  kStates,      ///< 2 nz: displacements and velocities
+  kInputs,
+  kOutputs,  ///< numbers of all outputs
+};
+
+/// An array that a function fills; entries without an output of the program are zero.
+struct ArrayResult {
+  std::string name;
+  std::vector<Extent> extents;
+  bool rheonomic = false;  ///< only where something depends on time
 };
 
 struct FunctionInfo {
@@ -24,15 +41,24 @@ struct FunctionInfo {
   Shape shape = Shape::kVector;
   std::string result;  ///< name of the array, and of the program's outputs
   bool takes_input = false;
-  bool takes_acceleration = false;   ///< Real (&zdot)[nz]
-  std::vector<std::string> needs;    ///< functions that its body calls
-  std::string comment;               ///< doc comment, lines separated by '\n'
-  const Stepper* stepper = nullptr;  ///< of a step
+  bool takes_acceleration = false;       ///< Real (&zdot)[nz]
+  std::vector<std::string> needs;        ///< functions that its body calls
+  std::string comment;                   ///< doc comment, lines separated by '\n'
+  const Stepper* stepper = nullptr;      ///< of a step
+  bool on_request = false;               ///< not emitted unless asked for or needed
+  bool holds_derivatives = false;        ///< its program is not lowered from the equations alone
+  std::vector<ArrayResult> arrays = {};  ///< kArrays, kLinearization
 };
 
 /// What decides whether a function has anything to compute, and its arguments' bounds.
 struct SceneShape {
   std::size_t positions = 0, velocities = 0, quaternions = 0, outputs = 0;
+  std::size_t inputs = 0, output_numbers = 0;
+  bool rheonomic = false;
+
+  std::size_t count(Extent extent) const;
+  /// Whether the array has entries.
+  bool has(const ArrayResult& array) const;
 };
 
 /// Whether a scene of this shape has the function: vectors and matrices of length zero are left out, the rate of the

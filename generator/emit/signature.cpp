@@ -11,6 +11,12 @@ std::string Argument::text(bool named) const {
   return named ? type + " " + name : type;
 }
 
+std::string bounds_of(const ArrayResult& array, const SceneShape& scene) {
+  std::string bounds;
+  for (const Extent extent : array.extents) bounds += fmt::format("[{}]", scene.count(extent));
+  return bounds;
+}
+
 std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real,
                                 const SceneShape& scene) {
   const std::size_t nz = scene.velocities;
@@ -29,6 +35,11 @@ std::vector<Argument> arguments(const FunctionInfo& function, const std::string&
   if (function.shape == Shape::kOutputs) list.push_back({fmt::format("Outputs<{}>&", real), "result", ""});
   if (function.shape == Shape::kMatrix)
     list.push_back({real, function.result, fmt::format("[{0}][{0}]", nz)});
+  if (function.shape == Shape::kLinearization)
+    list.push_back({fmt::format("Linearization<{}>&", real), "result", ""});
+  if (function.shape == Shape::kArrays)
+    for (const ArrayResult& array : function.arrays)
+      if (scene.has(array)) list.push_back({real, array.name, bounds_of(array, scene)});
   return list;
 }
 

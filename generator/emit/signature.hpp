@@ -15,6 +15,9 @@ struct Argument {
   std::string text(bool named) const;
 };
 
+/// Bounds of an array of a scene, as "[7][7]".
+std::string bounds_of(const ArrayResult& array, const SceneShape& scene);
+
 /// For number type `real`.
 std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real,
                                 const SceneShape& scene);

@@ -119,4 +119,19 @@ CoordinateLayout lay_out_coordinates(const Mechanism& mechanism) {
   return layout;
 }
 
+Tangent tangent_of(const Mechanism& mechanism, const CoordinateLayout& layout) {
+  Tangent tangent;
+  for (const JointIndex index : depth_first(mechanism)) {
+    const JointEntries& entries = layout.joints[index.value];
+    const JointType type = mechanism.joints[index.value].type;
+    const bool turns = type == JointType::kFree || type == JointType::kSpherical;
+    const std::size_t scalars = entries.velocity_count - (turns ? 3 : 0);
+    for (std::size_t k = 0; k < scalars; ++k)
+      tangent.scalars.push_back({entries.first_position + k, entries.first_velocity + k});
+    if (turns)
+      tangent.quaternions.push_back({entries.first_position + scalars, entries.first_velocity + scalars});
+  }
+  return tangent;
+}
+
 }  // namespace jourdain::model

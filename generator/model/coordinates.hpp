@@ -33,4 +33,16 @@ struct CoordinateLayout {
 
 CoordinateLayout lay_out_coordinates(const Mechanism& mechanism);
 
+/// Small displacements, one per velocity: of a scalar coordinate or a position its change, of a quaternion a small rotation δθ in
+/// body axes, δquat = ½ quat ⊗ (0, δθ).
+struct Tangent {
+  struct Scalar {
+    std::size_t position = 0, velocity = 0;  ///< entry in y, and in z
+  };
+  std::vector<Scalar> scalars;
+  std::vector<Scalar> quaternions;  ///< entry in y of w, and in z of ω_x
+};
+
+Tangent tangent_of(const Mechanism& mechanism, const CoordinateLayout& layout);
+
 }  // namespace jourdain::model

@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "dynamics/direction.hpp"
 #include "dynamics/high_precision.hpp"
 #include "kinematics/numbers.hpp"
 #include "model/coordinates.hpp"
 #include "reference/minimal.hpp"
+#include "validate/samples.hpp"
 
 namespace jourdain::validate {
 
+using dynamics::Direction;
+using dynamics::DirectionalDerivatives;
 using dynamics::Equations;
 using dynamics::HighPrecision;
 using dynamics::to_double;
@@ -24,111 +27,14 @@ namespace {
 using Reference = reference::Reference<long double>;
 using Vector = reference::VectorX<long double>;
 
-/// One point of comparison.
-struct Sample {
-  double t = 0;
-  std::vector<double> parameters, y, z, u, zdot;
-};
-
-/// Uniform numbers that are the same on every platform (std::uniform_real_distribution is not).
-class Uniform {
- public:
-  double operator()(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-
- private:
-  std::mt19937_64 engine_{20061};
-};
-
-/// Steps towards the initial state where a random state has no values.
-constexpr int kTries = 40;
-
-/// For each entry of y whether it is an angle.
-std::vector<bool> angular_positions(const model::Mechanism& mechanism,
-                                    const model::CoordinateLayout& layout) {
-  std::vector<bool> angular(layout.position_count(), false);
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
-      if (const auto entry = layout.joints[j].position[c])
-        angular[*entry] = mechanism.joints[j].coordinates[c].angular;
-  return angular;
-}
-
-void normalise(double* quaternion) {
-  double square = 0;
-  for (int i = 0; i < 4; ++i) square += quaternion[i] * quaternion[i];
-  for (int i = 0; i < 4; ++i) quaternion[i] /= std::sqrt(square);
-}
-
-/// The state that the model starts from, at the default values of the parameters.
-void start(const model::Mechanism& mechanism, Sample& sample) {
-  const reference::State<long double> state = Reference(mechanism).initial_state();
-  for (std::size_t i = 0; i < sample.y.size(); ++i)
-    sample.y[i] = static_cast<double>(state.y[static_cast<Eigen::Index>(i)]);
-  for (std::size_t i = 0; i < sample.z.size(); ++i)
-    sample.z[i] = static_cast<double>(state.z[static_cast<Eigen::Index>(i)]);
-}
-
-Vector to_vector(const std::vector<double>& values) {
-  Vector v(static_cast<Eigen::Index>(values.size()));
-  for (std::size_t i = 0; i < values.size(); ++i) v[static_cast<Eigen::Index>(i)] = values[i];
-  return v;
-}
-
-/// Whether all that the equations consist of has a value there: a root of a negative number has none.
-bool is_defined(const model::Mechanism& mechanism, const Sample& sample) {
-  const Reference reference(mechanism,
-                            std::vector<long double>(sample.parameters.begin(), sample.parameters.end()));
-  const auto terms =
-      reference.evaluate({sample.t, to_vector(sample.y), to_vector(sample.z)}, to_vector(sample.u));
-  return std::isfinite(terms.kinetic_energy + terms.potential_energy) && terms.k_bar.allFinite() &&
-         terms.q_bar.allFinite();
-}
-
-/// Half the way towards the initial state.
-void move_to_start(const model::Mechanism& mechanism, Sample& sample) {
-  Sample initial = sample;
-  start(mechanism, initial);
-  sample.t /= 2;
-  for (std::size_t i = 0; i < sample.y.size(); ++i) sample.y[i] = (sample.y[i] + initial.y[i]) / 2;
-  for (std::size_t i = 0; i < sample.z.size(); ++i) sample.z[i] = (sample.z[i] + initial.z[i]) / 2;
-  for (const std::size_t q : model::lay_out_coordinates(mechanism).quaternions) normalise(&sample.y[q]);
-}
-
-std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t count) {
-  Uniform uniform;
-  std::vector<Sample> samples;
-  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  const std::vector<bool> angular = angular_positions(mechanism, layout);
-  for (std::size_t k = 0; k < count; ++k) {
-    Sample sample;
-    sample.t = k == 0 ? 0.0 : uniform(0, 2);
-    for (const model::Parameter& parameter : mechanism.parameters)
-      sample.parameters.push_back(parameter.value * (k == 0 ? 1.0 : uniform(0.9, 1.1)));
-    for (std::size_t i = 0; i < layout.position_count(); ++i)
-      sample.y.push_back(uniform(-1, 1) * (angular[i] ? 3.14 : 1.0));
-    for (std::size_t i = 0; i < layout.velocity_count(); ++i) {
-      sample.z.push_back(uniform(-2, 2));
-      sample.zdot.push_back(uniform(-5, 5));
-    }
-    for (std::size_t i = 0; i < layout.input_count(); ++i) sample.u.push_back(uniform(-5, 5));
-    for (const std::size_t q : layout.quaternions) normalise(&sample.y[q]);
-    if (k == 0) start(mechanism, sample);
-    for (int i = 0; k > 0 && i < kTries && !is_defined(mechanism, sample); ++i)
-      move_to_start(mechanism, sample);
-    samples.push_back(sample);
-  }
-  return samples;
-}
-
 /// The comparison at one sample; worst errors and failures go into a verdict.
 class Comparison {
  public:
-  Comparison(const model::Mechanism& mechanism, const Equations& equations, const ir::Module& module,
-             const Sample& sample, Verdict& verdict)
+  Comparison(const model::Mechanism& mechanism, const Equations& equations, const Equations* applied,
+             const ir::Module& module, const Sample& sample, Verdict& verdict)
       : mechanism_(mechanism),
         equations_(equations),
+        load_(applied),
         module_(module),
         sample_(sample),
         verdict_(verdict),
@@ -271,6 +177,9 @@ class Comparison {
     const std::vector<double> values = ir::interpret(program, leaves);
     if (program.name == "forward_dynamics") return compare_accelerations(values);
     if (program.name == "outputs") return compare_requested(values);
+    if (program.name == "forward_dynamics_derivatives" || program.name == "linearize")
+      return compare_acceleration_derivatives(program, values);
+    if (program.name == "residual_derivatives") return compare_residual_derivatives(program, values);
     for (std::size_t k = 0; k < values.size(); ++k) compare_output(program, program.outputs[k], values[k]);
   }
 
@@ -308,12 +217,128 @@ class Comparison {
     if (function == "k_bar") return {equations_.k_bar[i], terms_.k_scale[at(i)]};
     if (function == "q_bar") return {equations_.q_bar[i], terms_.q_scale[at(i)]};
     if (function == "inverse_dynamics") return {equations_.tau[i], torque_scale()[at(i)]};
+    if (function == "residual") return {residual(i), torque_scale()[at(i)]};
     if (function == "kinetic_energy") return {equations_.kinetic_energy, kinetic_scale()};
     if (function == "potential_energy") return {equations_.potential_energy, potential_scale()};
     JD_CHECK(function == "initial_state", "no expectation for '{}'", function);
     const kinematics::Ex& start =
         output.name == "y" ? equations_.initial_position[i] : equations_.initial_velocity[i];
     return {start, std::fabs(to_double(exact_.value(start)))};
+  }
+
+  /// M ż − k̄ + q̄ at the sample's accelerations.
+  kinematics::Ex residual(std::size_t row) const {
+    kinematics::Ex sum = equations_.q_bar[row] - equations_.k_bar[row];
+    for (std::size_t j = 0; j < equations_.M.size(); ++j)
+      sum = sum + equations_.M[row][j] * kinematics::exact(sample_.zdot[j]);
+    return sum;
+  }
+
+  DirectionalDerivatives along(const Equations& equations) const {
+    const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism_);
+    return dynamics::derivatives_along(
+        sample_.direction, equations, model::tangent_of(mechanism_, layout),
+        [this](kinematics::LeafKind kind, std::size_t i) { return leaf_value(kind, i); });
+  }
+
+  /// Component of the direction that a column of an array stands for.
+  double component(const std::string& array, int column) const {
+    const auto i = static_cast<std::size_t>(std::max(column, 0));
+    const Direction& d = sample_.direction;
+    const std::size_t n = d.velocity.size();
+    if (column < 0) return d.time;
+    if (array == "B" || array == "D" || array == "r_u") return d.input[i];
+    if (array == "A" || array == "C") return i < n ? d.displacement[i] : d.velocity[i - n];
+    return array == "r_y" || array == "zdot_y" ? d.displacement[i] : d.velocity[i];
+  }
+
+  /// Entries of Jacobians times the direction, and the sums of absolute terms.
+  struct Products {
+    Vector sum, scale;
+  };
+
+  /// Of rows from `first_row` on of the arrays listed.
+  Products products(const ir::Program& program, const std::vector<double>& values,
+                    const std::vector<std::string>& arrays, std::size_t first_row, std::size_t rows) const {
+    Products result{Vector::Zero(at(rows)), Vector::Zero(at(rows))};
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const ir::Output& output = program.outputs[k];
+      const long row = output.row - static_cast<long>(first_row);
+      if (std::find(arrays.begin(), arrays.end(), output.name) == arrays.end() || row < 0) continue;
+      const long double term = static_cast<long double>(values[k]) * component(output.name, output.column);
+      result.sum[row] += term;
+      result.scale[row] += std::fabs(term);
+    }
+    return result;
+  }
+
+  void compare_residual_derivatives(const ir::Program& program, const std::vector<double>& values) {
+    const std::size_t n = equations_.M.size();
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const ir::Output& output = program.outputs[k];
+      if (output.name != "M") continue;
+      const auto [expected, scale] = expectation("mass_matrix", output);
+      record(verdict_.entry_error, error(values[k], to_double(exact_.value(expected)), scale), kTolerance,
+             "an entry of M of residual_derivatives");
+    }
+    const Products r = products(program, values, {"r_y", "r_z", "r_u", "r_t"}, 0, n);
+    const std::vector<double> expected = load_ ? along(*load_).q_bar : along(equations_).residual;
+    for (std::size_t i = 0; i < n; ++i)
+      record(verdict_.entry_error,
+             error(static_cast<double>(r.sum[at(i)]), expected[i], r.scale[at(i)] + torque_scale()[at(i)]),
+             kTolerance, fmt::format("row {} of the derivatives of the residual", i));
+  }
+
+  /// M δż against M times the derivative of ż in 60 digits, as a backward error; outputs by their term sums.
+  void compare_acceleration_derivatives(const ir::Program& program, const std::vector<double>& values) {
+    const std::size_t n = equations_.M.size();
+    const DirectionalDerivatives expected = along(equations_);
+    const bool linearizes = program.name == "linearize";
+    const Products dz =
+        products(program, values, {"zdot_y", "zdot_z", "A", "B", "rate_t"}, linearizes ? n : 0, n);
+    Vector direction = Vector::Zero(at(n)), exact = Vector::Zero(at(n));
+    std::vector<double> zdot;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (program.outputs[k].name == "zdot") zdot.push_back(values[k]);
+    if (!zdot.empty()) compare_accelerations(zdot);
+    for (std::size_t i = 0; i < n; ++i) exact[at(i)] = expected.zdot[i];
+    const Vector acceleration = reference::forward_dynamics<long double>(terms_).cwiseAbs();
+    const Vector load = terms_.M_scale * acceleration + terms_.k_scale + terms_.q_scale;
+    // forward_dynamics_derivatives has no columns of inputs and time.
+    if (!linearizes) exact -= terms_.M.inverse() * input_and_time_part();
+    const Vector difference = terms_.M * (dz.sum - exact);
+    const Vector scale = terms_.M_scale * (dz.scale + acceleration) + load;
+    for (std::size_t i = 0; i < n; ++i)
+      record(verdict_.backward_error, error(static_cast<double>(difference[at(i)]), 0, scale[at(i)]),
+             kTolerance, fmt::format("row {} of M times the derivatives of zdot", i));
+    if (linearizes) compare_output_derivatives(program, values, expected.outputs);
+  }
+
+  /// What inputs and time contribute to M δż.
+  Vector input_and_time_part() const {
+    Direction rest = sample_.direction;
+    std::fill(rest.displacement.begin(), rest.displacement.end(), 0.0);
+    std::fill(rest.velocity.begin(), rest.velocity.end(), 0.0);
+    const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism_);
+    return terms_.M *
+           to_vector(dynamics::derivatives_along(
+                         rest, equations_, model::tangent_of(mechanism_, layout),
+                         [this](kinematics::LeafKind kind, std::size_t i) { return leaf_value(kind, i); })
+                         .zdot);
+  }
+
+  void compare_output_derivatives(const ir::Program& program, const std::vector<double>& values,
+                                  const std::vector<double>& expected) {
+    std::vector<long double> scales;
+    for (const reference::OutputValue<long double>& output : outputs_)
+      scales.insert(scales.end(), output.scales.begin(), output.scales.end());
+    const Products o = products(program, values, {"C", "D", "output_t"}, 0, expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      record(verdict_.entry_error,
+             error(static_cast<double>(o.sum[at(i)]), expected[i],
+                   (o.scale[at(i)] + scales[i]) *
+                       std::max<long double>(1, reference::condition<long double>(terms_.M))),
+             kTolerance, fmt::format("row {} of C and D", i));
   }
 
   Vector torque_scale() const {
@@ -338,6 +363,7 @@ class Comparison {
 
   const model::Mechanism& mechanism_;
   const Equations& equations_;
+  const Equations* load_;
   const ir::Module& module_;
   const Sample& sample_;
   Verdict& verdict_;
@@ -351,11 +377,11 @@ class Comparison {
 }  // namespace
 
 Verdict validate_translation(const model::Mechanism& mechanism, const Equations& equations,
-                             const ir::Module& module, std::size_t states) {
+                             const ir::Module& module, std::size_t states, const Equations* load) {
   Verdict verdict;
   verdict.states = states;
   for (const Sample& sample : draw_samples(mechanism, states))
-    Comparison(mechanism, equations, module, sample, verdict).run();
+    Comparison(mechanism, equations, load, module, sample, verdict).run();
   return verdict;
 }
 

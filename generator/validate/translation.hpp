@@ -32,7 +32,10 @@ struct Verdict {
 
 /// Compares at `states` seeded random states; the first is the initial state, and tunable parameters are varied by up
 /// to a tenth from the second on.
+/// Derivatives are compared along a random direction at each state. Where derivatives of the residual hold
+/// those of applied forces alone, `load` are the equations without gravity, whose q̄ they belong to.
 Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::Equations& equations,
-                             const ir::Module& module, std::size_t states = 8);
+                             const ir::Module& module, std::size_t states = 8,
+                             const dynamics::Equations* load = nullptr);
 
 }  // namespace jourdain::validate

@@ -1,0 +1,19 @@
+// Structs of the emitted header that depend on the scene: outputs, linearisation.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emit/files.hpp"
+
+namespace jourdain::emit {
+
+/// Empty where the model asks for no outputs.
+std::string output_struct(const ModelText& model);
+
+bool linearizes(const std::vector<FunctionInfo>& functions);
+
+/// Empty where no function fills one.
+std::string linearization_struct(const std::vector<FunctionInfo>& functions, const SceneShape& scene);
+
+}  // namespace jourdain::emit

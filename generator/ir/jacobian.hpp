@@ -1,0 +1,35 @@
+// Derivatives of a program by elimination on its computational graph, which keeps all that is sparse.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "ir/builder.hpp"
+
+namespace jourdain::ir {
+
+/// The dependence of a leaf on one column of a Jacobian: ∂leaf/∂column. A leaf without seeds is constant.
+struct Seed {
+  Signed leaf;
+  std::size_t column = 0;
+  Signed partial;
+};
+
+/// Entries that are not zero whatever the state, by row and column.
+using JacobianEntries = std::map<std::pair<std::size_t, std::size_t>, Signed>;
+
+/// In which order the intermediate values leave the graph; the result is the same, the operations are not. Choosing the
+/// cheapest value next (Markowitz) took 5 to 15 % more than either on the robot arms.
+enum class EliminationOrder {
+  kForward,  ///< operands first: forward mode on sparse columns
+  kReverse,  ///< results first: reverse mode on sparse rows
+};
+
+/// ∂values/∂columns. Every value of the builder's program between leaf and result is a vertex whose edges carry local
+/// partial derivatives; removing a vertex joins its operands to its users by the chain rule, until only columns and
+/// rows are left (Griewank, Walther: Evaluating Derivatives, chapter 9). New operations go into `builder`.
+JacobianEntries differentiate(Builder& builder, const std::vector<Signed>& values,
+                              const std::vector<Seed>& seeds, EliminationOrder order);
+
+}  // namespace jourdain::ir

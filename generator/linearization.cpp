@@ -1,0 +1,348 @@
+#include "linearization.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "ir/jacobian.hpp"
+#include "ir/lower.hpp"
+#include "model/coordinates.hpp"
+#include "passes/rewrite.hpp"
+
+namespace jourdain {
+
+using dynamics::Equations;
+using ir::Builder;
+using ir::EliminationOrder;
+using ir::JacobianEntries;
+using ir::LeafKind;
+using ir::Program;
+using ir::Signed;
+
+namespace {
+
+/// What the columns of a Jacobian stand for: displacements and velocities (nz each), inputs, time.
+struct Columns {
+  std::size_t velocities = 0, inputs = 0;
+  bool time = false;
+
+  std::size_t velocity(std::size_t i) const { return velocities + i; }
+  std::size_t input(std::size_t i) const { return 2 * velocities + i; }
+  std::size_t time_column() const { return 2 * velocities + inputs; }
+};
+
+std::vector<ir::Target> targets(const char* name, const std::vector<dynamics::Ex>& values) {
+  std::vector<ir::Target> list;
+  for (std::size_t i = 0; i < values.size(); ++i) list.push_back({name, static_cast<int>(i), -1, values[i]});
+  return list;
+}
+
+using Column = std::vector<Signed>;
+using Matrix = std::vector<Column>;  // by row
+
+/// One program under construction.
+class Assembly {
+ public:
+  Assembly(const model::Mechanism& mechanism, const Equations& equations, DerivativeTerms terms,
+           EliminationOrder order)
+      : equations_(equations), terms_(terms), order_(order) {
+    const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+    tangent_ = model::tangent_of(mechanism, layout);
+    columns_ = {layout.velocity_count(), layout.input_count(), layout.rheonomic};
+  }
+
+  Program residual() {
+    return ir::lower(equations_.statements, targets("r", equations_.residual), "residual");
+  }
+
+  /// M and the derivatives of the residual.
+  Program residual_derivatives() {
+    write_matrix("M", mass_matrix());
+    const bool all = terms_ == DerivativeTerms::kAll;
+    write_derivatives("r", differentiated(all ? equations_.residual : equations_.load), 0);
+    return finish("residual_derivatives");
+  }
+
+  Program forward_dynamics_derivatives() {
+    const JacobianEntries J = acceleration_derivatives();
+    write_vector("zdot", zdot_);
+    for (const auto& [at, value] : J)
+      if (at.second < columns_.input(0)) {
+        const bool by_velocity = at.second >= columns_.velocity(0);
+        write(by_velocity ? "zdot_z" : "zdot_y", at.first,
+              at.second - (by_velocity ? columns_.velocity(0) : 0), value);
+      }
+    return finish("forward_dynamics_derivatives");
+  }
+
+  Program linearize() {
+    const JacobianEntries J = acceleration_derivatives();
+    write_kinematics();
+    for (const auto& [at, value] : J) {
+      const std::size_t row = columns_.velocities + at.first;
+      if (at.second == columns_.time_column())
+        builder_.output("rate_t", static_cast<int>(row), -1, value);
+      else if (at.second >= columns_.input(0))
+        write("B", row, at.second - columns_.input(0), value);
+      else
+        write("A", row, at.second, value);
+    }
+    write_outputs(J);
+    return finish("linearize");
+  }
+
+ private:
+  void write(const char* name, std::size_t row, std::size_t column, Signed value) {
+    builder_.output(name, static_cast<int>(row), static_cast<int>(column), value);
+  }
+
+  void write_vector(const char* name, const Column& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) builder_.output(name, static_cast<int>(i), -1, values[i]);
+  }
+
+  void write_matrix(const char* name, const Matrix& M) {
+    for (std::size_t i = 0; i < M.size(); ++i)
+      for (std::size_t j = 0; j < M.size(); ++j)
+        if (!is_zero(M[i][j])) write(name, i, j, M[i][j]);
+  }
+
+  bool is_zero(Signed value) const { return builder_.is_literal(value, 0); }
+
+  /// Copies a program; accelerations are read from zdot_ where that is filled in. Returns its outputs.
+  Column insert(const Program& program) {
+    Column copy(program.nodes.size());
+    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+      const ir::Node& node = program.nodes[i];
+      const bool acceleration = node.op == ir::Op::kLeaf && node.leaf == LeafKind::kAcceleration;
+      copy[i] = acceleration && !zdot_.empty() ? zdot_[node.index]
+                                               : builder_.apply(node, copy[node.a.value], copy[node.b.value]);
+      if (!program.labels[i].empty()) builder_.label(copy[i].value, program.labels[i]);
+    }
+    Column outputs;
+    for (const ir::Output& output : program.outputs) outputs.push_back(copy[output.value.value]);
+    return outputs;
+  }
+
+  Program lowered(const std::vector<dynamics::Ex>& values) const {
+    return ir::lower(equations_.statements, targets("v", values), "values");
+  }
+
+  Matrix mass_matrix() {
+    Matrix M;
+    for (const std::vector<dynamics::Ex>& row : equations_.M) M.push_back(insert(lowered(row)));
+    return M;
+  }
+
+  /// Where the columns enter: the derivatives of the leaves.
+  std::vector<ir::Seed> seeds(Builder& builder) const {
+    std::vector<ir::Seed> list;
+    const Signed one = builder.literal(1);
+    for (const model::Tangent::Scalar& s : tangent_.scalars)
+      list.push_back({builder.leaf(LeafKind::kPosition, s.position), s.velocity, one});
+    for (const model::Tangent::Scalar& s : tangent_.quaternions) add_quaternion(builder, s, list);
+    for (std::size_t i = 0; i < columns_.velocities; ++i)
+      list.push_back({builder.leaf(LeafKind::kVelocity, i), columns_.velocity(i), one});
+    for (std::size_t i = 0; i < columns_.inputs; ++i)
+      list.push_back({builder.leaf(LeafKind::kInput, i), columns_.input(i), one});
+    if (columns_.time) list.push_back({builder.leaf(LeafKind::kTime, 0), columns_.time_column(), one});
+    return list;
+  }
+
+  /// ½ quat ⊗ (0, e_k)
+  static void add_quaternion(Builder& builder, const model::Tangent::Scalar& at,
+                             std::vector<ir::Seed>& list) {
+    Signed q[4], half[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      q[k] = builder.leaf(LeafKind::kPosition, at.position + k);
+      half[k] = builder.multiply(builder.literal(0.5), q[k]);
+    }
+    const Signed by[4][3] = {{-half[1], -half[2], -half[3]},
+                             {half[0], -half[3], half[2]},
+                             {half[3], half[0], -half[1]},
+                             {-half[2], half[1], half[0]}};
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t c = 0; c < 3; ++c) list.push_back({q[k], at.velocity + c, by[k][c]});
+  }
+
+  /// Derivatives of `values` at constant accelerations, as values of this builder.
+  JacobianEntries differentiated(const std::vector<dynamics::Ex>& values, bool by_acceleration = false) {
+    // In a builder of its own, where ż is a leaf: accelerations inserted before would be followed to their own leaves.
+    Builder builder;
+    const Program program = lowered(values);
+    Column copy(program.nodes.size()), outputs;
+    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+      const ir::Node& node = program.nodes[i];
+      copy[i] = builder.apply(node, copy[node.a.value], copy[node.b.value]);
+      if (!program.labels[i].empty()) builder.label(copy[i].value, program.labels[i]);
+    }
+    for (const ir::Output& output : program.outputs) outputs.push_back(copy[output.value.value]);
+    std::vector<ir::Seed> list = seeds(builder);
+    const std::size_t first = columns_.time_column() + 1;
+    for (std::size_t i = 0; by_acceleration && i < columns_.velocities; ++i)
+      list.push_back({builder.leaf(LeafKind::kAcceleration, i), first + i, builder.literal(1)});
+    const JacobianEntries entries = ir::differentiate(builder, outputs, list, order_);
+    for (const auto& [at, value] : entries)
+      builder.output("J", static_cast<int>(at.first), static_cast<int>(at.second), value);
+    const Column moved = insert(passes::remove_dead_code(builder.finish("derivatives")));
+    JacobianEntries result;
+    std::size_t k = 0;
+    for (const auto& [at, value] : entries) result[at] = moved[k++];
+    return result;
+  }
+
+  void write_derivatives(const std::string& name, const JacobianEntries& J, std::size_t first_row) {
+    for (const auto& [at, value] : J) {
+      const int row = static_cast<int>(first_row + at.first);
+      if (at.second == columns_.time_column())
+        builder_.output(name + "_t", row, -1, value);
+      else if (at.second >= columns_.input(0))
+        builder_.output(name + "_u", row, static_cast<int>(at.second - columns_.input(0)), value);
+      else if (at.second >= columns_.velocity(0))
+        builder_.output(name + "_z", row, static_cast<int>(at.second - columns_.velocity(0)), value);
+      else
+        builder_.output(name + "_y", row, static_cast<int>(at.second), value);
+    }
+  }
+
+  /// M = Lᵀ D L from the last row; visits ancestors only, as the solver of forward_dynamics does.
+  void factorise() {
+    Matrix H = mass_matrix();
+    const std::size_t n = H.size();
+    L_.assign(n, Column(n, builder_.literal(0)));
+    inverse_D_.resize(n);
+    for (std::size_t k = n; k-- > 0;) {
+      inverse_D_[k] = builder_.divide(builder_.literal(1), H[k][k]);
+      for (std::size_t i = k; i-- > 0;) {
+        if (is_zero(H[k][i])) continue;
+        L_[k][i] = builder_.multiply(H[k][i], inverse_D_[k]);
+        for (std::size_t j = i + 1; j-- > 0;)
+          H[i][j] = builder_.subtract(H[i][j], builder_.multiply(L_[k][i], H[k][j]));
+      }
+    }
+  }
+
+  Column solved(Column b) {
+    const std::size_t n = b.size();
+    for (std::size_t k = n; k-- > 0;)
+      for (std::size_t i = k; i-- > 0;) b[i] = builder_.subtract(b[i], builder_.multiply(L_[k][i], b[k]));
+    for (std::size_t k = 0; k < n; ++k) {
+      b[k] = builder_.multiply(inverse_D_[k], b[k]);
+      for (std::size_t i = 0; i < k; ++i) b[k] = builder_.subtract(b[k], builder_.multiply(L_[k][i], b[i]));
+    }
+    return b;
+  }
+
+  /// ∂ż by all columns.
+  JacobianEntries acceleration_derivatives() {
+    zdot_ = insert(lowered(equations_.zdot));
+    const JacobianEntries r = differentiated(equations_.residual);
+    factorise();
+    JacobianEntries J;
+    for (std::size_t c = 0; c <= columns_.time_column(); ++c) {
+      Column b(columns_.velocities, builder_.literal(0));
+      for (std::size_t i = 0; i < b.size(); ++i)
+        if (const auto entry = r.find({i, c}); entry != r.end()) b[i] = -entry->second;
+      const Column x = solved(b);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (!is_zero(x[i])) J[{i, c}] = x[i];
+    }
+    return J;
+  }
+
+  /// The upper half of A: displacements follow velocities; those of a quaternion turn with the body, δθ̇ = δω − ω × δθ.
+  void write_kinematics() {
+    const Signed one = builder_.literal(1);
+    for (std::size_t i = 0; i < columns_.velocities; ++i) write("A", i, columns_.velocity(i), one);
+    for (const model::Tangent::Scalar& s : tangent_.quaternions)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
+        write("A", s.velocity + j, s.velocity + l, builder_.leaf(LeafKind::kVelocity, s.velocity + k));
+        write("A", s.velocity + l, s.velocity + j, -builder_.leaf(LeafKind::kVelocity, s.velocity + k));
+      }
+  }
+
+  /// C, D and ∂/∂t of the outputs; those that take accelerations by the chain rule.
+  void write_outputs(const JacobianEntries& acceleration) {
+    std::vector<dynamics::Ex> values;
+    for (const auto& output : equations_.outputs)
+      for (const dynamics::OutputValues& member : output)
+        values.insert(values.end(), member.values.begin(), member.values.end());
+    if (values.empty()) return;
+    JacobianEntries J = differentiated(values, true);
+    const std::size_t first = columns_.time_column() + 1;
+    JacobianEntries total;
+    const auto add = [&](std::size_t row, std::size_t column, Signed term) {
+      const auto [it, is_new] = total.try_emplace({row, column}, term);
+      if (!is_new) it->second = builder_.add(it->second, term);
+    };
+    for (const auto& [at, value] : J) {
+      if (at.second < first) {
+        add(at.first, at.second, value);
+        continue;
+      }
+      const auto row = acceleration.lower_bound({at.second - first, 0});
+      for (auto it = row; it != acceleration.end() && it->first.first == at.second - first; ++it)
+        add(at.first, it->first.second, builder_.multiply(value, it->second));
+    }
+    for (const auto& [at, value] : total) {
+      if (is_zero(value)) continue;
+      if (at.second == columns_.time_column())
+        builder_.output("output_t", static_cast<int>(at.first), -1, value);
+      else if (at.second >= columns_.input(0))
+        write("D", at.first, at.second - columns_.input(0), value);
+      else
+        write("C", at.first, at.second, value);
+    }
+  }
+
+  Program finish(const char* name) { return passes::remove_dead_code(builder_.finish(name)); }
+
+  const Equations& equations_;
+  DerivativeTerms terms_;
+  EliminationOrder order_;
+  model::Tangent tangent_;
+  Columns columns_;
+  Builder builder_;
+  Column zdot_;
+  Matrix L_;
+  Column inverse_D_;
+};
+
+/// The cheaper of the two orders.
+template <class Build>
+Program cheaper(const Build& build) {
+  Program forward = build(EliminationOrder::kForward), reverse = build(EliminationOrder::kReverse);
+  const auto operations = [](const Program& p) { return ir::count_operations(p).arithmetic(); };
+  return operations(forward) < operations(reverse) ? std::move(forward) : std::move(reverse);
+}
+
+}  // namespace
+
+std::vector<Program> derivative_programs(const model::Mechanism& mechanism,
+                                         const dynamics::DerivationOptions& options,
+                                         const std::vector<emit::FunctionInfo>& functions,
+                                         DerivativeTerms terms) {
+  std::vector<Program> programs;
+  std::optional<Equations> equations;
+  for (const emit::FunctionInfo& function : functions) {
+    if (!function.holds_derivatives) continue;
+    if (!equations) {
+      dynamics::DerivationOptions plain = options;
+      plain.articulated.clear();  // M is factorised for the derivatives anyway
+      plain.for_derivatives = true;
+      equations = dynamics::derive_equations(mechanism, plain);
+    }
+    programs.push_back(cheaper([&](EliminationOrder order) {
+      Assembly assembly(mechanism, *equations, terms, order);
+      if (function.name == "residual") return assembly.residual();
+      if (function.name == "residual_derivatives") return assembly.residual_derivatives();
+      if (function.name == "forward_dynamics_derivatives") return assembly.forward_dynamics_derivatives();
+      JD_CHECK(function.name == "linearize", "no derivatives for '{}'", function.name);
+      return assembly.linearize();
+    }));
+  }
+  return programs;
+}
+
+}  // namespace jourdain

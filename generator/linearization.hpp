@@ -1,0 +1,28 @@
+// Programs of the functions that hold derivatives: Jacobians of the equations of motion, by elimination on the program.
+#pragma once
+
+#include <vector>
+
+#include "dynamics/equations.hpp"
+#include "emit/functions.hpp"
+#include "ir/program.hpp"
+#include "model/mechanism.hpp"
+
+namespace jourdain {
+
+/// Which terms the derivatives of the residual hold. W-methods keep their order with any of them.
+enum class DerivativeTerms {
+  kAll,
+  kApplied,  ///< those of springs, dampers and other applied forces: where stiffness comes from
+};
+
+/// One program for each of `functions` that holds derivatives or is made for them; the others are passed over. Positions are
+/// differentiated by the displacements of model::Tangent. With r(y, z, a, u, t) = M a − k̄ + q̄ and a = ż,
+/// ∂ż = −M⁻¹ ∂r at a = ż: no derivative of the factorisation is taken. Of forward and reverse elimination the one with
+/// fewer operations is chosen.
+std::vector<ir::Program> derivative_programs(const model::Mechanism& mechanism,
+                                             const dynamics::DerivationOptions& options,
+                                             const std::vector<emit::FunctionInfo>& functions,
+                                             DerivativeTerms terms);
+
+}  // namespace jourdain

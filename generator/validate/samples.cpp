@@ -1,0 +1,119 @@
+#include "validate/samples.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "model/coordinates.hpp"
+
+namespace jourdain::validate {
+
+using Reference = reference::Reference<long double>;
+
+namespace {
+
+/// Uniform numbers that are the same on every platform (std::uniform_real_distribution is not).
+class Uniform {
+ public:
+  double operator()(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
+
+ private:
+  std::mt19937_64 engine_{20061};
+};
+
+/// Steps towards the initial state where a random state has no values.
+constexpr int kTries = 40;
+
+/// For each entry of y whether it is an angle.
+std::vector<bool> angular_positions(const model::Mechanism& mechanism,
+                                    const model::CoordinateLayout& layout) {
+  std::vector<bool> angular(layout.position_count(), false);
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
+      if (const auto entry = layout.joints[j].position[c])
+        angular[*entry] = mechanism.joints[j].coordinates[c].angular;
+  return angular;
+}
+
+void normalise(double* quaternion) {
+  double square = 0;
+  for (int i = 0; i < 4; ++i) square += quaternion[i] * quaternion[i];
+  for (int i = 0; i < 4; ++i) quaternion[i] /= std::sqrt(square);
+}
+
+/// The state that the model starts from, at the default values of the parameters.
+void start(const model::Mechanism& mechanism, Sample& sample) {
+  const reference::State<long double> state = Reference(mechanism).initial_state();
+  for (std::size_t i = 0; i < sample.y.size(); ++i)
+    sample.y[i] = static_cast<double>(state.y[static_cast<Eigen::Index>(i)]);
+  for (std::size_t i = 0; i < sample.z.size(); ++i)
+    sample.z[i] = static_cast<double>(state.z[static_cast<Eigen::Index>(i)]);
+}
+
+/// Whether all that the equations consist of has a value there: a root of a negative number has none.
+bool is_defined(const model::Mechanism& mechanism, const Sample& sample) {
+  const Reference reference(mechanism,
+                            std::vector<long double>(sample.parameters.begin(), sample.parameters.end()));
+  const auto terms =
+      reference.evaluate({sample.t, to_vector(sample.y), to_vector(sample.z)}, to_vector(sample.u));
+  return std::isfinite(terms.kinetic_energy + terms.potential_energy) && terms.k_bar.allFinite() &&
+         terms.q_bar.allFinite();
+}
+
+/// Half the way towards the initial state.
+void move_to_start(const model::Mechanism& mechanism, Sample& sample) {
+  Sample initial = sample;
+  start(mechanism, initial);
+  sample.t /= 2;
+  for (std::size_t i = 0; i < sample.y.size(); ++i) sample.y[i] = (sample.y[i] + initial.y[i]) / 2;
+  for (std::size_t i = 0; i < sample.z.size(); ++i) sample.z[i] = (sample.z[i] + initial.z[i]) / 2;
+  for (const std::size_t q : model::lay_out_coordinates(mechanism).quaternions) normalise(&sample.y[q]);
+}
+
+void draw_direction(Uniform& uniform, Sample& sample) {
+  for (std::size_t i = 0; i < sample.z.size(); ++i) {
+    sample.direction.displacement.push_back(uniform(-1, 1));
+    sample.direction.velocity.push_back(uniform(-1, 1));
+  }
+  for (std::size_t i = 0; i < sample.u.size(); ++i) sample.direction.input.push_back(uniform(-1, 1));
+  sample.direction.time = uniform(-1, 1);
+}
+
+}  // namespace
+
+reference::VectorX<long double> to_vector(const std::vector<double>& values) {
+  reference::VectorX<long double> v(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) v[static_cast<Eigen::Index>(i)] = values[i];
+  return v;
+}
+
+std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t count) {
+  Uniform uniform, directions;
+  std::vector<Sample> samples;
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  const std::vector<bool> angular = angular_positions(mechanism, layout);
+  for (std::size_t k = 0; k < count; ++k) {
+    Sample sample;
+    sample.t = k == 0 ? 0.0 : uniform(0, 2);
+    for (const model::Parameter& parameter : mechanism.parameters)
+      sample.parameters.push_back(parameter.value * (k == 0 ? 1.0 : uniform(0.9, 1.1)));
+    for (std::size_t i = 0; i < layout.position_count(); ++i)
+      sample.y.push_back(uniform(-1, 1) * (angular[i] ? 3.14 : 1.0));
+    for (std::size_t i = 0; i < layout.velocity_count(); ++i) {
+      sample.z.push_back(uniform(-2, 2));
+      sample.zdot.push_back(uniform(-5, 5));
+    }
+    for (std::size_t i = 0; i < layout.input_count(); ++i) sample.u.push_back(uniform(-5, 5));
+    for (const std::size_t q : layout.quaternions) normalise(&sample.y[q]);
+    draw_direction(directions, sample);
+    if (k == 0) start(mechanism, sample);
+    for (int i = 0; k > 0 && i < kTries && !is_defined(mechanism, sample); ++i)
+      move_to_start(mechanism, sample);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+}  // namespace jourdain::validate

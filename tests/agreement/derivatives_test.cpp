@@ -1,0 +1,222 @@
+// Jacobians of the emitted programs against differences of the symbolic equations in 60 digits, entry by entry: every model
+// and hundreds of random scenes.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <filesystem>
+
+#include "agreement/judge.hpp"
+#include "agreement/shared_data.hpp"
+#include "compile.hpp"
+#include "dynamics/direction.hpp"
+#include "properties/effort.hpp"
+#include "properties/random_scene.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr std::uint64_t kScenes = cases(200);
+// Normwise; the derivatives of accelerations are solved with M, whose condition number is up to 1e8 in random scenes.
+constexpr double kRelative = 1e-11, kOverCondition = 1e-14;
+
+ir::Module derivative_module(const model::Mechanism& mechanism,
+                             DerivativeTerms terms = DerivativeTerms::kAll) {
+  const auto functions = emit::with_needed(
+      {"residual_derivatives", "forward_dynamics_derivatives", "linearize"}, shape_of(mechanism));
+  ir::Module module;
+  module.functions = derivative_programs(mechanism, {}, functions, terms);
+  return passes::optimise(module).module;
+}
+
+double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::size_t i) {
+  switch (kind) {
+    case kinematics::LeafKind::kParameter:
+      return sample.parameters[i];
+    case kinematics::LeafKind::kPosition:
+      return sample.y[i];
+    case kinematics::LeafKind::kVelocity:
+      return sample.z[i];
+    case kinematics::LeafKind::kAcceleration:
+      return sample.zdot[i];
+    case kinematics::LeafKind::kInput:
+      return sample.u[i];
+    case kinematics::LeafKind::kTime:
+      return sample.t;
+  }
+  return 0;
+}
+
+/// Exact derivatives, a column each for displacements, velocities, inputs and time.
+struct Exact {
+  MatrixXd residual, zdot, outputs;
+};
+
+Exact exact_derivatives(const Derived& derived, const Sample& sample) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(derived.mechanism);
+  const std::size_t nz = sample.z.size(), nu = sample.u.size(), columns = 2 * nz + nu + 1;
+  Exact exact;
+  for (std::size_t c = 0; c < columns; ++c) {
+    dynamics::Direction d{std::vector<double>(nz), std::vector<double>(nz), std::vector<double>(nu), 0};
+    (c < nz            ? d.displacement[c]
+     : c < 2 * nz      ? d.velocity[c - nz]
+     : c < 2 * nz + nu ? d.input[c - 2 * nz]
+                       : d.time) = 1;
+    const auto along = dynamics::derivatives_along(
+        d, derived.equations, model::tangent_of(derived.mechanism, layout),
+        [&](kinematics::LeafKind kind, std::size_t i) { return leaf_value(sample, kind, i); });
+    const auto set = [&](MatrixXd& matrix, const std::vector<double>& column) {
+      if (c == 0) matrix.resize(Index(column.size()), Index(columns));
+      for (std::size_t i = 0; i < column.size(); ++i) matrix(Index(i), Index(c)) = column[i];
+    };
+    set(exact.residual, along.residual);
+    set(exact.zdot, along.zdot);
+    set(exact.outputs, along.outputs);
+  }
+  return exact;
+}
+
+/// An array of a function, zero where the program writes nothing.
+MatrixXd array_of(const ir::Module& module, const std::string& function, const std::string& name, Index rows,
+                  Index columns, const Sample& sample) {
+  MatrixXd matrix = MatrixXd::Zero(rows, columns);
+  const std::vector<double> values = interpreted<double>(module, function, sample);
+  for (const ir::Program& program : module.functions)
+    if (program.name == function)
+      for (std::size_t k = 0; k < values.size(); ++k)
+        if (program.outputs[k].name == name)
+          matrix(program.outputs[k].row, std::max(0, program.outputs[k].column)) = values[k];
+  return matrix;
+}
+
+double relative(const MatrixXd& actual, const MatrixXd& exact) {
+  if (actual.size() == 0) return 0;
+  const double norm = exact.norm(), difference = (actual - exact).norm();
+  return difference == 0 ? 0 : difference / norm;
+}
+
+/// Worst normwise errors.
+struct Errors {
+  double residual = 0, zdot = 0, zdot_over_condition = 0, outputs_over_condition = 0, time = 0;
+
+  void widen(const Errors& other) {
+    residual = larger_error(residual, other.residual);
+    zdot = larger_error(zdot, other.zdot);
+    zdot_over_condition = larger_error(zdot_over_condition, other.zdot_over_condition);
+    outputs_over_condition = larger_error(outputs_over_condition, other.outputs_over_condition);
+    time = larger_error(time, other.time);
+  }
+};
+
+Errors errors_of(const Derived& derived, const Sample& sample) {
+  const ir::Module module = derivative_module(derived.mechanism);
+  const Exact exact = exact_derivatives(derived, sample);
+  const Index n = Index(sample.z.size()), nu = Index(sample.u.size());
+  const double condition = Judge(derived, sample).condition();
+  Errors errors;
+  const auto r = [&](const char* name, Index columns) {
+    return array_of(module, "residual_derivatives", name, n, columns, sample);
+  };
+  errors.residual = relative(r("r_y", n), exact.residual.leftCols(n));
+  errors.residual = larger_error(errors.residual, relative(r("r_z", n), exact.residual.middleCols(n, n)));
+  errors.residual =
+      larger_error(errors.residual, relative(r("r_u", nu), exact.residual.middleCols(2 * n, nu)));
+  errors.time = relative(r("r_t", 1), exact.residual.rightCols(1));
+  const auto f = [&](const char* name) {
+    return array_of(module, "forward_dynamics_derivatives", name, n, n, sample);
+  };
+  errors.zdot = larger_error(relative(f("zdot_y"), exact.zdot.leftCols(n)),
+                             relative(f("zdot_z"), exact.zdot.middleCols(n, n)));
+  const MatrixXd A = array_of(module, "linearize", "A", 2 * n, 2 * n, sample),
+                 B = array_of(module, "linearize", "B", 2 * n, nu, sample);
+  errors.zdot = larger_error(errors.zdot, relative(A.bottomRows(n), exact.zdot.leftCols(2 * n)));
+  errors.zdot = larger_error(errors.zdot, relative(B.bottomRows(n), exact.zdot.middleCols(2 * n, nu)));
+  errors.zdot_over_condition = errors.zdot / condition;
+  const Index no = exact.outputs.rows();
+  if (no > 0) {
+    MatrixXd CD(no, 2 * n + nu);
+    CD << array_of(module, "linearize", "C", no, 2 * n, sample),
+        array_of(module, "linearize", "D", no, nu, sample);
+    errors.outputs_over_condition = relative(CD, exact.outputs.leftCols(2 * n + nu)) / condition;
+  }
+  return errors;
+}
+
+TEST(Derivatives, OfEveryModelAgreeWithDifferencesInSixtyDigits) {
+  for (const auto& entry : std::filesystem::directory_iterator(model_path(""))) {
+    if (entry.path().extension() != ".toml") continue;
+    const Derived derived = derive(read_model(entry.path()));
+    Errors worst;
+    for (std::uint64_t seed = 0; seed < 3; ++seed)
+      worst.widen(errors_of(derived, random_sample(derived.mechanism, seed)));
+    EXPECT_LE(worst.residual, kRelative) << entry.path();
+    EXPECT_LE(worst.time, kRelative) << entry.path();
+    EXPECT_LE(worst.zdot, kRelative) << entry.path();
+    EXPECT_LE(worst.outputs_over_condition, kRelative) << entry.path();
+  }
+}
+
+TEST(Derivatives, OfRandomScenesAgreeWithDifferencesInSixtyDigits) {
+  Errors worst;
+  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+    const Derived derived = derive(random_scene(seed));
+    if (derived.equations.zdot.empty()) continue;
+    const Errors errors = errors_of(derived, random_sample(derived.mechanism, seed));
+    EXPECT_LE(errors.residual, kRelative) << seed;
+    EXPECT_LE(errors.time, kRelative) << seed;
+    EXPECT_LE(errors.zdot_over_condition, kOverCondition) << seed;
+    EXPECT_LE(errors.outputs_over_condition, kOverCondition) << seed;
+    worst.widen(errors);
+  }
+  fmt::print(
+      "{} scenes: residual {:.1e}, by time {:.1e}, accelerations {:.1e} ({:.1e} over cond(M)), outputs "
+      "{:.1e} over it\n",
+      kScenes, worst.residual, worst.time, worst.zdot, worst.zdot_over_condition,
+      worst.outputs_over_condition);
+}
+
+TEST(Derivatives, OfAppliedForcesAreThoseOfTheEquationsWithoutWeightAndInertia) {
+  const model::Mechanism mechanism = read_model(model_path("flyball_governor.toml"));
+  const ir::Module all = derivative_module(mechanism),
+                   applied = derivative_module(mechanism, DerivativeTerms::kApplied);
+  model::Mechanism weightless = mechanism;
+  weightless.gravity = {0.0, 0.0, 0.0};
+  const Derived derived = derive(weightless);
+  Sample sample = random_sample(mechanism, 1);
+  std::fill(sample.z.begin(), sample.z.end(),
+            0.0);  // without velocities and accelerations inertia has no derivatives
+  std::fill(sample.zdot.begin(), sample.zdot.end(), 0.0);
+  const Index n = Index(sample.z.size());
+  const Exact exact = exact_derivatives(derived, sample);
+  EXPECT_LE(
+      relative(array_of(applied, "residual_derivatives", "r_y", n, n, sample), exact.residual.leftCols(n)),
+      kRelative);
+  EXPECT_LE(relative(array_of(applied, "residual_derivatives", "r_z", n, n, sample),
+                     exact.residual.middleCols(n, n)),
+            kRelative);
+  const auto operations = [](const ir::Module& module) {
+    for (const ir::Program& program : module.functions)
+      if (program.name == "residual_derivatives") return ir::count_operations(program).arithmetic();
+    return std::size_t(0);
+  };
+  EXPECT_LT(operations(applied), operations(all));
+}
+
+std::size_t operations(const char* model, const std::string& function) {
+  const ir::Module module = derivative_module(read_model(model_path(model)));
+  for (const ir::Program& program : module.functions)
+    if (program.name == function) return ir::count_operations(program).arithmetic();
+  return 0;
+}
+
+TEST(Derivatives, OfForwardDynamicsTakeFewerOperationsThanOtherGeneratorsNeed) {
+  EXPECT_EQ(operations("ur5.toml", "forward_dynamics_derivatives"), 1642u);
+  EXPECT_EQ(operations("panda.toml", "forward_dynamics_derivatives"), 5805u);
+}
+
+}  // namespace
+}  // namespace jourdain::tests
