@@ -126,8 +126,9 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.positions = layout.position_names;
   text.velocities = layout.velocity_names;
   text.inputs = layout.input_names;
-  text.quaternions = layout.quaternions;
+  text.tangent = model::tangent_of(mechanism, layout);
   text.rheonomic = layout.rheonomic;
+  text.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
   for (const model::Parameter& parameter : mechanism.parameters)
     text.parameters.push_back({parameter.name, parameter.value, parameter.unit, parameter.description});
   return text;
@@ -155,6 +156,9 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
                                   [](const model::Actuator& a) { return !a.rotor_inertia.is_zero(); });
   if (rotors)
     list.push_back("rotors add gear_ratio^2 rotor_inertia to M; their gyroscopic coupling is neglected");
+  if (options.derivative_terms == DerivativeTerms::kApplied)
+    list.push_back(
+        "derivatives of the residual hold those of applied forces but gravity alone (--derivatives applied)");
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   if (!layout.quaternions.empty())
     list.push_back("quaternions are near unit length; a step ends with unit length");
@@ -200,7 +204,8 @@ void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diag
 CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& options) {
   CompiledModel result;
   result.shape = shape_of(mechanism);
-  result.input_count = model::lay_out_coordinates(mechanism).input_count();
+  result.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
+  result.tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
   for (const model::Parameter& parameter : mechanism.parameters)
     result.parameter_names.push_back(parameter.name);
   result.functions = emit::with_needed(options.functions, result.shape);

@@ -8,6 +8,7 @@
 #include "dynamics/equations.hpp"
 #include "emit/files.hpp"
 #include "linearization.hpp"
+#include "model/coordinates.hpp"
 #include "model/mechanism.hpp"
 #include "passes/pipeline.hpp"
 #include "support/diagnostics.hpp"
@@ -35,7 +36,8 @@ struct Omission {
 
 struct CompiledModel {
   emit::SceneShape shape;
-  std::size_t input_count = 0;
+  model::Tangent tangent;
+  bool all_derivatives = true;
   std::vector<std::string> parameter_names;  ///< as in the emitted Parameters
   Articulation articulation;
   std::vector<emit::FunctionInfo> functions;

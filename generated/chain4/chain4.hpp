@@ -23,7 +23,8 @@
 // - outputs: none asked for
 // - parameters: all numbers are baked in
 // - functions not asked for: residual, residual_derivatives, forward_dynamics_derivatives, linearize,
-//   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step
+//   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
+//   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - 8 random states: backward error of M zdot = k_bar - q_bar 1.0e-16 of the sum of absolute terms against
 //   60-digit arithmetic, entries of the functions 3.8e-15; symbolic equations against the numeric reference

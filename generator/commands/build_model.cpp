@@ -34,16 +34,18 @@ NumberText text_of(NumberType number) {
 }
 
 std::string stepper_struct(const std::string& name, const emit::Stepper& stepper) {
-  const bool remembers = stepper.history > 0;
+  const bool remembers = stepper.history > 0 || stepper.implicit;
+  const std::string history = stepper.implicit
+                                  ? fmt::format("::{}::Accelerations<Real>", name)
+                                  : fmt::format("::{}::RateHistory<{}, Real>", name, stepper.history);
   return fmt::format(
-      "struct {0}_method {{\n  static constexpr int depth = {1};\n  using History = {2};\n  template <class "
-      "In>\n"
+      "struct {0}_method {{\n  static constexpr int depth = {1};\n  static constexpr bool implicit = {5};\n"
+      "  using History = {2};\n  template <class In>\n"
       "  static void step(State& state, const In& input, const Real& h, [[maybe_unused]] History& history) "
       "{{\n"
       "    ::{3}::{0}_step(model(), state, input, h{4});\n  }}\n}};\n\n",
-      stepper.name, stepper.history,
-      remembers ? fmt::format("::{}::RateHistory<{}, Real>", name, stepper.history) : "int", name,
-      remembers ? ", history" : "");
+      stepper.name, stepper.history, remembers ? history : "int", name, remembers ? ", history" : "",
+      stepper.implicit);
 }
 
 bool has(const CompiledModel& compiled, const std::string& function) {
@@ -70,8 +72,10 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
     if (!function.stepper) continue;
     const emit::Stepper& s = *function.stepper;
     steppers += stepper_struct(name, s);
-    methods += fmt::format("\n    {{\"{0}\", {1}, {2}, {3}, {4}L, steps<{0}_method>}},", s.name, s.order,
-                           s.evaluations, s.history, emit::step_operations(shape, s, dynamics, rate));
+    methods += fmt::format(
+        "\n    {{\"{0}\", {1}, {2}, {3}, {4}, {5}L, steps<{0}_method>}},", s.name,
+        s.order_with(compiled.all_derivatives), s.evaluations, s.history, int(s.implicit),
+        emit::step_operations({shape, compiled.tangent, compiled.all_derivatives}, s, compiled.module));
     ++method_count;
   }
   std::string parameters;
@@ -113,7 +117,7 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
                           copy(shape.velocities, "  read(state.z, z, Model::velocity_count);\n")},
        {"WRITE_STATE", copy(shape.positions, "  write(state.y, y, Model::position_count);\n") +
                            copy(shape.velocities, "  write(state.z, z, Model::velocity_count);\n")},
-       {"READ_INPUT", copy(compiled.input_count, "  if (u) read(input.u, u, Model::input_count);\n")},
+       {"READ_INPUT", copy(shape.inputs, "  if (u) read(input.u, u, Model::input_count);\n")},
        {"READ_PARAMETERS", parameters},
        {"STEPPERS", steppers},
        {"RATES", rates},

@@ -19,7 +19,7 @@ int run(const ModelArguments& arguments) {
   }
   fmt::print(
       "ok: {}: {} bodies, {} degrees of freedom, {} inputs; backward error {:.1e}, cond(M) up to {:.1e}\n",
-      loaded->options.name, loaded->mechanism.bodies.size(), compiled.shape.velocities, compiled.input_count,
+      loaded->options.name, loaded->mechanism.bodies.size(), compiled.shape.velocities, compiled.shape.inputs,
       compiled.verdict.backward_error, compiled.verdict.condition);
   return kSuccess;
 }

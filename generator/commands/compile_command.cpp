@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
+#include "commands/method_names.hpp"
 #include "commands/report_text.hpp"
 
 namespace jourdain::commands {
@@ -30,6 +31,11 @@ std::string check_function(const std::string& function) {
 int run(const Arguments& arguments) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
+  const std::string conflict = check_derivative_terms(arguments.functions, loaded->options.derivative_terms);
+  if (!conflict.empty()) {
+    fmt::print(stderr, "error: {}\n", conflict);
+    return kUsage;
+  }
   if (!arguments.functions.empty()) loaded->options.functions = arguments.functions;
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) {

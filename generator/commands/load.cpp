@@ -54,6 +54,13 @@ void ModelArguments::add_to(CLI::App& command) {
   command.add_option("--lock", read.locked_joints, "joints to lock at coordinate zero")->delimiter(',');
   command.add_flag("!--no-damping", read.damping, "URDF: leave out joint damping");
   command.add_flag("!--no-snap", read.snap, "keep rotation entries that are nearly 0 or ±1 as they are");
+  command
+      .add_option("--derivatives", derivatives,
+                  "terms that linearly implicit steps differentiate: all, or those of applied forces but "
+                  "gravity (fewer "
+                  "operations)")
+      ->check(CLI::IsMember({"all", "applied"}))
+      ->capture_default_str();
 }
 
 std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
@@ -70,6 +77,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   loaded.options.path = printed_path(arguments.path);
   loaded.options.sha256 = sha256(diagnostics.text());
   loaded.options.damping = read.damping;
+  if (arguments.derivatives == "applied") loaded.options.derivative_terms = DerivativeTerms::kApplied;
   if (arguments.name.empty() && loaded.options.name != loaded.mechanism.name)
     fmt::print(stderr, "note: model '{}' becomes namespace '{}' (--name chooses another)\n",
                loaded.mechanism.name, loaded.options.name);

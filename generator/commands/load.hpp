@@ -18,9 +18,10 @@ struct ModelArguments {
   std::string path;
   std::string root = "fixed";
   std::string name;
+  std::string derivatives = "all";
   model::ReadOptions read;
 
-  /// Adds MODEL, --root, --lock, --no-damping, --no-snap and --name.
+  /// Adds MODEL, --root, --lock, --no-damping, --no-snap, --derivatives and --name.
   void add_to(CLI::App& command);
 };
 

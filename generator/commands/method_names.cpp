@@ -19,4 +19,22 @@ std::string check_method(const std::string& method) {
                       : fmt::format("no method '{}'; did you mean '{}'?", method, near);
 }
 
+std::string check_derivative_terms(const std::vector<std::string>& functions, DerivativeTerms terms) {
+  if (terms == DerivativeTerms::kAll) return "";
+  for (const std::string& function : functions) {
+    const emit::Stepper* stepper = emit::find_stepper(function.substr(0, function.rfind("_step")));
+    if (stepper && stepper->order_with(false) == 0)
+      return fmt::format("{} needs all derivatives; leave --derivatives applied out, or take rosw43",
+                         stepper->name);
+  }
+  return "";
+}
+
+std::vector<std::string> methods_for(DerivativeTerms terms) {
+  std::vector<std::string> names;
+  for (const emit::Stepper& stepper : emit::all_steppers())
+    if (check_derivative_terms({stepper.name}, terms).empty()) names.push_back(stepper.name);
+  return names;
+}
+
 }  // namespace jourdain::commands

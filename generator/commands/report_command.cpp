@@ -85,6 +85,12 @@ bool check_steps(const studies::StudyOptions& options) {
   return false;
 }
 
+/// Whether there is none.
+bool print_conflict(const std::string& conflict) {
+  if (!conflict.empty()) fmt::print(stderr, "error: {}\n", conflict);
+  return conflict.empty();
+}
+
 /// Settles what the options leave open; false after a message.
 bool settle(Arguments& arguments) {
   if (!check_steps(arguments.study)) return false;
@@ -99,9 +105,10 @@ bool settle(Arguments& arguments) {
   arguments.study.reference = reference_kind(arguments.reference);
   if (arguments.tolerance > 0) arguments.study.question.tolerance = arguments.tolerance;
   if (arguments.budget > 0) arguments.study.question.budget = arguments.budget;
-  if (arguments.methods.empty())
-    for (const emit::Stepper& stepper : emit::all_steppers()) arguments.methods.push_back(stepper.name);
-  return true;
+  const DerivativeTerms terms =
+      arguments.run.model.derivatives == "applied" ? DerivativeTerms::kApplied : DerivativeTerms::kAll;
+  if (arguments.methods.empty()) arguments.methods = methods_for(terms);
+  return print_conflict(check_derivative_terms(arguments.methods, terms));
 }
 
 studies::Study make_study(const Arguments& arguments, const RunModel& model, const RunInputs& inputs,

@@ -169,6 +169,11 @@ int run(const Arguments& arguments) {
   std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
   CompileOptions& options = model->loaded.options;
+  const std::string conflict = check_derivative_terms({arguments.method}, options.derivative_terms);
+  if (!conflict.empty()) {
+    fmt::print(stderr, "error: {}\n", conflict);
+    return kUsage;
+  }
   options.functions = loadable_functions({arguments.method});
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) {

@@ -26,7 +26,7 @@ SceneShape shape_of(const ModelText& model) {
   for (const OutputDeclaration& output : model.outputs)
     for (const OutputMember& member : output.members)
       numbers += static_cast<std::size_t>(member.rows) * static_cast<std::size_t>(member.columns);
-  return {model.positions.size(), model.velocities.size(), model.quaternions.size(),
+  return {model.positions.size(), model.velocities.size(), model.tangent.quaternions.size(),
           model.outputs.size(),   model.inputs.size(),     numbers,
           model.rheonomic};
 }
@@ -37,7 +37,7 @@ class Emitter {
       : model_(model), functions_(functions), module_(module), scene_(shape_of(model)) {
     Names names({"Scalar", "Parameters", "State", "Input", "Model", "Real", "position_count",
                  "velocity_count", "input_count", "parameter_count", "output_count", "Outputs", "parameters",
-                 "model", "detail", "w", "RateHistory", "Linearization"});
+                 "model", "detail", "w", "RateHistory", "Accelerations", "Linearization"});
     for (const ir::Output& output : module.constants.outputs) {
       const ir::Node& node = module.constants[output.value];
       const bool is_parameter = node.op == ir::Op::kLeaf;
@@ -68,7 +68,7 @@ class Emitter {
          linearizes(functions_)
              ? fmt::format("  using Linearization = {}::Linearization<Real>;\n", model_.name)
              : ""},
-        {"STEP_SUPPORT", step_support(step_scene(), functions_)},
+        {"STEP_SUPPORT", step_support(step_scene(), functions_, module_)},
         {"HISTORY", history_struct(step_scene(), functions_)},
         {"NU", fmt::format("{}", model_.inputs.size())},
         {"NP", fmt::format("{}", model_.parameters.size())},
@@ -106,10 +106,9 @@ class Emitter {
   }
 
   const Program& program(const std::string& name) const {
-    for (const Program& candidate : module_.functions)
-      if (candidate.name == name) return candidate;
-    JD_CHECK(false, "no program '{}'", name);
-    return module_.constants;
+    const Program* found = ir::find_program(module_, name);
+    JD_CHECK(found, "no program '{}'", name);
+    return *found;
   }
 
   std::string provenance() const {
@@ -190,14 +189,7 @@ class Emitter {
     return text + wrapped_doc(more, 0);
   }
 
-  long operations_of(const Stepper& stepper) const {
-    if (scene_.velocities == 0) return 1;
-    const auto count = [this](const char* name) {
-      return static_cast<long>(ir::count_operations(program(name)).arithmetic());
-    };
-    return step_operations(scene_, stepper, count("forward_dynamics"),
-                           scene_.quaternions > 0 ? count("position_rate") : 0);
-  }
+  long operations_of(const Stepper& stepper) const { return step_operations(step_scene(), stepper, module_); }
 
   std::string leaf(LeafKind kind, std::size_t index) const {
     switch (kind) {
@@ -357,7 +349,7 @@ class Emitter {
     return text;
   }
 
-  StepScene step_scene() const { return {scene_, !model_.inputs.empty(), model_.quaternions}; }
+  StepScene step_scene() const { return {scene_, model_.tangent, model_.all_derivatives}; }
 
   const ModelText& model_;
   const std::vector<FunctionInfo>& functions_;

@@ -6,6 +6,7 @@
 
 #include "emit/functions.hpp"
 #include "ir/module.hpp"
+#include "model/coordinates.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::emit {
@@ -39,8 +40,9 @@ struct ModelText {
   std::string path;                                        ///< relative path of the description
   std::string sha256;                                      ///< of the description
   std::vector<std::string> positions, velocities, inputs;  ///< names in order
-  std::vector<std::size_t> quaternions;                    ///< entry in y of each quaternion's w
+  model::Tangent tangent;
   bool rheonomic = false;
+  bool all_derivatives = true;  ///< those of the residual hold all terms
   std::vector<OutputDeclaration> outputs;
   std::vector<ParameterText> parameters;
   std::vector<std::string> assumptions;  ///< sentences

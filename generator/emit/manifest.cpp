@@ -66,7 +66,8 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
   const char* separator = "\n";
   for (const StepRecord& step : steps) {
     text += fmt::format(R"({}    "{}_step": {{"order": {}, "evaluations": {}, "operations": {}}})", separator,
-                        step.stepper->name, step.stepper->order, step.stepper->evaluations, step.operations);
+                        step.stepper->name, step.stepper->order_with(model.all_derivatives),
+                        step.stepper->evaluations, step.operations);
     separator = ",\n";
   }
   text += steps.empty() ? "},\n" : "\n  },\n";

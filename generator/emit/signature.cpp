@@ -29,6 +29,8 @@ std::vector<Argument> arguments(const FunctionInfo& function, const std::string&
   if (step) list.push_back({real, "h", ""});
   if (step && function.stepper->history > 0)
     list.push_back({fmt::format("RateHistory<{}, {}>&", function.stepper->history, real), "history", ""});
+  if (step && function.stepper->implicit)
+    list.push_back({fmt::format("Accelerations<{}>&", real), "accelerations", ""});
   if (function.shape == Shape::kVector) list.push_back({real, function.result, fmt::format("[{}]", nz)});
   if (function.shape == Shape::kRate)
     list.push_back({real, function.result, fmt::format("[{}]", scene.positions)});

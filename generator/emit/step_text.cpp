@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "emit/implicit_step.hpp"
 #include "emit/layout.hpp"
 #include "emit/signature.hpp"
 #include "emit/templates.hpp"
@@ -41,16 +42,20 @@ bool any_step(const std::vector<FunctionInfo>& functions) {
 }
 
 std::string body(const StepScene& scene, const FunctionInfo& function) {
-  std::string text = "  state.t = state.t + h;\n";
-  if (scene.shape.velocities > 0) text = std::string(template_text(function.name + ".in"));
-  for (const std::size_t first : scene.quaternions)
-    text += fmt::format("  detail::normalise(state.y + {});\n", first);
+  if (scene.shape.velocities == 0) return "  state.t = state.t + h;\n";
+  if (const Rosenbrock* method = find_rosenbrock(function.stepper->name))
+    return rosenbrock_body(scene, *method);
+  std::string text(template_text(function.name + ".in"));
+  for (const model::Tangent::Scalar& quaternion : scene.tangent.quaternions)
+    text += fmt::format("  detail::normalise(state.y + {});\n", quaternion.position);
   return text;
 }
 
 }  // namespace
 
-std::string step_support(const StepScene& scene, const std::vector<FunctionInfo>& functions) {
+std::string step_support(const StepScene& scene, const std::vector<FunctionInfo>& functions,
+                         const ir::Module& module) {
+  const bool has_input = scene.shape.inputs > 0;
   if (!any_step(functions) || scene.shape.velocities == 0) return "";
   std::map<std::string, std::string> holes = {
       {"NY", fmt::format("{}", scene.shape.positions)},
@@ -58,21 +63,22 @@ std::string step_support(const StepScene& scene, const std::vector<FunctionInfo>
       {"VELOCITIES", scene.shape.quaternions > 0
                          ? "  position_rate(model, stage, ydot);\n"
                          : "  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];\n"},
-      {"TEMPLATE", scene.has_input ? "template <class Real, class Inputs>" : "template <class Real>"},
-      {"INPUTS", scene.has_input ? "const Inputs&" : "const Input<Real>&"},
-      {"INPUT", scene.has_input ? "input_at(input, stage)" : "input"},
+      {"TEMPLATE", has_input ? "template <class Real, class Inputs>" : "template <class Real>"},
+      {"INPUTS", has_input ? "const Inputs&" : "const Input<Real>&"},
+      {"INPUT", has_input ? "input_at(input, stage)" : "input"},
       {"VELOCITIES_MODEL", scene.shape.quaternions > 0 ? " model" : ""}};
-  std::string text = scene.has_input ? kInputAt : "";
+  std::string text = has_input ? kInputAt : "";
   text += fill(template_text("rates.in"), holes);
   if (scene.shape.quaternions > 0) text += kNormalise;
-  return text;
+  return text + implicit_support(scene, functions, find_program(module, "residual_derivatives"));
 }
 
 std::string history_struct(const StepScene& scene, const std::vector<FunctionInfo>& functions) {
   const bool remembers = std::any_of(functions.begin(), functions.end(), [](const FunctionInfo& f) {
     return f.stepper && f.stepper->history > 0;
   });
-  if (!remembers) return "";
+  const std::string accelerations = accelerations_struct(scene, functions);
+  if (!remembers) return accelerations;
   std::string text = wrapped_doc(
       "What a multistep method remembers: rates of y and z at the last `count` of `depth` steps, newest "
       "first. One "
@@ -82,12 +88,12 @@ std::string history_struct(const StepScene& scene, const std::vector<FunctionInf
   if (scene.shape.velocities > 0)
     text += fmt::format("  Real ydot[depth][{}] = {{}};\n  Real zdot[depth][{}] = {{}};\n",
                         scene.shape.positions, scene.shape.velocities);
-  return text + "};\n\n";
+  return text + "};\n\n" + accelerations;
 }
 
 std::string step_definitions(const StepScene& scene, const FunctionInfo& function) {
   const std::string text = body(scene, function);
-  const bool sampled = scene.has_input && scene.shape.velocities > 0;
+  const bool sampled = scene.shape.inputs > 0 && scene.shape.velocities > 0;
   const std::string held =
       wrapped(signature(function, "Real", scene.shape, sampled ? nullptr : &text) + " {", 0);
   if (!sampled) return "\ntemplate <class Real>\n" + held + text + "}\n";
@@ -111,10 +117,19 @@ std::string step_definitions(const StepScene& scene, const FunctionInfo& functio
   return definitions;
 }
 
-long step_operations(const SceneShape& shape, const Stepper& stepper, long dynamics, long rate) {
-  const long entries = static_cast<long>(shape.positions + shape.velocities);
-  return stepper.evaluations * (dynamics + rate) + stepper.fixed_operations +
-         stepper.entry_operations * entries + kNormaliseOperations * static_cast<long>(shape.quaternions);
+long step_operations(const StepScene& scene, const Stepper& stepper, const ir::Module& module) {
+  if (scene.shape.velocities == 0) return 1;
+  const auto count = [&module](const char* name) {
+    const ir::Program* program = find_program(module, name);
+    return program ? static_cast<long>(ir::count_operations(*program).arithmetic()) : 0;
+  };
+  if (const Rosenbrock* method = find_rosenbrock(stepper.name))
+    return count("residual_derivatives") + stepper.evaluations * count("residual") +
+           rosenbrock_operations(scene, *method, *find_program(module, "residual_derivatives"));
+  const long entries = static_cast<long>(scene.shape.positions + scene.shape.velocities);
+  return stepper.evaluations * (count("forward_dynamics") + count("position_rate")) +
+         stepper.fixed_operations + stepper.entry_operations * entries +
+         kNormaliseOperations * static_cast<long>(scene.shape.quaternions);
 }
 
 }  // namespace jourdain::emit

@@ -2,6 +2,21 @@
 
 namespace jourdain::emit {
 
+namespace {
+
+Stepper implicit(const char* name, int order, int stages, const char* comment, int reduced_order) {
+  Stepper stepper;
+  stepper.name = name;
+  stepper.order = order;
+  stepper.evaluations = stages;
+  stepper.comment = comment;
+  stepper.implicit = true;
+  stepper.reduced_order = reduced_order;
+  return stepper;
+}
+
+}  // namespace
+
 const std::vector<Stepper>& all_steppers() {
   static const std::vector<Stepper> steppers = {
       {"euler", 1, 1, 0, {}, 1, 2, "explicit Euler method of order 1"},
@@ -32,6 +47,10 @@ const std::vector<Stepper>& all_steppers() {
        2,
        7,
        "Adams-Bashforth method of order 3; the first two steps are those of rk4_step"},
+      implicit("linearly_implicit_euler", 1, 1, "linearly implicit Euler method of order 1, L-stable", 1),
+      implicit("ros34pw2", 3, 4, "W-method ROS34PW2 of order 3 by Rang and Angermann, L-stable", 3),
+      implicit("rosw43", 4, 5, "Rosenbrock method of order 4 (W-method of order 3), L-stable", 3),
+      implicit("rodas4", 4, 6, "Rosenbrock method RODAS of order 4 by Hairer and Wanner, L-stable", 0),
   };
   return steppers;
 }

@@ -13,4 +13,11 @@ struct Module {
   std::vector<Program> functions;
 };
 
+/// The function of that name, or null.
+inline const Program* find_program(const Module& module, const std::string& name) {
+  for (const Program& program : module.functions)
+    if (program.name == name) return &program;
+  return nullptr;
+}
+
 }  // namespace jourdain::ir

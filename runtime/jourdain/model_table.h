@@ -15,12 +15,14 @@ typedef struct jourdain_inputs {
 typedef struct jourdain_method {
   const char* name; /* of the stepper, without "_step" */
   int order;
-  int evaluations; /* of forward_dynamics per step */
+  int evaluations; /* of forward_dynamics per step; of residual where it is implicit */
   int history;     /* earlier steps whose rates it remembers */
+  int implicit;    /* 1: linearly implicit, remembers accelerations */
   long operations; /* arithmetic operations per step */
   /* Makes `count` steps of length h (s) from t, y, z and replaces them by the result. `memory` is the caller's: a
-   * double that counts the earlier steps in it, then their rates of y, newest step first, then those of z; zero at the
-   * start of a trajectory, null where `history` is 0. */
+   * double that counts the earlier steps in it, then their rates of y, newest step first, then those of z; where it is
+   * implicit a double that tells whether there are any, then dz/dt. Zero at the start of a trajectory, null where it
+   * remembers nothing. */
   void (*steps)(double* t, double* y, double* z, const jourdain_inputs* inputs, const double* h, long count,
                 double* memory);
 } jourdain_method;

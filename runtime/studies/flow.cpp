@@ -42,6 +42,12 @@ void sample(void* context, const double* t, const double*, const double*, double
 
 }  // namespace
 
+Memory fresh_memory(const jourdain_model_table& table, const jourdain_method& method) {
+  const int rates = method.history * (table.position_count + table.velocity_count),
+            accelerations = method.implicit * table.velocity_count;
+  return Memory(static_cast<std::size_t>(1 + (rates + accelerations) * table.parts));
+}
+
 template <class Real>
 Flow<Real>::Flow(const jourdain_model_table& table, const Inputs& inputs) : table_(table), inputs_(inputs) {
   JD_CHECK(table.parts == kParts<Real>, "the table has {} parts per number", table.parts);
@@ -75,13 +81,14 @@ std::vector<Real> Flow<Real>::rates(const Real& t, const std::vector<Real>& x) c
 
 template <class Real>
 Memory Flow<Real>::fresh_memory(const jourdain_method& method) const {
-  return Memory(1 + static_cast<std::size_t>(method.history) * size() * kParts<Real>);
+  return studies::fresh_memory(table_, method);
 }
 
 template <class Real>
 Memory Flow<Real>::memory_of(const jourdain_method& method, const std::vector<Point<Real>>& earlier) const {
   JD_CHECK(earlier.size() == static_cast<std::size_t>(method.history), "{} points for {}", earlier.size(),
            method.history);
+  if (method.history == 0) return fresh_memory(method);
   Memory memory = {static_cast<double>(method.history)};
   std::vector<std::vector<Real>> rates_at;
   for (const Point<Real>& point : earlier) rates_at.push_back(rates(point.t, point.x));

@@ -32,8 +32,11 @@ struct Point {
   std::vector<Real> x;
 };
 
-/// What a multistep method remembers, as jourdain_method describes it.
+/// What a method remembers, as jourdain_method describes it.
 using Memory = std::vector<double>;
+
+/// Memory at the start of a trajectory.
+Memory fresh_memory(const jourdain_model_table& table, const jourdain_method& method);
 
 /// Real: double (also for tables that compute in float) or LongReal; the table must have kParts<Real>.
 template <class Real>
@@ -54,7 +57,8 @@ class Flow {
   std::vector<Real> rates(const Real& t, const std::vector<Real>& x) const;
   /// An empty memory for `method`.
   Memory fresh_memory(const jourdain_method& method) const;
-  /// A memory that holds the rates at `earlier` points, newest first; as many as `method` remembers.
+  /// A memory that holds the rates at `earlier` points, newest first; as many as `method` remembers. A fresh one for methods that
+  /// remember no rates.
   Memory memory_of(const jourdain_method& method, const std::vector<Point<Real>>& earlier) const;
   /// `count` steps of length h; inputs are sampled at the stages.
   void step(const jourdain_method& method, Point<Real>& point, double h, long count, Memory& memory) const;

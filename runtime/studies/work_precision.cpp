@@ -74,8 +74,7 @@ class Timer {
  private:
   double seconds() {
     Point<double> point = start_;
-    const auto depth = static_cast<std::size_t>(method_.history);
-    std::vector<double> memory(1 + depth * point.x.size());
+    Memory memory = fresh_memory(table_, method_);
     const jourdain_inputs inputs{inputs_.data(), nullptr, nullptr};
     const auto begin = Clock::now();
     method_.steps(&point.t, point.x.data(), point.x.data() + table_.position_count, &inputs, &h_, block_,

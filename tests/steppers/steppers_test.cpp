@@ -9,9 +9,13 @@
 
 #include "cart_pole_all/cart_pole_all_kernels.hpp"
 #include "crane_all/crane_all_kernels.hpp"
+#include "crane_applied/crane_applied_kernels.hpp"
 #include "embed/counting.hpp"
+#include "flyball_governor_all/flyball_governor_all_kernels.hpp"
+#include "flyball_governor_applied/flyball_governor_applied_kernels.hpp"
 #include "hoop_bead_all/hoop_bead_all_kernels.hpp"
 #include "quadrotor_all/quadrotor_all_kernels.hpp"
+#include "steppers/dual.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -22,6 +26,7 @@ namespace {
     int none = 0;                                                                                            \
     ::ns::RateHistory<1, Real> one;                                                                          \
     ::ns::RateHistory<2, Real> two;                                                                          \
+    ::ns::Accelerations<Real> accelerations;                                                                 \
     const ::ns::Model<Real> model;                                                                           \
     const auto simple = [&](auto step) {                                                                     \
       return [&model, step](auto& state, const auto& input, Real h, int&) { step(model, state, input, h); }; \
@@ -38,6 +43,11 @@ namespace {
     visit("rk5", 5, simple([](auto&... a) { ::ns::rk5_step(a...); }), none);                                 \
     visit("adams_bashforth2", 2, remembering([](auto&... a) { ::ns::adams_bashforth2_step(a...); }), one);   \
     visit("adams_bashforth3", 3, remembering([](auto&... a) { ::ns::adams_bashforth3_step(a...); }), two);   \
+    visit("linearly_implicit_euler", 1,                                                                      \
+          remembering([](auto&... a) { ::ns::linearly_implicit_euler_step(a...); }), accelerations);         \
+    visit("ros34pw2", 3, remembering([](auto&... a) { ::ns::ros34pw2_step(a...); }), accelerations);         \
+    visit("rosw43", 4, remembering([](auto&... a) { ::ns::rosw43_step(a...); }), accelerations);             \
+    visit("rodas4", 4, remembering([](auto&... a) { ::ns::rodas4_step(a...); }), accelerations);             \
   } while (false)
 
 /// Quotients of literals in the template, which compilers fold: the counting type cannot.
@@ -48,7 +58,7 @@ TEST(Steppers, OperationsAreThoseOfTheManifest) {
   {                                                                                                         \
     std::ifstream file(JOURDAIN_STEPPERS "/" #ns "/" #ns ".json");                                          \
     const nlohmann::json stated = nlohmann::json::parse(file)["steps"];                                     \
-    EXPECT_EQ(stated.size(), 7u) << #ns;                                                                    \
+    EXPECT_EQ(stated.size(), 11u) << #ns;                                                                   \
     const auto visit = [&](const std::string& name, int order, auto step, auto& history) {                  \
       auto state = ::ns::initial_state(::ns::Model<Counting>());                                            \
       ::ns::Input<Counting> input{};                                                                        \
@@ -65,6 +75,7 @@ TEST(Steppers, OperationsAreThoseOfTheManifest) {
   JOURDAIN_COUNT_STEPS(quadrotor_all)
   JOURDAIN_COUNT_STEPS(hoop_bead_all)
   JOURDAIN_COUNT_STEPS(cart_pole_all)
+  JOURDAIN_COUNT_STEPS(flyball_governor_all)
 }
 
 /// Positions after `duration` (s) in `steps` steps from the initial state.
@@ -108,6 +119,33 @@ TEST(Steppers, HaveTheirOrders){
     JOURDAIN_CHECK_ORDERS(crane_all, 6)  // quaternions, prescribed motion
     JOURDAIN_CHECK_ORDERS(hoop_bead_all, 0.5L)}
 
+TEST(Steppers, OfWMethodsKeepTheirReducedOrdersWhenDerivativesLeaveTermsOut) {
+  const crane_applied::Model<long double> model;
+  const auto order = [&](auto step) {
+    return measured_order(
+        crane_applied::initial_state(model), crane_applied::Input<long double>{}, 6,
+        [&](auto& state, const auto& input, long double h, auto& memory) {
+          step(model, state, input, h, memory);
+        },
+        crane_applied::Accelerations<long double>{});
+  };
+  EXPECT_NEAR(order([](auto&... a) { crane_applied::linearly_implicit_euler_step(a...); }), 1, 0.1);
+  EXPECT_NEAR(order([](auto&... a) { crane_applied::ros34pw2_step(a...); }), 3, 0.1);
+  EXPECT_NEAR(order([](auto&... a) { crane_applied::rosw43_step(a...); }), 3, 0.1);
+}
+
+TEST(Steppers, WithDerivativesOfAppliedForcesTakeFewerOperations) {
+  const auto steps = [](const std::string& name) {
+    std::ifstream file(JOURDAIN_STEPPERS "/" + name + "/" + name + ".json");
+    return nlohmann::json::parse(file)["steps"];
+  };
+  const auto all = steps("flyball_governor_all"), applied = steps("flyball_governor_applied");
+  for (const char* step : {"linearly_implicit_euler_step", "ros34pw2_step", "rosw43_step"})
+    EXPECT_LT(applied[step]["operations"], all[step]["operations"]) << step;
+  EXPECT_EQ(all["rosw43_step"]["order"], 4);
+  EXPECT_EQ(applied["rosw43_step"]["order"], 3);
+}
+
 TEST(Steppers, KeepTheirOrdersWithSampledInputs) {
   const auto push = [](const cart_pole_all::State<long double>& state) {
     cart_pole_all::Input<long double> input;
@@ -148,6 +186,65 @@ TEST(Steppers, CopiesOfStateAndHistoryGoOnWithTheSameBits) {
   for (int i = 0; i < 5; ++i) adams_bashforth3_step(model, copy, {}, 1e-3, remembered);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(state.y[i], copy.y[i]);
   EXPECT_NEAR(std::hypot(std::hypot(copy.y[0], copy.y[1]), std::hypot(copy.y[2], copy.y[3])), 1, 1e-15);
+}
+
+/// Largest difference between the lower half of A and dual numbers through forward_dynamics; displacements of the
+/// quaternion whose w is y[quaternion] (negative: none) and whose angular velocity begins at z[spin] are small rotations.
+template <int quaternion, int spin, template <class> class Model, template <class> class State,
+          template <class> class Input>
+double linearisation_error(State<double> state, const Input<Dual>& input) {
+  constexpr int nz = Model<double>::velocity_count;
+  typename Model<double>::Linearization linear;
+  Input<double> held{};
+  if constexpr (Model<double>::input_count > 0)
+    for (int i = 0; i < Model<double>::input_count; ++i) held.u[i] = input.u[i].value;
+  linearize(Model<double>(), state, held, linear);
+  double worst = 0;
+  for (int c = 0; c < 2 * nz; ++c) {
+    State<Dual> dual;
+    dual.t = Dual(state.t);
+    for (int i = 0; i < Model<double>::position_count; ++i) dual.y[i] = Dual(state.y[i]);
+    for (int i = 0; i < nz; ++i) dual.z[i] = Dual(state.z[i], i + nz == c ? 1 : 0);
+    if (c < nz && (quaternion < 0 || c < spin || c >= spin + 3)) dual.y[c].slope = 1;
+    if constexpr (quaternion >= 0) {
+      const double* q = state.y + quaternion;
+      const double by[3][4] = {
+          {-q[1], q[0], q[3], -q[2]}, {-q[2], -q[3], q[0], q[1]}, {-q[3], q[2], -q[1], q[0]}};
+      if (c >= spin && c < spin + 3)
+        for (int k = 0; k < 4; ++k) dual.y[quaternion + k].slope = by[c - spin][k] / 2;
+    }
+    Dual zdot[nz];
+    forward_dynamics(Model<Dual>(), dual, input, zdot);
+    for (int i = 0; i < nz; ++i) worst = std::max(worst, std::fabs(linear.A[nz + i][c] - zdot[i].slope));
+  }
+  return worst;
+}
+
+TEST(Linearize, AgreesWithDualNumbersThroughForwardDynamics) {
+  auto quadrotor = quadrotor_all::initial_state(quadrotor_all::Model<>());
+  for (int i = 0; i < 6; ++i) quadrotor.z[i] = 0.3 * i - 0.7;
+  quadrotor_all::Input<Dual> thrust{};
+  for (auto& u : thrust.u) u = Dual(2.5);
+  EXPECT_LE((linearisation_error<3, 3, quadrotor_all::Model, quadrotor_all::State>(quadrotor, thrust)),
+            1e-11);
+  auto crane = crane_all::initial_state(crane_all::Model<>());
+  for (int i = 0; i < 3; ++i) crane.z[i] = 0.4 - 0.3 * i;
+  EXPECT_LE((linearisation_error<0, 0, crane_all::Model, crane_all::State>(crane, crane_all::Input<Dual>{})),
+            1e-12);
+  const auto bead = hoop_bead_all::initial_state(hoop_bead_all::Model<>());
+  EXPECT_LE((linearisation_error<-1, 0, hoop_bead_all::Model, hoop_bead_all::State>(
+                bead, hoop_bead_all::Input<Dual>{})),
+            1e-12);
+}
+
+TEST(Linearize, LetsDisplacementsOfAQuaternionTurnWithTheBody) {
+  auto state = crane_all::initial_state(crane_all::Model<>());
+  for (int i = 0; i < 3; ++i) state.z[i] = 1 + i;
+  crane_all::Linearization<> linear;
+  linearize(crane_all::Model<>(), state, {}, linear);
+  const double upper[3][6] = {{0, 3, -2, 1, 0, 0}, {-3, 0, 1, 0, 1, 0}, {2, -1, 0, 0, 0, 1}};  // −[ω], 1
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 6; ++j) EXPECT_EQ(linear.A[i][j], upper[i][j]) << i << j;
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ struct System {
   static const jourdain_model_table& table() {
     static const char* const names[] = {"y", nullptr};
     static const char* const no_names[] = {nullptr};
-    static const jourdain_method methods[] = {{"first", 1, 1, 0, 8, steps<false>},
-                                              {"fourth", 4, 4, 0, 40, steps<true>}};
+    static const jourdain_method methods[] = {{"first", 1, 1, 0, 0, 8, steps<false>},
+                                              {"fourth", 4, 4, 0, 0, 40, steps<true>}};
     const double roundoff = P == 1 ? 0x1p-53 : 0x1p-166;
     static const jourdain_model_table result = {
         P,     1,        1,       1,       0,       0,     2,       roundoff, 4,         names,  names,
