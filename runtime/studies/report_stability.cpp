@@ -9,6 +9,7 @@ namespace jourdain::studies {
 
 namespace {
 
+constexpr double kApart = 10;       ///< times the trajectory's own rate: modes that see it stand still
 constexpr double kTransient = 100;  ///< growth that eigenvalues hide, worth a remark
 
 std::string instant(double t) { return t == 0 ? "0 s" : time_text(t); }
@@ -24,6 +25,19 @@ std::string kind_text(const MethodLimit& limit) {
       return "growing" + speed;
   }
   return "";
+}
+
+/// A sentence in lines for a terminal.
+std::string wrapped(const std::string& sentence) {
+  constexpr std::size_t kWidth = 106;
+  std::string text;
+  for (std::size_t begin = 0; begin < sentence.size();) {
+    std::size_t end = sentence.size();
+    if (end - begin > kWidth) end = sentence.rfind(' ', begin + kWidth);
+    text += (begin == 0 ? "  " : "    ") + sentence.substr(begin, end - begin) + "\n";
+    begin = end + 1;
+  }
+  return text;
 }
 
 std::string owners_text(const Stability& stability) {
@@ -67,10 +81,14 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
     if (!limit.observed) continue;
     list.push_back(
         fmt::format("observed limits: runs of {} steps or more from the state at t = {} on, "
-                    "velocities displaced by a millionth along the mode",
+                    "velocities displaced by a millionth along the mode; -: none found",
                     2000, instant(limit.observed->start)));
     break;
   }
+  if (std::abs(s.fastest) < kApart * s.rate)
+    list.push_back(
+        "no mode is much faster than the motion: limits are those of the state at their time, and runs "
+        "move on from it");
   if (s.transient_growth > kTransient)
     list.push_back(
         fmt::format("eigenvalues mislead here: at 0.9 of its limit {} lets some differences grow "
@@ -92,7 +110,7 @@ std::string stability_text(const jourdain_model_table& table, const Study& study
                         limit_text(limit), observed_text(limit), any ? instant(limit.time) : "-",
                         any ? mode_text(limit.mode) : "-", judged_text(limit));
   }
-  for (const std::string& remark : stability_remarks(table, study)) text += "  " + remark + "\n";
+  for (const std::string& remark : stability_remarks(table, study)) text += wrapped(remark);
   return text;
 }
 

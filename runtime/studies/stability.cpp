@@ -260,6 +260,12 @@ double growth_beyond(const StabilityFunction& function, const MethodLimit& limit
   return amplification(function, h * mu);
 }
 
+/// Real velocities of an eigenvector, whose phase is arbitrary.
+VectorXd velocities_of(Complex mu, const Modes& modes) {
+  const Eigen::VectorXcd z = modes.right.col(index_of(mu, modes)).tail(modes.right.rows() / 2);
+  return z.real().norm() > z.imag().norm() ? VectorXd(z.real()) : VectorXd(z.imag());
+}
+
 VectorXd largest_velocities(const Flow<double>& flow, const ReferenceSolution& reference) {
   VectorXd largest = VectorXd::Zero(static_cast<Index>(flow.size() - flow.position_count()));
   for (const Point<double>& point : reference.points)
@@ -279,8 +285,7 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
     const StabilityFunction* function = stability_function(method.name);
     if (!function || !(limit.h > 0) || !std::isfinite(limit.h) || limit.kind == ModeKind::kGrowing) continue;
     const Local& local = local_at(locals, limit.time);
-    const VectorXd direction =
-        local.modes.right.col(index_of(limit.mode, local.modes)).tail(local.A.rows() / 2).real();
+    const VectorXd direction = velocities_of(limit.mode, local.modes);
     if (!(direction.norm() > 0)) continue;
     const LimitRuns runs{*local.point,
                          direction,

@@ -96,12 +96,13 @@ struct LimitRuns {
   bool stiff = false;  ///< runs are far shorter than the motion, so that they can be told from it
 };
 
-/// Bisects around the predicted limit. A run diverges where a velocity is not finite or ten times the largest of the
-/// reference (entries count with a hundredth of the largest at least). Many scenes escape to where they are more stable before they get
-/// there. A run therefore diverges too with `stiff` where it is that largest one off a run with an eighth of the step, and with other
-/// damped modes where it is a hundredth of that off a run that was not displaced. Runs are long enough for a
-/// difference to grow e⁴⁰-fold 2 % beyond the limit, 2000 steps at least and 200 000 at most. None where runs diverge or
-/// hold at every h tried, from 0.28 to 3.6 times the predicted one, or `seconds` are over.
+/// Bisects around the predicted limit. Runs of undamped modes diverge where a velocity is not finite or ten times the largest of the
+/// reference (entries count with a hundredth of the largest at least). With `stiff` they diverge too where a velocity is that
+/// largest one off a run with an eighth of the step: many scenes escape to where they are less stiff before they get to
+/// ten times. With other damped modes they diverge where a velocity is not finite or a hundredth of the largest off a run
+/// that was not displaced. Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, 2000
+/// steps at least and 200 000 at most. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the
+/// predicted one, or `seconds` are over.
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
                                            const LimitRuns& runs, double seconds);
 
