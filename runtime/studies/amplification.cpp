@@ -18,9 +18,11 @@ using Kind = StabilityFunction::Kind;
 constexpr double kRounding = 1e-9;  ///< relative, of |R|: below it nothing grows
 constexpr double kDefective =
     1e-3;  ///< of spectral radii: multiple eigenvalues lose half their digits and more
-constexpr double kShortest = 1e-3;     ///< |hµ| where the search for a limit begins
-constexpr double kLongest = 1e2;       ///< |hµ| where it ends
-constexpr double kFactor = 1.02;       ///< of the search
+constexpr double kShortest = 1e-3;   ///< |hµ| where the search for a limit begins
+constexpr double kLongest = 1e2;     ///< |hµ| where it ends
+constexpr double kFactor = 1.02;     ///< of the search
+constexpr double kPrecision = 1e-6;  ///< relative, of limits
+constexpr double kMatrixPrecision = 1e-4;
 constexpr double kMatrixFactor = 1.1;  ///< of the search with eigenvalues of matrices, which cost more
 
 /// One line per method. Coefficients of rk5 are those of the six stages of Dormand and Prince.
@@ -57,7 +59,7 @@ double largest_root(const std::vector<double>& weights, Complex x) {
 /// First argument at which `unstable` holds, searched from `first` to `last` in ratios of `factor`, then by bisection.
 /// 0 where it holds down to `first` / 10⁴; infinity where it is never found.
 template <class Unstable>
-double first_unstable(double first, double last, double factor, Unstable&& unstable) {
+double first_unstable(double first, double last, double factor, double precision, Unstable&& unstable) {
   double low = first, high = first;
   if (unstable(first)) {
     for (low = first / 10; unstable(low); low /= 10)
@@ -66,7 +68,7 @@ double first_unstable(double first, double last, double factor, Unstable&& unsta
     for (high = first * factor; !unstable(high); low = high, high *= factor)
       if (high > last) return INFINITY;
   }
-  while (high > low * (1 + 1e-6)) {
+  while (high > low * (1 + precision)) {
     const double middle = std::sqrt(low * high);
     (unstable(middle) ? high : low) = middle;
   }
@@ -112,7 +114,7 @@ double step_limit(const StabilityFunction& function, Complex mu, Allowance allow
     return amplification(function, r / speed * mu) >
            std::exp(std::min(allowed.growth * r / speed, 600.0)) * (1 + kRounding * std::min(1.0, r));
   };
-  return first_unstable(kShortest, kLongest, kFactor, unstable) / speed;
+  return first_unstable(kShortest, kLongest, kFactor, kPrecision, unstable) / speed;
 }
 
 double step_limit(const StabilityFunction& function, const MatrixXd& A, double fastest, Allowance allowed) {
@@ -122,7 +124,7 @@ double step_limit(const StabilityFunction& function, const MatrixXd& A, double f
   };
   constexpr double kFirst = 0.05;  // h‖A‖ below which growth is a matter of accuracy
   if (unstable(kFirst)) return 0;
-  return first_unstable(kFirst, kLongest, kMatrixFactor, unstable) / fastest;
+  return first_unstable(kFirst, kLongest, kMatrixFactor, kMatrixPrecision, unstable) / fastest;
 }
 
 bool keeps_oscillations(const StabilityFunction& function) {
@@ -139,7 +141,7 @@ std::vector<Complex> region_boundary(const StabilityFunction& function) {
   const Complex centre = -reach / 2;
   for (int k = 0; k <= kRays; ++k) {
     const Complex ray = std::polar(1.0, 2 * std::numbers::pi * k / kRays);
-    const double length = first_unstable(kShortest, kLongest, kFactor, [&](double r) {
+    const double length = first_unstable(kShortest, kLongest, kFactor, kPrecision, [&](double r) {
       return amplification(function, centre + r * ray) > 1 + kRounding;
     });
     curve.push_back(centre + length * ray);

@@ -16,9 +16,9 @@ constexpr double kDiverged = 10;        ///< times the largest of the same veloc
 constexpr double kMoving =
     1e-2;                      ///< of the largest velocity: entries that move less count as if they moved so
 constexpr double kGrown = 40;  ///< logarithm of the growth that a run 2 % beyond the limit has time for
-constexpr long kFewestSteps = 2000, kMostSteps = 200000;
-constexpr double kParted =
-    1e-2;  ///< of the largest velocity: difference of runs that part, 10⁴ displacements
+constexpr long kFewestSteps = 2000, kMostSteps = 1000000;
+constexpr double kParted = 1e-3;  ///< of the largest velocity: difference of runs that part
+constexpr double kMostRuns = 15;  ///< that a search takes
 constexpr int kFiner = 8;
 constexpr int kWidenings = 7;
 constexpr double kWidening = 1.2;
@@ -41,7 +41,8 @@ class Runs {
     velocities(start_) +=
         kDisplacement * scale / setting.direction.lpNorm<Eigen::Infinity>() * setting.direction;
     const double wanted = kGrown / std::log(std::max(setting.growth, 1 + 1e-9));
-    steps_ = static_cast<long>(std::clamp(wanted, 1.0 * kFewestSteps, 1.0 * kMostSteps));
+    const double most = std::min(1.0 * kMostSteps, seconds / kMostRuns / step_time(setting.predicted));
+    steps_ = static_cast<long>(std::clamp(wanted, 1.0 * kFewestSteps, std::max(1.0 * kFewestSteps, most)));
   }
 
   long steps() const { return steps_; }
@@ -67,6 +68,17 @@ class Runs {
   }
 
  private:
+  /// Of the run and its companion, s.
+  double step_time(double predicted) const {
+    constexpr int kSteps = 500;
+    Point<double> point = start_;
+    Memory memory = flow_.fresh_memory(method_);
+    const auto begin = Clock::now();
+    flow_.step(method_, point, predicted / kFiner, kSteps, memory);
+    const double time = std::chrono::duration<double>(Clock::now() - begin).count() / kSteps;
+    return time * (companion_ == Companion::kNone ? 1 : companion_ == Companion::kFiner ? 1 + kFiner : 2);
+  }
+
   Eigen::Map<Eigen::VectorXd> velocities(Point<double>& point) const {
     const std::size_t first = flow_.position_count();
     return {point.x.data() + first, static_cast<Eigen::Index>(point.x.size() - first)};

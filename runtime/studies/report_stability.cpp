@@ -94,7 +94,6 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
         fmt::format("eigenvalues mislead here: at 0.9 of its limit {} lets some differences grow "
                     "{:.2g}-fold before they die out",
                     s.transient_method, s.transient_growth));
-  if (s.partial) list.push_back("the time allowed was over before the whole trajectory was looked at");
   const std::string stiff = stiff_text(table, study);
   if (!stiff.empty()) list.push_back(stiff);
   return list;

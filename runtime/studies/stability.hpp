@@ -1,13 +1,5 @@
 // Which step lengths a method survives on a trajectory: predicted from the eigenvalues of the linearisation along it, and
 // observed by runs that diverge or do not.
-//
-// A mode counts as *damped* where −Re µ > 10⁻³ |µ|, as *growing* where Re µ > 10⁻³ |µ|, else as *undamped*. Frozen eigenvalues of
-// a scene that damps nothing wander off the imaginary axis as it moves; whether a scene damps is therefore asked of the rate at
-// which volumes in phase space shrink, −tr A − d(ln det M)/dt, in the mean along the trajectory. Where that is below a hundredth of the
-// trajectory's own rate, or energy is conserved, every mode that rather oscillates counts as undamped. *Fast* modes, |µ| above the
-// trajectory's own rate, are those that a method need not follow but has to survive: they decide; slow ones only where no fast one
-// has a limit. A method that lets every undamped mode grow has no stable step ("none: undamped mode") unless a damped mode
-// asks for a step so short that undamped ones grow less than e-fold over the trajectory.
 #pragma once
 
 #include <complex>
@@ -15,14 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "studies/amplification.hpp"
 #include "studies/flow.hpp"
-#include "studies/linearisation.hpp"
+#include "studies/mode_limits.hpp"
 #include "studies/reference_solution.hpp"
 
 namespace jourdain::studies {
-
-enum class ModeKind { kDamped, kUndamped, kGrowing };
 
 /// At one time of the trajectory.
 struct StabilityPoint {
@@ -33,36 +22,14 @@ struct StabilityPoint {
   double stiffness = 0;        ///< largest −Re µ over the trajectory's own rate
 };
 
-/// A step length at which runs begin to diverge, found by bisection to 1 %.
-struct ObservedLimit {
-  double h = 0;  ///< s; shortest tried that diverged
-  double start =
-      0;  ///< s; the runs begin at the reference's state then, its velocities displaced along the mode
-  long steps = 0;  ///< of a run near h
-};
-
-/// Of one method over the whole trajectory.
-struct MethodLimit {
-  std::size_t method = 0;
-  double h = 0;     ///< s; smallest of the points' limits, 0 and infinity as there
-  double time = 0;  ///< s; where that is
-  std::complex<double>
-      mode;  ///< that decides, 1/s; for methods judged by the whole linear system the fastest
-  ModeKind kind = ModeKind::kDamped;
-  bool fast = false;                      ///< `mode` is above the trajectory's own rate
-  std::optional<ObservedLimit> observed;  ///< none where nothing is predicted or runs show no limit near it
-};
-
 struct CoordinateShare {
   std::string name;
   double share = 0;  ///< of 1
 };
 
 struct Stability {
-  double rate =
-      0;  ///< 1/s; the trajectory's own: largest rms rate of an entry over its rms deviation from the mean
+  double rate = 0;                      ///< 1/s; the trajectory's own
   bool damps = false;                   ///< volumes in phase space shrink
-  bool partial = false;                 ///< the time allowed was over before all points and runs were done
   std::vector<StabilityPoint> points;   ///< in time; empty: not studied
   std::vector<MethodLimit> limits;      ///< by method
   std::complex<double> fastest;         ///< mode of the largest |µ| of all points, 1/s
@@ -82,9 +49,6 @@ Stability study_stability(const Flow<double>& flow, const ReferenceSolution& ref
                           const std::vector<std::size_t>& quaternions, bool conserves_energy, double seconds,
                           const Progress& progress);
 
-/// rms rate over rms deviation, 1/s; at least one over the duration.
-double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference);
-
 /// Runs that look for a limit.
 struct LimitRuns {
   const Point<double>& start;
@@ -99,9 +63,9 @@ struct LimitRuns {
 /// Bisects around the predicted limit. Runs of undamped modes diverge where a velocity is not finite or ten times the largest of the
 /// reference (entries count with a hundredth of the largest at least). With `stiff` they diverge too where a velocity is that
 /// largest one off a run with an eighth of the step: many scenes escape to where they are less stiff before they get to
-/// ten times. With other damped modes they diverge where a velocity is not finite or a hundredth of the largest off a run
+/// ten times. With other damped modes they diverge where a velocity is not finite or a thousandth of the largest off a run
 /// that was not displaced. Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, 2000
-/// steps at least and 200 000 at most. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the
+/// steps at least and a million at most, fewer where that takes too long. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the
 /// predicted one, or `seconds` are over.
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
                                            const LimitRuns& runs, double seconds);
