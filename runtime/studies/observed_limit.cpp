@@ -17,6 +17,8 @@ constexpr double kMoving =
     1e-2;                      ///< of the largest velocity: entries that move less count as if they moved so
 constexpr double kGrown = 40;  ///< logarithm of the growth that a run 2 % beyond the limit has time for
 constexpr long kFewestSteps = 2000, kMostSteps = 1000000;
+constexpr long kFewestDampedSteps =
+    500;  ///< some hundred time constants; nearby trajectories may part by themselves later
 constexpr double kParted = 1e-3;  ///< of the largest velocity: difference of runs that part
 constexpr double kMostRuns = 15;  ///< that a search takes
 constexpr int kFiner = 8;
@@ -24,16 +26,16 @@ constexpr int kWidenings = 7;
 constexpr double kWidening = 1.2;
 constexpr double kResolution = 1.005;
 
-/// What a run is compared with beside the reference.
-enum class Companion { kNone, kFiner, kUndisplaced };
-
 /// One start, many step lengths.
 class Runs {
  public:
   Runs(const Flow<double>& flow, const jourdain_method& method, const LimitRuns& setting, double seconds)
-      : flow_(flow), method_(method), start_(setting.start), undisplaced_(setting.start) {
-    if (setting.kind == ModeKind::kDamped)
-      companion_ = setting.stiff ? Companion::kFiner : Companion::kUndisplaced;
+      : flow_(flow),
+        method_(method),
+        start_(setting.start),
+        undisplaced_(setting.start),
+        damped_(setting.kind == ModeKind::kDamped),
+        ratio_(setting.stiff ? kFiner : 1) {
     deadline_ =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const double largest = setting.largest.maxCoeff(), scale = largest > 0 ? largest : 1;
@@ -41,8 +43,9 @@ class Runs {
     velocities(start_) +=
         kDisplacement * scale / setting.direction.lpNorm<Eigen::Infinity>() * setting.direction;
     const double wanted = kGrown / std::log(std::max(setting.growth, 1 + 1e-9));
+    const double fewest = static_cast<double>(damped_ && ratio_ == 1 ? kFewestDampedSteps : kFewestSteps);
     const double most = std::min(1.0 * kMostSteps, seconds / kMostRuns / step_time(setting.predicted));
-    steps_ = static_cast<long>(std::clamp(wanted, 1.0 * kFewestSteps, std::max(1.0 * kFewestSteps, most)));
+    steps_ = static_cast<long>(std::clamp(wanted, fewest, std::max(fewest, most)));
   }
 
   long steps() const { return steps_; }
@@ -50,19 +53,17 @@ class Runs {
   /// Nothing where the time is over.
   std::optional<bool> diverges(double h) const {
     constexpr long kBlock = 50;
-    const bool finer = companion_ == Companion::kFiner;
     // A method that damps less than the scene does may resonate with what drives it: no sign of divergence.
-    const double bound = companion_ == Companion::kUndisplaced ? INFINITY : kDiverged;
-    const int ratio = finer ? kFiner : 1;
-    Point<double> point = start_, companion = finer ? start_ : undisplaced_;
+    const double bound = damped_ ? INFINITY : kDiverged;
+    Point<double> point = start_, companion = ratio_ > 1 ? start_ : undisplaced_;
     Memory memory = flow_.fresh_memory(method_), companions = memory;
     for (long done = 0; done < steps_; done += kBlock) {
       if (Clock::now() > deadline_) return {};
       flow_.step(method_, point, h, kBlock, memory);
       if (beyond(velocities(point), bound)) return true;
-      if (companion_ == Companion::kNone) continue;
-      flow_.step(method_, companion, h / ratio, kBlock * ratio, companions);
-      if (beyond(velocities(point) - velocities(companion), finer ? 1 : kParted)) return true;
+      if (!damped_) continue;
+      flow_.step(method_, companion, h / ratio_, kBlock * ratio_, companions);
+      if (parted(velocities(point) - velocities(companion))) return true;
     }
     return false;
   }
@@ -76,7 +77,7 @@ class Runs {
     const auto begin = Clock::now();
     flow_.step(method_, point, predicted / kFiner, kSteps, memory);
     const double time = std::chrono::duration<double>(Clock::now() - begin).count() / kSteps;
-    return time * (companion_ == Companion::kNone ? 1 : companion_ == Companion::kFiner ? 1 + kFiner : 2);
+    return damped_ ? (1 + ratio_) * time : time;
   }
 
   Eigen::Map<Eigen::VectorXd> velocities(Point<double>& point) const {
@@ -88,12 +89,18 @@ class Runs {
     return !z.allFinite() || (z.cwiseAbs().array() > multiple * scales_.array()).any();
   }
 
+  bool parted(const Eigen::VectorXd& difference) const {
+    if (ratio_ > 1) return beyond(difference, 1);
+    return !(difference.lpNorm<Eigen::Infinity>() < kParted * scales_.maxCoeff());
+  }
+
   const Flow<double>& flow_;
   const jourdain_method& method_;
   Point<double> start_, undisplaced_;
   Eigen::VectorXd scales_;  ///< of the velocities
   long steps_ = 0;
-  Companion companion_ = Companion::kNone;
+  bool damped_;
+  int ratio_;  ///< of the run's step and its companion's
   Clock::time_point deadline_;
 };
 

@@ -1,6 +1,7 @@
 // What a report says about stability, as text and CSV.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "studies/report.hpp"
@@ -44,7 +45,7 @@ std::string owners_text(const Stability& stability) {
   constexpr std::size_t kMost = 4;
   std::string text;
   for (std::size_t i = 0; i < std::min(kMost, stability.owners.size()); ++i)
-    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", stability.owners[i].name,
+    text += fmt::format("{}{} {:.0f}\u00a0%", text.empty() ? "" : ", ", stability.owners[i].name,
                         100 * stability.owners[i].share);
   return text;
 }
@@ -77,14 +78,10 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
       s.damps ? fmt::format("the trajectory's own rate is {:.3g} /s; the fastest decay is {:.3g} times that",
                             s.rate, s.stiffness)
               : fmt::format("the trajectory's own rate is {:.3g} /s; the scene damps nothing", s.rate));
-  for (const MethodLimit& limit : s.limits) {
-    if (!limit.observed) continue;
+  if (std::any_of(s.limits.begin(), s.limits.end(), [](const MethodLimit& l) { return l.observed; }))
     list.push_back(
-        fmt::format("observed limits: runs of {} steps or more from the state at t = {} on, "
-                    "velocities displaced by a millionth along the mode; -: none found",
-                    2000, instant(limit.observed->start)));
-    break;
-  }
+        "observed limits: runs from the state at that t on, velocities displaced by a millionth along the "
+        "mode; -: none found");
   if (std::abs(s.fastest) < kApart * s.rate)
     list.push_back(
         "no mode is much faster than the motion: limits are those of the state at their time, and runs "

@@ -1,17 +1,21 @@
 #include "studies/stability.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace jourdain::studies {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
 using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kShort =
+    4e-3;  ///< of the trajectory's own time: a step so short that 2000 of them see it hardly move
 constexpr double kShownShare = 0.01;
 constexpr double kFailing = 1.02;  ///< beyond the limit, where the length of runs is chosen
 
@@ -105,6 +109,7 @@ VectorXd largest_velocities(const Flow<double>& flow, const ReferenceSolution& r
 void observe(const Flow<double>& flow, const ReferenceSolution& reference, const std::vector<Local>& locals,
              double seconds, Stability& result, const Progress& progress) {
   const VectorXd largest = largest_velocities(flow, reference);
+  const auto begin = Clock::now();
   for (MethodLimit& limit : result.limits) {
     progress("step limits", 0.5 + 0.5 * double(limit.method) / double(result.limits.size()));
     const jourdain_method& method = flow.table().methods[limit.method];
@@ -119,8 +124,10 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
                          limit.h,
                          growth_beyond(*function, limit, local),
                          limit.kind,
-                         is_stiff(limit, result.rate)};
-    limit.observed = observe_limit(flow, method, runs, seconds / static_cast<double>(result.limits.size()));
+                         limit.h * result.rate < kShort};
+    const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double share = (seconds - spent) / static_cast<double>(result.limits.size() - limit.method);
+    limit.observed = observe_limit(flow, method, runs, share);
   }
 }
 
@@ -128,18 +135,16 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
 
 const MethodLimit* stiff_limit(const Stability& stability) {
   const MethodLimit* longest = nullptr;
-  for (const MethodLimit& limit : stability.limits) {
-    const bool stiff = is_stiff(limit, stability.rate);
-    if (stiff && (!longest || limit.h > longest->h)) longest = &limit;
-  }
-  return longest;
+  for (const MethodLimit& limit : stability.limits)
+    if (limit.h > 0 && std::isfinite(limit.h) && (!longest || limit.h > longest->h)) longest = &limit;
+  return longest && is_stiff(*longest, stability.rate) ? longest : nullptr;
 }
 
 Stability study_stability(const Flow<double>& flow, const ReferenceSolution& reference,
                           const std::vector<std::size_t>& quaternions, bool conserves_energy, double seconds,
                           const Progress& progress) {
   Stability result;
-  const std::vector<Local> locals = linearise(flow, reference, quaternions, seconds / 2, progress);
+  const std::vector<Local> locals = linearise(flow, reference, quaternions, seconds / 4, progress);
   if (locals.empty()) return result;
   const Scene scene = describe_scene(flow, reference, locals, conserves_energy);
   result.rate = scene.rate;
@@ -156,7 +161,7 @@ Stability study_stability(const Flow<double>& flow, const ReferenceSolution& ref
   }
   name_owners(flow, locals, result);
   look_for_transients(flow, locals, scene, result);
-  observe(flow, reference, locals, seconds / 2, result, progress);
+  observe(flow, reference, locals, 3 * seconds / 4, result, progress);
   return result;
 }
 

@@ -40,8 +40,8 @@ struct Stability {
   std::string transient_method;  ///< whose R that is; empty: not looked at
 };
 
-/// The damped fast mode that limits explicit methods where the motion itself would allow far longer steps: the longest limit
-/// of a method that has one. Null where the scene is not stiff.
+/// The longest limit of all methods that have one, where a damped fast mode decides on it and the motion itself would allow far
+/// longer steps. Null where the scene is not stiff.
 const MethodLimit* stiff_limit(const Stability& stability);
 
 /// Along `reference`; `quaternions` are the entries of y that hold each quaternion's w. Takes about `seconds` at most.
@@ -57,16 +57,16 @@ struct LimitRuns {
   double predicted = 0;              ///< s
   double growth = 1;                 ///< of a difference per step, 2 % beyond the predicted limit
   ModeKind kind = ModeKind::kDamped;
-  bool stiff = false;  ///< runs are far shorter than the motion, so that they can be told from it
+  bool stiff = false;  ///< 2000 steps are short beside the motion
 };
 
 /// Bisects around the predicted limit. Runs of undamped modes diverge where a velocity is not finite or ten times the largest of the
-/// reference (entries count with a hundredth of the largest at least). With `stiff` they diverge too where a velocity is that
-/// largest one off a run with an eighth of the step: many scenes escape to where they are less stiff before they get to
-/// ten times. With other damped modes they diverge where a velocity is not finite or a thousandth of the largest off a run
-/// that was not displaced. Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, 2000
-/// steps at least and a million at most, fewer where that takes too long. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the
-/// predicted one, or `seconds` are over.
+/// reference (entries count with a hundredth of the largest at least), within 2000 steps at least. Runs of damped modes
+/// often settle on a false oscillation before they get there. With `stiff` they diverge where a velocity is that largest one off a
+/// run with an eighth of the step; else, within 500 steps at least, where it is a thousandth of that off a run that was not
+/// displaced. Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit where a million steps and the time
+/// do for that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted one, or
+/// `seconds` are over.
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
                                            const LimitRuns& runs, double seconds);
 

@@ -182,7 +182,7 @@ Study run_study(const model::Mechanism& mechanism, const std::vector<double>& pa
       study.summaries.push_back(summarise(m, study));
   }
   study.stability = study_stability(flow, study.reference, model::lay_out_coordinates(mechanism).quaternions,
-                                    options.conserves_energy, options.seconds / 2, progress);
+                                    options.conserves_energy, options.seconds, progress);
   if (options.forms)
     study.forms = study_forms(mechanism, parameters, inputs, study.steps, sampling, study.reference,
                               options.seconds / 4, progress);
