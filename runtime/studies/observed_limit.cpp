@@ -19,7 +19,7 @@ constexpr double kGrown = 40;  ///< logarithm of the growth that a run 2 % beyon
 constexpr long kFewestSteps = 2000, kMostSteps = 1000000;
 constexpr long kFewestDampedSteps =
     500;  ///< some hundred time constants; nearby trajectories may part by themselves later
-constexpr double kParted = 1e-3;  ///< of the largest velocity: difference of runs that part
+constexpr double kParted = 1e3;   ///< times the distance that the motion itself brings about: runs that part
 constexpr double kMostRuns = 15;  ///< that a search takes
 constexpr int kFiner = 8;
 constexpr int kWidenings = 7;
@@ -35,7 +35,7 @@ class Runs {
         start_(setting.start),
         undisplaced_(setting.start),
         damped_(setting.kind == ModeKind::kDamped),
-        ratio_(setting.stiff ? kFiner : 1) {
+        stiff_(setting.stiff) {
     deadline_ =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const double largest = setting.largest.maxCoeff(), scale = largest > 0 ? largest : 1;
@@ -43,7 +43,7 @@ class Runs {
     velocities(start_) +=
         kDisplacement * scale / setting.direction.lpNorm<Eigen::Infinity>() * setting.direction;
     const double wanted = kGrown / std::log(std::max(setting.growth, 1 + 1e-9));
-    const double fewest = static_cast<double>(damped_ && ratio_ == 1 ? kFewestDampedSteps : kFewestSteps);
+    const double fewest = static_cast<double>(damped_ && !stiff_ ? kFewestDampedSteps : kFewestSteps);
     const double most = std::min(1.0 * kMostSteps, seconds / kMostRuns / step_time(setting.predicted));
     steps_ = static_cast<long>(std::clamp(wanted, fewest, std::max(fewest, most)));
   }
@@ -52,24 +52,62 @@ class Runs {
 
   /// Nothing where the time is over.
   std::optional<bool> diverges(double h) const {
-    constexpr long kBlock = 50;
-    // A method that damps less than the scene does may resonate with what drives it: no sign of divergence.
-    const double bound = damped_ ? INFINITY : kDiverged;
-    Point<double> point = start_, companion = ratio_ > 1 ? start_ : undisplaced_;
-    Memory memory = flow_.fresh_memory(method_), companions = memory;
+    if (!damped_) return grows(h);
+    return stiff_ ? leaves_finer(h) : parts(h);
+  }
+
+ private:
+  static constexpr long kBlock = 50;
+
+  /// One trajectory.
+  struct Run {
+    Point<double> point;
+    Memory memory;
+  };
+  Run run_from(const Point<double>& start) const { return {start, flow_.fresh_memory(method_)}; }
+  void advance(Run& run, double h, int ratio = 1) const {
+    flow_.step(method_, run.point, h / ratio, kBlock * ratio, run.memory);
+  }
+
+  std::optional<bool> grows(double h) const {
+    Run run = run_from(start_);
     for (long done = 0; done < steps_; done += kBlock) {
       if (Clock::now() > deadline_) return {};
-      flow_.step(method_, point, h, kBlock, memory);
-      if (beyond(velocities(point), bound)) return true;
-      if (!damped_) continue;
-      flow_.step(method_, companion, h / ratio_, kBlock * ratio_, companions);
-      if (parted(velocities(point) - velocities(companion))) return true;
+      advance(run, h);
+      if (beyond(velocities(run.point), kDiverged)) return true;
     }
     return false;
   }
 
- private:
-  /// Of the run and its companion, s.
+  std::optional<bool> leaves_finer(double h) const {
+    Run run = run_from(start_), finer = run;
+    for (long done = 0; done < steps_; done += kBlock) {
+      if (Clock::now() > deadline_) return {};
+      advance(run, h);
+      advance(finer, h, kFiner);
+      if (beyond(velocities(run.point) - velocities(finer.point), 1)) return true;
+    }
+    return false;
+  }
+
+  std::optional<bool> parts(double h) const {
+    Run run = run_from(start_), other = run_from(undisplaced_), finer = run, finer_other = other;
+    double widest = distance(run, other);  // that the motion itself brings about
+    for (long done = 0; done < steps_; done += kBlock) {
+      if (Clock::now() > deadline_) return {};
+      for (Run* each : {&run, &other}) advance(*each, h);
+      for (Run* each : {&finer, &finer_other}) advance(*each, h, kFiner);
+      widest = std::max(widest, distance(finer, finer_other));
+      if (!(distance(run, other) < kParted * widest)) return true;
+    }
+    return false;
+  }
+
+  double distance(Run& a, Run& b) const {
+    return (velocities(a.point) - velocities(b.point)).lpNorm<Eigen::Infinity>();
+  }
+
+  /// Of a run and all that go with it, s.
   double step_time(double predicted) const {
     constexpr int kSteps = 500;
     Point<double> point = start_;
@@ -77,7 +115,7 @@ class Runs {
     const auto begin = Clock::now();
     flow_.step(method_, point, predicted / kFiner, kSteps, memory);
     const double time = std::chrono::duration<double>(Clock::now() - begin).count() / kSteps;
-    return damped_ ? (1 + ratio_) * time : time;
+    return time * (!damped_ ? 1 : stiff_ ? 1 + kFiner : 2 + 2 * kFiner);
   }
 
   Eigen::Map<Eigen::VectorXd> velocities(Point<double>& point) const {
@@ -89,18 +127,13 @@ class Runs {
     return !z.allFinite() || (z.cwiseAbs().array() > multiple * scales_.array()).any();
   }
 
-  bool parted(const Eigen::VectorXd& difference) const {
-    if (ratio_ > 1) return beyond(difference, 1);
-    return !(difference.lpNorm<Eigen::Infinity>() < kParted * scales_.maxCoeff());
-  }
-
   const Flow<double>& flow_;
   const jourdain_method& method_;
   Point<double> start_, undisplaced_;
   Eigen::VectorXd scales_;  ///< of the velocities
   long steps_ = 0;
   bool damped_;
-  int ratio_;  ///< of the run's step and its companion's
+  bool stiff_;
   Clock::time_point deadline_;
 };
 

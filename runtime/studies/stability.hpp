@@ -60,13 +60,15 @@ struct LimitRuns {
   bool stiff = false;  ///< 2000 steps are short beside the motion
 };
 
-/// Bisects around the predicted limit. Runs of undamped modes diverge where a velocity is not finite or ten times the largest of the
-/// reference (entries count with a hundredth of the largest at least), within 2000 steps at least. Runs of damped modes
-/// often settle on a false oscillation before they get there. With `stiff` they diverge where a velocity is that largest one off a
-/// run with an eighth of the step; else, within 500 steps at least, where it is a thousandth of that off a run that was not
-/// displaced. Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit where a million steps and the time
-/// do for that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted one, or
-/// `seconds` are over.
+/// Bisects around the predicted limit. What diverges depends on the mode:
+/// - undamped: a velocity is not finite or ten times the largest of the reference (entries count with a hundredth of the
+///   largest at least), within 2000 steps at least;
+/// - damped, `stiff`: a velocity is that largest one off a run with an eighth of the step, within 2000 steps at least. Such runs
+///   often settle on a false oscillation before they get to ten times;
+/// - damped: displaced and undisplaced run are a thousand times as far apart as those with an eighth of the step have been,
+///   within 500 steps at least. Neither resonance nor trajectories that part by themselves count.
+/// Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, where a million steps and the time do for
+/// that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted one, or `seconds` are over.
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
                                            const LimitRuns& runs, double seconds);
 

@@ -173,6 +173,14 @@ TEST(Stability, WeakDampingDecidesOnEuler) {
   EXPECT_FALSE(stiff_limit(oscillator.stability));
 }
 
+TEST(Stability, ForcedCartDivergesWhereItsSpringAndDamperSayAndNotWhereItResonates) {
+  const Judged cart(emitted_model("shaking_cart"), 32, false);
+  EXPECT_NEAR(cart.limit("euler").h, 15.0 / 900, 1e-5);  // 2 |Re µ| / |µ|² = damping / stiffness
+  for (const char* method :
+       {"euler", "semi_implicit_euler", "heun", "rk4", "rk5", "adams_bashforth2", "adams_bashforth3"})
+    cart.expect_observed(method);
+}
+
 TEST(Stability, TopOnABallJointHasNoModeOfItsQuaternion) {
   const Judged top(emitted_model("lagrange_top"), 32, true);
   for (const StabilityPoint& point : top.stability.points) EXPECT_EQ(point.eigenvalues.size(), 6u);
