@@ -9,9 +9,9 @@
 
 namespace jourdain::studies {
 
-/// How a method treats x' = µ x. One-step methods: x_{n+1} = R(hµ) x_n with R a quotient of polynomials, coefficients in
-/// ascending powers. Adams–Bashforth methods: x_{n+1} = x_n + hµ Σ weights[j] x_{n−j}. Semi-implicit Euler moves positions
-/// with the new velocities: what it does depends on the whole linear system, not on one mode.
+/// How a method treats x' = µ x. One-step methods: x_{n+1} = R(hµ) x_n with R a quotient of polynomials,
+/// coefficients in ascending powers. Adams–Bashforth methods: x_{n+1} = x_n + hµ Σ weights[j] x_{n−j}. Semi-implicit
+/// Euler moves positions with the new velocities: what it does depends on the whole linear system, not on one mode.
 struct StabilityFunction {
   enum class Kind { kOneStep, kMultistep, kPartitioned };
   std::string_view method;  ///< name of the stepper, without "_step"

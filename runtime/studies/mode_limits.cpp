@@ -26,7 +26,7 @@ double limit_of_mode(const StabilityFunction& function, Complex mu, ModeKind kin
     case ModeKind::kUndamped:
       return step_limit(function, oscillation, {keeps_oscillations(function) ? 0 : 1 / scene.duration});
     case ModeKind::kGrowing:
-      return step_limit(function, mu, {mu.real() + kGrowthMissed * std::abs(mu)});
+      return step_limit(function, mu, {std::fabs(mu.real()) + kGrowthMissed * std::abs(mu)});
   }
   return INFINITY;
 }
@@ -92,7 +92,9 @@ double stated(const MethodLimit& limit, const StabilityFunction* function) {
 }  // namespace
 
 ModeKind kind_of(Complex mu, const Scene& scene) {
-  if (!scene.damps && std::fabs(mu.imag()) >= std::fabs(mu.real())) return ModeKind::kUndamped;
+  // Where nothing damps, what decays is the other half of what grows.
+  if (!scene.damps)
+    return std::fabs(mu.imag()) >= std::fabs(mu.real()) ? ModeKind::kUndamped : ModeKind::kGrowing;
   if (std::fabs(mu.real()) <= kUndamped * std::abs(mu)) return ModeKind::kUndamped;
   return mu.real() < 0 ? ModeKind::kDamped : ModeKind::kGrowing;
 }

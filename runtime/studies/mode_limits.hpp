@@ -1,12 +1,13 @@
 // The largest stable step of each method at each time, from the modes of the linearisation.
 //
-// A mode counts as *damped* where −Re µ > 10⁻³ |µ|, as *growing* where Re µ > 10⁻³ |µ|, else as *undamped*. Frozen eigenvalues of
-// a scene that damps nothing wander off the imaginary axis as it moves; whether a scene damps is therefore asked of the rate at
-// which volumes in phase space shrink, −tr A − d(ln det M)/dt, in the mean along the trajectory. Where that is below a hundredth of the
-// trajectory's own rate, or energy is conserved, every mode that rather oscillates counts as undamped. *Fast* modes, |µ| above the
-// trajectory's own rate, are those that a method need not follow but has to survive: they decide; slow ones only where no fast one
-// has a limit. A method that lets every undamped mode grow has no stable step ("none: undamped mode") unless a damped mode
-// asks for a step so short that undamped ones grow less than e-fold over the trajectory.
+// A mode counts as *damped* where −Re µ > 10⁻³ |µ|, as *growing* where Re µ > 10⁻³ |µ|, else as *undamped*. Frozen
+// eigenvalues of a scene that damps nothing wander off the imaginary axis as it moves; whether a scene damps is
+// therefore asked of the rate at which volumes in phase space shrink, −tr A − d(ln det M)/dt, in the mean along the
+// trajectory. Where that is below a hundredth of the trajectory's own rate, or energy is conserved, every mode that
+// rather oscillates counts as undamped. *Fast* modes, |µ| above the trajectory's own rate, are those that a method
+// need not follow but has to survive: they decide; slow ones only where no fast one has a limit. A method that lets
+// every undamped mode grow has no stable step ("none: undamped mode") unless a damped mode asks for a step so short
+// that undamped ones grow less than e-fold over the trajectory.
 #pragma once
 
 #include <complex>
@@ -19,6 +20,7 @@
 
 namespace jourdain::studies {
 
+/// Growing: also the decaying half of a pair where nothing damps.
 enum class ModeKind { kDamped, kUndamped, kGrowing };
 
 /// A step length at which runs begin to diverge, found by bisection to 1 %.

@@ -45,8 +45,8 @@ void name_owners(const Flow<double>& flow, const std::vector<Local>& locals, Sta
                    [](const CoordinateShare& a, const CoordinateShare& b) { return a.share > b.share; });
 }
 
-/// Largest ‖R(hA)^k‖ over that of no step at all: what eigenvalues do not show. Coordinates that just drift are left out, and so is
-/// what grows anyway.
+/// Largest ‖R(hA)^k‖ over that of no step at all: what eigenvalues do not show. Coordinates that just drift are left
+/// out, and so is what grows anyway.
 double transient_growth(const StabilityFunction& function, const Local& local, double h, const Scene& scene) {
   constexpr int kSteps = 300;  // modes near the limit die out slowly
   const VectorXd& d = local.modes.scales;
