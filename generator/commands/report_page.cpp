@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "commands/plot.hpp"
+#include "commands/stability_page.hpp"
 #include "emit/templates.hpp"
 
 namespace jourdain::commands {
@@ -283,6 +284,16 @@ std::string section(const std::string& title, const std::string& text) {
   return fmt::format("<h2>{}</h2>\n{}", escaped(title), text);
 }
 
+std::string items(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += "<li>" + escaped(sentence) + "</li>\n";
+  return text;
+}
+
+std::string list(const std::vector<std::string>& sentences) {
+  return "<ul>\n" + items(sentences) + "</ul>\n";
+}
+
 std::string drawing(const std::string& svg) { return "<figure>" + svg + "</figure>\n"; }
 
 }  // namespace
@@ -295,6 +306,8 @@ std::vector<support::FileText> report_pages(const studies::ReportHead& head,
   const bool has_sources = !study.sources.empty(), has_energy = study.options.conserves_energy;
   const bool has_forms = !study.forms.empty();
   if (has_sources) plots.push_back(sources_plot(table, study, shown_method(table, study, 4)));
+  const std::vector<Plot> of_stability = stability_plots(table, study);
+  plots.insert(plots.end(), of_stability.begin(), of_stability.end());
   if (has_energy) plots.push_back(energy_plot(table, study));
   if (has_forms) plots.push_back(forms_plot(study));
   const std::vector<std::string> svgs = draw(plots);
@@ -306,11 +319,14 @@ std::vector<support::FileText> report_pages(const studies::ReportHead& head,
                   errors_table(table, study) + drawing(svgs[next++]));
   if (has_sources)
     sections += section("Where the error comes from", sources_table(table, study) + drawing(svgs[next++]));
+  if (!study.stability.points.empty()) {
+    std::string text = stability_table(table, study) + list(studies::stability_remarks(table, study));
+    for (std::size_t i = 0; i < of_stability.size(); ++i) text += drawing(svgs[next++]);
+    sections += section("Stability", text);
+  }
   if (has_energy) sections += section("Energy", drawing(svgs[next++]));
   if (has_forms) sections += section("Equations of the first kind", drawing(svgs[next++]));
-  std::string remarks;
-  for (const std::string& remark : studies::remarks(table, study))
-    remarks += "<li>" + escaped(remark) + "</li>\n";
+  const std::string remarks = items(studies::remarks(table, study));
   const std::string advice = studies::advice_text(table, study);
   const std::string scenario = head.scenario.empty() ? "" : "; " + head.scenario;
   const std::string page = emit::fill(

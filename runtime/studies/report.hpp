@@ -24,7 +24,7 @@ struct ReportHead {
 /// For a terminal, lines of 110 characters at most.
 std::string report_text(const ReportHead& head, const jourdain_model_table& table, const Study& study);
 
-/// work_precision.csv, error_sources.csv, first_kind.csv: as far as the study has them.
+/// work_precision.csv, error_sources.csv, stability.csv, first_kind.csv: as far as the study has them.
 std::vector<support::FileText> report_csv(const jourdain_model_table& table, const Study& study);
 
 std::string report_json(const ReportHead& head, const jourdain_model_table& table, const Study& study);
@@ -34,6 +34,22 @@ std::string advice_text(const jourdain_model_table& table, const Study& study);
 
 /// Sentences on what the numbers mean: reference, divergence, linear regime.
 std::vector<std::string> remarks(const jourdain_model_table& table, const Study& study);
+
+/// Table of the largest stable steps with remarks, for a terminal; empty where stability was not studied.
+std::string stability_text(const jourdain_model_table& table, const Study& study);
+std::vector<std::string> stability_remarks(const jourdain_model_table& table, const Study& study);
+
+/// Fastest mode, stiffness and each method's limit over time. An empty field: no limit; 0: no step is stable.
+std::string stability_csv(const jourdain_model_table& table, const Stability& stability);
+
+/// That explicit methods are held to short steps by a damped mode and not by accuracy; empty where they are not.
+std::string stiff_text(const jourdain_model_table& table, const Study& study);
+
+/// Cells of a table of limits: predicted, observed, the mode that decides (1/s), what kind of mode that is.
+std::string limit_text(const MethodLimit& limit);
+std::string observed_text(const MethodLimit& limit);
+std::string mode_text(std::complex<double> mu);
+std::string judged_text(const MethodLimit& limit);
 
 /// A time with a fitting unit: "250 us", "1 ms".
 std::string time_text(double seconds);

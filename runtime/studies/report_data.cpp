@@ -128,6 +128,45 @@ Json roundings_json(const jourdain_model_table& table, const Study& study) {
   return points;
 }
 
+/// 0 where no step is stable, null where no limit is known.
+Json limit_json(const jourdain_model_table& table, const MethodLimit& limit) {
+  Json entry = {{"method", table.methods[limit.method].name}, {"predicted_s", number(limit.h)}};
+  if (std::isfinite(limit.h)) {
+    const char* kinds[] = {"damped", "undamped", "growing"};
+    entry["time_s"] = limit.time;
+    entry["mode_per_s"] = {limit.mode.real(), limit.mode.imag()};
+    entry["mode_is"] = kinds[static_cast<int>(limit.kind)];
+    entry["fast"] = limit.fast;
+  }
+  if (limit.observed)
+    entry["observed"] = {
+        {"step_s", limit.observed->h}, {"start_s", limit.observed->start}, {"steps", limit.observed->steps}};
+  return entry;
+}
+
+Json stability_json(const jourdain_model_table& table, const Study& study) {
+  const Stability& s = study.stability;
+  Json limits = Json::array(), owners = Json::array(), points = Json::array();
+  for (const MethodLimit& limit : s.limits) limits.push_back(limit_json(table, limit));
+  for (const CoordinateShare& owner : s.owners)
+    owners.push_back({{"coordinate", owner.name}, {"share", owner.share}});
+  for (const StabilityPoint& point : s.points) {
+    Json eigenvalues = Json::array();
+    for (const auto& mu : point.eigenvalues) eigenvalues.push_back({mu.real(), mu.imag()});
+    points.push_back({{"time_s", point.time}, {"eigenvalues_per_s", eigenvalues}});
+  }
+  return {
+      {"trajectory_rate_per_s", s.rate},
+      {"damps", s.damps},
+      {"stiffness", s.stiffness},
+      {"limits", limits},
+      {"fastest_mode", {{"mode_per_s", {s.fastest.real(), s.fastest.imag()}}, {"time_s", s.fastest_time}}},
+      {"fastest_mode_belongs_to", owners},
+      {"transient_growth", number(s.transient_growth)},
+      {"points", points},
+      {"remarks", stability_remarks(table, study)}};
+}
+
 Json forms_json(const Study& study) {
   Json forms = Json::array();
   for (const FormCurve& curve : study.forms) {
@@ -167,6 +206,8 @@ Json advice_json(const jourdain_model_table& table, const Study& study) {
 std::vector<support::FileText> report_csv(const jourdain_model_table& table, const Study& study) {
   std::vector<support::FileText> files = {{"work_precision.csv", work_precision_csv(table, study)}};
   if (!study.sources.empty()) files.push_back({"error_sources.csv", error_sources_csv(table, study)});
+  if (!study.stability.points.empty())
+    files.push_back({"stability.csv", stability_csv(table, study.stability)});
   if (!study.forms.empty()) files.push_back({"first_kind.csv", first_kind_csv(study)});
   return files;
 }
@@ -190,6 +231,7 @@ std::string report_json(const ReportHead& head, const jourdain_model_table& tabl
                        {"points", points_json(table, study)},
                        {"error_sources", sources_json(table, study)},
                        {"rounding", roundings_json(table, study)},
+                       {"stability", stability_json(table, study)},
                        {"first_kind", forms_json(study)},
                        {"recommendation", advice_json(table, study)}};
   return report.dump(1) + "\n";

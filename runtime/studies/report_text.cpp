@@ -127,14 +127,15 @@ std::string advice_text(const jourdain_model_table& table, const Study& study) {
   const std::string asked =
       question.tolerance ? fmt::format("a position error of {:.3g} (rad, m)", *question.tolerance)
                          : fmt::format("{} per {}", time_text(*question.budget), time_text(question.period));
-  if (!study.advice) return fmt::format("no method and step of this study keep within {}", asked);
+  const std::string stiff = stiff_text(table, study), remark = stiff.empty() ? "" : "; " + stiff;
+  if (!study.advice) return fmt::format("no method and step of this study keep within {}{}", asked, remark);
   const Advice& a = *study.advice;
   return fmt::format(
       "within {}: {}_step with h = {}; a run confirms it{}: position error {:.2g}, velocity error {:.2g}, {} "
       "a step, "
-      "{:.3g} times faster than real time",
+      "{:.3g} times faster than real time{}",
       asked, table.methods[a.method].name, time_text(a.h), a.confirmed ? "" : " NOT", a.error.position,
-      a.error.velocity, time_text(a.step_time), 1 / a.run_time);
+      a.error.velocity, time_text(a.step_time), 1 / a.run_time, remark);
 }
 
 std::vector<std::string> remarks(const jourdain_model_table& table, const Study& study) {
@@ -184,7 +185,7 @@ std::string report_text(const ReportHead& head, const jourdain_model_table& tabl
                   head.real, head.scenario.empty() ? "" : ", " + head.scenario);
   for (const std::string& remark : remarks(table, study)) text += "  " + remark + "\n";
   text += "\n" + methods_table(table, study) + errors_table(table, study) + sources_table(table, study) +
-          forms_table(study) + forms_ratio(table, study);
+          stability_text(table, study) + forms_table(study) + forms_ratio(table, study);
   const std::string advice = advice_text(table, study);
   if (!advice.empty()) text += "\n  " + advice + "\n";
   return text;

@@ -28,19 +28,9 @@ Point<double> displaced(const Point<double>& point, const VectorXd& direction) {
   return result;
 }
 
+/// The Jacobian with the separation that serves a single central difference best.
 MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point) {
-  const auto n = static_cast<Eigen::Index>(flow.size());
-  MatrixXd result(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double entry = point.x[std::size_t(i)],
-                 delta = std::cbrt(2 * flow.table().unit_roundoff) * (1 + std::fabs(entry));
-    std::vector<double> above = point.x, below = point.x;
-    above[std::size_t(i)] = entry + delta;
-    below[std::size_t(i)] = entry - delta;
-    const std::vector<double> high = flow.rates(point.t, above), low = flow.rates(point.t, below);
-    result.col(i) = (as_vector(high) - as_vector(low)) / (above[std::size_t(i)] - below[std::size_t(i)]);
-  }
-  return result;
+  return jacobian(flow, point, std::cbrt(2 * flow.table().unit_roundoff));
 }
 
 /// Rates of the state and of X at one stage.
@@ -77,6 +67,20 @@ MatrixXd transition(const Flow<double>& flow, const Point<double>& start, double
 }
 
 }  // namespace
+
+MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point, double separation) {
+  const auto n = static_cast<Eigen::Index>(flow.size());
+  MatrixXd result(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double entry = point.x[std::size_t(i)], delta = separation * (1 + std::fabs(entry));
+    std::vector<double> above = point.x, below = point.x;
+    above[std::size_t(i)] = entry + delta;
+    below[std::size_t(i)] = entry - delta;
+    const std::vector<double> high = flow.rates(point.t, above), low = flow.rates(point.t, below);
+    result.col(i) = (as_vector(high) - as_vector(low)) / (above[std::size_t(i)] - below[std::size_t(i)]);
+  }
+  return result;
+}
 
 Divergence measure_divergence(const Flow<double>& flow, const jourdain_method& method, double h,
                               double interval, long count) {

@@ -32,4 +32,7 @@ long intervals_until(const Divergence& divergence, double factor);
 std::vector<Eigen::MatrixXd> transition_matrices(const Flow<double>& flow,
                                                  const std::vector<Point<double>>& points);
 
+/// ∂f/∂x, n × n, by central differences, entries moved by `separation` (1 + |x|).
+Eigen::MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point, double separation);
+
 }  // namespace jourdain::studies

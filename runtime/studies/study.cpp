@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "model/coordinates.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::studies {
@@ -180,6 +181,8 @@ Study run_study(const model::Mechanism& mechanism, const std::vector<double>& pa
     for (std::size_t m = 0; m < study.work.step_times.size(); ++m)
       study.summaries.push_back(summarise(m, study));
   }
+  study.stability = study_stability(flow, study.reference, model::lay_out_coordinates(mechanism).quaternions,
+                                    options.conserves_energy, options.seconds, progress);
   if (options.forms)
     study.forms = study_forms(mechanism, parameters, inputs, study.steps, sampling, study.reference,
                               options.seconds / 4, progress);

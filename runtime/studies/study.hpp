@@ -10,6 +10,7 @@
 #include "studies/error_sources.hpp"
 #include "studies/first_kind.hpp"
 #include "studies/sensitivity.hpp"
+#include "studies/stability.hpp"
 #include "studies/work_precision.hpp"
 
 namespace jourdain::studies {
@@ -54,6 +55,7 @@ struct Study {
   std::vector<RoundingPoint> roundings;  ///< method by method, steps shorter than those of `sources`
   std::vector<SourceSummary> summaries;
   std::vector<FormCurve> forms;
+  Stability stability;
   std::optional<Advice> advice;
 };
 

@@ -1,0 +1,18 @@
+// The part of a report's page that is about stability.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "commands/plot.hpp"
+#include "studies/study.hpp"
+
+namespace jourdain::commands {
+
+/// Eigenvalues times h on the methods' regions, and the limits along time; empty where stability was not studied.
+std::vector<Plot> stability_plots(const jourdain_model_table& table, const studies::Study& study);
+
+/// The largest stable steps as an HTML table.
+std::string stability_table(const jourdain_model_table& table, const studies::Study& study);
+
+}  // namespace jourdain::commands

@@ -1,0 +1,125 @@
+#include "studies/linearisation.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/sensitivity.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Jacobian by Richardson's extrapolation of central differences. Column by column the separation is taken at which two
+/// neighbouring extrapolations agree best: smoothed friction bends on lengths far below a metre.
+MatrixXd extrapolated_jacobian(const Flow<double>& flow, const Point<double>& point) {
+  constexpr int kLevels = 4;
+  constexpr double kShrink = 4;
+  double separation = std::pow(2 * flow.table().unit_roundoff, 0.2);
+  const auto extrapolated = [&] {
+    return MatrixXd((4 * jacobian(flow, point, separation / 2) - jacobian(flow, point, separation)) / 3);
+  };
+  MatrixXd previous = extrapolated(), best = previous;
+  VectorXd change = VectorXd::Constant(best.cols(), INFINITY);
+  for (int level = 1; level < kLevels; ++level) {
+    separation /= kShrink;
+    const MatrixXd next = extrapolated();
+    for (Index i = 0; i < best.cols(); ++i) {
+      const double difference = (next.col(i) - previous.col(i)).norm();
+      if (!(difference < change[i])) continue;
+      change[i] = difference;
+      best.col(i) = next.col(i);
+    }
+    previous = next;
+  }
+  return best;
+}
+
+/// ½ quat ⊗ (0, ·), 4 × 3.
+Eigen::Matrix<double, 4, 3> turning(const Eigen::Vector4d& q) {
+  Eigen::Matrix<double, 4, 3> m;
+  m << -q[1], -q[2], -q[3],  //
+      q[0], -q[3], q[2],     //
+      q[3], q[0], -q[1],     //
+      -q[2], q[1], q[0];
+  return m / 2;
+}
+
+/// What small rotations and the other positions do to y, ny × nz. Without quaternions the identity.
+MatrixXd position_tangents(const VectorXd& y, Index nz, const std::vector<std::size_t>& quaternions) {
+  MatrixXd T = MatrixXd::Zero(y.size(), nz);
+  for (Index row = 0, column = 0; row < y.size();) {
+    if (std::find(quaternions.begin(), quaternions.end(), static_cast<std::size_t>(row)) !=
+        quaternions.end()) {
+      T.block<4, 3>(row, column) = turning(y.segment<4>(row));
+      row += 4, column += 3;
+    } else {
+      T(row++, column++) = 1;
+    }
+  }
+  return T;
+}
+
+}  // namespace
+
+MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point,
+                       const std::vector<std::size_t>& quaternions) {
+  const MatrixXd J = extrapolated_jacobian(flow, point);
+  if (quaternions.empty()) return J;
+  const auto ny = static_cast<Index>(flow.position_count()), nz = J.cols() - ny;
+  const MatrixXd T = position_tangents(Eigen::Map<const VectorXd>(point.x.data(), ny), nz, quaternions);
+  MatrixXd A(2 * nz, 2 * nz);
+  // In axes that do not turn, a small rotation changes by the difference of the angular velocities and by nothing else.
+  A << MatrixXd::Zero(nz, nz), MatrixXd::Identity(nz, nz), J.bottomLeftCorner(nz, ny) * T,
+      J.bottomRightCorner(nz, nz);
+  return A;
+}
+
+VectorXd balancing_scales(const MatrixXd& A) {
+  constexpr int kMostSweeps = 30;
+  MatrixXd balanced = A;
+  balanced.diagonal().setZero();
+  VectorXd scales = VectorXd::Ones(A.rows());
+  bool changed = true;
+  for (int sweep = 0; changed && sweep < kMostSweeps; ++sweep) {
+    changed = false;
+    for (Index i = 0; i < A.rows(); ++i) {
+      const double row = balanced.row(i).norm(), column = balanced.col(i).norm();
+      if (!(row > 0) || !(column > 0)) continue;
+      const double factor = std::exp2(std::round(std::log2(row / column) / 2));
+      if (factor == 1) continue;
+      balanced.row(i) /= factor;
+      balanced.col(i) *= factor;
+      scales[i] *= factor;
+      changed = true;
+    }
+  }
+  return scales;
+}
+
+Modes modes_of(const MatrixXd& A) {
+  constexpr double kDependent = 1e12;  // condition of the eigenvectors
+  Modes modes;
+  modes.scales = balancing_scales(A);
+  const MatrixXd balanced = modes.scales.cwiseInverse().asDiagonal() * A * modes.scales.asDiagonal();
+  const Eigen::EigenSolver<MatrixXd> solver(balanced);
+  modes.values = solver.eigenvalues();
+  const Eigen::MatrixXcd right = solver.eigenvectors();
+  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(right);
+  const auto& singular = svd.singularValues();
+  modes.defective = singular[singular.size() - 1] * kDependent < singular[0];
+  modes.right = modes.scales.asDiagonal() * right;
+  const Eigen::MatrixXcd left = right.fullPivLu().inverse();
+  const Index nz = A.rows() / 2;
+  const MatrixXd shares = right.cwiseAbs().cwiseProduct(left.transpose().cwiseAbs());
+  modes.participations = shares.topRows(nz) + shares.bottomRows(nz);
+  for (Index k = 0; k < A.cols(); ++k) modes.participations.col(k) /= modes.participations.col(k).sum();
+  return modes;
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,36 @@
+// The linear system that small differences follow at one state, and its modes: what step limits are predicted from.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <complex>
+#include <vector>
+
+#include "studies/flow.hpp"
+
+namespace jourdain::studies {
+
+/// A = ∂(ẏ, ż)/∂(y, z) at `point`, 2nz × 2nz, positions first. A quaternion (entry of its w in `quaternions`) counts
+/// as a small rotation δθ, δquat = ½ quat ⊗ (0, δθ), so that its length adds no mode. The axes are the body's at
+/// that moment and do not turn with it: in axes that do, a fixed deviation seems to oscillate at |ω|, which no
+/// method has to survive. Position k is the one that velocity k moves. By differences, with about 10 digits in
+/// double; an emitted Jacobian may take their place here.
+Eigen::MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point,
+                              const std::vector<std::size_t>& quaternions);
+
+/// Eigenvalues µ (1/s) with their eigenvectors.
+struct Modes {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd right;  ///< columns, in the coordinates of A
+  Eigen::MatrixXd
+      participations;  ///< nz × 2nz: share of each coordinate, position and velocity together, in a mode; columns sum to 1
+  Eigen::VectorXd scales;  ///< of the coordinates; balance A
+  bool defective = false;  ///< eigenvectors as good as dependent: participations say little
+};
+
+Modes modes_of(const Eigen::MatrixXd& A);
+
+/// Powers of two d such that rows and columns of diag(d)⁻¹ A diag(d) have like norms (Parlett and Reinsch).
+Eigen::VectorXd balancing_scales(const Eigen::MatrixXd& A);
+
+}  // namespace jourdain::studies

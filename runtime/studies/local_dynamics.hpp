@@ -1,0 +1,50 @@
+// The linear systems along a trajectory and how fast the trajectory itself is: what step limits are judged by.
+#pragma once
+
+#include <vector>
+
+#include "studies/linearisation.hpp"
+#include "studies/reference_solution.hpp"
+
+namespace jourdain::studies {
+
+/// The linear system at one time. The reference that it comes from must outlive it.
+struct Local {
+  const Point<double>* point = nullptr;
+  Eigen::MatrixXd A;
+  Modes modes;
+};
+
+/// What modes are compared with.
+struct Scene {
+  double rate = 0;      ///< 1/s; trajectory_rate
+  double duration = 0;  ///< s
+  double roundoff = 0;  ///< of the number type
+  bool damps = false;   ///< volumes in phase space shrink
+};
+
+/// At evenly spaced points of the reference, in time; fewer where `seconds` are over before.
+std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
+                             const std::vector<std::size_t>& quaternions, double seconds,
+                             const Progress& progress);
+
+/// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing.
+Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,
+                     const std::vector<Local>& locals, bool conserves_energy);
+
+/// Largest rms rate of an entry over its rms deviation from the mean, 1/s; at least one over the duration.
+double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference);
+
+/// The one nearest in time, s.
+const Local& local_at(const std::vector<Local>& locals, double time);
+
+/// Column of the mode µ.
+Eigen::Index index_of(std::complex<double> mu, const Modes& modes);
+
+/// Largest |µ|, 1/s.
+double fastest_of(const Modes& modes);
+
+/// Modes that are zero but for rounding: of a double zero half the digits are lost.
+bool negligible(std::complex<double> mu, const Modes& modes, const Scene& scene);
+
+}  // namespace jourdain::studies

@@ -1,0 +1,56 @@
+// The largest stable step of each method at each time, from the modes of the linearisation.
+//
+// A mode counts as *damped* where −Re µ > 10⁻³ |µ|, as *growing* where Re µ > 10⁻³ |µ|, else as *undamped*. Frozen
+// eigenvalues of a scene that damps nothing wander off the imaginary axis as it moves; whether a scene damps is
+// therefore asked of the rate at which volumes in phase space shrink, −tr A − d(ln det M)/dt, in the mean along the
+// trajectory. Where that is below a hundredth of the trajectory's own rate, or energy is conserved, every mode that
+// rather oscillates counts as undamped. *Fast* modes, |µ| above the trajectory's own rate, are those that a method
+// need not follow but has to survive: they decide; slow ones only where no fast one has a limit. A method that lets
+// every undamped mode grow has no stable step ("none: undamped mode") unless a damped mode asks for a step so short
+// that undamped ones grow less than e-fold over the trajectory.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "studies/amplification.hpp"
+#include "studies/local_dynamics.hpp"
+
+namespace jourdain::studies {
+
+/// Growing: also the decaying half of a pair where nothing damps.
+enum class ModeKind { kDamped, kUndamped, kGrowing };
+
+/// A step length at which runs begin to diverge, found by bisection to 1 %.
+struct ObservedLimit {
+  double h = 0;      ///< s; shortest tried that diverged
+  double start = 0;  ///< s; runs begin at the reference's state then, velocities displaced along the mode
+  long steps = 0;    ///< of a run near h
+};
+
+/// Of one method over the whole trajectory.
+struct MethodLimit {
+  std::size_t method = 0;
+  double h = 0;               ///< s; smallest of the points' limits, 0 and infinity as there
+  double time = 0;            ///< s; where that is
+  std::complex<double> mode;  ///< that decides, 1/s; the fastest where the whole system decides
+  ModeKind kind = ModeKind::kDamped;
+  bool fast = false;                      ///< `mode` is above the trajectory's own rate
+  std::optional<ObservedLimit> observed;  ///< none where nothing is predicted or runs show no limit near it
+};
+
+ModeKind kind_of(std::complex<double> mu, const Scene& scene);
+
+/// Limits of one method at each of `locals`, and the smallest one that decides; method 0 in all of them.
+struct LimitsAlong {
+  std::vector<double> limits;  ///< s; 0: none is stable, infinity: no limit is known
+  MethodLimit smallest;
+};
+LimitsAlong limits_along(std::string_view method, const std::vector<Local>& locals, const Scene& scene);
+
+/// Whether a damped mode far faster than the trajectory holds the step far below the trajectory's own time.
+bool is_stiff(const MethodLimit& limit, double rate);
+
+}  // namespace jourdain::studies

@@ -1,0 +1,173 @@
+// Limits of the step length as runs show them, to check the predicted ones against.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "studies/stability.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kDisplacement = 1e-6;  ///< of the largest velocity: small, so that the linear picture holds
+constexpr double kDiverged = 10;        ///< times the largest of the same velocity in the reference
+constexpr double kMoving =
+    1e-2;                      ///< of the largest velocity: entries that move less count as if they moved so
+constexpr double kGrown = 40;  ///< logarithm of the growth that a run 2 % beyond the limit has time for
+constexpr long kFewestSteps = 2000, kMostSteps = 1000000;
+constexpr long kFewestDampedSteps =
+    500;  ///< some hundred time constants; nearby trajectories may part by themselves later
+constexpr double kParted = 1e3;   ///< times the distance that the motion itself brings about: runs that part
+constexpr double kMostRuns = 15;  ///< that a search takes
+constexpr int kFiner = 8;
+constexpr int kWidenings = 7;
+constexpr double kWidening = 1.2;
+constexpr double kResolution = 1.005;
+
+/// One start, many step lengths.
+class Runs {
+ public:
+  Runs(const Flow<double>& flow, const jourdain_method& method, const LimitRuns& setting, double seconds)
+      : flow_(flow),
+        method_(method),
+        start_(setting.start),
+        undisplaced_(setting.start),
+        damped_(setting.kind == ModeKind::kDamped),
+        stiff_(setting.stiff) {
+    deadline_ =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    const double largest = setting.largest.maxCoeff(), scale = largest > 0 ? largest : 1;
+    scales_ = setting.largest.cwiseMax(kMoving * scale);
+    velocities(start_) +=
+        kDisplacement * scale / setting.direction.lpNorm<Eigen::Infinity>() * setting.direction;
+    const double wanted = kGrown / std::log(std::max(setting.growth, 1 + 1e-9));
+    const double fewest = static_cast<double>(damped_ && !stiff_ ? kFewestDampedSteps : kFewestSteps);
+    const double most = std::min(1.0 * kMostSteps, seconds / kMostRuns / step_time(setting.predicted));
+    steps_ = static_cast<long>(std::clamp(wanted, fewest, std::max(fewest, most)));
+  }
+
+  long steps() const { return steps_; }
+
+  /// Nothing where the time is over.
+  std::optional<bool> diverges(double h) const {
+    if (!damped_) return grows(h);
+    return stiff_ ? leaves_finer(h) : parts(h);
+  }
+
+ private:
+  static constexpr long kBlock = 50;
+
+  /// One trajectory.
+  struct Run {
+    Point<double> point;
+    Memory memory;
+  };
+  Run run_from(const Point<double>& start) const { return {start, flow_.fresh_memory(method_)}; }
+  void advance(Run& run, double h, int ratio = 1) const {
+    flow_.step(method_, run.point, h / ratio, kBlock * ratio, run.memory);
+  }
+
+  std::optional<bool> grows(double h) const {
+    Run run = run_from(start_);
+    for (long done = 0; done < steps_; done += kBlock) {
+      if (Clock::now() > deadline_) return {};
+      advance(run, h);
+      if (beyond(velocities(run.point), kDiverged)) return true;
+    }
+    return false;
+  }
+
+  std::optional<bool> leaves_finer(double h) const {
+    Run run = run_from(start_), finer = run;
+    for (long done = 0; done < steps_; done += kBlock) {
+      if (Clock::now() > deadline_) return {};
+      advance(run, h);
+      advance(finer, h, kFiner);
+      if (beyond(velocities(run.point) - velocities(finer.point), 1)) return true;
+    }
+    return false;
+  }
+
+  std::optional<bool> parts(double h) const {
+    Run run = run_from(start_), other = run_from(undisplaced_), finer = run, finer_other = other;
+    double widest = distance(run, other);  // that the motion itself brings about
+    for (long done = 0; done < steps_; done += kBlock) {
+      if (Clock::now() > deadline_) return {};
+      for (Run* each : {&run, &other}) advance(*each, h);
+      for (Run* each : {&finer, &finer_other}) advance(*each, h, kFiner);
+      widest = std::max(widest, distance(finer, finer_other));
+      if (!(distance(run, other) < kParted * widest)) return true;
+    }
+    return false;
+  }
+
+  double distance(Run& a, Run& b) const {
+    return (velocities(a.point) - velocities(b.point)).lpNorm<Eigen::Infinity>();
+  }
+
+  /// Of a run and all that go with it, s.
+  double step_time(double predicted) const {
+    constexpr int kSteps = 500;
+    Point<double> point = start_;
+    Memory memory = flow_.fresh_memory(method_);
+    const auto begin = Clock::now();
+    flow_.step(method_, point, predicted / kFiner, kSteps, memory);
+    const double time = std::chrono::duration<double>(Clock::now() - begin).count() / kSteps;
+    return time * (!damped_ ? 1 : stiff_ ? 1 + kFiner : 2 + 2 * kFiner);
+  }
+
+  Eigen::Map<Eigen::VectorXd> velocities(Point<double>& point) const {
+    const std::size_t first = flow_.position_count();
+    return {point.x.data() + first, static_cast<Eigen::Index>(point.x.size() - first)};
+  }
+
+  bool beyond(const Eigen::VectorXd& z, double multiple) const {
+    return !z.allFinite() || (z.cwiseAbs().array() > multiple * scales_.array()).any();
+  }
+
+  const Flow<double>& flow_;
+  const jourdain_method& method_;
+  Point<double> start_, undisplaced_;
+  Eigen::VectorXd scales_;  ///< of the velocities
+  long steps_ = 0;
+  bool damped_;
+  bool stiff_;
+  Clock::time_point deadline_;
+};
+
+/// h that holds and h that diverges, a step of kWidening apart, around `predicted`.
+std::optional<std::pair<double, double>> bracket(const Runs& runs, double predicted) {
+  double low = predicted / std::sqrt(kWidening), high = low * kWidening;
+  std::optional<bool> first = runs.diverges(low);
+  if (!first) return {};
+  const bool downward = *first;
+  if (downward) high = low, low /= kWidening;
+  for (int i = 0; i < kWidenings; ++i) {
+    const std::optional<bool> result = runs.diverges(downward ? low : high);
+    if (!result) return {};
+    if (*result != downward) return std::pair(low, high);
+    (downward ? high : low) = downward ? low : high;
+    (downward ? low : high) *= downward ? 1 / kWidening : kWidening;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
+                                           const LimitRuns& setting, double seconds) {
+  const Runs runs(flow, method, setting, seconds);
+  auto range = bracket(runs, setting.predicted);
+  while (range && range->second > range->first * kResolution) {
+    const double middle = std::sqrt(range->first * range->second);
+    const std::optional<bool> result = runs.diverges(middle);
+    if (!result) return {};
+    (*result ? range->second : range->first) = middle;
+  }
+  if (!range) return {};
+  return ObservedLimit{range->second, setting.start.t, runs.steps()};
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,136 @@
+// What a report says about stability, as text and CSV.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+constexpr double kApart = 10;       ///< times the trajectory's own rate: modes that see it stand still
+constexpr double kTransient = 100;  ///< growth that eigenvalues hide, worth a remark
+
+std::string instant(double t) { return t == 0 ? "0 s" : time_text(t); }
+
+std::string kind_text(const MethodLimit& limit) {
+  const std::string speed = limit.fast ? "" : ", no faster than the motion";
+  switch (limit.kind) {
+    case ModeKind::kDamped:
+      return "damped" + speed;
+    case ModeKind::kUndamped:
+      return "undamped" + speed;
+    case ModeKind::kGrowing:
+      return "growing" + speed;
+  }
+  return "";
+}
+
+/// A sentence in lines for a terminal.
+std::string wrapped(const std::string& sentence) {
+  constexpr std::size_t kWidth = 106;
+  std::string text;
+  for (std::size_t begin = 0; begin < sentence.size();) {
+    std::size_t end = sentence.size();
+    if (end - begin > kWidth) end = sentence.rfind(' ', begin + kWidth);
+    text += (begin == 0 ? "  " : "    ") + sentence.substr(begin, end - begin) + "\n";
+    begin = end + 1;
+  }
+  return text;
+}
+
+std::string owners_text(const Stability& stability) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, stability.owners.size()); ++i)
+    text += fmt::format("{}{} {:.0f}\u00a0%", text.empty() ? "" : ", ", stability.owners[i].name,
+                        100 * stability.owners[i].share);
+  return text;
+}
+
+}  // namespace
+
+std::string mode_text(std::complex<double> mu) {
+  return mu.imag() == 0 ? fmt::format("{:.4g}", mu.real())
+                        : fmt::format("{:.4g} ± {:.4g}i", mu.real(), std::fabs(mu.imag()));
+}
+
+std::string limit_text(const MethodLimit& limit) {
+  if (limit.h == 0) return limit.kind == ModeKind::kUndamped ? "none: undamped mode" : "none";
+  return std::isfinite(limit.h) ? time_text(limit.h) : "no limit";
+}
+
+std::string observed_text(const MethodLimit& limit) {
+  return limit.observed ? time_text(limit.observed->h) : "-";
+}
+
+std::string judged_text(const MethodLimit& limit) { return std::isfinite(limit.h) ? kind_text(limit) : "-"; }
+
+std::vector<std::string> stability_remarks(const jourdain_model_table& table, const Study& study) {
+  const Stability& s = study.stability;
+  std::vector<std::string> list;
+  if (s.points.empty()) return list;
+  list.push_back(fmt::format("fastest mode along the trajectory: {} /s at t = {}; it belongs to {}",
+                             mode_text(s.fastest), instant(s.fastest_time), owners_text(s)));
+  list.push_back(
+      s.damps ? fmt::format("the trajectory's own rate is {:.3g} /s; the fastest decay is {:.3g} times that",
+                            s.rate, s.stiffness)
+              : fmt::format("the trajectory's own rate is {:.3g} /s; the scene damps nothing", s.rate));
+  if (std::any_of(s.limits.begin(), s.limits.end(), [](const MethodLimit& l) { return l.observed; }))
+    list.push_back(
+        "observed limits: runs from the state at that t on, velocities displaced by a millionth along the "
+        "mode; -: none found");
+  if (std::abs(s.fastest) < kApart * s.rate)
+    list.push_back(
+        "no mode is much faster than the motion: limits are those of the state at their time, and runs "
+        "move on from it");
+  if (s.transient_growth > kTransient)
+    list.push_back(
+        fmt::format("eigenvalues mislead here: at 0.9 of its limit {} lets some differences grow "
+                    "{:.2g}-fold before they die out",
+                    s.transient_method, s.transient_growth));
+  const std::string stiff = stiff_text(table, study);
+  if (!stiff.empty()) list.push_back(stiff);
+  return list;
+}
+
+std::string stability_text(const jourdain_model_table& table, const Study& study) {
+  if (study.stability.points.empty()) return "";
+  std::string text = fmt::format("\n  largest stable step\n  {:<24} {:>19} {:>10} {:>10} {:>24}  {}\n",
+                                 "method", "predicted", "observed", "at t", "deciding mode, 1/s", "it is");
+  for (const MethodLimit& limit : study.stability.limits) {
+    const bool any = std::isfinite(limit.h);
+    text += fmt::format("  {:<24} {:>19} {:>10} {:>10} {:>24}  {}\n", table.methods[limit.method].name,
+                        limit_text(limit), observed_text(limit), any ? instant(limit.time) : "-",
+                        any ? mode_text(limit.mode) : "-", judged_text(limit));
+  }
+  for (const std::string& remark : stability_remarks(table, study)) text += wrapped(remark);
+  return text;
+}
+
+std::string stiff_text(const jourdain_model_table& table, const Study& study) {
+  constexpr double kNear = 0.4;  // of the limit: a recommended step that short is limited by something else
+  const MethodLimit* longest = stiff_limit(study.stability);
+  if (!longest) return "";
+  if (study.advice) {
+    const double own = study.stability.limits[study.advice->method].h;
+    if (!(study.advice->h > kNear * own)) return "";
+  }
+  return fmt::format("stiff: explicit methods need h < {} ({}), whatever the accuracy asked for",
+                     time_text(longest->h), table.methods[longest->method].name);
+}
+
+std::string stability_csv(const jourdain_model_table& table, const Stability& stability) {
+  std::string text = "time_s,fastest_per_s,stiffness";
+  for (const MethodLimit& limit : stability.limits)
+    text += fmt::format(",limit_{}_s", table.methods[limit.method].name);
+  for (const StabilityPoint& point : stability.points) {
+    text += fmt::format("\n{},{},{}", point.time, point.fastest, point.stiffness);
+    for (const double h : point.limits) text += std::isfinite(h) ? fmt::format(",{}", h) : ",";
+  }
+  return text + "\n";
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,168 @@
+#include "studies/stability.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace jourdain::studies {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kShort =
+    4e-3;  ///< of the trajectory's own time: a step so short that 2000 of them see it hardly move
+constexpr double kShownShare = 0.01;
+constexpr double kFailing = 1.02;  ///< beyond the limit, where the length of runs is chosen
+
+StabilityPoint point_of(const Local& local, const Scene& scene) {
+  StabilityPoint point;
+  point.time = local.point->t;
+  point.eigenvalues.assign(local.modes.values.begin(), local.modes.values.end());
+  point.fastest = fastest_of(local.modes);
+  for (const Complex mu : local.modes.values)
+    if (kind_of(mu, scene) == ModeKind::kDamped)
+      point.stiffness = std::max(point.stiffness, -mu.real() / scene.rate);
+  return point;
+}
+
+void name_owners(const Flow<double>& flow, const std::vector<Local>& locals, Stability& result) {
+  for (const Local& local : locals)
+    for (const Complex mu : local.modes.values)
+      if (mu.imag() >= 0 && std::abs(mu) > std::abs(result.fastest)) {
+        result.fastest = mu;
+        result.fastest_time = local.point->t;
+      }
+  const Modes& modes = local_at(locals, result.fastest_time).modes;
+  const VectorXd shares = modes.participations.col(index_of(result.fastest, modes));
+  for (Index i = 0; i < shares.size(); ++i)
+    if (shares[i] >= kShownShare) result.owners.push_back({flow.table().velocity_names[i], shares[i]});
+  std::stable_sort(result.owners.begin(), result.owners.end(),
+                   [](const CoordinateShare& a, const CoordinateShare& b) { return a.share > b.share; });
+}
+
+/// Largest ‖R(hA)^k‖ over that of no step at all: what eigenvalues do not show. Coordinates that just drift are left
+/// out, and so is what grows anyway.
+double transient_growth(const StabilityFunction& function, const Local& local, double h, const Scene& scene) {
+  constexpr int kSteps = 300;  // modes near the limit die out slowly
+  const VectorXd& d = local.modes.scales;
+  const MatrixXd step = d.cwiseInverse().asDiagonal() * step_matrix(function, local.A, h) * d.asDiagonal();
+  const Eigen::MatrixXcd right = d.cwiseInverse().asDiagonal() * local.modes.right;
+  Eigen::VectorXcd kept = Eigen::VectorXcd::Ones(right.cols());
+  for (Index i = 0; i < kept.size(); ++i)
+    if (negligible(local.modes.values[i], local.modes, scene)) kept[i] = 0;
+  MatrixXd power = (right * kept.asDiagonal() * right.fullPivLu().inverse()).real();
+  const double none = std::max(1.0, power.norm()), radius = std::max(1.0, spectral_radius(step));
+  double peak = 1;
+  for (int k = 1; k <= kSteps; ++k) {
+    power = step * power / radius;
+    peak = std::max(peak, power.norm() / none);
+  }
+  return peak;
+}
+
+/// For the default stepper where it is there and has a limit, else for the last one that does.
+void look_for_transients(const Flow<double>& flow, const std::vector<Local>& locals, const Scene& scene,
+                         Stability& result) {
+  constexpr double kWithin = 0.9;  // of the limit
+  for (const MethodLimit& limit : result.limits) {
+    const StabilityFunction* function = stability_function(flow.table().methods[limit.method].name);
+    const bool polynomial =
+        function && function->kind == StabilityFunction::Kind::kOneStep && function->denominator.size() == 1;
+    if (!polynomial || !(limit.h > 0) || !std::isfinite(limit.h) || result.transient_method == "rk4")
+      continue;
+    const Local& local = local_at(locals, limit.time);
+    if (local.modes.defective) continue;
+    result.transient_growth = transient_growth(*function, local, kWithin * limit.h, scene);
+    result.transient_method = function->method;
+  }
+}
+
+double growth_beyond(const StabilityFunction& function, const MethodLimit& limit, const Local& local) {
+  const double h = kFailing * limit.h;
+  if (function.kind == StabilityFunction::Kind::kPartitioned)
+    return spectral_radius(step_matrix(function, local.A, h));
+  const Complex mu = limit.kind == ModeKind::kUndamped ? Complex(0, std::abs(limit.mode)) : limit.mode;
+  return amplification(function, h * mu);
+}
+
+/// Real velocities of an eigenvector, whose phase is arbitrary.
+VectorXd velocities_of(Complex mu, const Modes& modes) {
+  const Eigen::VectorXcd z = modes.right.col(index_of(mu, modes)).tail(modes.right.rows() / 2);
+  return z.real().norm() > z.imag().norm() ? VectorXd(z.real()) : VectorXd(z.imag());
+}
+
+VectorXd largest_velocities(const Flow<double>& flow, const ReferenceSolution& reference) {
+  VectorXd largest = VectorXd::Zero(static_cast<Index>(flow.size() - flow.position_count()));
+  for (const Point<double>& point : reference.points)
+    for (std::size_t i = flow.position_count(); i < flow.size(); ++i) {
+      double& entry = largest[static_cast<Index>(i - flow.position_count())];
+      entry = std::max(entry, std::fabs(point.x[i]));
+    }
+  return largest;
+}
+
+void observe(const Flow<double>& flow, const ReferenceSolution& reference, const std::vector<Local>& locals,
+             double seconds, Stability& result, const Progress& progress) {
+  const VectorXd largest = largest_velocities(flow, reference);
+  const auto begin = Clock::now();
+  for (MethodLimit& limit : result.limits) {
+    progress("step limits", 0.5 + 0.5 * double(limit.method) / double(result.limits.size()));
+    const jourdain_method& method = flow.table().methods[limit.method];
+    const StabilityFunction* function = stability_function(method.name);
+    if (!function || !(limit.h > 0) || !std::isfinite(limit.h) || limit.kind == ModeKind::kGrowing) continue;
+    const Local& local = local_at(locals, limit.time);
+    const VectorXd direction = velocities_of(limit.mode, local.modes);
+    if (!(direction.norm() > 0)) continue;
+    const LimitRuns runs{*local.point,
+                         direction,
+                         largest,
+                         limit.h,
+                         growth_beyond(*function, limit, local),
+                         limit.kind,
+                         limit.h * result.rate < kShort};
+    const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double share = (seconds - spent) / static_cast<double>(result.limits.size() - limit.method);
+    limit.observed = observe_limit(flow, method, runs, share);
+  }
+}
+
+}  // namespace
+
+const MethodLimit* stiff_limit(const Stability& stability) {
+  const MethodLimit* longest = nullptr;
+  for (const MethodLimit& limit : stability.limits)
+    if (limit.h > 0 && std::isfinite(limit.h) && (!longest || limit.h > longest->h)) longest = &limit;
+  return longest && is_stiff(*longest, stability.rate) ? longest : nullptr;
+}
+
+Stability study_stability(const Flow<double>& flow, const ReferenceSolution& reference,
+                          const std::vector<std::size_t>& quaternions, bool conserves_energy, double seconds,
+                          const Progress& progress) {
+  Stability result;
+  const std::vector<Local> locals = linearise(flow, reference, quaternions, seconds / 4, progress);
+  if (locals.empty()) return result;
+  const Scene scene = describe_scene(flow, reference, locals, conserves_energy);
+  result.rate = scene.rate;
+  result.damps = scene.damps;
+  for (const Local& local : locals) {
+    result.points.push_back(point_of(local, scene));
+    result.stiffness = std::max(result.stiffness, result.points.back().stiffness);
+  }
+  for (int m = 0; m < flow.table().method_count; ++m) {
+    const LimitsAlong along = limits_along(flow.table().methods[m].name, locals, scene);
+    for (std::size_t k = 0; k < locals.size(); ++k) result.points[k].limits.push_back(along.limits[k]);
+    result.limits.push_back(along.smallest);
+    result.limits.back().method = static_cast<std::size_t>(m);
+  }
+  name_owners(flow, locals, result);
+  look_for_transients(flow, locals, scene, result);
+  observe(flow, reference, locals, 3 * seconds / 4, result, progress);
+  return result;
+}
+
+}  // namespace jourdain::studies

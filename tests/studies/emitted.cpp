@@ -1,0 +1,51 @@
+#include "studies/emitted.hpp"
+
+#include <fmt/format.h>
+
+#include "commands/build_model.hpp"
+#include "emit/steppers.hpp"
+#include "model/read.hpp"
+#include "support/check.hpp"
+#include "support/files.hpp"
+
+namespace jourdain::tests {
+
+EmittedModel emitted_from(const std::string& text) {
+  support::Diagnostics diagnostics("model.toml", text);
+  const auto mechanism = model::read_mechanism(diagnostics);
+  JD_CHECK(mechanism.has_value(), "the test's model has {} diagnostics", diagnostics.all().size());
+  std::vector<std::string> steppers;
+  for (const emit::Stepper& stepper : emit::all_steppers()) steppers.push_back(stepper.name);
+  CompileOptions options;
+  static int count = 0;  // objects of one process share what has one name
+  options.name = "emitted_model" + std::to_string(++count);
+  options.functions = commands::loadable_functions(steppers);
+  const CompiledModel compiled = compile(*mechanism, options);
+  EmittedModel result{*mechanism,
+                      commands::build_model(options.name, compiled, commands::NumberType::kDouble)};
+  std::vector<double> values;
+  for (const model::Parameter& parameter : mechanism->parameters) values.push_back(parameter.value);
+  commands::set_parameters(result.table(), values);
+  return result;
+}
+
+EmittedModel emitted_model(const std::string& name) {
+  return emitted_from(support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/" + name + ".toml"));
+}
+
+std::size_t method_called(const jourdain_model_table& table, const std::string& name) {
+  for (int m = 0; m < table.method_count; ++m)
+    if (name == table.methods[m].name) return static_cast<std::size_t>(m);
+  JD_CHECK(false, "no method {}", name);
+  return 0;
+}
+
+std::string oscillator_text(double stiffness, double damping) {
+  return fmt::format(
+      "[model]\nname = \"oscillator\"\n[[body]]\nname = \"block\"\nmass = 1.0\n[[joint]]\nname = \"rail\"\n"
+      "type = \"prismatic\"\nparent = \"world\"\nchild = \"block\"\naxis = [1, 0, 0]\nstiffness = {:.17e}\n"
+      "damping = {:.17e}\ninitial_position = 0.1\n",
+      stiffness, damping);
+}
+
+}  // namespace jourdain::tests

@@ -1,0 +1,30 @@
+// Models compiled and loaded in the test's own process, with every stepper.
+#pragma once
+
+#include <string>
+
+#include "model/mechanism.hpp"
+#include "studies/loaded_model.hpp"
+
+namespace jourdain::tests {
+
+struct EmittedModel {
+  model::Mechanism mechanism;
+  studies::LoadedModel loaded;
+
+  const jourdain_model_table& table() const { return loaded.table(); }
+};
+
+/// Of a description in TOML; parameters have their values there.
+EmittedModel emitted_from(const std::string& text);
+
+/// Of models/NAME.toml.
+EmittedModel emitted_model(const std::string& name);
+
+/// Index of a method of the table.
+std::size_t method_called(const jourdain_model_table& table, const std::string& name);
+
+/// A mass on a rail with a spring (N/m) and a damper (N s/m), 0.1 m from rest; 1 kg.
+std::string oscillator_text(double stiffness, double damping);
+
+}  // namespace jourdain::tests

@@ -1,0 +1,230 @@
+// Stability functions against the emitted steps, predicted limits against runs that diverge.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "model/coordinates.hpp"
+#include "studies/emitted.hpp"
+#include "studies/report.hpp"
+#include "studies/stability.hpp"
+#include "studies/study.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+using namespace studies;
+using Complex = std::complex<double>;
+
+const Progress kSilent = [](const std::string&, double) {};
+constexpr double kAgreement = 0.05;  // of a predicted limit and the one that runs show, relative
+
+/// y'' = −k y − d y' with k = 1.5, d = 0.8: µ = −0.4 ± 1.158 i.
+struct Damped {
+  EmittedModel model = emitted_from(oscillator_text(1.5, 0.8));
+  ConstantInputs none{{}};
+  Flow<double> flow{model.table(), none};
+  Complex mu{-0.4, std::sqrt(1.5 - 0.16)};
+  Eigen::Matrix2d A = (Eigen::Matrix2d() << 0, 1, -1.5, -0.8).finished();
+
+  Eigen::Vector2d stepped(const jourdain_method& method, const Eigen::Vector2d& x, double h) const {
+    Point<double> point{0, {x[0], x[1]}};
+    Memory memory = flow.fresh_memory(method);
+    flow.step(method, point, h, 1, memory);
+    return {point.x[0], point.x[1]};
+  }
+};
+
+TEST(StabilityFunctions, AreThoseOfTheEmittedSteps) {
+  const Damped scene;
+  for (const char* name : {"euler", "semi_implicit_euler", "heun", "rk4", "rk5"}) {
+    const jourdain_method& method = scene.model.table().methods[method_called(scene.model.table(), name)];
+    const StabilityFunction* function = stability_function(name);
+    ASSERT_TRUE(function) << name;
+    for (const double h : {0.05, 0.7, 2.0, 3.5}) {
+      Eigen::Matrix2d step;
+      step << scene.stepped(method, {1, 0}, h), scene.stepped(method, {0, 1}, h);
+      EXPECT_LT((step - step_matrix(*function, scene.A, h)).norm(), 1e-12) << name << ", h = " << h;
+      if (function->kind == StabilityFunction::Kind::kOneStep) {
+        EXPECT_NEAR(amplification(*function, h * scene.mu), spectral_radius(step), 1e-12) << name;
+      }
+    }
+  }
+}
+
+TEST(StabilityFunctions, OfMultistepMethodsAreTheGrowthOfLongRuns) {
+  const Damped scene;
+  // The left eigenvector (−µ̄, 1) leaves one mode of the scene, which settles on the recursion's largest root.
+  const Complex left = -std::conj(scene.mu);
+  for (const char* name : {"adams_bashforth2", "adams_bashforth3"}) {
+    const jourdain_method& method = scene.model.table().methods[method_called(scene.model.table(), name)];
+    for (const double h : {0.05, 0.5, 1.1}) {
+      Point<double> point = scene.flow.start();
+      Memory memory = scene.flow.fresh_memory(method);
+      const auto size = [&] { return std::abs(left * point.x[0] + point.x[1]); };
+      scene.flow.step(method, point, h, 100, memory);
+      const double before = size();
+      scene.flow.step(method, point, h, 100, memory);
+      EXPECT_NEAR(std::pow(size() / before, 0.01), amplification(*stability_function(name), h * scene.mu),
+                  1e-3)
+          << name << ", h = " << h;
+    }
+  }
+}
+
+TEST(StepLimit, IsTheKnownOneOnBothAxes) {
+  const auto limit = [](const char* name, Complex mu) {
+    return step_limit(*stability_function(name), mu, {});
+  };
+  EXPECT_NEAR(limit("euler", -1), 2, 1e-4);
+  EXPECT_NEAR(limit("heun", -1), 2, 1e-4);
+  EXPECT_NEAR(limit("rk4", -1), 2.7853, 1e-3);
+  EXPECT_NEAR(limit("rk5", -1), 3.3066, 1e-3);
+  EXPECT_NEAR(limit("adams_bashforth2", -1), 1, 1e-4);
+  EXPECT_NEAR(limit("adams_bashforth3", -1), 6.0 / 11, 1e-4);
+  EXPECT_NEAR(limit("rk4", Complex(0, 1)), 2 * std::sqrt(2.0), 1e-3);
+  EXPECT_NEAR(limit("adams_bashforth3", Complex(0, 1)), 0.7236, 1e-3);
+  const Complex weak(-0.01, 2);
+  EXPECT_NEAR(limit("euler", weak), 0.02 / std::norm(weak), 1e-7);
+  EXPECT_EQ(limit("linearly_implicit_euler", -1), INFINITY);
+  for (const char* name : {"euler", "heun", "adams_bashforth2"})
+    EXPECT_FALSE(keeps_oscillations(*stability_function(name))) << name;
+  for (const char* name : {"rk4", "rk5", "adams_bashforth3", "semi_implicit_euler"})
+    EXPECT_TRUE(keeps_oscillations(*stability_function(name))) << name;
+  EXPECT_FALSE(stability_function("a_method_of_tomorrow"));
+}
+
+TEST(RegionBoundary, LiesWhereNothingGrows) {
+  for (const char* name : {"euler", "heun", "rk4", "rk5", "adams_bashforth2", "adams_bashforth3"}) {
+    const StabilityFunction& function = *stability_function(name);
+    const std::vector<Complex> boundary = region_boundary(function);
+    ASSERT_FALSE(boundary.empty()) << name;
+    for (const Complex x : boundary) EXPECT_NEAR(amplification(function, x), 1, 1e-3) << name;
+  }
+}
+
+/// Stability of a model over `count` intervals of a sixteenth of a second.
+struct Judged {
+  EmittedModel model;
+  ConstantInputs none;
+  Flow<double> flow;
+  ReferenceSolution reference;
+  std::vector<std::size_t> quaternions;
+  Stability stability;
+
+  Judged(EmittedModel emitted, long count, bool conserves_energy)
+      : model(std::move(emitted)),
+        none(std::vector<double>(static_cast<std::size_t>(model.table().input_count))),
+        flow(model.table(), none),
+        reference(solve_reference(flow, nullptr, ReferenceKind::kCvode, 0.0625, count, 1, 1, kSilent)),
+        quaternions(model::lay_out_coordinates(model.mechanism).quaternions),
+        stability(study_stability(flow, reference, quaternions, conserves_energy, 60, kSilent)) {}
+
+  const MethodLimit& limit(const std::string& method) const {
+    return stability.limits[method_called(model.table(), method)];
+  }
+  void expect_observed(const std::string& method) const {
+    const MethodLimit& predicted = limit(method);
+    ASSERT_TRUE(predicted.observed) << method;
+    EXPECT_NEAR(predicted.observed->h / predicted.h, 1, kAgreement) << method;
+  }
+};
+
+#ifndef JOURDAIN_SANITIZED  // runs by the million are too slow there
+
+TEST(Stability, StiffGovernorHasTheLimitsThatItsRunsShow) {
+  const Judged governor(emitted_model("flyball_governor"), 160, false);
+  EXPECT_NEAR(governor.limit("rk4").h, 3.43e-4, 3e-6);
+  EXPECT_NEAR(governor.limit("euler").h, 2 / 8118.0, 2e-6);
+  for (const char* method :
+       {"euler", "semi_implicit_euler", "heun", "rk4", "rk5", "adams_bashforth2", "adams_bashforth3"}) {
+    governor.expect_observed(method);
+    EXPECT_EQ(governor.limit(method).kind, ModeKind::kDamped) << method;
+  }
+  ASSERT_FALSE(governor.stability.owners.empty());
+  EXPECT_EQ(governor.stability.owners.front().name, "slider");
+  ASSERT_TRUE(stiff_limit(governor.stability));
+  EXPECT_EQ(stiff_limit(governor.stability)->method, method_called(governor.model.table(), "rk5"));
+}
+
+TEST(Stability, OscillatorWithoutDampingLeavesNoStableStepToSomeMethods) {
+  const Judged oscillator(emitted_from(oscillator_text(100, 0)), 32, true);
+  EXPECT_FALSE(oscillator.stability.damps);
+  for (const char* method : {"euler", "heun", "adams_bashforth2"}) {
+    EXPECT_EQ(oscillator.limit(method).h, 0) << method;
+    EXPECT_EQ(limit_text(oscillator.limit(method)), "none: undamped mode");
+  }
+  EXPECT_NEAR(oscillator.limit("rk4").h, 0.28284, 1e-4);
+  EXPECT_NEAR(oscillator.limit("semi_implicit_euler").h, 0.2, 2e-3);
+  for (const char* method : {"semi_implicit_euler", "rk4", "adams_bashforth3"})
+    oscillator.expect_observed(method);
+  EXPECT_FALSE(stiff_limit(oscillator.stability));
+}
+
+TEST(Stability, WeakDampingDecidesOnEuler) {
+  const Judged oscillator(emitted_from(oscillator_text(100, 0.4)), 32, false);
+  EXPECT_TRUE(oscillator.stability.damps);
+  EXPECT_NEAR(oscillator.limit("euler").h, 0.4 / 100, 1e-5);
+  for (const char* method : {"euler", "semi_implicit_euler", "heun", "rk4", "rk5", "adams_bashforth3"})
+    oscillator.expect_observed(method);
+  EXPECT_FALSE(stiff_limit(oscillator.stability));
+}
+
+TEST(Stability, ForcedCartDivergesWhereItsSpringAndDamperSayAndNotWhereItResonates) {
+  const Judged cart(emitted_model("shaking_cart"), 32, false);
+  EXPECT_NEAR(cart.limit("euler").h, 15.0 / 900, 1e-5);  // 2 |Re µ| / |µ|² = damping / stiffness
+  for (const char* method :
+       {"euler", "semi_implicit_euler", "heun", "rk4", "rk5", "adams_bashforth2", "adams_bashforth3"})
+    cart.expect_observed(method);
+}
+
+TEST(Stability, TopOnABallJointHasNoModeOfItsQuaternion) {
+  const Judged top(emitted_model("lagrange_top"), 32, true);
+  for (const StabilityPoint& point : top.stability.points) EXPECT_EQ(point.eigenvalues.size(), 6u);
+  // The spin of 60 rad/s is no mode. Precession in the body is: (1 − I3/I1) 60 rad/s, a little slower under gravity.
+  EXPECT_NEAR(std::abs(top.stability.fastest.imag()), 39.8, 0.1);
+  top.expect_observed("rk4");
+  top.expect_observed("adams_bashforth3");
+  const Eigen::MatrixXd A = linearisation(top.flow, top.reference.points[3], top.quaternions);
+  ASSERT_EQ(A.rows(), 6);
+  // Turning the whole scene about the vertical changes nothing.
+  const Eigen::Vector4d q(top.reference.points[3].x.data());
+  const Eigen::Vector3d vertical =
+      Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix().transpose() * Eigen::Vector3d::UnitZ();
+  EXPECT_LT((A.bottomLeftCorner(3, 3) * vertical).norm(), 1e-8);
+}
+
+TEST(Stability, ReportSaysThatTheGovernorIsStiff) {
+  const EmittedModel governor = emitted_model("flyball_governor");
+  const ConstantInputs none({});
+  const Flow<double> flow(governor.table(), none);
+  std::vector<double> parameters;
+  for (const model::Parameter& parameter : governor.mechanism.parameters)
+    parameters.push_back(parameter.value);
+  StudyOptions options;
+  options.duration = 0.5;
+  options.longest_step = 2e-3;
+  options.halvings = 4;
+  options.reference = ReferenceKind::kCvode;
+  options.question.tolerance = 1e-5;
+  options.forms = false;
+  const Study study = run_study(governor.mechanism, parameters, flow, nullptr, none, options, kSilent);
+  const auto says = testing::HasSubstr("stiff: explicit methods need h < ");
+  EXPECT_THAT(advice_text(governor.table(), study), says);
+  const ReportHead head{"flyball_governor", "", "", "", "double", "", "", ""};
+  EXPECT_THAT(report_text(head, governor.table(), study), testing::HasSubstr("largest stable step"));
+  const auto report = nlohmann::json::parse(report_json(head, governor.table(), study));
+  EXPECT_EQ(report["stability"]["limits"].size(), std::size_t(governor.table().method_count));
+  EXPECT_EQ(report["stability"]["fastest_mode_belongs_to"][0]["coordinate"], "slider");
+  const auto files = report_csv(governor.table(), study);
+  EXPECT_TRUE(
+      std::any_of(files.begin(), files.end(), [](const auto& f) { return f.name == "stability.csv"; }));
+}
+
+#endif
+
+}  // namespace
+}  // namespace jourdain::tests
