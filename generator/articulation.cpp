@@ -43,20 +43,27 @@ class Choice {
     if (velocities_ < kSmallScene) return result;
     const std::size_t deepest = *std::max_element(depth_.begin(), depth_.end()) + 1;
     result.articulated = operations(std::vector<bool>(parent_.size(), true));
-    std::size_t worse = 0;
     if (velocities_ >= kLargeScene) {
-      for (std::size_t depth = deepest; depth-- > 0 && worse < kPatience;)
-        worse = keep(result, down_to(depth)) ? 0 : worse + 1;
+      search_inward(result, deepest);
       return result;
     }
     result.factorised = result.operations;
+    std::size_t worse = 0;
     for (std::size_t depth = 1; depth <= deepest && worse < kPatience; ++depth)
       worse = keep(result, down_to(depth)) ? 0 : worse + 1;
+    // A few articulated links may cost more than none where all cost less.
+    if (keep(result, std::vector<bool>(parent_.size(), true))) search_inward(result, deepest);
     refine(result);
     return result;
   }
 
  private:
+  void search_inward(Articulation& best, std::size_t deepest) {
+    std::size_t worse = 0;
+    for (std::size_t depth = deepest; depth-- > 0 && worse < kPatience;)
+      worse = keep(best, down_to(depth)) ? 0 : worse + 1;
+  }
+
   std::vector<bool> down_to(std::size_t depth) const {
     std::vector<bool> links;
     for (const std::size_t d : depth_) links.push_back(d < depth);
