@@ -91,6 +91,15 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
         "  Real yd[Model::position_count];\n  ::{}::detail::velocities(model(), state, yd);\n", name);
     rates += "  write(yd, ydot, Model::position_count);\n";
   }
+  const bool with_derivatives = has(compiled, "forward_dynamics_derivatives");
+  std::string derivatives;
+  if (with_derivatives)
+    derivatives = fmt::format(
+        "void derivatives(const double* t, const double* y, const double* z, const double* u, double* zdot_y, "
+        "double* zdot_z) {{\n  constexpr int nz = Model::velocity_count;\n  static Real zd[nz], by_y[nz][nz], by_z[nz][nz];\n"
+        "  ::{}::forward_dynamics_derivatives(model(), to_state(t, y, z), to_input(u), zd, by_y, by_z);\n"
+        "  write(*by_y, zdot_y, nz * nz);\n  write(*by_z, zdot_z, nz * nz);\n}}\n\n",
+        name);
   if (has(compiled, "inverse_dynamics"))
     inverse = fmt::format(
         "  Real zd[Model::velocity_count], forces[Model::velocity_count];\n"
@@ -122,6 +131,8 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
        {"STEPPERS", steppers},
        {"RATES", rates},
        {"INVERSE", inverse},
+       {"DERIVATIVES", derivatives},
+       {"DERIVATIVES_POINTER", with_derivatives ? "derivatives" : "nullptr"},
        {"OUTPUTS", outputs},
        {"METHODS", methods},
        {"OUTPUT_COUNT", with_outputs ? "sizeof(Model::Outputs) / sizeof(Real)" : "0"},

@@ -27,6 +27,8 @@ constexpr double kMostSteps = 2e7;  ///< of the shortest length
 constexpr long kLargeScene =
     5000;  ///< operations of forward dynamics beyond which 50 digits must be asked for
 
+constexpr std::size_t kMostVelocities = 24;  ///< of scenes whose derivatives are compiled unasked
+
 struct Arguments {
   RunArguments run;
   studies::StudyOptions study;
@@ -85,6 +87,24 @@ bool check_steps(const studies::StudyOptions& options) {
   return false;
 }
 
+DerivativeTerms terms_of(const Arguments& arguments) {
+  return arguments.run.model.derivatives == "applied" ? DerivativeTerms::kApplied : DerivativeTerms::kAll;
+}
+
+/// All steppers; without linearly implicit ones where a scene is large.
+std::vector<std::string> default_methods(DerivativeTerms terms, std::size_t velocities) {
+  std::vector<std::string> methods = methods_for(terms);
+  if (velocities <= kMostVelocities) return methods;
+  methods.erase(std::remove_if(methods.begin(), methods.end(),
+                               [](const std::string& m) { return emit::find_stepper(m)->implicit; }),
+                methods.end());
+  fmt::print(stderr,
+             "note: with more than {} velocities linearly implicit methods are left out, whose derivatives take long to "
+             "compile; --methods asks for them\n",
+             kMostVelocities);
+  return methods;
+}
+
 /// Whether there is none.
 bool print_conflict(const std::string& conflict) {
   if (!conflict.empty()) fmt::print(stderr, "error: {}\n", conflict);
@@ -105,10 +125,7 @@ bool settle(Arguments& arguments) {
   arguments.study.reference = reference_kind(arguments.reference);
   if (arguments.tolerance > 0) arguments.study.question.tolerance = arguments.tolerance;
   if (arguments.budget > 0) arguments.study.question.budget = arguments.budget;
-  const DerivativeTerms terms =
-      arguments.run.model.derivatives == "applied" ? DerivativeTerms::kApplied : DerivativeTerms::kAll;
-  if (arguments.methods.empty()) arguments.methods = methods_for(terms);
-  return print_conflict(check_derivative_terms(arguments.methods, terms));
+  return print_conflict(check_derivative_terms(arguments.methods, terms_of(arguments)));
 }
 
 studies::Study make_study(const Arguments& arguments, const RunModel& model, const RunInputs& inputs,
@@ -154,7 +171,9 @@ int run(Arguments arguments) {
   const std::string folder = arguments.folder.empty() ? name + "_report" : arguments.folder;
   support::check_writable(folder);
   if (arguments.plots) check_plotter();
-  if (model::lay_out_coordinates(model->loaded.mechanism).velocity_count() == 0) {
+  const std::size_t velocities = model::lay_out_coordinates(model->loaded.mechanism).velocity_count();
+  if (arguments.methods.empty()) arguments.methods = default_methods(terms_of(arguments), velocities);
+  if (velocities == 0) {
     fmt::print(stderr, "error: '{}' has no degree of freedom: nothing is integrated\n", name);
     return kModelWrong;
   }
@@ -163,6 +182,7 @@ int run(Arguments arguments) {
   const Figure figure = make_figure(model->loaded.mechanism);
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
+  if (velocities <= kMostVelocities) options.functions.push_back("forward_dynamics_derivatives");
   const CompiledModel compiled = compile(figure.mechanism, options);
   if (!compiled.verdict.accepted()) {
     print_refusal(compiled.verdict);

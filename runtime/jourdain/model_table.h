@@ -50,6 +50,9 @@ typedef struct jourdain_model_table {
   /* dy/dt and dz/dt. */
   void (*rates)(const double* t, const double* y, const double* z, const double* u, double* ydot,
                 double* zdot);
+  /* Derivatives of dz/dt by displacements and by z, row by row; null where not emitted. */
+  void (*derivatives)(const double* t, const double* y, const double* z, const double* u, double* zdot_y,
+                      double* zdot_z);
   /* Generalized forces (N m, N) that are missing for dz/dt at u = 0; null where not emitted. */
   void (*inverse_dynamics)(const double* t, const double* y, const double* z, const double* zdot,
                            double* tau);

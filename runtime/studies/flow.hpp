@@ -46,6 +46,7 @@ class Flow {
   Flow(const jourdain_model_table& table, const Inputs& inputs);
 
   const jourdain_model_table& table() const { return table_; }
+  const Inputs& inputs() const { return inputs_; }
   std::size_t position_count() const { return static_cast<std::size_t>(table_.position_count); }
   std::size_t size() const { return position_count() + static_cast<std::size_t>(table_.velocity_count); }
 

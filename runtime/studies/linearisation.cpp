@@ -65,10 +65,23 @@ MatrixXd position_tangents(const VectorXd& y, Index nz, const std::vector<std::s
   return T;
 }
 
+MatrixXd emitted_linearisation(const Flow<double>& flow, const Point<double>& point) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto nz = static_cast<Index>(flow.table().velocity_count);
+  RowMajor by_y(nz, nz), by_z(nz, nz);
+  const std::vector<double> u = flow.inputs().at(point.t);
+  flow.table().derivatives(&point.t, point.x.data(), point.x.data() + flow.position_count(), u.data(), by_y.data(),
+                           by_z.data());
+  MatrixXd A(2 * nz, 2 * nz);
+  A << MatrixXd::Zero(nz, nz), MatrixXd::Identity(nz, nz), by_y, by_z;
+  return A;
+}
+
 }  // namespace
 
 MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point,
                        const std::vector<std::size_t>& quaternions) {
+  if (flow.table().derivatives) return emitted_linearisation(flow, point);
   const MatrixXd J = extrapolated_jacobian(flow, point);
   if (quaternions.empty()) return J;
   const auto ny = static_cast<Index>(flow.position_count()), nz = J.cols() - ny;

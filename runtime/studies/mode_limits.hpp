@@ -38,6 +38,7 @@ struct MethodLimit {
   std::complex<double> mode;  ///< that decides, 1/s; the fastest where the whole system decides
   ModeKind kind = ModeKind::kDamped;
   bool fast = false;                      ///< `mode` is above the trajectory's own rate
+  bool implicit = false;                  ///< the method is linearly implicit and L-stable: h is infinite
   std::optional<ObservedLimit> observed;  ///< none where nothing is predicted or runs show no limit near it
 };
 

@@ -59,7 +59,8 @@ std::string mode_text(std::complex<double> mu) {
 
 std::string limit_text(const MethodLimit& limit) {
   if (limit.h == 0) return limit.kind == ModeKind::kUndamped ? "none: undamped mode" : "none";
-  return std::isfinite(limit.h) ? time_text(limit.h) : "no limit";
+  if (limit.implicit) return "none: L-stable";
+  return std::isfinite(limit.h) ? time_text(limit.h) : "no mode limits it";
 }
 
 std::string observed_text(const MethodLimit& limit) {
@@ -116,7 +117,7 @@ std::string stiff_text(const jourdain_model_table& table, const Study& study) {
   if (!longest) return "";
   if (study.advice) {
     const double own = study.stability.limits[study.advice->method].h;
-    if (!(study.advice->h > kNear * own)) return "";
+    if (std::isfinite(own) && !(study.advice->h > kNear * own)) return "";
   }
   return fmt::format("stiff: explicit methods need h < {} ({}), whatever the accuracy asked for",
                      time_text(longest->h), table.methods[longest->method].name);

@@ -16,12 +16,12 @@ std::string number(const std::optional<double>& value, const char* format = "{:.
 std::string error(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
 
 std::string methods_table(const jourdain_model_table& table, const Study& study) {
-  std::string text = fmt::format("  {:<20} {:>5} {:>8} {:>11} {:>10} {:>10} {:>21}\n", "method", "order",
+  std::string text = fmt::format("  {:<23} {:>5} {:>8} {:>11} {:>10} {:>10} {:>21}\n", "method", "order",
                                  "measured", "evaluations", "operations", "us a step", "quartiles");
   for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
     const jourdain_method& method = table.methods[m];
     const StepTime& time = study.work.step_times[m];
-    text += fmt::format("  {:<20} {:>5} {:>8} {:>11} {:>10} {:>10.3g} {:>10.3g} {:>10.3g}\n", method.name,
+    text += fmt::format("  {:<23} {:>5} {:>8} {:>11} {:>10} {:>10.3g} {:>10.3g} {:>10.3g}\n", method.name,
                         method.order, number(study.work.orders[m]), method.evaluations, method.operations,
                         time.median * 1e6, time.lower_quartile * 1e6, time.upper_quartile * 1e6);
   }
@@ -30,13 +30,13 @@ std::string methods_table(const jourdain_model_table& table, const Study& study)
 
 std::string errors_table(const jourdain_model_table& table, const Study& study) {
   std::string text =
-      fmt::format("\n  largest position error along the way (rad, m); * on the Pareto front\n  {:<20}", "h");
-  for (const double h : study.steps) text += fmt::format(" {:>9}", time_text(h));
+      fmt::format("\n  largest position error along the way (rad, m); * on the Pareto front\n  {:<23}", "h");
+  for (const double h : study.steps) text += fmt::format(" {:>8}", time_text(h));
   std::size_t method = static_cast<std::size_t>(-1);
   for (const WorkPoint& point : study.work.points) {
-    if (point.method != method) text += fmt::format("\n  {:<20}", table.methods[point.method].name);
+    if (point.method != method) text += fmt::format("\n  {:<23}", table.methods[point.method].name);
     method = point.method;
-    text += fmt::format(" {:>8}{}", point.finite ? error(point.largest.position) : "fails",
+    text += fmt::format(" {:>7}{}", point.finite ? error(point.largest.position) : "fails",
                         point.pareto ? '*' : ' ');
   }
   return text + "\n";
@@ -53,22 +53,22 @@ const ErrorSources* middle_of(std::size_t method, const std::vector<ErrorSources
 std::string sources_table(const jourdain_model_table& table, const Study& study) {
   if (study.sources.empty()) return "";
   std::string text = fmt::format(
-      "\n  where the position error at the end comes from (rad, m), at one step of each method\n  {:<20} "
+      "\n  where the position error at the end comes from (rad, m), at one step of each method\n  {:<23} "
       "{:>9} {:>10} "
       "{:>10} {:>10} {:>10} {:>10} {:>6}\n",
       "method", "h", "truncation", "propagated", "rounding", "predicted", "measured", "ratio");
   for (const SourceSummary& summary : study.summaries) {
     const ErrorSources* s = middle_of(summary.method, study.sources);
     if (s)
-      text += fmt::format("  {:<20} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>6.2f}\n",
+      text += fmt::format("  {:<23} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>6.2f}\n",
                           table.methods[s->method].name, time_text(s->h), s->truncation.position,
                           s->propagated.position, s->rounding.position, s->predicted.position,
                           s->measured.position, s->predicted.position / s->measured.position);
   }
-  text += fmt::format("\n  {:<20} {:>17} {:>17} {:>15} {:>27}\n", "slopes over h", "truncation", "propagated",
+  text += fmt::format("\n  {:<23} {:>17} {:>17} {:>15} {:>27}\n", "slopes over h", "truncation", "propagated",
                       "rounding", "rounding dominates below h");
   for (const SourceSummary& s : study.summaries)
-    text += fmt::format("  {:<20} {:>17} {:>17} {:>15} {:>27}\n", table.methods[s.method].name,
+    text += fmt::format("  {:<23} {:>17} {:>17} {:>15} {:>27}\n", table.methods[s.method].name,
                         number(s.truncation_slope), number(s.propagation_slope), number(s.rounding_slope),
                         s.rounding_step ? time_text(*s.rounding_step) +
                                               (s.rounding_step_extrapolated ? " (extrapolated)" : "")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace jourdain::studies {
 
@@ -133,10 +134,23 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
 
 }  // namespace
 
+namespace {
+
+/// Of an L-stable method.
+LimitsAlong no_limits(std::size_t count) {
+  LimitsAlong along;
+  along.limits.assign(count, std::numeric_limits<double>::infinity());
+  along.smallest.h = std::numeric_limits<double>::infinity();
+  along.smallest.implicit = true;
+  return along;
+}
+
+}  // namespace
+
 const MethodLimit* stiff_limit(const Stability& stability) {
   const MethodLimit* longest = nullptr;
   for (const MethodLimit& limit : stability.limits)
-    if (limit.h > 0 && std::isfinite(limit.h) && (!longest || limit.h > longest->h)) longest = &limit;
+    if (limit.h > 0 && std::isfinite(limit.h) && !limit.implicit && (!longest || limit.h > longest->h)) longest = &limit;
   return longest && is_stiff(*longest, stability.rate) ? longest : nullptr;
 }
 
@@ -154,7 +168,9 @@ Stability study_stability(const Flow<double>& flow, const ReferenceSolution& ref
     result.stiffness = std::max(result.stiffness, result.points.back().stiffness);
   }
   for (int m = 0; m < flow.table().method_count; ++m) {
-    const LimitsAlong along = limits_along(flow.table().methods[m].name, locals, scene);
+    const jourdain_method& method = flow.table().methods[m];
+    const LimitsAlong along =
+        method.implicit ? no_limits(locals.size()) : limits_along(method.name, locals, scene);
     for (std::size_t k = 0; k < locals.size(); ++k) result.points[k].limits.push_back(along.limits[k]);
     result.limits.push_back(along.smallest);
     result.limits.back().method = static_cast<std::size_t>(m);

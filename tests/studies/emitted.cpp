@@ -10,27 +10,52 @@
 
 namespace jourdain::tests {
 
-EmittedModel emitted_from(const std::string& text) {
+namespace {
+
+std::vector<double> parameter_values(const model::Mechanism& mechanism) {
+  std::vector<double> values;
+  for (const model::Parameter& parameter : mechanism.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+}  // namespace
+
+void EmittedModel::set_parameter(const std::string& name, double value) {
+  bool found = false;
+  for (model::Parameter& parameter : mechanism.parameters)
+    if (parameter.name == name) {
+      parameter.value = value;
+      found = true;
+    }
+  JD_CHECK(found, "no parameter {}", name);
+  commands::set_parameters(table(), parameter_values(mechanism));
+}
+
+std::vector<std::string> all_loadable_functions() {
+  std::vector<std::string> steppers;
+  for (const emit::Stepper& stepper : emit::all_steppers()) steppers.push_back(stepper.name);
+  std::vector<std::string> functions = commands::loadable_functions(steppers);
+  functions.push_back("forward_dynamics_derivatives");
+  return functions;
+}
+
+EmittedModel emitted_from(const std::string& text, const std::vector<std::string>& functions) {
   support::Diagnostics diagnostics("model.toml", text);
   const auto mechanism = model::read_mechanism(diagnostics);
   JD_CHECK(mechanism.has_value(), "the test's model has {} diagnostics", diagnostics.all().size());
-  std::vector<std::string> steppers;
-  for (const emit::Stepper& stepper : emit::all_steppers()) steppers.push_back(stepper.name);
   CompileOptions options;
   static int count = 0;  // objects of one process share what has one name
   options.name = "emitted_model" + std::to_string(++count);
-  options.functions = commands::loadable_functions(steppers);
+  options.functions = functions;
   const CompiledModel compiled = compile(*mechanism, options);
   EmittedModel result{*mechanism,
                       commands::build_model(options.name, compiled, commands::NumberType::kDouble)};
-  std::vector<double> values;
-  for (const model::Parameter& parameter : mechanism->parameters) values.push_back(parameter.value);
-  commands::set_parameters(result.table(), values);
+  commands::set_parameters(result.table(), parameter_values(*mechanism));
   return result;
 }
 
-EmittedModel emitted_model(const std::string& name) {
-  return emitted_from(support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/" + name + ".toml"));
+EmittedModel emitted_model(const std::string& name, const std::vector<std::string>& functions) {
+  return emitted_from(support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/" + name + ".toml"), functions);
 }
 
 std::size_t method_called(const jourdain_model_table& table, const std::string& name) {

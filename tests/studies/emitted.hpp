@@ -1,7 +1,8 @@
-// Models compiled and loaded in the test's own process, with every stepper.
+// Models compiled and loaded in the test's own process.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/mechanism.hpp"
 #include "studies/loaded_model.hpp"
@@ -13,13 +14,21 @@ struct EmittedModel {
   studies::LoadedModel loaded;
 
   const jourdain_model_table& table() const { return loaded.table(); }
+
+  /// From now on, also for the initial state.
+  void set_parameter(const std::string& name, double value);
 };
 
+/// Functions that a model is emitted with: every stepper and the derivatives of forward dynamics, or a few where those are long.
+std::vector<std::string> all_loadable_functions();
+
 /// Of a description in TOML; parameters have their values there.
-EmittedModel emitted_from(const std::string& text);
+EmittedModel emitted_from(const std::string& text,
+                          const std::vector<std::string>& functions = all_loadable_functions());
 
 /// Of models/NAME.toml.
-EmittedModel emitted_model(const std::string& name);
+EmittedModel emitted_model(const std::string& name,
+                           const std::vector<std::string>& functions = all_loadable_functions());
 
 /// Index of a method of the table.
 std::size_t method_called(const jourdain_model_table& table, const std::string& name);

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "model/coordinates.hpp"
-#include "studies/emitted.hpp"
+#include "studies/judged.hpp"
 #include "studies/report.hpp"
 #include "studies/stability.hpp"
 #include "studies/study.hpp"
@@ -18,9 +17,6 @@ namespace {
 
 using namespace studies;
 using Complex = std::complex<double>;
-
-const Progress kSilent = [](const std::string&, double) {};
-constexpr double kAgreement = 0.05;  // of a predicted limit and the one that runs show, relative
 
 /// y'' = −k y − d y' with k = 1.5, d = 0.8: µ = −0.4 ± 1.158 i.
 struct Damped {
@@ -105,33 +101,6 @@ TEST(RegionBoundary, LiesWhereNothingGrows) {
     for (const Complex x : boundary) EXPECT_NEAR(amplification(function, x), 1, 1e-3) << name;
   }
 }
-
-/// Stability of a model over `count` intervals of a sixteenth of a second.
-struct Judged {
-  EmittedModel model;
-  ConstantInputs none;
-  Flow<double> flow;
-  ReferenceSolution reference;
-  std::vector<std::size_t> quaternions;
-  Stability stability;
-
-  Judged(EmittedModel emitted, long count, bool conserves_energy)
-      : model(std::move(emitted)),
-        none(std::vector<double>(static_cast<std::size_t>(model.table().input_count))),
-        flow(model.table(), none),
-        reference(solve_reference(flow, nullptr, ReferenceKind::kCvode, 0.0625, count, 1, 1, kSilent)),
-        quaternions(model::lay_out_coordinates(model.mechanism).quaternions),
-        stability(study_stability(flow, reference, quaternions, conserves_energy, 60, kSilent)) {}
-
-  const MethodLimit& limit(const std::string& method) const {
-    return stability.limits[method_called(model.table(), method)];
-  }
-  void expect_observed(const std::string& method) const {
-    const MethodLimit& predicted = limit(method);
-    ASSERT_TRUE(predicted.observed) << method;
-    EXPECT_NEAR(predicted.observed->h / predicted.h, 1, kAgreement) << method;
-  }
-};
 
 #ifndef JOURDAIN_SANITIZED  // runs by the million are too slow there
 

@@ -79,7 +79,7 @@ struct System {
     const double roundoff = P == 1 ? 0x1p-53 : 0x1p-166;
     static const jourdain_model_table result = {
         P,     1,        1,       1,       0,       0,     2,       roundoff, 4,         names,  names,
-        names, no_names, methods, nullptr, initial, rates, nullptr, kinetic,  potential, nullptr};
+        names, no_names, methods, nullptr, initial, rates, nullptr, nullptr, kinetic,  potential, nullptr};
     return result;
   }
 };
