@@ -98,6 +98,16 @@ TEST(CommandLine, AFolderThatCannotBeMadeIsTheEnvironmentsFault) {
   expect(jourdain({"compile", "models/pendulum.toml", "-o", file + "/inside"}), 3, "inside");
 }
 
+TEST(CommandLine, ADenormalNumberIsANumber) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/small.toml";
+  support::write_file(file,
+                      "[model]\nname = \"small\"\n[[body]]\nname = \"b\"\nmass = 1\n"
+                      "[[joint]]\nname = \"slide\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"b\"\n"
+                      "stiffness = 1e-310\n");
+  expect(jourdain({"check", file}), 0, "ok: small");
+}
+
 TEST(Compile, WritesFourFiles) {
   const support::TemporaryFolder folder;
   expect(jourdain({"compile", "models/pendulum.toml", "-o", folder.path() + "/new/p", "--name", "swing"}), 0,
