@@ -92,10 +92,12 @@ class Builder {
     for (const JointStep& step : joint_steps(joint)) {
       Link link = make_link(step, joint, pose);
       link.joint = index;
-      const BodyPose from = pose;
       pose.link = tree_.links.size();
-      pose.R_LB = bound("R_" + link.name, transpose(link.R_PL) * from.R_LB);
-      pose.r_LB = bound("r_" + link.name, transpose(link.R_PL) * (from.r_LB - link.r_PL));
+      pose.R_LB = bound("R_" + link.name, transpose(link.R_PL) * pose.R_LB);
+      // Not from r_LB − r_PL for a turn: the difference would have the rounding of the parent's dimensions.
+      pose.r_LB = link.turns_about_z()
+                      ? Vector3{0, 0, link.along}
+                      : bound("r_" + link.name, transpose(link.R_PL) * (pose.r_LB - link.r_PL));
       tree_.links.push_back(link);
     }
     tree_.bodies[joint.child.value] = pose;
@@ -145,8 +147,8 @@ class Builder {
       link.r_PL = zero_vector();
       return;
     }
-    const Ex along = statements_.bind("d_" + link.name, dot(z, pose.r_LB));
-    link.r_PL = bound("r_" + link.name, pose.r_LB - along * z);
+    link.along = statements_.bind("d_" + link.name, settled(dot(z, pose.r_LB)));
+    link.r_PL = bound("r_" + link.name, pose.r_LB - link.along * z);
   }
 
   bool is_leaf(std::size_t i) const {
