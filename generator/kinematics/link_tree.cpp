@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinematics/far_joints.hpp"
 #include "kinematics/joint_steps.hpp"
 #include "kinematics/numbers.hpp"
 #include "support/check.hpp"
@@ -50,7 +51,11 @@ class Builder {
  public:
   Builder(const Mechanism& mechanism, std::span<const Ex> parameters, Statements& statements,
           const LinkTreeOptions& options)
-      : mechanism_(mechanism), parameters_(parameters), statements_(statements), options_(options) {}
+      : mechanism_(mechanism),
+        parameters_(parameters),
+        statements_(statements),
+        options_(options),
+        far_(far_joints(mechanism)) {}
 
   LinkTree build() {
     tree_.gravity = to_symbolic(mechanism_.gravity, parameters_, statements_);
@@ -90,8 +95,7 @@ class Builder {
     pose.r_LB = bound("r_" + joint.name, pose.r_LB + pose.R_LB * r_BJ);
     pose.R_LB = bound("R_" + joint.name, pose.R_LB * R_BJ);
     for (const JointStep& step : joint_steps(joint)) {
-      Link link = make_link(step, joint, pose);
-      link.joint = index;
+      const Link link = make_link(step, index, pose);
       pose.link = tree_.links.size();
       pose.R_LB = bound("R_" + link.name, transpose(link.R_PL) * pose.R_LB);
       // Not from r_LB − r_PL for a turn: the difference would have the rounding of the parent's dimensions.
@@ -104,8 +108,10 @@ class Builder {
   }
 
   /// `pose` is that of the frame that the step moves, in the parent link.
-  Link make_link(const JointStep& step, const model::Joint& joint, const BodyPose& pose) {
+  Link make_link(const JointStep& step, model::JointIndex index, const BodyPose& pose) {
+    const model::Joint& joint = mechanism_.joints[index.value];
     Link link;
+    link.joint = index;
     link.name = joint.coordinates.empty() ? joint.name : joint.coordinates[step.coordinate].name;
     link.kind = step.kind;
     link.coordinate = step.coordinate;
@@ -143,6 +149,7 @@ class Builder {
     link.R_PL = numeric ? frame_along(z) : pose.R_LB * frame_along(unit_vector(axis));
     link.R_PL = bound("R_" + link.name, link.R_PL);
     link.parallel = options_.share_parallel && pose.link != kGround && z[2].is_equal(1);
+    if (far_[link.joint.value]) return;
     if (link.kind == LinkKind::kSlide) {
       link.r_PL = zero_vector();
       return;
@@ -235,6 +242,7 @@ class Builder {
   std::span<const Ex> parameters_;
   Statements& statements_;
   LinkTreeOptions options_;
+  std::vector<bool> far_;  // by JointIndex
   LinkTree tree_;
 };
 
