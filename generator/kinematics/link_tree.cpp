@@ -97,7 +97,7 @@ class Builder {
     for (const JointStep& step : joint_steps(joint)) {
       const Link link = make_link(step, index, pose);
       pose.link = tree_.links.size();
-      pose.R_LB = bound("R_" + link.name, transpose(link.R_PL) * pose.R_LB);
+      pose.R_LB = link.R_LJ;
       // Not from r_LB − r_PL for a turn: the difference would have the rounding of the parent's dimensions.
       pose.r_LB = link.turns_about_z()
                       ? Vector3{0, 0, link.along}
@@ -117,12 +117,14 @@ class Builder {
     link.coordinate = step.coordinate;
     link.parent = pose.link;
     link.R_PL = identity_matrix();
+    link.R_LJ = pose.R_LB;
     link.r_PL = pose.r_LB;
     switch (step.kind) {
       case LinkKind::kFree:
         break;
       case LinkKind::kBall:
         link.R_PL = pose.R_LB;
+        link.R_LJ = identity_matrix();
         break;
       case LinkKind::kCurve:
         link.R_PJ = pose.R_LB;
@@ -146,8 +148,9 @@ class Builder {
       z = Ex(-1) * z;
     }
     const bool numeric = is_number(z[0]) && is_number(z[1]) && is_number(z[2]);
-    link.R_PL = numeric ? frame_along(z) : pose.R_LB * frame_along(unit_vector(axis));
-    link.R_PL = bound("R_" + link.name, link.R_PL);
+    const Matrix3 R_JL = frame_along(unit_vector(axis));
+    link.R_PL = bound("R_" + link.name, numeric ? frame_along(z) : pose.R_LB * R_JL);
+    link.R_LJ = numeric ? bound("R_" + link.name, transpose(link.R_PL) * pose.R_LB) : transpose(R_JL);
     link.parallel = options_.share_parallel && pose.link != kGround && z[2].is_equal(1);
     if (far_[link.joint.value]) return;
     if (link.kind == LinkKind::kSlide) {

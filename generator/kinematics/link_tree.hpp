@@ -46,6 +46,7 @@ struct Link {
   int sign = 1;
   bool parallel = false;  ///< z is parallel to the parent's z, and R_PL the identity
   Matrix3 R_PL;           ///< orientation in the parent's link frame P at y = 0
+  Matrix3 R_LJ;           ///< orientation of the joint's frame in L at y = 0
   Vector3 r_PL;  ///< origin in P at y = 0; turn: foot of the perpendicular; slide: zero; far: the joint's
   Ex along = 0;  ///< turn, screw: how far along z the joint's origin is from that of L, m
   Ex pitch = 0;  ///< screw, m/rad
