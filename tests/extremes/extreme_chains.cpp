@@ -134,6 +134,22 @@ std::string tunable_body(double lever) {
       lever, free_joint());
 }
 
+std::string distant_arm(double distance) {
+  const std::string oblique = "rpy = [0.5, 0.25, -0.75]\n";
+  std::vector<Segment> links = {{revolute('x')}, {revolute('y') + oblique}, {revolute('x') + oblique}};
+  links[0].joint += fmt::format("position = [{}, {}, {}]\n", distance, distance / 2, -distance) + oblique;
+  return chain(links);
+}
+
+std::string tunable_distant_arm(double distance) {
+  const std::string oblique = "rpy = [\"a\", \"a/2\", -0.75]\n";
+  std::vector<Segment> links = {{revolute('x') + oblique},
+                                {revolute('y') + oblique},
+                                {"type = \"cylindrical\"\naxis = [0, 0, 1]\n" + oblique}};
+  links[0].joint += "position = [\"d\", \"d/2\", \"-d\"]\n";
+  return chain(links) + fmt::format("[parameters]\nd = {}\na = 0.5\n", distance);
+}
+
 std::string panda() { return support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/panda.toml"); }
 
 }  // namespace jourdain::tests

@@ -63,6 +63,11 @@ std::string driven_links(double rate);
 /// A free body whose mass, centre of mass (at `lever`) and moments are tunable, so that nothing is folded before the run.
 std::string tunable_body(double lever);
 
+/// Three links of length 1 on oblique axes, the first of which is `distance` away from the inertial origin; with another
+/// selection of joints, distance and axes tunable.
+std::string distant_arm(double distance);
+std::string tunable_distant_arm(double distance);
+
 /// models/panda.toml. Its numbers are not those of float.
 std::string panda();
 

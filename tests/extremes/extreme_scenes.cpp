@@ -108,6 +108,8 @@ std::vector<Family> scene_families() {
        [spatial](double v) { return alternating_lengths(spatial, v); }, keep},
       {"planar links, alternating lengths", "l2/l1", -20, 20, 1,
        [planar](double v) { return alternating_lengths(planar, v); }, keep},
+      {"distant arm", "distance/length", -20, 20, 1, distant_arm, keep},
+      {"distant arm, tunable", "distance/length", -20, 20, 1, tunable_distant_arm, keep},
       {"all at once", "length, rates, sqrt(mass)", -40, 40, 4, scaled_throughout, scale_rates},
       {"screw, hinge and slide", "pitch, m/rad", -20, 20, 1, screw_hinge_slide, keep},
       {"geared hinge", "gear ratio", -20, 20, 1, geared_hinge, keep},

@@ -72,6 +72,14 @@ TEST(Extremes, AMassInAGimbalKeepsItsDigitsNearTheLock) {
   }
 }
 
+TEST(Extremes, ADistantArmKeepsItsDigits) {
+  for (const char* name : {"distant arm", "distant arm, tunable"})
+    for (const int exponent : {5, 6, 7, 8, 20}) {
+      const Accuracy a = in_double(name, exponent);
+      EXPECT_LE(a.backward, kBackward) << name << exponent;
+    }
+}
+
 TEST(Extremes, TheConditionOfAStretchedPendulumIsTheClosedForm) {
   // With m1 = ε, m2 = l1 = l2 = 1 and the elbow at δ: det M = ε + sin² δ, tr M = 3 + ε + 2 cos δ. The Frobenius norms of a
   // symmetric 2 × 2 matrix and of its inverse have the product (tr² − 2 det)/det.
