@@ -82,15 +82,17 @@ void print_heading() {
   fmt::print(
       "Accelerations of the optimised program against the symbolic equations in 60 digits, worst of {} "
       "random "
-      "states\nper value; in units of u = 2^-53 (double) or 2^-24 (float). Both precisions start from "
-      "numbers "
-      "of their own, but for\nthe Panda in float, whose error includes rounding its description.\n"
+      "states\nper value; in units of u = 2^-53 (double) or 2^-24 (float). Descriptions and states are exact "
+      "in "
+      "either precision, but\nfor the Panda in float, whose error includes rounding its description.\n"
       "  backward   worst row of |M zdot - k_bar + q_bar| by its term sum, and where\n"
-      "  /loss      the same by what the family's loss explains (large angles, small moments)\n"
+      "  /loss      the same by what the family's loss explains (large angles, small moments; otherwise 1)\n"
       "  /cond      forward error by cond(M) and the loss, where u cond(M) times the loss is below {}\n"
-      "  sing       states (double, float) where M is singular to working precision: not in the other "
-      "columns\n"
-      "  range      states where float overflows;  ref: scenes that the compiler's validation refuses\n\n",
+      "  sing       states (double, float) where M is singular to working precision or the loss leaves no "
+      "digit: "
+      "left out of the errors\n"
+      "  rng        states where float leaves its range;  ref: scenes that the compiler's validation "
+      "refuses\n\n",
       kSeeds, kFirstOrder);
   fmt::print("{:<36} {:<24} {:<13} {:>15} {:>15} {:>17} {:>17} {:>17} {:>9} {:>9} {:>4} {:>4}\n", "family",
              "swept", "range", "backward double", "backward float", "/loss dbl  float", "forward dbl float",
