@@ -113,6 +113,8 @@ Sample rounded(Sample sample) {
   return sample;
 }
 
+}  // namespace
+
 template <class Real>
 Accuracy accuracy(const Derived& derived, const Sample& given, Loss loss) {
   constexpr double kUnitRoundoff = double(std::numeric_limits<Real>::epsilon()) / 2;
@@ -131,17 +133,18 @@ Accuracy accuracy(const Derived& derived, const Sample& given, Loss loss) {
   return result;
 }
 
-}  // namespace
+template Accuracy accuracy<double>(const Derived&, const Sample&, Loss);
+template Accuracy accuracy<float>(const Derived&, const Sample&, Loss);
 
-Derived derive_extreme(const std::string& toml) {
-  const model::Mechanism mechanism = read_scene(toml);
+Derived derive_extreme(const model::Mechanism& mechanism) {
   dynamics::DerivationOptions options;
   options.articulated = choose_articulation(mechanism, {}).links;
   return derive(mechanism, options);
 }
 
 void Sweep::prepare(int exponent) {
-  if (!derived_ || family_.in_scene) derived_ = derive_extreme(family_.description(std::exp2(exponent)));
+  if (!derived_ || family_.in_scene)
+    derived_ = derive_extreme(read_scene(family_.description(std::exp2(exponent))));
 }
 
 std::vector<Measurement> Sweep::at(int exponent, std::uint64_t seeds) {

@@ -38,6 +38,10 @@ struct Measurement {
   Accuracy in_double, in_float;
 };
 
+/// Of the accelerations of `derived` at `sample` rounded to Real: double or float.
+template <class Real>
+Accuracy accuracy(const Derived& derived, const Sample& sample, Loss loss);
+
 /// Measures a family value by value. A scene that does not depend on the value is derived once.
 class Sweep {
  public:
@@ -56,7 +60,7 @@ class Sweep {
   std::optional<Derived> derived_;
 };
 
-/// A family's scene at its first value as the compiler derives it, with the algorithm chosen by counting.
-Derived derive_extreme(const std::string& toml);
+/// A mechanism as the compiler derives it, with the algorithm chosen by counting.
+Derived derive_extreme(const model::Mechanism& mechanism);
 
 }  // namespace jourdain::tests

@@ -75,7 +75,7 @@ TEST(NonFinite, EntriesReachExactlyTheAccelerationsThatDependOnThem) {
   for (const Family& family : extreme_families()) {
     if (!seen.insert(family.name).second) continue;
     SCOPED_TRACE(family.name);
-    const Derived derived = derive_extreme(family.description(std::exp2(family.first)));
+    const Derived derived = derive_extreme(read_scene(family.description(std::exp2(family.first))));
     poison_everything(derived, random_sample(derived.mechanism, 0, true));
   }
 }
@@ -117,7 +117,7 @@ TEST(NonFinite, RatesAndInputsStayNonFiniteThroughAStepOfTheEmittedCode) {
 
 /// Angles that are denormal, rates that are: the motion is that of rest.
 TEST(NonFinite, DenormalRatesGiveTheAccelerationsOfRest) {
-  const Derived derived = derive_extreme(extreme_families().back().description(1));
+  const Derived derived = derive_extreme(read_scene(extreme_families().back().description(1)));
   Sample rest = random_sample(derived.mechanism, 0, true), slow = rest;
   for (std::size_t i = 0; i < rest.z.size(); ++i) {
     rest.z[i] = 0;
