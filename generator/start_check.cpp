@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "reference/minimal.hpp"
+#include "reference/massless.hpp"
 
 namespace jourdain {
 
@@ -56,10 +56,24 @@ void report(const model::Mechanism& mechanism, std::vector<Element> model::Mecha
   }
 }
 
+void report_singular(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
+  const auto state = reference::Reference<long double>(mechanism).initial_state();
+  const std::vector<model::JointIndex> singular = reference::singular_joints(mechanism, state);
+  if (singular.empty() || !reference::massless_joints(mechanism).empty())
+    return;  // those check_inertia reports
+  for (const model::JointIndex index : singular) {
+    const model::Joint& joint = mechanism.joints[index.value];
+    diagnostics.error(
+        joint.where,
+        fmt::format("joint '{}' moves no inertia at the initial state", support::shown(joint.name)),
+        "the mass matrix is singular there: start from another position");
+  }
+}
+
 }  // namespace
 
 void check_start(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
-  if (starts(mechanism)) return;
+  if (starts(mechanism)) return report_singular(mechanism, diagnostics);
   if (!starts(bare(mechanism))) {
     diagnostics.error({}, "the mechanism's equations have no finite values at the initial state",
                       "a curve or a motion may be singular there");

@@ -40,6 +40,38 @@ Matrix3 turned(const Matrix3& S, const Ex& polar, const Ex& c, const Ex& s, cons
   return T;
 }
 
+bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
+
+bool is_zero(const Matrix3& S) { return is_zero(S[0]) && is_zero(S[1]) && is_zero(S[2]); }
+
+/// Whether a link is nothing but a mass on its x or y axis, and turns about an axis that meets that of a parent without
+/// inertia: the pendulum on a universal joint. M is singular where the mass comes to lie on the parent's axis.
+bool is_gimballed_point(const LinkTree& tree, std::size_t i) {
+  const Link& link = tree.links[i];
+  const Matrix3& S = link.moments.second;
+  if (!link.turns_about_z() || link.parent == kGround || !is_zero(link.r_PL)) return false;
+  if (!is_zero(tree.links[link.parent].moments.second)) return false;
+  for (const Link& other : tree.links)
+    if (other.parent == i || (other.parent == link.parent && &other != &link)) return false;
+  return is_zero(S[2]) && S[0][1].is_zero() && (S[0][0].is_zero() || S[1][1].is_zero());
+}
+
+/// `turned` for such a link. The general formula's differences would leave no digit of the moment that vanishes; products
+/// take no more operations here.
+Matrix3 turned_point(const Matrix3& S, const Ex& c, const Ex& s, const std::string& name,
+                     Statements& statements) {
+  const bool on_x = S[1][1].is_zero();
+  const Ex& moment = on_x ? S[0][0] : S[1][1];
+  const Ex &along_x = on_x ? c : s, &along_y = on_x ? s : c;
+  const Ex x = statements.bind(name + "_x", along_x * moment);
+  const Ex y = statements.bind(name + "_y", along_y * moment);
+  Matrix3 T = kinematics::zero_matrix();
+  T[0][0] = statements.bind(name + "_xx", along_x * x);
+  T[1][1] = statements.bind(name + "_yy", along_y * y);
+  T[0][1] = T[1][0] = statements.bind(name + "_xy", on_x ? along_y * x : -along_y * x);
+  return T;
+}
+
 }  // namespace
 
 std::vector<CompositeBody> derive_composites(const LinkTree& tree, const WorkingFrames& frames,
@@ -56,7 +88,9 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
     const MassMoments& own = in_link[i];
     const Ex own_polar = statements.bind(S + "b_zz", own.second[0][0] + own.second[1][1]);
     const Matrix3 own_second =
-        turned(own.second, own_polar, frames.cosine(i), frames.sine(i), S + "b", statements);
+        is_gimballed_point(tree, i)
+            ? turned_point(own.second, frames.cosine(i), frames.sine(i), S + "b", statements)
+            : turned(own.second, own_polar, frames.cosine(i), frames.sine(i), S + "b", statements);
     CompositeBody& body = composites[i];
     body.moments.mass = statements.bind(fmt::format("m{}", i), own.mass + in_working[i].mass);
     body.moments.first = statements.bind(h, frames.to_working(i, own.first, h + "b") + in_working[i].first);

@@ -3,6 +3,7 @@
 #include <cln/cln.h>
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "kinematics/numbers.hpp"
@@ -66,6 +67,13 @@ cln::cl_R HighPrecision::value(const kinematics::Ex& e) const {
   return 0;
 }
 
-double to_double(const cln::cl_R& value) { return cln::double_approx(value); }
+double to_double(const cln::cl_R& value) {
+  static const cln::cl_R smallest = std::numeric_limits<double>::min();
+  if (cln::abs(value) >= smallest) return cln::double_approx(value);
+  // CLN throws where a double is denormal or rounds to zero.
+  constexpr int kShift = 200;
+  const cln::cl_R shifted = value * cln::expt(cln::cl_I(2), kShift);
+  return cln::abs(shifted) < smallest ? 0 : std::ldexp(cln::double_approx(shifted), -kShift);
+}
 
 }  // namespace jourdain::dynamics

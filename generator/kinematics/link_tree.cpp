@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinematics/far_joints.hpp"
 #include "kinematics/joint_steps.hpp"
 #include "kinematics/numbers.hpp"
 #include "support/check.hpp"
@@ -50,7 +51,11 @@ class Builder {
  public:
   Builder(const Mechanism& mechanism, std::span<const Ex> parameters, Statements& statements,
           const LinkTreeOptions& options)
-      : mechanism_(mechanism), parameters_(parameters), statements_(statements), options_(options) {}
+      : mechanism_(mechanism),
+        parameters_(parameters),
+        statements_(statements),
+        options_(options),
+        far_(far_joints(mechanism)) {}
 
   LinkTree build() {
     tree_.gravity = to_symbolic(mechanism_.gravity, parameters_, statements_);
@@ -90,31 +95,36 @@ class Builder {
     pose.r_LB = bound("r_" + joint.name, pose.r_LB + pose.R_LB * r_BJ);
     pose.R_LB = bound("R_" + joint.name, pose.R_LB * R_BJ);
     for (const JointStep& step : joint_steps(joint)) {
-      Link link = make_link(step, joint, pose);
-      link.joint = index;
-      const BodyPose from = pose;
+      const Link link = make_link(step, index, pose);
       pose.link = tree_.links.size();
-      pose.R_LB = bound("R_" + link.name, transpose(link.R_PL) * from.R_LB);
-      pose.r_LB = bound("r_" + link.name, transpose(link.R_PL) * (from.r_LB - link.r_PL));
+      pose.R_LB = link.R_LJ;
+      // Not from r_LB − r_PL for a turn: the difference would have the rounding of the parent's dimensions.
+      pose.r_LB = link.turns_about_z()
+                      ? Vector3{0, 0, link.along}
+                      : bound("r_" + link.name, transpose(link.R_PL) * (pose.r_LB - link.r_PL));
       tree_.links.push_back(link);
     }
     tree_.bodies[joint.child.value] = pose;
   }
 
   /// `pose` is that of the frame that the step moves, in the parent link.
-  Link make_link(const JointStep& step, const model::Joint& joint, const BodyPose& pose) {
+  Link make_link(const JointStep& step, model::JointIndex index, const BodyPose& pose) {
+    const model::Joint& joint = mechanism_.joints[index.value];
     Link link;
+    link.joint = index;
     link.name = joint.coordinates.empty() ? joint.name : joint.coordinates[step.coordinate].name;
     link.kind = step.kind;
     link.coordinate = step.coordinate;
     link.parent = pose.link;
     link.R_PL = identity_matrix();
+    link.R_LJ = pose.R_LB;
     link.r_PL = pose.r_LB;
     switch (step.kind) {
       case LinkKind::kFree:
         break;
       case LinkKind::kBall:
         link.R_PL = pose.R_LB;
+        link.R_LJ = identity_matrix();
         break;
       case LinkKind::kCurve:
         link.R_PJ = pose.R_LB;
@@ -138,15 +148,17 @@ class Builder {
       z = Ex(-1) * z;
     }
     const bool numeric = is_number(z[0]) && is_number(z[1]) && is_number(z[2]);
-    link.R_PL = numeric ? frame_along(z) : pose.R_LB * frame_along(unit_vector(axis));
-    link.R_PL = bound("R_" + link.name, link.R_PL);
+    const Matrix3 R_JL = frame_along(unit_vector(axis));
+    link.R_PL = bound("R_" + link.name, numeric ? frame_along(z) : pose.R_LB * R_JL);
+    link.R_LJ = numeric ? bound("R_" + link.name, transpose(link.R_PL) * pose.R_LB) : transpose(R_JL);
     link.parallel = options_.share_parallel && pose.link != kGround && z[2].is_equal(1);
+    if (far_[link.joint.value]) return;
     if (link.kind == LinkKind::kSlide) {
       link.r_PL = zero_vector();
       return;
     }
-    const Ex along = statements_.bind("d_" + link.name, dot(z, pose.r_LB));
-    link.r_PL = bound("r_" + link.name, pose.r_LB - along * z);
+    link.along = statements_.bind("d_" + link.name, settled(dot(z, pose.r_LB)));
+    link.r_PL = bound("r_" + link.name, pose.r_LB - link.along * z);
   }
 
   bool is_leaf(std::size_t i) const {
@@ -233,6 +245,7 @@ class Builder {
   std::span<const Ex> parameters_;
   Statements& statements_;
   LinkTreeOptions options_;
+  std::vector<bool> far_;  // by JointIndex
   LinkTree tree_;
 };
 

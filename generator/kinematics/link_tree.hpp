@@ -46,9 +46,11 @@ struct Link {
   int sign = 1;
   bool parallel = false;  ///< z is parallel to the parent's z, and R_PL the identity
   Matrix3 R_PL;           ///< orientation in the parent's link frame P at y = 0
-  Vector3 r_PL;           ///< origin in P at y = 0; orthogonal to z (turn) or zero (slide)
-  Ex pitch = 0;           ///< screw, m/rad
-  Matrix3 R_PJ;           ///< curve: joint frame, in which the curve is given, in P
+  Matrix3 R_LJ;           ///< orientation of the joint's frame in L at y = 0
+  Vector3 r_PL;  ///< origin in P at y = 0; turn: foot of the perpendicular; slide: zero; far: the joint's
+  Ex along = 0;  ///< turn, screw: how far along z the joint's origin is from that of L, m
+  Ex pitch = 0;  ///< screw, m/rad
+  Matrix3 R_PJ;  ///< curve: joint frame, in which the curve is given, in P
   /// Free: origin of L from the child's origin, child axes. A lone body's is its centre of mass, others' zero.
   Vector3 shift = zero_vector();
   MassMoments moments;

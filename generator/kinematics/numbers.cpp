@@ -115,7 +115,11 @@ Ex square_root(const Ex& value) {
 
 Ex exact(double value) {
   JD_CHECK(std::isfinite(value), "{}", value);
-  return numeric(cln::cl_N(cln::rational(cln::cl_DF(value))));
+  if (value == 0) return 0;
+  // As an integer times a power of two: CLN's doubles know no denormal numbers.
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  return numeric(cln::cl_N(cln::rational(cln::cl_DF(fraction)) * cln::expt(cln::cl_RA(2), exponent)));
 }
 
 Ex sine(const Ex& angle) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "passes/angles.hpp"
 #include "passes/constants.hpp"
 #include "passes/factor.hpp"
 #include "passes/hoist.hpp"
@@ -33,6 +34,7 @@ struct Pass {
 /// The pipeline: a new pass is one line here.
 const std::vector<Pass>& pipeline() {
   static const std::vector<Pass> passes = {
+      {"split_angles", Effect::kReassociating, each_function(split_angles)},
       {"factor", Effect::kReassociating, each_function(factor)},
       {"group_constants", Effect::kReassociating, each_function(group_constants)},
       {"remove_dead_code", Effect::kExact, each_function(remove_dead_code)},

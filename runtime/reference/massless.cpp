@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/minimal.hpp"
-
 namespace jourdain::reference {
 
 namespace {
 
 constexpr int kStates = 4;
+
+/// What rounding in long double leaves of a pivot that vanishes, of its row's term sum.
+constexpr long double kRounding = 1e-18L;
 
 /// State number `number`, at rest; the golden ratio's multiples keep the coordinates off symmetric positions.
 State<long double> scattered_state(const model::CoordinateLayout& layout, int number) {
@@ -24,12 +25,12 @@ State<long double> scattered_state(const model::CoordinateLayout& layout, int nu
   return state;
 }
 
-/// For each coordinate whether its pivot vanishes. A vanished pivot's row is left out of the elimination.
-std::vector<bool> vanishing_pivots(const Terms<long double>& terms) {
-  MatrixX<long double> A = terms.M;
+/// For each coordinate whether its pivot in `M` is at most `least`. Such a pivot's row is left out of the elimination.
+std::vector<bool> vanishing_pivots(const MatrixX<long double>& M, const VectorX<long double>& least) {
+  MatrixX<long double> A = M;
   std::vector<bool> vanishing(std::size_t(A.rows()), false);
   for (Eigen::Index k = A.rows() - 1; k >= 0; --k) {
-    vanishing[std::size_t(k)] = A(k, k) <= kMasslessPivot * terms.M_scale(k, k);
+    vanishing[std::size_t(k)] = A(k, k) <= least[k];
     if (vanishing[std::size_t(k)]) continue;
     const VectorX<long double> column = A.col(k).head(k);
     A.topLeftCorner(k, k) -= column * column.transpose() / A(k, k);
@@ -37,26 +38,50 @@ std::vector<bool> vanishing_pivots(const Terms<long double>& terms) {
   return vanishing;
 }
 
-}  // namespace
-
-std::vector<model::JointIndex> massless_joints(const model::Mechanism& mechanism) {
+/// Terms of the equations at a scattered state, without inputs.
+Terms<long double> scattered_terms(const model::Mechanism& mechanism, int number) {
   const Reference<long double> reference(mechanism);
+  return reference.evaluate(scattered_state(model::lay_out_coordinates(mechanism), number),
+                            VectorX<long double>::Zero(Eigen::Index(reference.input_count())));
+}
+
+/// Joints with a marked velocity, in the order of the coordinates.
+std::vector<model::JointIndex> joints_of(const model::Mechanism& mechanism, const std::vector<bool>& marked) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  const VectorX<long double> no_input = VectorX<long double>::Zero(Eigen::Index(reference.input_count()));
-  std::vector<bool> massless(layout.velocity_count(), true);
-  for (int number = 0; number < kStates; ++number) {
-    const std::vector<bool> vanishing =
-        vanishing_pivots(reference.evaluate(scattered_state(layout, number), no_input));
-    for (std::size_t i = 0; i < massless.size(); ++i) massless[i] = massless[i] && vanishing[i];
-  }
   std::vector<model::JointIndex> found;
   for (const model::JointIndex index : model::moving_joints(mechanism)) {
     const model::JointEntries& entries = layout.joints[index.value];
-    const auto first = massless.begin() + std::ptrdiff_t(entries.first_velocity);
+    const auto first = marked.begin() + std::ptrdiff_t(entries.first_velocity);
     if (std::any_of(first, first + std::ptrdiff_t(entries.velocity_count), [](bool m) { return m; }))
       found.push_back(index);
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<model::JointIndex> massless_joints(const model::Mechanism& mechanism) {
+  std::vector<bool> massless(model::lay_out_coordinates(mechanism).velocity_count(), true);
+  for (int number = 0; number < kStates; ++number) {
+    const Terms<long double> terms = scattered_terms(mechanism, number);
+    const std::vector<bool> vanishing = vanishing_pivots(terms.M, kMasslessPivot * terms.M_scale.diagonal());
+    for (std::size_t i = 0; i < massless.size(); ++i) massless[i] = massless[i] && vanishing[i];
+  }
+  return joints_of(mechanism, massless);
+}
+
+std::vector<model::JointIndex> singular_joints(const model::Mechanism& mechanism,
+                                               const State<long double>& state) {
+  const Reference<long double> reference(mechanism);
+  const auto terms =
+      reference.evaluate(state, VectorX<long double>::Zero(Eigen::Index(reference.input_count())));
+  const VectorX<long double> size = terms.M_scale.diagonal();
+  VectorX<long double> least = kRounding * size;
+  // Other states cost as much as this one; they matter where some entry is tiny.
+  if (size.size() > 0 && size.minCoeff() <= kSingularPivot * size.maxCoeff())
+    for (int number = 0; number < kStates; ++number)
+      least = least.cwiseMax(kSingularPivot * scattered_terms(mechanism, number).M_scale.diagonal());
+  return joints_of(mechanism, vanishing_pivots(terms.M, least));
 }
 
 }  // namespace jourdain::reference

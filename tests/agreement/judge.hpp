@@ -51,6 +51,9 @@ class Judge {
   double q_bar_error(const std::vector<double>& q) const;
   double torque_error(const std::vector<double>& tau) const;
 
+  /// In 60 digits.
+  cln::cl_R exact(const kinematics::Ex& expression) const { return exact_.value(expression); }
+
   double condition() const { return condition_; }
   const reference::Terms<long double>& terms() const { return terms_; }
 

@@ -80,6 +80,25 @@ TEST(CommandLine, AForceWithoutAValueAtTheStartIsTheModelsFault) {
   }
 }
 
+TEST(CommandLine, AStartInAGimbalsLockIsTheModelsFault) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/gimbal.toml";
+  const auto check = [&](const std::string& arm, const std::string& angle) {
+    support::write_file(
+        file, "[model]\nname = \"gimbal\"\n[[body]]\nname = \"b\"\nmass = 1\ncenter_of_mass = " + arm +
+                  "\n[[joint]]\nname = \"cross\"\ntype = \"universal\"\nparent = \"world\"\n"
+                  "child = \"b\"\naxis = [0, 0, 1]\nsecond_axis = [1, 0, 0]\n"
+                  "second = { initial_position = \"" +
+                  angle + "\" }\n");
+    return jourdain({"check", file});
+  };
+  const std::string message = "joint 'cross' moves no inertia at the initial state";
+  expect(check("[0, 0, 1]", "0"), 1, message);
+  expect(check("[0, 1, 0]", "90*deg"), 1, message);
+  expect(check("[0, 0, 1]", "1e-9"), 0, "ok: gimbal");
+  expect(check("[0, 1, 0]", "0"), 0, "ok: gimbal");
+}
+
 TEST(CommandLine, AMotionThatEndsIsValidatedWhereItIsDefined) {
   const support::TemporaryFolder folder;
   const std::string file = folder.path() + "/motion.toml";
@@ -96,6 +115,16 @@ TEST(CommandLine, AFolderThatCannotBeMadeIsTheEnvironmentsFault) {
   const std::string file = folder.path() + "/file";
   support::write_file(file, "in the way");
   expect(jourdain({"compile", "models/pendulum.toml", "-o", file + "/inside"}), 3, "inside");
+}
+
+TEST(CommandLine, ADenormalNumberIsANumber) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/small.toml";
+  support::write_file(file,
+                      "[model]\nname = \"small\"\n[[body]]\nname = \"b\"\nmass = 1\n"
+                      "[[joint]]\nname = \"slide\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"b\"\n"
+                      "stiffness = 1e-310\n");
+  expect(jourdain({"check", file}), 0, "ok: small");
 }
 
 TEST(Compile, WritesFourFiles) {

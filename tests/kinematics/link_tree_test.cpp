@@ -4,6 +4,9 @@
 
 #include "agreement/shared_data.hpp"
 #include "dynamics/high_precision.hpp"
+#include "extremes/extreme_chains.hpp"
+#include "extremes/extreme_scenes.hpp"
+#include "kinematics/far_joints.hpp"
 #include "kinematics/numbers.hpp"
 #include "properties/random_tree.hpp"
 
@@ -40,6 +43,41 @@ TEST(LinkTree, FindsTheParallelAxesOfTheUr5) {
   std::vector<bool> parallel;
   for (const Link& link : tree.links) parallel.push_back(link.parallel);
   EXPECT_EQ(parallel, (std::vector<bool>{false, false, true, true, false, false}));
+}
+
+TEST(LinkTree, AJointsOwnAxesStayParallelWhereItsOrientationIsAParameter) {
+  Statements statements;
+  const LinkTree tree = tree_of(tests::read_scene(R"toml([model]
+name = "tilted"
+[parameters]
+a = 0.5
+[[body]]
+name = "b"
+mass = 1
+center_of_mass = [1, 0, 0]
+[[joint]]
+name = "j"
+type = "cylindrical"
+parent = "world"
+child = "b"
+rpy = ["a", "2*a", 0]
+)toml"),
+                                statements);
+  ASSERT_EQ(tree.links.size(), 2u);
+  EXPECT_TRUE(tree.links[1].parallel);
+  for (const Vector3& row : tree.bodies[0].R_LB.rows)
+    for (const Ex& entry : row.entries) EXPECT_TRUE(is_trivial(entry));
+}
+
+TEST(LinkTree, JointsMuchFurtherAwayThanTheirBodiesAreLargeKeepTheirOrigin) {
+  for (const double distance : {10.0, 200.0}) {
+    const model::Mechanism mechanism = tests::read_scene(tests::distant_arm(distance));
+    const bool far = 1.5 * distance > kFarAway * 2.9;
+    // What the first joint moves reaches 2.9 m, and it is at 1.5 times the distance: [d, d/2, −d].
+    EXPECT_EQ(far_joints(mechanism), (std::vector<bool>{far, false, false}));
+    Statements statements;
+    EXPECT_EQ(tree_of(mechanism, statements).links[0].along.is_zero(), far);
+  }
 }
 
 TEST(LinkTree, FramesAreOrthonormalOnRandomTrees) {

@@ -1,0 +1,87 @@
+#include "passes/angles.hpp"
+
+#include <map>
+
+#include "passes/rewrite.hpp"
+
+namespace jourdain::passes {
+
+using ir::Builder;
+using ir::Node;
+using ir::Op;
+using ir::Program;
+using ir::Signed;
+using ir::ValueId;
+
+namespace {
+
+class Splitting {
+ public:
+  explicit Splitting(const Program& program)
+      : program_(program), fixed_(program.nodes.size()), copy_(program.nodes.size()) {}
+
+  Program run() {
+    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
+      const Node& node = program_.nodes[i];
+      fixed_[i] = is_fixed(node);
+      if ((node.op == Op::kSin || node.op == Op::kCos) && is_sum(node.a)) {
+        const Pair pair = pair_of(node.a);
+        copy_[i] = node.op == Op::kSin ? pair.sine : pair.cosine;
+      } else {
+        copy_[i] = builder_.apply(node, copy_[node.a.value], copy_[node.b.value]);
+      }
+      if (!program_.labels[i].empty()) builder_.label(copy_[i].value, program_.labels[i]);
+    }
+    for (const ir::Output& output : program_.outputs)
+      builder_.output(output.name, output.row, output.column, copy_[output.value.value]);
+    return remove_dead_code(builder_.finish(program_.name));
+  }
+
+ private:
+  struct Pair {
+    Signed sine, cosine;
+  };
+
+  /// Depends on literals and parameters alone.
+  bool is_fixed(const Node& node) const {
+    const int operands = ir::operand_count(node.op);
+    if (operands == 0)
+      return node.op == Op::kLiteral || node.leaf == ir::LeafKind::kParameter ||
+             node.leaf == ir::LeafKind::kConstant;
+    return fixed_[node.a.value] && (operands == 1 || fixed_[node.b.value]);
+  }
+
+  bool is_sum(ValueId id) const {
+    const Node& node = program_[id];
+    return (node.op == Op::kAdd || node.op == Op::kSubtract) && !fixed_[node.a.value] && !fixed_[node.b.value];
+  }
+
+  /// Runs of parallel joints are sums of sums: each partial sum is split once.
+  Pair pair_of(ValueId id) {
+    if (const auto known = pairs_.find(id); known != pairs_.end()) return known->second;
+    const Node& node = program_[id];
+    Pair pair;
+    if (is_sum(id)) {
+      const Pair a = pair_of(node.a);
+      Pair b = pair_of(node.b);
+      if (node.op == Op::kSubtract) b.sine = -b.sine;
+      pair.sine = builder_.add(builder_.multiply(a.sine, b.cosine), builder_.multiply(a.cosine, b.sine));
+      pair.cosine = builder_.subtract(builder_.multiply(a.cosine, b.cosine), builder_.multiply(a.sine, b.sine));
+    } else {
+      pair = {builder_.unary(Op::kSin, copy_[id.value]), builder_.unary(Op::kCos, copy_[id.value])};
+    }
+    return pairs_[id] = pair;
+  }
+
+  const Program& program_;
+  std::vector<bool> fixed_;
+  Builder builder_;
+  std::vector<Signed> copy_;
+  std::map<ValueId, Pair> pairs_;
+};
+
+}  // namespace
+
+Program split_angles(const Program& program) { return Splitting(program).run(); }
+
+}  // namespace jourdain::passes
