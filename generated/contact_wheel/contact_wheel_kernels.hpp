@@ -95,7 +95,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real expression_4 = expression_3 * Real(0.01);
   const Real expression_5 = state.y[0] + (state.y[1] + (expression_4 - Real(0.3)));
   const Real expression_6 = expression_5 * expression_5;
-  const Real expression_7 = expression_6 + Real(1e-08);
+  const Real expression_7 = expression_6 + Real(1e-12);
   const Real expression_8 = detail::square_root(expression_7);
   const Real expression_9 = expression_5 - expression_8;
   const Real expression_10 = expression_9 * model.expression_3;
@@ -122,7 +122,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_4 = expression_3 * Real(0.01);
   const Real expression_5 = state.y[0] + (state.y[1] + (expression_4 - Real(0.3)));
   const Real expression_6 = expression_5 * expression_5;
-  const Real expression_7 = expression_6 + Real(1e-08);
+  const Real expression_7 = expression_6 + Real(1e-12);
   const Real expression_8 = detail::square_root(expression_7);
   const Real expression_9 = expression_5 - expression_8;
   const Real expression_10 = expression_9 * model.expression_3;
@@ -152,7 +152,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_4 = expression_3 * Real(0.01);
   const Real expression_5 = state.y[0] + (state.y[1] + (expression_4 - Real(0.3)));
   const Real expression_6 = expression_5 * expression_5;
-  const Real expression_7 = expression_6 + Real(1e-08);
+  const Real expression_7 = expression_6 + Real(1e-12);
   const Real expression_8 = detail::square_root(expression_7);
   const Real expression_9 = expression_5 - expression_8;
   const Real expression_10 = expression_9 * model.expression_3;

@@ -12,6 +12,8 @@
 // Left out
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (10 operations
 //   of forward_dynamics)
+// - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
+//   (-5 operations of forward_dynamics)
 // - parameter-only values: values that depend on parameters alone are computed once, with the model (7
 //   operations of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
@@ -25,8 +27,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 1.1e-16 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 2.2e-16; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 7.5e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 2.0e-16; symbolic equations against the numeric reference
 //   0.0e+00; cond(M) up to 2.3e+01
 #pragma once
 
@@ -91,48 +93,48 @@ template <class Real>
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 9 operations (4 mul, 5 add and sub, 0 div), 4 sin and cos.
+/// 14 operations (8 mul, 6 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 19 operations (14 mul, 5 add and sub, 0 div), 4 sin and cos.
+/// 24 operations (18 mul, 6 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 6 operations (4 mul, 2 add and sub, 0 div), 2 sin and cos.
+/// 8 operations (6 mul, 2 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 40 operations (24 mul, 15 add and sub, 1 div), 4 sin and cos.
+/// 45 operations (28 mul, 16 add and sub, 1 div), 4 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 45 operations (25 mul, 20 add and sub, 0 div), 4 sin and cos.
+/// 50 operations (29 mul, 21 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept;
 
 /// Kinetic energy, J.
-/// 27 operations (18 mul, 9 add and sub, 0 div), 4 sin and cos.
+/// 32 operations (22 mul, 10 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 5 operations (3 mul, 2 add and sub, 0 div), 2 sin and cos.
+/// 7 operations (5 mul, 2 add and sub, 0 div), 4 sin and cos.
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 213 operations.
+/// 233 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -78,10 +78,11 @@ template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real angle1 = state.y[0] + state.y[1];
-  Real s1, c1;
-  detail::sine_cosine(angle1, s1, c1);
-  const Real D1 = s0 * s1 * model.c0 + model.c0 * (c0 * c1);
+  Real t4, t5;
+  detail::sine_cosine(state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
+  const Real D1 = s0 * s1 * model.c0 - model.c0 * (c0 * c1);
   const Real E1 = D1 + model.S_yy;
   const Real J0 = D1 + E1 + model.c2;
   M[0][0] = J0;
@@ -93,9 +94,10 @@ template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real angle1 = state.y[0] + state.y[1];
-  Real s1, c1;
-  detail::sine_cosine(angle1, s1, c1);
+  Real t4, t5;
+  detail::sine_cosine(state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
   const Real h1b_x = s1 * model.mr_y;
@@ -103,20 +105,22 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
-  const Real kQp1 = h1b_x * ka1o_y - h1b_y * ka1o_x;
+  const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
   const Real zw_1 = state.z[1] * (state.z[1] + (state.z[0] + state.z[0]));
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
-  const Real kn1c_z = r1_x * kdf1_y - r1_y * kdf1_x;
-  k[0] = -kn1c_z;
+  const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
+  k[0] = kn1c_z;
   k[1] = -kQp1;
 }
 
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[2]) noexcept {
-  const Real s0 = detail::sine(state.y[0]);
-  const Real angle1 = state.y[0] + state.y[1];
-  const Real s1 = detail::sine(angle1);
+  Real s0, t3;
+  detail::sine_cosine(state.y[0], s0, t3);
+  Real t4, t5;
+  detail::sine_cosine(state.y[1], t4, t5);
+  const Real s1 = t3 * t4 + s0 * t5;
   const Real h1b_x = s1 * model.mr_y;
   const Real h0b_x = s0 * model.elbow_h_y;
   const Real h0_x = h1b_x + h0b_x;
@@ -131,9 +135,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real angle1 = state.y[0] + state.y[1];
-  Real s1, c1;
-  detail::sine_cosine(angle1, s1, c1);
+  Real t4, t5;
+  detail::sine_cosine(state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
   const Real h1b_x = s1 * model.mr_y;
@@ -144,15 +149,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real bW0w22 = state.z[0] * state.z[0];
   const Real ba1o_x = r1_x * bW0w22;
   const Real ba1o_y = Real(9.81) + r1_y * bW0w22;
-  const Real bQp1 = h1b_x * ba1o_y - h1b_y * ba1o_x;
+  const Real bQp1 = h1b_x * ba1o_y + h1b_y * ba1o_x;
   const Real zw_1 = state.z[1] * (state.z[1] + (state.z[0] + state.z[0]));
   const Real bdf1_x = h1b_x * zw_1;
   const Real bdf1_y = h1b_y * zw_1;
-  const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
+  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real E1 = D1 + model.S_yy;
   const Real L_1_0 = E1 * model.invD_1;
   const Real H1_0_0 = E1 * L_1_0 - (D1 + E1) - model.c2;
-  const Real u1_0 = bQp1 * L_1_0 + (r1_y * bdf1_x - (bQp0 + r1_x * bdf1_y));
+  const Real u1_0 = bQp1 * L_1_0 + (r1_y * bdf1_x - (bQp0 - r1_x * bdf1_y));
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = u1_0 * invD_0;
   const Real y_1 = bQp1 * model.invD_1;
@@ -166,14 +171,15 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[2]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real angle1 = state.y[0] + state.y[1];
-  Real s1, c1;
-  detail::sine_cosine(angle1, s1, c1);
+  Real t4, t5;
+  detail::sine_cosine(state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
-  const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
+  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real h0b_x = s0 * model.elbow_h_y_2;
   const Real h0_x = h1b_x + h0b_x;
   const Real J0 = D1 + (D1 + model.S_yy) + model.c2;
@@ -183,12 +189,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aa1o_x = r1_y * zdot[0] - r1_x * aW0w22;
   const Real aa1o_y = r1_y * aW0w22 + (Real(9.81) + r1_x * zdot[0]);
   const Real zw_1 = state.z[1] * (state.z[1] + (state.z[0] + state.z[0]));
-  const Real adf1_x = h1b_y * zdot[1] - h1b_x * zw_1;
-  const Real adf1_y = h1b_x * zdot[1] + h1b_y * zw_1;
+  const Real adf1_x = h1b_y * zdot[1] + h1b_x * zw_1;
+  const Real adf1_y = h1b_x * zdot[1] - h1b_y * zw_1;
   const Real adn1_z = model.S_yy * zdot[1];
-  const Real aQ0_0 = r1_y * adf1_x + (r1_x * adf1_y + (adn0_z + (aQp0 + adn1_z)));
-  const Real aQ1_0 = adn1_z + (h1b_y * aa1o_x + (model.S_yy * zdot[0] + h1b_x * aa1o_y));
-  tau[0] = aQ0_0;
+  const Real aQ0_0 = r1_y * adf1_x - (r1_x * adf1_y + (adn0_z + (aQp0 + adn1_z)));
+  const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x - (model.S_yy * zdot[0] + h1b_x * aa1o_y));
+  tau[0] = -aQ0_0;
   tau[1] = aQ1_0;
 }
 
@@ -196,14 +202,15 @@ template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real angle1 = state.y[0] + state.y[1];
-  Real s1, c1;
-  detail::sine_cosine(angle1, s1, c1);
+  Real t4, t5;
+  detail::sine_cosine(state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
-  const Real D1 = r1_x * h1b_x + r1_y * h1b_y;
+  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real J0 = D1 + (D1 + model.S_yy) + model.c2;
   const Real v0L_z = J0 * state.z[0];
   const Real v1o_x = r1_y * state.z[0];
@@ -212,20 +219,22 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1P_y = h1b_x * state.z[1];
   const Real v1L_z = model.S_yy * state.z[1];
   const Real T1 = (state.z[0] * v0L_z + state.z[1] * v1L_z) * Real(0.5) + (v1o_y * v1P_y + (state.z[0] * v1L_z
-      + v1o_x * v1P_x));
+      - v1o_x * v1P_x));
   return T1;
 }
 
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real c0 = detail::cosine(state.y[0]);
-  const Real angle1 = state.y[0] + state.y[1];
-  const Real c1 = detail::cosine(angle1);
+  Real t3, c0;
+  detail::sine_cosine(state.y[0], t3, c0);
+  Real t4, t5;
+  detail::sine_cosine(state.y[1], t4, t5);
+  const Real c1 = t3 * t4 - c0 * t5;
   const Real h1b_y = c1 * model.mr_y;
   const Real h0b_y = c0 * model.elbow_h_y;
-  const Real h0_y = h1b_y + h0b_y;
+  const Real h0_y = h1b_y - h0b_y;
   const Real V = h0_y * Real(9.81);
-  return -V;
+  return V;
 }
 
 template <class Real>

@@ -13,7 +13,7 @@
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (18 operations
 //   of forward_dynamics)
 // - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
-//   (43 operations of forward_dynamics)
+//   (38 operations of forward_dynamics)
 // - snapped rotations: rotations by multiples of a right angle are permutations (259 operations of
 //   forward_dynamics)
 // - common factors: factors that several terms of a sum share are multiplied once (1 operations of
@@ -29,8 +29,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 4.1e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 2.8e-16; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 4.3e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 8.1e-16; symbolic equations against the numeric reference
 //   1.2e-18; cond(M) up to 8.8e+04
 #pragma once
 
@@ -86,48 +86,48 @@ template <class Real>
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 136 operations (74 mul, 62 add and sub, 0 div), 8 sin and cos.
+/// 141 operations (78 mul, 63 add and sub, 0 div), 8 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[6][6]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 315 operations (184 mul, 131 add and sub, 0 div), 8 sin and cos.
+/// 320 operations (188 mul, 132 add and sub, 0 div), 8 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[6]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 27 operations (16 mul, 11 add and sub, 0 div), 8 sin and cos.
+/// 32 operations (20 mul, 12 add and sub, 0 div), 8 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[6])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 527 operations (295 mul, 228 add and sub, 4 div), 8 sin and cos.
+/// 532 operations (299 mul, 229 add and sub, 4 div), 8 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[6]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 409 operations (225 mul, 184 add and sub, 0 div), 8 sin and cos.
+/// 414 operations (229 mul, 185 add and sub, 0 div), 8 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept;
 
 /// Kinetic energy, J.
-/// 176 operations (99 mul, 77 add and sub, 0 div), 8 sin and cos.
+/// 181 operations (103 mul, 78 add and sub, 0 div), 8 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 14 operations (8 mul, 6 add and sub, 0 div), 7 sin and cos.
+/// 19 operations (12 mul, 7 add and sub, 0 div), 7 sin and cos.
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 2257 operations. For inputs sampled at the stages include puma560_kernels.hpp and pass a function of the
+/// 2277 operations. For inputs sampled at the stages include puma560_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -85,9 +85,10 @@ template <class Real>
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
   Real s3, c3;
@@ -119,24 +120,24 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
-  const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
-  const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
-  const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
-  const Real t91 = r2_x * h2b_x;
-  const Real D2 = t91 - r2_y * h2b_y;
-  const Real E2 = S2b_zz - D2;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
+  const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
+  const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
+  const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
+  const Real t96 = r2_x * h2b_x;
+  const Real D2 = t96 - r2_y * h2b_y;
+  const Real E2 = S2b_zz + D2;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real J1 = D2 - E2 + Real(1.748114002);
-  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y));
-  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t + (Real(2.0) * t91 - (s2 * S2b_t
-      + (S3c_xx + J1)) + Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
+  const Real J1 = D2 + E2 - Real(1.748114002);
+  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) - (S2b_xz - r2_x * h3b_y));
+  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t - (Real(2.0) * t96 - (s2 * S2b_t
+      - (S3c_xx - J1)) - Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
   const Real p_3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
   const Real p_3_3F_x = s2 * h3b_y;
   const Real p_3_3F_y = c2 * h3b_y;
   const Real p_3_2l_x = r2_y * h3b_x;
-  const Real p_3_2n_x = p_3_2l_x + (c2 * p_3_3n_x - s2 * S3b_xz);
-  const Real p_3_2n_z = r2_y * p_3_3F_x - (S3b_yz + r2_x * p_3_3F_y);
+  const Real p_3_2n_x = p_3_2l_x - (c2 * p_3_3n_x + s2 * S3b_xz);
+  const Real p_3_2n_z = r2_y * p_3_3F_x - (S3b_yz - r2_x * p_3_3F_y);
   const Real p_4_4l_y = Real(0.4318) * h4b_x;
   const Real p_4_4n_y = Real(0.00064216) + p_4_4l_y;
   const Real p_4_4F_x = c3 * h4b_x;
@@ -148,26 +149,26 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real p_4_3l_z = h4b_y * Real(0.0203);
   const Real p_4_3n_y = p_4_4N_x + p_4_3l_y;
   const Real p_4_3n_z = p_4_4N_y - p_4_3l_z;
-  const Real p_4_3F_x = c2 * h4b_y + s2 * p_4_4F_x;
-  const Real p_4_3F_y = c2 * p_4_4F_x - s2 * h4b_y;
+  const Real p_4_3F_x = c2 * h4b_y - s2 * p_4_4F_x;
+  const Real p_4_3F_y = c2 * p_4_4F_x + s2 * h4b_y;
   const Real p_4_2l_x = r2_y * p_4_4F_y;
-  const Real p_4_2n_x = p_4_2l_x + (c2 * p_4_3l_x - s2 * p_4_3n_y);
-  const Real p_4_2n_z = r2_y * p_4_3F_x - (p_4_3n_z + r2_x * p_4_3F_y);
+  const Real p_4_2n_x = p_4_2l_x - (c2 * p_4_3l_x + s2 * p_4_3n_y);
+  const Real p_4_2n_z = r2_y * p_4_3F_x + (p_4_3n_z - r2_x * p_4_3F_y);
   const Real p_5_5N_x = c4 * Real(4e-05);
   const Real p_5_5N_y = s4 * Real(4e-05);
   const Real p_5_4N_x = c3 * p_5_5N_y;
   const Real p_5_4N_y = s3 * p_5_5N_y;
-  const Real p_5_3N_x = c2 * p_5_5N_x - s2 * p_5_4N_x;
+  const Real p_5_3N_x = c2 * p_5_5N_x + s2 * p_5_4N_x;
   M[0][0] = S0b_zz;
   M[0][1] = M[1][0] = -S1_xz;
-  M[0][2] = M[2][0] = -S2b_xz;
+  M[0][2] = M[2][0] = S2b_xz;
   M[0][3] = M[3][0] = -p_3_2n_x;
   M[0][4] = M[4][0] = -p_4_2n_x;
-  M[0][5] = M[5][0] = p_5_3N_x;
-  M[1][1] = J1;
+  M[0][5] = M[5][0] = -p_5_3N_x;
+  M[1][1] = -J1;
   M[1][2] = M[2][1] = -E2;
   M[1][3] = M[3][1] = p_3_2n_z;
-  M[1][4] = M[4][1] = -p_4_2n_z;
+  M[1][4] = M[4][1] = p_4_2n_z;
   M[1][5] = M[5][1] = p_5_4N_y;
   M[2][2] = -S2b_zz;
   M[2][3] = M[3][2] = -S3b_yz;
@@ -185,9 +186,10 @@ template <class Real>
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
   Real s3, c3;
@@ -219,22 +221,22 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_d = h3b_x * Real(0.0406) - (S3b_xx + (S4b_xx - h4b_x * Real(0.8636) -
       Real(0.34123495800000003)) + Real(0.0167651125));
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
-  const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
-  const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
-  const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
+  const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
+  const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
+  const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x + (S2b_xy - r2_x * h2b_y) - Real(0.0070991999999999965));
-  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) + (S2b_yz + r2_y * h3b_y));
+  const Real S1_xy = c1 * S1b_t - (r2_y * h2b_x - (S2b_xy + r2_x * h2b_y) + Real(0.0070991999999999965));
+  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) - (S2b_yz - r2_y * h3b_y));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
-  const Real w3_z = w3pp_x + state.z[3];
+  const Real w3_z = w3pp_x - state.z[3];
   const Real w4pp_x = c3 * w3pp_y - s3 * w2_z;
   const Real w4pp_y = c3 * w2_z + s3 * w3pp_y;
   const Real w4_z = w4pp_y + state.z[4];
-  const Real w5pp_y = c4 * w4pp_x + s4 * w3_z;
+  const Real w5pp_y = c4 * w4pp_x - s4 * w3_z;
   const Real kKy1 = S1_xy * state.z[0];
   const Real kQp1 = state.z[0] * kKy1;
   const Real zz_1 = state.z[1] * state.z[1];
@@ -245,7 +247,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real ka2o_x = r2_x * zz_1;
   const Real ka2o_y = r2_y * kW1U1_y;
   const Real ka2o_z = r2_x * kW1U2_x;
-  const Real kKy2 = S2b_xy * state.z[0] + S2b_yz * state.z[1];
+  const Real kKy2 = S2b_xy * state.z[0] - S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -267,10 +269,10 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kL2U1_z = kal3p_x - kL2w12;
   const Real kL2U2_y = kal3p_x + kL2w12;
   const Real kL2U2_z = kL2w00 + kL2w11;
-  const Real ka3o_y = Real(0.0203) * kL2U1_y + (Real(0.15005) * kL2U1_z + (c2 * ka2o_y + s2 * ka2o_x));
+  const Real ka3o_y = Real(0.0203) * kL2U1_y + (Real(0.15005) * kL2U1_z - (c2 * ka2o_y - s2 * ka2o_x));
   const Real ka3o_z = Real(0.0203) * kL2U2_y + (ka2o_z - Real(0.15005) * kL2U2_z);
-  const Real kKx3 = S3b_xz * w3pp_x - (S3b_xx * w3pp_y - S3b_xy * w2_z);
-  const Real kKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y - S3b_yz * w3pp_x);
+  const Real kKx3 = S3b_xz * w3pp_x + (S3b_xx * w3pp_y - S3b_xy * w2_z);
+  const Real kKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y + S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_x + w3_z);
@@ -278,30 +280,30 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kdf3_x = h3b_x * zw_3;
   const Real kdf3_y = h3b_y * zw_3;
   const Real kdf3_z = z2_3 * kax3;
-  const Real kal3o_x = kal3p_y - w2_z * state.z[3];
+  const Real kal3o_x = kal3p_y + w2_z * state.z[3];
   const Real kal3o_y = w3pp_y * state.z[3];
-  const Real kal4p_y = c3 * kal3o_y + s3 * kal3o_x;
+  const Real kal4p_y = c3 * kal3o_y - s3 * kal3o_x;
   const Real kL3w00 = w4pp_x * w4pp_x;
   const Real kL3w02 = w3_z * w4pp_x;
   const Real kL3w11 = w4pp_y * w4pp_y;
-  const Real kL3U0_z = kal4p_y - kL3w02;
+  const Real kL3U0_z = kal4p_y + kL3w02;
   const Real kL3U2_z = kL3w00 + kL3w11;
   const Real ka4o_x = Real(0.4318) * kL3U0_z + (c3 * ka3o_y + s3 * ka3o_z);
-  const Real ka4o_z = Real(0.4318) * kL3U2_z - (Real(0.0203) * kL2w01 - (Real(0.15005) * kL2U0_z + (c2 *
-      ka2o_x - s2 * ka2o_y)));
-  const Real kKx4 = S4b_xx * w3_z + S4b_xy * w4pp_x;
-  const Real kKy4 = S4b_xy * w3_z - S4b_yy * w4pp_x;
+  const Real ka4o_z = Real(0.4318) * kL3U2_z + (Real(0.0203) * kL2w01 - (Real(0.15005) * kL2U0_z + (c2 *
+      ka2o_x + s2 * ka2o_y)));
+  const Real kKx4 = S4b_xx * w3_z - S4b_xy * w4pp_x;
+  const Real kKy4 = S4b_xy * w3_z + S4b_yy * w4pp_x;
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_y + w4_z);
-  const Real kax4 = h4b_x * w3_z - h4b_y * w4pp_x;
+  const Real kax4 = h4b_x * w3_z + h4b_y * w4pp_x;
   const Real kdf4_x = h4b_x * zw_4;
   const Real kdf4_y = h4b_y * zw_4;
   const Real kdf4_z = z2_4 * kax4;
   const Real kdn4_x = kKy4 * z2_4;
   const Real kdn4_y = kKx4 * z2_4;
   const Real kal4o_x = kal3p_x + w4pp_x * state.z[4];
-  const Real kal4o_y = w3_z * state.z[4] + (c3 * kal3o_x - s3 * kal3o_y);
-  const Real kal5p_x = c4 * kal4o_x + s4 * kal4o_y;
+  const Real kal4o_y = w3_z * state.z[4] + (c3 * kal3o_x + s3 * kal3o_y);
+  const Real kal5p_x = c4 * kal4o_x - s4 * kal4o_y;
   const Real kKx5 = w5pp_y * Real(2e-05);
   const Real kKy5 = w4_z * Real(2e-05);
   const Real kQp5 = w5pp_y * kKy5 - (kal5p_x * Real(4e-05) + w4_z * kKx5);
@@ -310,30 +312,30 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kdn5_y = kKx5 * z2_5;
   const Real kn4b_x = s4 * kdn5_x;
   const Real kn4b_y = c4 * kdn5_x;
-  const Real kn4_x = kdn4_x - kn4b_x;
-  const Real kn4c_x = Real(0.4318) * kdf4_z - (kdn4_y + kn4b_y);
+  const Real kn4_x = kdn4_x + kn4b_x;
+  const Real kn4c_x = Real(0.4318) * kdf4_z - (kdn4_y - kn4b_y);
   const Real kn4c_y = kdn5_y - Real(0.4318) * kdf4_y;
-  const Real kf3_x = s3 * kdf4_z + (kdf3_x + c3 * kdf4_y);
-  const Real kf3_y = s3 * kdf4_y + (kdf3_y - c3 * kdf4_z);
+  const Real kf3_x = s3 * kdf4_z + (kdf3_x - c3 * kdf4_y);
+  const Real kf3_y = s3 * kdf4_y - (kdf3_y - c3 * kdf4_z);
   const Real kf3_z = kdf3_z + kdf4_x;
-  const Real kn3c_x = Real(0.0203) * kf3_y + (kn4_x + Real(0.15005) * kf3_x);
-  const Real kn3c_y = Real(0.15005) * kf3_z + (s3 * kn4c_y + (c3 * kn4c_x - (S3b_yz * zz_3 + kKy3 * z2_3)));
-  const Real kn3c_z = Real(0.0203) * kf3_z + (s3 * kn4c_x - (c3 * kn4c_y - (S3b_xz * zz_3 + kKx3 * z2_3)));
+  const Real kn3c_x = Real(0.0203) * kf3_y - (kn4_x + Real(0.15005) * kf3_x);
+  const Real kn3c_y = Real(0.15005) * kf3_z + (s3 * kn4c_y - (c3 * kn4c_x + (S3b_yz * zz_3 + kKy3 * z2_3)));
+  const Real kn3c_z = Real(0.0203) * kf3_z - (s3 * kn4c_x + (c3 * kn4c_y - (S3b_xz * zz_3 - kKx3 * z2_3)));
   const Real kf2_x = s2 * kf3_x - (kdf2_x + c2 * kf3_z);
-  const Real kf2_y = s2 * kf3_z + (kdf2_y + c2 * kf3_x);
-  const Real kf2_z = kdf2_z - kf3_y;
-  const Real kn2c_x = r2_y * kf2_z + (Real(2.0) * (state.z[1] * kKy1) - (S1_yz * zz_1 + (s2 * kn3c_y + (c2 *
-      kn3c_x - (S2b_yz * zz_2 + kKy2 * z2_2)))));
-  const Real kQ1_0 = r2_y * kf2_x - (r2_x * kf2_y - (kQp1 - kn3c_z));
-  const Real kQ2_0 = kn3c_z - (h2b_y * ka2o_x + (h2b_x * ka2o_y + (state.z[0] * kKy2 - S2b_yz * kal1o_y)));
-  const Real kQ3_0 = kn4_x + (w3pp_y * kKy3 + (w2_z * kKx3 - (h3b_y * ka3o_y - (h3b_x * ka3o_z - (S3b_zz *
-      kal3p_x - S3b_xz * kal3p_y)))));
-  const Real kQ4_0 = kdn5_y + (w4pp_x * kKx4 - (w3_z * kKy4 - (h4b_y * ka4o_z + (Real(0.00064216) * kal4p_y +
+  const Real kf2_y = s2 * kf3_z - (kdf2_y - c2 * kf3_x);
+  const Real kf2_z = kdf2_z + kf3_y;
+  const Real kn2c_x = r2_y * kf2_z - (Real(2.0) * (state.z[1] * kKy1) - (S1_yz * zz_1 + (s2 * kn3c_y - (c2 *
+      kn3c_x - (S2b_yz * zz_2 - kKy2 * z2_2)))));
+  const Real kQ1_0 = r2_y * kf2_x + (r2_x * kf2_y - (kQp1 - kn3c_z));
+  const Real kQ2_0 = kn3c_z + (h2b_y * ka2o_x + (h2b_x * ka2o_y - (state.z[0] * kKy2 + S2b_yz * kal1o_y)));
+  const Real kQ3_0 = kn4_x - (w3pp_y * kKy3 - (w2_z * kKx3 + (h3b_y * ka3o_y - (h3b_x * ka3o_z - (S3b_zz *
+      kal3p_x + S3b_xz * kal3p_y)))));
+  const Real kQ4_0 = kdn5_y - (w4pp_x * kKx4 + (w3_z * kKy4 - (h4b_y * ka4o_z + (Real(0.00064216) * kal4p_y +
       h4b_x * ka4o_x))));
-  k[0] = kn2c_x;
-  k[1] = -kQ1_0;
+  k[0] = -kn2c_x;
+  k[1] = kQ1_0;
   k[2] = kQ2_0;
-  k[3] = -kQ3_0;
+  k[3] = kQ3_0;
   k[4] = -kQ4_0;
   k[5] = -kQp5;
 }
@@ -342,9 +344,10 @@ template <class Real>
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&q)[6]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
   Real s4, c4;
@@ -355,19 +358,19 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real h3b_y = s3 * h4b_y;
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
-  const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
-  const Real h1_y = c1 * Real(3.79559) - (h2b_y + s1 * Real(0.10439999999999999));
+  const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
+  const Real h1_y = c1 * Real(3.79559) + (h2b_y - s1 * Real(0.10439999999999999));
   const Real q_1 = h1_y * Real(9.81) - input.u[1];
-  const Real q_2 = h2b_y * Real(9.81) + input.u[2];
+  const Real q_2 = h2b_y * Real(9.81) - input.u[2];
   const Real g3p_y = s2 * Real(9.81);
   const Real q_3 = input.u[3] - h3b_y * g3p_y;
   const Real g4p_x = c3 * g3p_y;
-  const Real q_4 = Real(9.81) * (c2 * h4b_y) + (input.u[4] + h4b_x * g4p_x);
+  const Real q_4 = Real(9.81) * (c2 * h4b_y) - (input.u[4] + h4b_x * g4p_x);
   q[0] = -input.u[0];
   q[1] = q_1;
-  q[2] = -q_2;
+  q[2] = q_2;
   q[3] = -q_3;
-  q[4] = -q_4;
+  q[4] = q_4;
   q[5] = -input.u[5];
 }
 
@@ -376,9 +379,10 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
     noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
   Real s3, c3;
@@ -411,23 +415,23 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S3c_yy = h3b_x * Real(0.0406) - (S3b_xx + Real(0.0167651125));
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
-  const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
-  const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
-  const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
+  const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
+  const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
+  const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real h1_y = c1 * Real(3.79559) - (h2b_y + s1 * Real(0.10439999999999999));
-  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x + (S2b_xy - r2_x * h2b_y) - Real(0.0070991999999999965));
-  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) + (S2b_yz + r2_y * h3b_y));
+  const Real h1_y = c1 * Real(3.79559) + (h2b_y - s1 * Real(0.10439999999999999));
+  const Real S1_xy = c1 * S1b_t - (r2_y * h2b_x - (S2b_xy + r2_x * h2b_y) + Real(0.0070991999999999965));
+  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) - (S2b_yz - r2_y * h3b_y));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
-  const Real w3_z = w3pp_x + state.z[3];
+  const Real w3_z = w3pp_x - state.z[3];
   const Real w4pp_x = c3 * w3pp_y - s3 * w2_z;
   const Real w4pp_y = c3 * w2_z + s3 * w3pp_y;
   const Real w4_z = w4pp_y + state.z[4];
-  const Real w5pp_y = c4 * w4pp_x + s4 * w3_z;
+  const Real w5pp_y = c4 * w4pp_x - s4 * w3_z;
   const Real bKy1 = S1_xy * state.z[0];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real bal1o_y = state.z[1] * state.z[0];
@@ -437,7 +441,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real ba2o_x = Real(9.81) - r2_x * zz_1;
   const Real ba2o_y = r2_y * bW1U1_y;
   const Real ba2o_z = r2_x * bW1U2_x;
-  const Real bKy2 = S2b_xy * state.z[0] + S2b_yz * state.z[1];
+  const Real bKy2 = S2b_xy * state.z[0] - S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -459,10 +463,10 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL2U1_z = bal3p_x - bL2w12;
   const Real bL2U2_y = bal3p_x + bL2w12;
   const Real bL2U2_z = bL2w00 + bL2w11;
-  const Real ba3o_y = Real(0.0203) * bL2U1_y + (Real(0.15005) * bL2U1_z + (c2 * ba2o_y - s2 * ba2o_x));
+  const Real ba3o_y = Real(0.0203) * bL2U1_y + (Real(0.15005) * bL2U1_z - (c2 * ba2o_y + s2 * ba2o_x));
   const Real ba3o_z = Real(0.0203) * bL2U2_y + (ba2o_z - Real(0.15005) * bL2U2_z);
-  const Real bKx3 = S3b_xz * w3pp_x - (S3b_xx * w3pp_y - S3b_xy * w2_z);
-  const Real bKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y - S3b_yz * w3pp_x);
+  const Real bKx3 = S3b_xz * w3pp_x + (S3b_xx * w3pp_y - S3b_xy * w2_z);
+  const Real bKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y + S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_x + w3_z);
@@ -470,30 +474,30 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bdf3_x = h3b_x * zw_3;
   const Real bdf3_y = h3b_y * zw_3;
   const Real bdf3_z = z2_3 * bax3;
-  const Real bal3o_x = bal3p_y - w2_z * state.z[3];
+  const Real bal3o_x = bal3p_y + w2_z * state.z[3];
   const Real bal3o_y = w3pp_y * state.z[3];
-  const Real bal4p_y = c3 * bal3o_y + s3 * bal3o_x;
+  const Real bal4p_y = c3 * bal3o_y - s3 * bal3o_x;
   const Real bL3w00 = w4pp_x * w4pp_x;
   const Real bL3w02 = w3_z * w4pp_x;
   const Real bL3w11 = w4pp_y * w4pp_y;
-  const Real bL3U0_z = bal4p_y - bL3w02;
+  const Real bL3U0_z = bal4p_y + bL3w02;
   const Real bL3U2_z = bL3w00 + bL3w11;
   const Real ba4o_x = Real(0.4318) * bL3U0_z + (c3 * ba3o_y + s3 * ba3o_z);
-  const Real ba4o_z = Real(0.4318) * bL3U2_z - (Real(0.0203) * bL2w01 - (Real(0.15005) * bL2U0_z - (c2 *
-      ba2o_x + s2 * ba2o_y)));
-  const Real bKx4 = S4b_xx * w3_z + S4b_xy * w4pp_x;
-  const Real bKy4 = S4b_xy * w3_z - S4b_yy * w4pp_x;
+  const Real ba4o_z = Real(0.4318) * bL3U2_z + (Real(0.0203) * bL2w01 - (Real(0.15005) * bL2U0_z - (c2 *
+      ba2o_x - s2 * ba2o_y)));
+  const Real bKx4 = S4b_xx * w3_z - S4b_xy * w4pp_x;
+  const Real bKy4 = S4b_xy * w3_z + S4b_yy * w4pp_x;
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_y + w4_z);
-  const Real bax4 = h4b_x * w3_z - h4b_y * w4pp_x;
+  const Real bax4 = h4b_x * w3_z + h4b_y * w4pp_x;
   const Real bdf4_x = h4b_x * zw_4;
   const Real bdf4_y = h4b_y * zw_4;
   const Real bdf4_z = z2_4 * bax4;
   const Real bdn4_x = bKy4 * z2_4;
   const Real bdn4_y = bKx4 * z2_4;
   const Real bal4o_x = bal3p_x + w4pp_x * state.z[4];
-  const Real bal4o_y = w3_z * state.z[4] + (c3 * bal3o_x - s3 * bal3o_y);
-  const Real bal5p_x = c4 * bal4o_x + s4 * bal4o_y;
+  const Real bal4o_y = w3_z * state.z[4] + (c3 * bal3o_x + s3 * bal3o_y);
+  const Real bal5p_x = c4 * bal4o_x - s4 * bal4o_y;
   const Real bKx5 = w5pp_y * Real(2e-05);
   const Real bKy5 = w4_z * Real(2e-05);
   const Real z2_5 = Real(2.0) * state.z[5];
@@ -501,27 +505,27 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bdn5_y = bKx5 * z2_5;
   const Real bn4b_x = s4 * bdn5_x;
   const Real bn4b_y = c4 * bdn5_x;
-  const Real bn4_x = bdn4_x - bn4b_x;
-  const Real bn4c_x = Real(0.4318) * bdf4_z - (bdn4_y + bn4b_y);
+  const Real bn4_x = bdn4_x + bn4b_x;
+  const Real bn4c_x = Real(0.4318) * bdf4_z - (bdn4_y - bn4b_y);
   const Real bn4c_y = bdn5_y - Real(0.4318) * bdf4_y;
-  const Real bf3_x = s3 * bdf4_z + (bdf3_x + c3 * bdf4_y);
-  const Real bf3_y = s3 * bdf4_y + (bdf3_y - c3 * bdf4_z);
+  const Real bf3_x = s3 * bdf4_z + (bdf3_x - c3 * bdf4_y);
+  const Real bf3_y = s3 * bdf4_y - (bdf3_y - c3 * bdf4_z);
   const Real bf3_z = bdf3_z + bdf4_x;
-  const Real bn3c_x = Real(0.0203) * bf3_y + (bn4_x + Real(0.15005) * bf3_x);
-  const Real bn3c_y = Real(0.15005) * bf3_z + (s3 * bn4c_y + (c3 * bn4c_x - (S3b_yz * zz_3 + bKy3 * z2_3)));
-  const Real bn3c_z = Real(0.0203) * bf3_z + (s3 * bn4c_x - (c3 * bn4c_y - (S3b_xz * zz_3 + bKx3 * z2_3)));
+  const Real bn3c_x = Real(0.0203) * bf3_y - (bn4_x + Real(0.15005) * bf3_x);
+  const Real bn3c_y = Real(0.15005) * bf3_z + (s3 * bn4c_y - (c3 * bn4c_x + (S3b_yz * zz_3 + bKy3 * z2_3)));
+  const Real bn3c_z = Real(0.0203) * bf3_z - (s3 * bn4c_x + (c3 * bn4c_y - (S3b_xz * zz_3 - bKx3 * z2_3)));
   const Real bf2_x = s2 * bf3_x - (bdf2_x + c2 * bf3_z);
-  const Real bf2_y = s2 * bf3_z + (bdf2_y + c2 * bf3_x);
-  const Real bf2_z = bdf2_z - bf3_y;
-  const Real b_4 = input.u[4] - (bdn5_y + (w4pp_x * bKx4 - (w3_z * bKy4 - (h4b_y * ba4o_z + (Real(0.00064216)
+  const Real bf2_y = s2 * bf3_z - (bdf2_y - c2 * bf3_x);
+  const Real bf2_z = bdf2_z + bf3_y;
+  const Real b_4 = input.u[4] - (bdn5_y - (w4pp_x * bKx4 + (w3_z * bKy4 - (h4b_y * ba4o_z + (Real(0.00064216)
       * bal4p_y + h4b_x * ba4o_x)))));
   const Real b_5 = input.u[5] - (w5pp_y * bKy5 - (bal5p_x * Real(4e-05) + w4_z * bKx5));
   const Real S2b_zz = S3c_xx + S3c_yy;
-  const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
-  const Real t364 = r2_x * h2b_x;
-  const Real D2 = t364 - r2_y * h2b_y;
-  const Real E2 = S2b_zz - D2;
-  const Real J1 = D2 - E2 + Real(1.748114002);
+  const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
+  const Real t369 = r2_x * h2b_x;
+  const Real D2 = t369 - r2_y * h2b_y;
+  const Real E2 = S2b_zz + D2;
+  const Real J1 = D2 + E2 - Real(1.748114002);
   const Real p3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
   const Real p3_3F_x = s2 * h3b_y;
   const Real p3_3F_y = c2 * h3b_y;
@@ -537,57 +541,57 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real p4_3l_z = h4b_y * Real(0.0203);
   const Real p4_3n_y = p4_4N_x + p4_3l_y;
   const Real p4_3n_z = p4_4N_y - p4_3l_z;
-  const Real p4_3F_x = c2 * h4b_y + s2 * p4_4F_x;
-  const Real p4_3F_y = c2 * p4_4F_x - s2 * h4b_y;
+  const Real p4_3F_x = c2 * h4b_y - s2 * p4_4F_x;
+  const Real p4_3F_y = c2 * p4_4F_x + s2 * h4b_y;
   const Real p4_2l_x = r2_y * p4_4F_y;
-  const Real p4_2n_x = p4_2l_x + (c2 * p4_3l_x - s2 * p4_3n_y);
-  const Real p4_2n_z = r2_y * p4_3F_x - (p4_3n_z + r2_x * p4_3F_y);
+  const Real p4_2n_x = p4_2l_x - (c2 * p4_3l_x + s2 * p4_3n_y);
+  const Real p4_2n_z = r2_y * p4_3F_x + (p4_3n_z - r2_x * p4_3F_y);
   const Real p5_5N_x = c4 * Real(4e-05);
   const Real p5_5N_y = s4 * Real(4e-05);
   const Real p5_4N_x = c3 * p5_5N_y;
   const Real p5_4N_y = s3 * p5_5N_y;
-  const Real p5_3N_x = c2 * p5_5N_x - s2 * p5_4N_x;
+  const Real p5_3N_x = c2 * p5_5N_x + s2 * p5_4N_x;
   const Real L_5_3 = p5_5N_x * Real(24999.999999999996);
   const Real H5_3_3 = S3b_zz - p5_5N_x * L_5_3;
-  const Real t426 = p5_4N_y * L_5_3;
-  const Real H5_3_2 = S3b_yz + t426;
-  const Real H5_3_1 = t426 - (r2_y * p3_3F_x - (S3b_yz + r2_x * p3_3F_y));
-  const Real H5_3_0 = p5_3N_x * L_5_3 + (p3_2l_x + (c2 * p3_3n_x - s2 * S3b_xz));
+  const Real t431 = p5_4N_y * L_5_3;
+  const Real H5_3_2 = S3b_yz + t431;
+  const Real H5_3_1 = t431 - (r2_y * p3_3F_x - (S3b_yz - r2_x * p3_3F_y));
+  const Real H5_3_0 = p5_3N_x * L_5_3 - (p3_2l_x - (c2 * p3_3n_x + s2 * S3b_xz));
   const Real L_5_2 = p5_4N_y * Real(24999.999999999996);
-  const Real t436 = p5_4N_y * L_5_2;
-  const Real t437 = p5_3N_x * L_5_2;
+  const Real t441 = p5_4N_y * L_5_2;
+  const Real t442 = p5_3N_x * L_5_2;
   const Real L_5_0 = p5_3N_x * Real(24999.999999999996);
-  const Real u5_3 = b_5 * L_5_3 - (input.u[3] - (bn4_x + (w3pp_y * bKy3 + (w2_z * bKx3 - (h3b_y * ba3o_y -
-      (h3b_x * ba3o_z - (S3b_zz * bal3p_x - S3b_xz * bal3p_y)))))));
-  const Real t449 = b_5 * L_5_2;
+  const Real u5_3 = b_5 * L_5_3 - (input.u[3] + (bn4_x - (w3pp_y * bKy3 - (w2_z * bKx3 + (h3b_y * ba3o_y -
+      (h3b_x * ba3o_z - (S3b_zz * bal3p_x + S3b_xz * bal3p_y)))))));
+  const Real t454 = b_5 * L_5_2;
   const Real L_4_2 = p4_3n_z * Real(1557.24430048586);
   const Real L_4_1 = p4_2n_z * Real(1557.24430048586);
   const Real L_4_0 = p4_2n_x * Real(1557.24430048586);
   const Real invD_3 = Real(1.0) / H5_3_3;
   const Real L_3_2 = H5_3_2 * invD_3;
-  const Real H3_2_2 = H5_3_2 * L_3_2 + (p4_3n_z * L_4_2 + (S2b_zz + t436));
-  const Real H3_2_1 = H5_3_1 * L_3_2 - (p4_2n_z * L_4_2 - (E2 + t436));
-  const Real H3_2_0 = H5_3_0 * L_3_2 - (p4_2n_x * L_4_2 - (S2b_xz + t437));
+  const Real H3_2_2 = H5_3_2 * L_3_2 + (p4_3n_z * L_4_2 + (S2b_zz + t441));
+  const Real H3_2_1 = H5_3_1 * L_3_2 + (p4_2n_z * L_4_2 + (E2 + t441));
+  const Real H3_2_0 = H5_3_0 * L_3_2 + (p4_2n_x * L_4_2 + (S2b_xz + t442));
   const Real L_3_1 = H5_3_1 * invD_3;
   const Real L_3_0 = H5_3_0 * invD_3;
-  const Real u3_2 = u5_3 * L_3_2 + (b_4 * L_4_2 + (t449 - (input.u[2] + (bn3c_z + (h2b_y * ba2o_x - (h2b_x *
-      ba2o_y + (state.z[0] * bKy2 - S2b_yz * bal1o_y)))))));
+  const Real u3_2 = u5_3 * L_3_2 + (b_4 * L_4_2 + (t454 - (input.u[2] + (bn3c_z - (h2b_y * ba2o_x - (h2b_x *
+      ba2o_y - (state.z[0] * bKy2 + S2b_yz * bal1o_y)))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = H3_2_1 * L_2_1 - (H5_3_1 * L_3_1 + (p4_2n_z * L_4_1 - (J1 - t436)));
-  const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 + (p4_2n_x * L_4_1 + (t437 + (c1 * Real(0.023751) + (s1
-      * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y))))));
+  const Real H2_1_1 = H3_2_1 * L_2_1 - (H5_3_1 * L_3_1 + (p4_2n_z * L_4_1 + (J1 + t441)));
+  const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 + (p4_2n_x * L_4_1 + (t442 - (c1 * Real(0.023751) + (s1
+      * Real(0.6903913435) - (S2b_xz - r2_x * h3b_y))))));
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real u2_1 = u3_2 * L_2_1 - (u5_3 * L_3_1 - (b_4 * L_4_1 - (t449 - (input.u[1] - (r2_y * bf2_x - (r2_x
+  const Real u2_1 = u3_2 * L_2_1 - (u5_3 * L_3_1 + (b_4 * L_4_1 + (t454 - (input.u[1] + (r2_y * bf2_x + (r2_x
       * bf2_y + (bn3c_z - (h1_y * Real(9.81) + state.z[0] * bKy1))))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
   const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H5_3_0 * L_3_0 + (p4_2n_x * L_4_0 + (p5_3N_x * L_5_0
-      - (h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t + (Real(2.0) * t364 - (s2 * S2b_t + (S3c_xx + J1)) +
+      - (h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t - (Real(2.0) * t369 - (s2 * S2b_t - (S3c_xx - J1)) -
       Real(0.07312639999999992)) - Real(0.175))) + Real(1.2867895711250001))))));
-  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u5_3 * L_3_0 - (b_4 * L_4_0 - (b_5 * L_5_0 - (input.u[0] +
-      (r2_y * bf2_z + (Real(2.0) * (state.z[1] * bKy1) - (S1_yz * zz_1 + (s2 * bn3c_y + (c2 * bn3c_x - (S2b_yz
-      * zz_2 + bKy2 * z2_2)))))))))));
+  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u5_3 * L_3_0 + (b_4 * L_4_0 + (b_5 * L_5_0 + (input.u[0] -
+      (r2_y * bf2_z - (Real(2.0) * (state.z[1] * bKy1) - (S1_yz * zz_1 + (s2 * bn3c_y - (c2 * bn3c_x - (S2b_yz
+      * zz_2 - bKy2 * z2_2)))))))))));
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = u1_0 * invD_0;
   const Real y_1 = u2_1 * invD_1;
@@ -597,14 +601,14 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real y_3 = u5_3 * invD_3;
   const Real zdot_3 = L_3_0 * y_0 + (L_3_1 * zdot_1 - (y_3 + L_3_2 * zdot_2));
   const Real y_4 = b_4 * Real(1557.24430048586);
-  const Real zdot_4 = L_4_0 * y_0 + (L_4_1 * zdot_1 + (y_4 + L_4_2 * zdot_2));
+  const Real zdot_4 = L_4_0 * y_0 + (L_4_1 * zdot_1 - (y_4 + L_4_2 * zdot_2));
   const Real y_5 = b_5 * Real(24999.999999999996);
   const Real zdot_5 = L_5_2 * (zdot_1 - zdot_2) + (L_5_0 * y_0 - (y_5 - L_5_3 * zdot_3));
-  zdot[0] = y_0;
+  zdot[0] = -y_0;
   zdot[1] = zdot_1;
   zdot[2] = -zdot_2;
   zdot[3] = zdot_3;
-  zdot[4] = zdot_4;
+  zdot[4] = -zdot_4;
   zdot[5] = -zdot_5;
 }
 
@@ -613,9 +617,10 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
     noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
   Real s3, c3;
@@ -649,30 +654,30 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
-  const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
-  const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
-  const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
-  const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
-  const Real t97 = r2_x * h2b_x;
-  const Real D2 = t97 - r2_y * h2b_y;
+  const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
+  const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
+  const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
+  const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
+  const Real t102 = r2_x * h2b_x;
+  const Real D2 = t102 - r2_y * h2b_y;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real h1_y = c1 * Real(3.79559) - (h2b_y + s1 * Real(0.10439999999999999));
-  const Real J1 = D2 - (S2b_zz - D2) + Real(1.748114002);
-  const Real S1_xy = c1 * S1b_t + (r2_y * h2b_x + (S2b_xy - r2_x * h2b_y) - Real(0.0070991999999999965));
-  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y));
-  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) + (S2b_yz + r2_y * h3b_y));
-  const Real S0b_zz = h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t + (Real(2.0) * t97 - (s2 * S2b_t + (S3c_xx
-      + J1)) + Real(0.07312639999999992)) - Real(0.175))) + Real(1.2867895711250001);
+  const Real h1_y = c1 * Real(3.79559) + (h2b_y - s1 * Real(0.10439999999999999));
+  const Real J1 = D2 + (S2b_zz + D2) - Real(1.748114002);
+  const Real S1_xy = c1 * S1b_t - (r2_y * h2b_x - (S2b_xy + r2_x * h2b_y) + Real(0.0070991999999999965));
+  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) - (S2b_xz - r2_x * h3b_y));
+  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) - (S2b_yz - r2_y * h3b_y));
+  const Real S0b_zz = h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t - (Real(2.0) * t102 - (s2 * S2b_t - (S3c_xx
+      - J1)) - Real(0.07312639999999992)) - Real(0.175))) + Real(1.2867895711250001);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
-  const Real w3_z = w3pp_x + state.z[3];
+  const Real w3_z = w3pp_x - state.z[3];
   const Real w4pp_x = c3 * w3pp_y - s3 * w2_z;
   const Real w4pp_y = c3 * w2_z + s3 * w3pp_y;
   const Real w4_z = w4pp_y + state.z[4];
-  const Real w5pp_y = c4 * w4pp_x + s4 * w3_z;
+  const Real w5pp_y = c4 * w4pp_x - s4 * w3_z;
   const Real adn0_z = S0b_zz * zdot[0];
   const Real aKy1 = S1_xy * state.z[0];
   const Real zz_1 = state.z[1] * state.z[1];
@@ -683,7 +688,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aW1U2_x = aal1o_y + aal1o_y;
   const Real aa2o_x = r2_x * zz_1 - (Real(9.81) + r2_y * zdot[1]);
   const Real aa2o_y = r2_x * zdot[1] + r2_y * aW1U1_y;
-  const Real aKy2 = S2b_xy * state.z[0] + S2b_yz * state.z[1];
+  const Real aKy2 = S2b_xy * state.z[0] - S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -692,24 +697,24 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real adn2_z = S2b_zz * zdot[2];
   const Real aal2o_y = aal1o_y + state.z[2] * state.z[0];
   const Real aal2o_z = zdot[1] + zdot[2];
-  const Real aal3p_x = c2 * zdot[0] - s2 * aal2o_y;
-  const Real aal3p_y = s2 * zdot[0] + c2 * aal2o_y;
+  const Real aal3p_x = c2 * zdot[0] + s2 * aal2o_y;
+  const Real aal3p_y = s2 * zdot[0] - c2 * aal2o_y;
   const Real aL2w00 = w3pp_x * w3pp_x;
   const Real aL2w01 = w3pp_x * w3pp_y;
   const Real aL2w02 = w2_z * w3pp_x;
   const Real aL2w11 = w3pp_y * w3pp_y;
   const Real aL2w12 = w2_z * w3pp_y;
   const Real aL2w22 = w2_z * w2_z;
-  const Real aL2U0_y = aal2o_z + aL2w01;
-  const Real aL2U0_z = aal3p_y - aL2w02;
+  const Real aL2U0_y = aal2o_z - aL2w01;
+  const Real aL2U0_z = aal3p_y + aL2w02;
   const Real aL2U1_y = aL2w00 + aL2w22;
-  const Real aL2U1_z = aal3p_x + aL2w12;
-  const Real aL2U2_y = aal3p_x - aL2w12;
+  const Real aL2U1_z = aal3p_x - aL2w12;
+  const Real aL2U2_y = aal3p_x + aL2w12;
   const Real aL2U2_z = aL2w00 + aL2w11;
-  const Real aa3o_y = Real(0.0203) * aL2U1_y - (Real(0.15005) * aL2U1_z - (c2 * aa2o_y + s2 * aa2o_x));
-  const Real aa3o_z = Real(0.0203) * aL2U2_y + (Real(0.15005) * aL2U2_z + (r2_y * zdot[0] - r2_x * aW1U2_x));
-  const Real aKx3 = S3b_xz * w3pp_x - (S3b_xx * w3pp_y - S3b_xy * w2_z);
-  const Real aKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y - S3b_yz * w3pp_x);
+  const Real aa3o_y = Real(0.0203) * aL2U1_y + (Real(0.15005) * aL2U1_z - (c2 * aa2o_y - s2 * aa2o_x));
+  const Real aa3o_z = Real(0.0203) * aL2U2_y - (Real(0.15005) * aL2U2_z + (r2_y * zdot[0] - r2_x * aW1U2_x));
+  const Real aKx3 = S3b_xz * w3pp_x + (S3b_xx * w3pp_y - S3b_xy * w2_z);
+  const Real aKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y + S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_x + w3_z);
@@ -722,24 +727,24 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL3w00 = w4pp_x * w4pp_x;
   const Real aL3w02 = w3_z * w4pp_x;
   const Real aL3w11 = w4pp_y * w4pp_y;
-  const Real aL3U0_z = aal4p_y - aL3w02;
+  const Real aL3U0_z = aal4p_y + aL3w02;
   const Real aL3U2_z = aL3w00 + aL3w11;
-  const Real aa4o_x = Real(0.4318) * aL3U0_z + (c3 * aa3o_y - s3 * aa3o_z);
-  const Real aa4o_z = Real(0.4318) * aL3U2_z - (Real(0.0203) * aL2U0_y - (Real(0.15005) * aL2U0_z + (c2 *
-      aa2o_x - s2 * aa2o_y)));
-  const Real aKx4 = S4b_xx * w3_z + S4b_xy * w4pp_x;
-  const Real aKy4 = S4b_xy * w3_z - S4b_yy * w4pp_x;
+  const Real aa4o_x = Real(0.4318) * aL3U0_z + (c3 * aa3o_y + s3 * aa3o_z);
+  const Real aa4o_z = Real(0.4318) * aL3U2_z - (Real(0.0203) * aL2U0_y - (Real(0.15005) * aL2U0_z - (c2 *
+      aa2o_x + s2 * aa2o_y)));
+  const Real aKx4 = S4b_xx * w3_z - S4b_xy * w4pp_x;
+  const Real aKy4 = S4b_xy * w3_z + S4b_yy * w4pp_x;
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_y + w4_z);
-  const Real aax4 = h4b_x * w3_z - h4b_y * w4pp_x;
+  const Real aax4 = h4b_x * w3_z + h4b_y * w4pp_x;
   const Real adf4_y = h4b_x * zdot[4] - h4b_y * zw_4;
   const Real adf4_z = z2_4 * aax4;
   const Real adn4_x = aKy4 * z2_4;
   const Real adn4_y = aKx4 * z2_4;
   const Real adn4_z = Real(0.00064216) * zdot[4];
-  const Real aal4o_x = w4pp_x * state.z[4] - (aal3p_x + zdot[3]);
-  const Real aal4o_y = w3_z * state.z[4] + (c3 * aal3o_x - s3 * aal3o_y);
-  const Real aal5p_x = c4 * aal4o_x + s4 * aal4o_y;
+  const Real aal4o_x = w4pp_x * state.z[4] + (aal3p_x - zdot[3]);
+  const Real aal4o_y = w3_z * state.z[4] - (c3 * aal3o_x - s3 * aal3o_y);
+  const Real aal5p_x = c4 * aal4o_x - s4 * aal4o_y;
   const Real aKx5 = w5pp_y * Real(2e-05);
   const Real aKy5 = w4_z * Real(2e-05);
   const Real z2_5 = Real(2.0) * state.z[5];
@@ -747,33 +752,33 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real adn5_y = aKx5 * z2_5;
   const Real adn5_z = Real(4e-05) * zdot[5];
   const Real an4_z = adn4_z + adn5_y;
-  const Real an4c_x = Real(0.4318) * adf4_z - (s4 * adn5_z + (adn4_y + c4 * adn5_x));
+  const Real an4c_x = Real(0.4318) * adf4_z + (s4 * adn5_z - (adn4_y - c4 * adn5_x));
   const Real an4c_y = an4_z + Real(0.4318) * adf4_y;
-  const Real af3_x = s3 * adf4_z - (c3 * adf4_y - (h3b_y * zdot[3] + h3b_x * zw_3));
-  const Real af3_y = s3 * adf4_y + (c3 * adf4_z + (h3b_x * zdot[3] - h3b_y * zw_3));
+  const Real af3_x = s3 * adf4_z + (c3 * adf4_y - (h3b_y * zdot[3] - h3b_x * zw_3));
+  const Real af3_y = s3 * adf4_y - (c3 * adf4_z - (h3b_x * zdot[3] + h3b_y * zw_3));
   const Real af3_z = h4b_x * zw_4 + (adf3_z + h4b_y * zdot[4]);
-  const Real an3_z = s4 * adn5_x - (c4 * adn5_z + (adn3_z + adn4_x));
-  const Real an3c_x = Real(0.0203) * af3_y + (an3_z - Real(0.15005) * af3_x);
-  const Real an3c_y = Real(0.15005) * af3_z + (s3 * an4c_y + (c3 * an4c_x - (aKy3 * z2_3 - (S3b_xz * zdot[3] -
+  const Real an3_z = s4 * adn5_x - (c4 * adn5_z + (adn3_z - adn4_x));
+  const Real an3c_x = Real(0.0203) * af3_y + (an3_z + Real(0.15005) * af3_x);
+  const Real an3c_y = Real(0.15005) * af3_z + (s3 * an4c_y - (c3 * an4c_x + (aKy3 * z2_3 - (S3b_xz * zdot[3] -
       S3b_yz * zz_3))));
   const Real af2_x = s2 * af3_x - (c2 * af3_z + (h2b_y * zdot[2] + h2b_x * zw_2));
-  const Real af2_y = s2 * af3_z + (c2 * af3_x - (h2b_x * zdot[2] - h2b_y * zw_2));
-  const Real af2_z = adf2_z + af3_y;
-  const Real an2_z = Real(0.0203) * af3_z + (s3 * an4c_x - (c3 * an4c_y - (aKx3 * z2_3 + (S3b_xz * zz_3 +
+  const Real af2_y = s2 * af3_z + (c2 * af3_x + (h2b_x * zdot[2] - h2b_y * zw_2));
+  const Real af2_z = adf2_z - af3_y;
+  const Real an2_z = Real(0.0203) * af3_z - (s3 * an4c_x + (c3 * an4c_y + (aKx3 * z2_3 - (S3b_xz * zz_3 +
       (adn2_z + S3b_yz * zdot[3])))));
-  const Real an0_z = r2_y * af2_z + (Real(2.0) * (state.z[1] * aKy1) - (S1_yz * zz_1 - (S1_xz * zdot[1] - (s2
-      * an3c_y - (c2 * an3c_x + (aKy2 * z2_2 + (S2b_yz * zz_2 - (adn0_z - S2b_xz * zdot[2]))))))));
-  const Real aQ1_0 = r2_y * af2_x - (r2_x * af2_y - (adn1_z - (an2_z + (S1_xz * zdot[0] - (h1_y * Real(9.81) +
+  const Real an0_z = r2_y * af2_z - (Real(2.0) * (state.z[1] * aKy1) - (S1_yz * zz_1 - (S1_xz * zdot[1] - (s2
+      * an3c_y + (c2 * an3c_x - (aKy2 * z2_2 - (S2b_yz * zz_2 + (adn0_z + S2b_xz * zdot[2]))))))));
+  const Real aQ1_0 = r2_y * af2_x + (r2_x * af2_y + (adn1_z + (an2_z + (S1_xz * zdot[0] - (h1_y * Real(9.81) +
       state.z[0] * aKy1)))));
-  const Real aQ2_0 = an2_z - (h2b_y * aa2o_x + (h2b_x * aa2o_y - (S2b_yz * aal1o_y + (S2b_zz * zdot[1] -
-      (state.z[0] * aKy2 - S2b_xz * zdot[0])))));
-  const Real aQ3_0 = an3_z - (w3pp_y * aKy3 + (w2_z * aKx3 - (h3b_y * aa3o_y + (h3b_x * aa3o_z + (S3b_yz *
-      aal2o_z - (S3b_zz * aal3p_x + S3b_xz * aal3p_y))))));
-  const Real aQ4_0 = an4_z + (w4pp_x * aKx4 - (w3_z * aKy4 - (h4b_y * aa4o_z + (Real(0.00064216) * aal4p_y +
+  const Real aQ2_0 = an2_z + (h2b_y * aa2o_x + (h2b_x * aa2o_y - (S2b_yz * aal1o_y - (S2b_zz * zdot[1] -
+      (state.z[0] * aKy2 + S2b_xz * zdot[0])))));
+  const Real aQ3_0 = an3_z - (w3pp_y * aKy3 - (w2_z * aKx3 + (h3b_y * aa3o_y - (h3b_x * aa3o_z - (S3b_yz *
+      aal2o_z + (S3b_zz * aal3p_x - S3b_xz * aal3p_y))))));
+  const Real aQ4_0 = an4_z - (w4pp_x * aKx4 + (w3_z * aKy4 - (h4b_y * aa4o_z + (Real(0.00064216) * aal4p_y +
       h4b_x * aa4o_x))));
   const Real aQ5_0 = adn5_z + (w5pp_y * aKy5 - (aal5p_x * Real(4e-05) + w4_z * aKx5));
-  tau[0] = -an0_z;
-  tau[1] = aQ1_0;
+  tau[0] = an0_z;
+  tau[1] = -aQ1_0;
   tau[2] = -aQ2_0;
   tau[3] = -aQ3_0;
   tau[4] = aQ4_0;
@@ -784,9 +789,10 @@ template <class Real>
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
   Real s3, c3;
@@ -818,24 +824,24 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
-  const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
-  const Real h2b_x = c2 * h3c_x - s2 * h3c_y;
-  const Real h2b_y = c2 * h3c_y + s2 * h3c_x;
-  const Real t91 = r2_x * h2b_x;
-  const Real D2 = t91 - r2_y * h2b_y;
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
+  const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
+  const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
+  const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
+  const Real t96 = r2_x * h2b_x;
+  const Real D2 = t96 - r2_y * h2b_y;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real J1 = D2 - (S2b_zz - D2) + Real(1.748114002);
-  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) + (S2b_xz + r2_x * h3b_y));
-  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t + (Real(2.0) * t91 - (s2 * S2b_t
-      + (S3c_xx + J1)) + Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
+  const Real J1 = D2 + (S2b_zz + D2) - Real(1.748114002);
+  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) - (S2b_xz - r2_x * h3b_y));
+  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t - (Real(2.0) * t96 - (s2 * S2b_t
+      - (S3c_xx - J1)) - Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
-  const Real w3_z = w3pp_x + state.z[3];
+  const Real w3_z = w3pp_x - state.z[3];
   const Real w4pp_x = c3 * w3pp_y - s3 * w2_z;
   const Real w4pp_y = c3 * w2_z + s3 * w3pp_y;
-  const Real w5pp_x = c4 * w3_z - s4 * w4pp_x;
+  const Real w5pp_x = c4 * w3_z + s4 * w4pp_x;
   const Real v0L_z = S0b_zz * state.z[0];
   const Real v1L_x = S1_xz * state.z[1];
   const Real v1L_z = J1 * state.z[1];
@@ -846,23 +852,23 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v2P_y = h2b_x * state.z[2];
   const Real v2L_x = S2b_xz * state.z[2];
   const Real v2L_z = S2b_zz * state.z[2];
-  const Real v3o_x = Real(0.0203) * w2_z - (Real(0.15005) * w3pp_y - (c2 * v2o_x + s2 * v2o_y));
-  const Real v3o_y = Real(0.15005) * w3pp_x - (c2 * v2o_y - s2 * v2o_x);
-  const Real v3o_z = v2o_z + Real(0.0203) * w3pp_x;
+  const Real v3o_x = Real(0.0203) * w2_z - (Real(0.15005) * w3pp_y + (c2 * v2o_x - s2 * v2o_y));
+  const Real v3o_y = Real(0.15005) * w3pp_x - (c2 * v2o_y + s2 * v2o_x);
+  const Real v3o_z = v2o_z - Real(0.0203) * w3pp_x;
   const Real v3P_x = h3b_y * state.z[3];
   const Real v3P_y = h3b_x * state.z[3];
   const Real v3L_x = S3b_xz * state.z[3];
   const Real v3L_y = S3b_yz * state.z[3];
   const Real v3L_z = S3b_zz * state.z[3];
-  const Real v4o_x = Real(0.4318) * w4pp_y - (c3 * v3o_y + s3 * v3o_z);
+  const Real v4o_x = Real(0.4318) * w4pp_y + (c3 * v3o_y - s3 * v3o_z);
   const Real v4P_x = h4b_y * state.z[4];
   const Real v4P_y = h4b_x * state.z[4];
   const Real v4L_z = Real(0.00064216) * state.z[4];
   const Real v5L_z = state.z[5] * Real(4e-05);
-  const Real T5 = (state.z[0] * v0L_z + (state.z[1] * v1L_z - (state.z[2] * v2L_z - (state.z[3] * v3L_z +
-      (state.z[4] * v4L_z + state.z[5] * v5L_z))))) * Real(0.5) - (state.z[0] * (v1L_x + v2L_x) - (w5pp_x *
-      v5L_z + (v4o_x * v4P_y - (v3o_x * v4P_x - (w4pp_y * v4L_z - (v3o_z * v3P_y - (v3o_y * v3P_x + (w3pp_y *
-      v3L_x + (w3pp_x * v3L_z - (w2_z * v3L_y - (v2o_y * v2P_y - (state.z[1] * v2L_z + v2o_x *
+  const Real T5 = (state.z[0] * v0L_z - (state.z[1] * v1L_z + (state.z[2] * v2L_z - (state.z[3] * v3L_z +
+      (state.z[4] * v4L_z + state.z[5] * v5L_z))))) * Real(0.5) - (state.z[0] * (v1L_x - v2L_x) + (w5pp_x *
+      v5L_z - (v4o_x * v4P_y - (v3o_x * v4P_x - (w4pp_y * v4L_z - (v3o_z * v3P_y + (v3o_y * v3P_x - (w3pp_y *
+      v3L_x - (w3pp_x * v3L_z + (w2_z * v3L_y + (v2o_y * v2P_y + (state.z[1] * v2L_z - v2o_x *
       v2P_x))))))))))));
   return T5;
 }
@@ -871,9 +877,10 @@ template <class Real>
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real c3 = detail::cosine(state.y[3]);
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
@@ -881,7 +888,7 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h3b_x = Real(0.0028799999999999997) * (c3 * s4);
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
-  const Real h1_x = s1 * Real(3.79559) + (c1 * Real(0.10439999999999999) + (c2 * h3c_x - s2 * h3c_y));
+  const Real h1_x = s1 * Real(3.79559) + (c1 * Real(0.10439999999999999) - (c2 * h3c_x + s2 * h3c_y));
   const Real V = h1_x * Real(9.81);
   return V;
 }

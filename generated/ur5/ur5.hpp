@@ -13,7 +13,7 @@
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (34 operations
 //   of forward_dynamics)
 // - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
-//   (121 operations of forward_dynamics)
+//   (111 operations of forward_dynamics)
 // - snapped rotations: rotations by multiples of a right angle are permutations (69 operations of
 //   forward_dynamics)
 // - common factors: factors that several terms of a sum share are multiplied once (7 operations of
@@ -30,7 +30,7 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - 8 random states: backward error of M zdot = k_bar - q_bar 1.4e-16 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 4.7e-16; symbolic equations against the numeric reference
+//   60-digit arithmetic, entries of the functions 3.4e-16; symbolic equations against the numeric reference
 //   2.0e-18; cond(M) up to 2.6e+02
 #pragma once
 
@@ -86,48 +86,48 @@ template <class Real>
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 82 operations (40 mul, 42 add and sub, 0 div), 10 sin and cos.
+/// 92 operations (48 mul, 44 add and sub, 0 div), 10 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[6][6]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 206 operations (123 mul, 83 add and sub, 0 div), 10 sin and cos.
+/// 216 operations (131 mul, 85 add and sub, 0 div), 10 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[6]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 13 operations (6 mul, 7 add and sub, 0 div), 3 sin and cos.
+/// 20 operations (12 mul, 8 add and sub, 0 div), 6 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[6])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 375 operations (196 mul, 174 add and sub, 5 div), 10 sin and cos.
+/// 385 operations (204 mul, 176 add and sub, 5 div), 10 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[6]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 307 operations (166 mul, 141 add and sub, 0 div), 10 sin and cos.
+/// 317 operations (174 mul, 143 add and sub, 0 div), 10 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept;
 
 /// Kinetic energy, J.
-/// 136 operations (74 mul, 62 add and sub, 0 div), 10 sin and cos.
+/// 146 operations (82 mul, 64 add and sub, 0 div), 10 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 9 operations (4 mul, 5 add and sub, 0 div), 3 sin and cos.
+/// 16 operations (10 mul, 6 add and sub, 0 div), 6 sin and cos.
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 1649 operations. For inputs sampled at the stages include ur5_kernels.hpp and pass a function of the state
+/// 1689 operations. For inputs sampled at the stages include ur5_kernels.hpp and pass a function of the state
 /// instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

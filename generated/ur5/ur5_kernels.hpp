@@ -85,14 +85,16 @@ template <class Real>
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  const Real angle3 = angle2 + state.y[3];
-  Real s3, c3;
-  detail::sine_cosine(angle3, s3, c3);
+  Real t16, t17;
+  detail::sine_cosine(state.y[3], t16, t17);
+  const Real s3 = c2 * t16 - s2 * t17;
+  const Real c3 = s2 * t16 + c2 * t17;
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
   Real s5, c5;
@@ -117,41 +119,41 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real t60 = s2 * h3b_x * Real(0.39225);
-  const Real D3 = t60 - Real(0.39225) * (c2 * h3b_y);
-  const Real E3 = S3b_zz + D3;
+  const Real t70 = s2 * h3b_x * Real(0.39225);
+  const Real D3 = t70 + Real(0.39225) * (c2 * h3b_y);
+  const Real E3 = S3b_zz - D3;
   const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
-  const Real h2_x = h3b_x + h2b_x;
+  const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real J2 = D3 + E3 + Real(0.59565195167475);
-  const Real S2_xz = S3b_xz - S2b_xz;
-  const Real t79 = r2_x * h2_x;
-  const Real D2 = t79 - r2_y * h2_y;
+  const Real J2 = D3 - E3 - Real(0.59565195167475);
+  const Real S2_xz = S3b_xz + S2b_xz;
+  const Real t89 = r2_x * h2_x;
+  const Real D2 = t89 - r2_y * h2_y;
   const Real E2 = J2 + D2;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
-  const Real J1 = D2 + E2 + Real(1.7701269384100002);
-  const Real S1_xz = S2_xz - S1b_xz;
-  const Real S0b_zz = Real(2.0) * (t60 + t79) - (S4b_xx - (S4b_zz + (s1 * s1 * Real(1.7550195384100002) + (s2
-      * s2 * Real(0.59155695167475) + (s3 * S3b_t + (S4c_xx - J1) + Real(0.0020475)) + Real(0.0075537)) -
+  const Real J1 = D2 + E2 - Real(1.7701269384100002);
+  const Real S1_xz = S2_xz + S1b_xz;
+  const Real S0b_zz = Real(2.0) * (t70 + t89) + (S4b_xx - (S4b_zz + (s1 * s1 * Real(1.7550195384100002) + (s2
+      * s2 * Real(0.59155695167475) + (s3 * S3b_t + (S4c_xx + J1) + Real(0.0020475)) + Real(0.0075537)) -
       Real(0.00333))) + Real(0.29520861244275));
-  const Real p_3_2n_z = r2_y * h3b_y - (E3 + r2_x * h3b_x);
+  const Real p_3_2n_z = r2_y * h3b_y + (E3 - r2_x * h3b_x);
   const Real p_4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
   const Real p_5_5N_y = c4 * Real(0.0171364731454);
   const Real p_5_4N_x = Real(0.0171364731454) * (s3 * s4);
-  M[0][0] = -S0b_zz;
-  M[0][1] = M[1][0] = -S1_xz;
-  M[0][2] = M[2][0] = -S2_xz;
-  M[0][3] = M[3][0] = -S3b_xz;
-  M[0][4] = M[4][0] = p_4_4N_x;
-  M[0][5] = M[5][0] = -p_5_4N_x;
-  M[1][1] = J1;
-  M[1][2] = M[2][1] = E2;
-  M[1][3] = M[3][1] = -p_3_2n_z;
+  M[0][0] = S0b_zz;
+  M[0][1] = M[1][0] = S1_xz;
+  M[0][2] = M[2][0] = S2_xz;
+  M[0][3] = M[3][0] = S3b_xz;
+  M[0][4] = M[4][0] = -p_4_4N_x;
+  M[0][5] = M[5][0] = p_5_4N_x;
+  M[1][1] = -J1;
+  M[1][2] = M[2][1] = -E2;
+  M[1][3] = M[3][1] = p_3_2n_z;
   M[1][4] = M[4][1] = S4b_yz;
   M[1][5] = M[5][1] = p_5_5N_y;
-  M[2][2] = J2;
+  M[2][2] = -J2;
   M[2][3] = M[3][2] = E3;
   M[2][4] = M[4][2] = S4b_yz;
   M[2][5] = M[5][2] = p_5_5N_y;
@@ -167,14 +169,16 @@ template <class Real>
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  const Real angle3 = angle2 + state.y[3];
-  Real s3, c3;
-  detail::sine_cosine(angle3, s3, c3);
+  Real t16, t17;
+  detail::sine_cosine(state.y[3], t16, t17);
+  const Real s3 = c2 * t16 - s2 * t17;
+  const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
   Real s4, c4;
@@ -201,24 +205,24 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real S3b_yz = c3 * S4b_xy + s3 * S4c_xz;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real S2b_xy = c2 * s2 * Real(0.59155695167475);
+  const Real S2b_xy = s2 * c2 * Real(0.59155695167475);
   const Real S2b_yz = c2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
-  const Real h2_x = h3b_x + h2b_x;
+  const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real S2_xy = S2b_xy + (r3_y * h3b_x - (S3b_xy + r3_x * h3b_y));
+  const Real S2_xy = S2b_xy - (r3_y * h3b_x - (S3b_xy - r3_x * h3b_y));
   const Real S2_yz = S3b_yz + S2b_yz;
   const Real S1b_xy = c1 * s1 * Real(1.7550195384100002);
   const Real S1b_yz = c1 * Real(0.4084992088750001);
-  const Real S1_xy = S1b_xy + (r2_y * h2_x + (S2_xy - r2_x * h2_y));
-  const Real S1_yz = S2_yz + S1b_yz;
+  const Real S1_xy = S1b_xy - (r2_y * h2_x + (S2_xy - r2_x * h2_y));
+  const Real S1_yz = S2_yz - S1b_yz;
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
   const Real w4pp_y = s3 * state.z[0];
-  const Real w4_z = w4pp_x - state.z[4];
-  const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
+  const Real w4_z = w4pp_x + state.z[4];
+  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
   const Real kKy1 = S1_xy * state.z[0];
   const Real kQp1 = state.z[0] * kKy1;
   const Real zz_1 = state.z[1] * state.z[1];
@@ -239,8 +243,8 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kW2w22 = w2_z * w2_z;
   const Real kW2U1_y = kW1w00 + kW2w22;
   const Real ka3o_x = ka2o_x + r3_x * kW2w22;
-  const Real ka3o_y = ka2o_y + r3_y * kW2U1_y;
-  const Real kKy3 = S3b_xy * state.z[0] + S3b_yz * w2_z;
+  const Real ka3o_y = ka2o_y - r3_y * kW2U1_y;
+  const Real kKy3 = S3b_xy * state.z[0] - S3b_yz * w2_z;
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w2_z + w3_z);
@@ -251,60 +255,63 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kal3o_y = kal2o_y + state.z[3] * state.z[0];
   const Real kal4p_x = s3 * kal3o_y;
   const Real kal4p_y = c3 * kal3o_y;
-  const Real kKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y + S4b_xy * w3_z);
-  const Real kKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
+  const Real kKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
+  const Real kKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
-  const Real kal4o_x = kal4p_y + w3_z * state.z[4];
+  const Real kal4o_x = kal4p_y - w3_z * state.z[4];
   const Real kal4o_y = w4pp_y * state.z[4];
   const Real kal5p_y = c4 * kal4o_y + s4 * kal4o_x;
   const Real kKx5 = S5b_xx * w4_z + S5b_xy * w5pp_x;
   const Real kKy5 = S5b_xy * w4_z - S5b_yy * w5pp_x;
-  const Real kQp5 = w5pp_x * kKx5 + (Real(0.0171364731454) * kal5p_y - w4_z * kKy5);
+  const Real kQp5 = w5pp_x * kKx5 - (Real(0.0171364731454) * kal5p_y + w4_z * kKy5);
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real kdn5_x = kKy5 * z2_5;
   const Real kdn5_y = kKx5 * z2_5;
   const Real kn4b_x = c4 * kdn5_y;
   const Real kn4b_y = s4 * kdn5_y;
-  const Real kn4_x = kn4b_x - (S4b_yz * zz_4 + kKy4 * z2_4);
-  const Real kn4_y = kn4b_y + (S4b_xz * zz_4 - kKx4 * z2_4);
+  const Real kn4_x = kn4b_x + (S4b_yz * zz_4 + kKy4 * z2_4);
+  const Real kn4_y = kn4b_y - (S4b_xz * zz_4 + kKx4 * z2_4);
   const Real kf3c_x = kdf2_x + kdf3_x;
   const Real kf3c_y = kdf2_y + kdf3_y;
   const Real kf3c_z = kdf2_z + kdf3_z;
-  const Real kn3c_z = r3_y * kdf3_x - (kn4_y - r3_x * kdf3_y);
-  const Real kn2c_x = r2_y * kf3c_z + (Real(2.0) * (state.z[1] * kKy1) - (S1_yz * zz_1 - (r3_y * kdf3_z +
-      (kKy2 * z2_2 - (S2_yz * zz_2 + (s3 * kn4_x - (c3 * kdn5_x - (S3b_yz * zz_3 + kKy3 * z2_3))))))));
-  const Real kQ1_0 = r2_y * kf3c_x + (r2_x * kf3c_y - (kQp1 - kn3c_z));
-  const Real kQ2_0 = kn3c_z - (S2_yz * kal1o_y + (h2_y * ka2o_x + (state.z[0] * kKy2 + h2_x * ka2o_y)));
-  const Real kQ3_0 = kn4_y + (h3b_y * ka3o_x + (h3b_x * ka3o_y - (state.z[0] * kKy3 - S3b_yz * kal2o_y)));
+  const Real kn3c_z = r3_y * kdf3_x + (kn4_y - r3_x * kdf3_y);
+  const Real kn2c_x = r2_y * kf3c_z - (Real(2.0) * (state.z[1] * kKy1) + (S1_yz * zz_1 + (r3_y * kdf3_z -
+      (kKy2 * z2_2 - (S2_yz * zz_2 - (s3 * kn4_x - (c3 * kdn5_x + (S3b_yz * zz_3 - kKy3 * z2_3))))))));
+  const Real kQ1_0 = r2_y * kf3c_x + (r2_x * kf3c_y + (kQp1 - kn3c_z));
+  const Real kQ2_0 = kn3c_z + (S2_yz * kal1o_y + (h2_y * ka2o_x + (state.z[0] * kKy2 + h2_x * ka2o_y)));
+  const Real kQ3_0 = kn4_y + (h3b_y * ka3o_x + (h3b_x * ka3o_y + (state.z[0] * kKy3 + S3b_yz * kal2o_y)));
   const Real kQ4_0 = kdn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 - (S4b_zz * kal4p_x - S4b_xz * kal4p_y)));
-  k[0] = kn2c_x;
-  k[1] = kQ1_0;
+  k[0] = -kn2c_x;
+  k[1] = -kQ1_0;
   k[2] = kQ2_0;
-  k[3] = -kQ3_0;
-  k[4] = -kQ4_0;
+  k[3] = kQ3_0;
+  k[4] = kQ4_0;
   k[5] = kQp5;
 }
 
 template <class Real>
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&q)[6]) noexcept {
-  const Real c1 = detail::cosine(state.y[1]);
-  const Real angle2 = state.y[1] + state.y[2];
-  const Real c2 = detail::cosine(angle2);
-  const Real angle3 = angle2 + state.y[3];
-  const Real s3 = detail::sine(angle3);
+  Real t3, c1;
+  detail::sine_cosine(state.y[1], t3, c1);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real c2 = t3 * t4 - c1 * t5;
+  Real t13, t14;
+  detail::sine_cosine(state.y[3], t13, t14);
+  const Real s3 = c2 * t13 - (c1 * t4 + t3 * t5) * t14;
   const Real h3b_y = s3 * Real(0.017784735);
   const Real h2b_y = c2 * Real(1.598759275);
   const Real h2_y = h3b_y - h2b_y;
   const Real h1b_y = c1 * Real(4.4329225);
-  const Real h1_y = h2_y - h1b_y;
-  const Real q_1 = h1_y * Real(9.81) - input.u[1];
-  const Real q_2 = h2_y * Real(9.81) - input.u[2];
-  const Real q_3 = h3b_y * Real(9.81) - input.u[3];
+  const Real h1_y = h2_y + h1b_y;
+  const Real q_1 = h1_y * Real(9.81) + input.u[1];
+  const Real q_2 = h2_y * Real(9.81) + input.u[2];
+  const Real q_3 = h3b_y * Real(9.81) + input.u[3];
   q[0] = -input.u[0];
-  q[1] = q_1;
-  q[2] = q_2;
-  q[3] = q_3;
+  q[1] = -q_1;
+  q[2] = -q_2;
+  q[3] = -q_3;
   q[4] = -input.u[4];
   q[5] = -input.u[5];
 }
@@ -314,14 +321,16 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
     noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  const Real angle3 = angle2 + state.y[3];
-  Real s3, c3;
-  detail::sine_cosine(angle3, s3, c3);
+  Real t16, t17;
+  detail::sine_cosine(state.y[3], t16, t17);
+  const Real s3 = c2 * t16 - s2 * t17;
+  const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
   Real s4, c4;
@@ -355,23 +364,23 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S2b_yz = c2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
-  const Real h2_x = h3b_x + h2b_x;
+  const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real S2_xy = S2b_xy + (r3_y * h3b_x - (S3b_xy + r3_x * h3b_y));
+  const Real S2_xy = S2b_xy - (r3_y * h3b_x - (S3b_xy - r3_x * h3b_y));
   const Real S2_yz = S3b_yz + S2b_yz;
   const Real S1b_t = s1 * Real(1.7550195384100002);
   const Real S1b_xy = c1 * S1b_t;
   const Real S1b_yz = c1 * Real(0.4084992088750001);
   const Real h1b_y = c1 * Real(4.4329225);
-  const Real h1_y = h2_y - h1b_y;
-  const Real S1_xy = S1b_xy + (r2_y * h2_x + (S2_xy - r2_x * h2_y));
-  const Real S1_yz = S2_yz + S1b_yz;
+  const Real h1_y = h2_y + h1b_y;
+  const Real S1_xy = S1b_xy - (r2_y * h2_x + (S2_xy - r2_x * h2_y));
+  const Real S1_yz = S2_yz - S1b_yz;
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
   const Real w4pp_y = s3 * state.z[0];
-  const Real w4_z = w4pp_x - state.z[4];
-  const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
+  const Real w4_z = w4pp_x + state.z[4];
+  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
   const Real bKy1 = S1_xy * state.z[0];
   const Real zz_1 = state.z[1] * state.z[1];
   const Real bal1o_y = state.z[1] * state.z[0];
@@ -391,8 +400,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bW2w22 = w2_z * w2_z;
   const Real bW2U1_y = bW1w00 + bW2w22;
   const Real ba3o_x = ba2o_x + r3_x * bW2w22;
-  const Real ba3o_y = ba2o_y + r3_y * bW2U1_y;
-  const Real bKy3 = S3b_xy * state.z[0] + S3b_yz * w2_z;
+  const Real ba3o_y = ba2o_y - r3_y * bW2U1_y;
+  const Real bKy3 = S3b_xy * state.z[0] - S3b_yz * w2_z;
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w2_z + w3_z);
@@ -403,11 +412,11 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bal3o_y = bal2o_y + state.z[3] * state.z[0];
   const Real bal4p_x = s3 * bal3o_y;
   const Real bal4p_y = c3 * bal3o_y;
-  const Real bKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y + S4b_xy * w3_z);
-  const Real bKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
+  const Real bKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
+  const Real bKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
-  const Real bal4o_x = bal4p_y + w3_z * state.z[4];
+  const Real bal4o_x = bal4p_y - w3_z * state.z[4];
   const Real bal4o_y = w4pp_y * state.z[4];
   const Real bal5p_y = c4 * bal4o_y + s4 * bal4o_x;
   const Real bKx5 = S5b_xx * w4_z + S5b_xy * w5pp_x;
@@ -417,91 +426,91 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bdn5_y = bKx5 * z2_5;
   const Real bn4b_x = c4 * bdn5_y;
   const Real bn4b_y = s4 * bdn5_y;
-  const Real bn4_x = bn4b_x - (S4b_yz * zz_4 + bKy4 * z2_4);
-  const Real bn4_y = bn4b_y + (S4b_xz * zz_4 - bKx4 * z2_4);
+  const Real bn4_x = bn4b_x + (S4b_yz * zz_4 + bKy4 * z2_4);
+  const Real bn4_y = bn4b_y - (S4b_xz * zz_4 + bKx4 * z2_4);
   const Real bf3c_x = bdf2_x + bdf3_x;
   const Real bf3c_y = bdf2_y + bdf3_y;
   const Real bf3c_z = bdf2_z + bdf3_z;
-  const Real bn3c_z = r3_y * bdf3_x - (bn4_y - r3_x * bdf3_y);
-  const Real b_4 = input.u[4] - (bdn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 - (S4b_zz * bal4p_x - S4b_xz *
+  const Real bn3c_z = r3_y * bdf3_x + (bn4_y - r3_x * bdf3_y);
+  const Real b_4 = input.u[4] + (bdn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 - (S4b_zz * bal4p_x - S4b_xz *
       bal4p_y))));
-  const Real b_5 = input.u[5] + (w5pp_x * bKx5 + (Real(0.0171364731454) * bal5p_y - w4_z * bKy5));
+  const Real b_5 = input.u[5] + (w5pp_x * bKx5 - (Real(0.0171364731454) * bal5p_y + w4_z * bKy5));
   const Real S3b_zz = S4c_xx + S4c_yy;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
-  const Real t242 = r3_x * h3b_x;
-  const Real D3 = t242 - r3_y * h3b_y;
-  const Real E3 = S3b_zz + D3;
+  const Real t252 = r3_x * h3b_x;
+  const Real D3 = t252 + r3_y * h3b_y;
+  const Real E3 = S3b_zz - D3;
   const Real S2b_xz = s2 * Real(0.07714261911624999);
-  const Real J2 = D3 + E3 + Real(0.59565195167475);
-  const Real S2_xz = S3b_xz - S2b_xz;
-  const Real t252 = r2_x * h2_x;
-  const Real D2 = t252 - r2_y * h2_y;
+  const Real J2 = D3 - E3 - Real(0.59565195167475);
+  const Real S2_xz = S3b_xz + S2b_xz;
+  const Real t262 = r2_x * h2_x;
+  const Real D2 = t262 - r2_y * h2_y;
   const Real E2 = J2 + D2;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
-  const Real J1 = D2 + E2 + Real(1.7701269384100002);
+  const Real J1 = D2 + E2 - Real(1.7701269384100002);
   const Real p4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
   const Real p5_5N_y = c4 * Real(0.0171364731454);
   const Real p5_4N_x = Real(0.0171364731454) * (s3 * s4);
   const Real L_5_3 = p5_5N_y * Real(58.355064750790525);
-  const Real t271 = p5_5N_y * L_5_3;
-  const Real t272 = p5_4N_x * L_5_3;
+  const Real t281 = p5_5N_y * L_5_3;
+  const Real t282 = p5_4N_x * L_5_3;
   const Real L_5_0 = p5_4N_x * Real(58.355064750790525);
-  const Real t275 = b_5 * L_5_3;
+  const Real t285 = b_5 * L_5_3;
   const Real invD_4 = Real(1.0) / S4b_zz;
   const Real L_4_3 = S4b_yz * invD_4;
-  const Real t280 = S4b_yz * L_4_3;
-  const Real H4_3_3 = t280 + (S3b_zz - t271);
-  const Real H4_3_2 = t280 + (E3 - t271);
-  const Real H4_3_1 = t280 - (t271 + (r2_y * h3b_y - (E3 + r2_x * h3b_x)));
-  const Real t289 = p4_4N_x * L_4_3;
-  const Real H4_3_0 = t289 - (S3b_xz - t272);
+  const Real t290 = S4b_yz * L_4_3;
+  const Real H4_3_3 = t290 + (S3b_zz - t281);
+  const Real H4_3_2 = t290 + (E3 - t281);
+  const Real H4_3_1 = t290 - (t281 - (r2_y * h3b_y + (E3 - r2_x * h3b_x)));
+  const Real t299 = p4_4N_x * L_4_3;
+  const Real H4_3_0 = t299 - (S3b_xz - t282);
   const Real L_4_0 = p4_4N_x * invD_4;
-  const Real t294 = b_4 * L_4_3;
-  const Real u4_3 = t294 - (t275 - (input.u[3] - (bn4_y + (h3b_y * ba3o_x + (h3b_x * ba3o_y - (state.z[0] *
-      bKy3 - S3b_yz * bal2o_y))))));
+  const Real t304 = b_4 * L_4_3;
+  const Real u4_3 = t304 - (t285 - (input.u[3] + (bn4_y + (h3b_y * ba3o_x + (h3b_x * ba3o_y + (state.z[0] *
+      bKy3 + S3b_yz * bal2o_y))))));
   const Real invD_3 = Real(1.0) / H4_3_3;
   const Real L_3_2 = H4_3_2 * invD_3;
-  const Real H3_2_2 = H4_3_2 * L_3_2 - (t280 + (J2 - t271));
-  const Real H3_2_1 = H4_3_1 * L_3_2 - (t280 + (E2 - t271));
-  const Real H3_2_0 = H4_3_0 * L_3_2 - (t289 - (S2_xz - t272));
+  const Real H3_2_2 = H4_3_2 * L_3_2 - (t290 - (J2 + t281));
+  const Real H3_2_1 = H4_3_1 * L_3_2 - (t290 - (E2 + t281));
+  const Real H3_2_0 = H4_3_0 * L_3_2 - (t299 - (S2_xz - t282));
   const Real L_3_1 = H4_3_1 * invD_3;
   const Real L_3_0 = H4_3_0 * invD_3;
-  const Real u3_2 = u4_3 * L_3_2 - (t294 - (t275 - (input.u[2] + (bn3c_z - (S2_yz * bal1o_y + (h2_y * ba2o_x +
+  const Real u3_2 = u4_3 * L_3_2 - (t304 - (t285 - (input.u[2] + (bn3c_z + (S2_yz * bal1o_y + (h2_y * ba2o_x +
       (state.z[0] * bKy2 + h2_x * ba2o_y)))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = H3_2_1 * L_2_1 - (H4_3_1 * L_3_1 - (t280 + (J1 - t271)));
-  const Real H2_1_0 = H3_2_0 * L_2_1 - (H4_3_0 * L_3_1 - (t289 + (t272 - (S2_xz - S1b_xz))));
+  const Real H2_1_1 = H3_2_1 * L_2_1 - (H4_3_1 * L_3_1 - (t290 - (J1 + t281)));
+  const Real H2_1_0 = H3_2_0 * L_2_1 - (H4_3_0 * L_3_1 - (t299 + (t282 - (S2_xz + S1b_xz))));
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real u2_1 = u3_2 * L_2_1 - (u4_3 * L_3_1 - (t294 - (t275 - (input.u[1] + (r2_y * bf3c_x + (r2_x *
-      bf3c_y + (bn3c_z - (h1_y * Real(9.81) + state.z[0] * bKy1))))))));
+  const Real u2_1 = u3_2 * L_2_1 - (u4_3 * L_3_1 - (t304 - (t285 - (input.u[1] - (r2_y * bf3c_x + (r2_x *
+      bf3c_y - (bn3c_z + (h1_y * Real(9.81) - state.z[0] * bKy1))))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = Real(2.0) * (t242 + t252) + (H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0 -
-      (p4_4N_x * L_4_0 - (p5_4N_x * L_5_0 + (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx - J1)
+  const Real H1_0_0 = Real(2.0) * (t252 + t262) - (H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0 -
+      (p4_4N_x * L_4_0 - (p5_4N_x * L_5_0 + (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx + J1)
       + Real(0.0020475)) + Real(0.0075537)) - Real(0.00333)) - Real(0.29520861244275)))))));
-  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u4_3 * L_3_0 - (b_4 * L_4_0 + (b_5 * L_5_0 + (input.u[0] +
-      (r2_y * bf3c_z + (Real(2.0) * (state.z[1] * bKy1) - (S1_yz * zz_1 - (r3_y * bdf3_z + (bKy2 * z2_2 -
-      (S2_yz * zz_2 + (s3 * bn4_x - (c3 * bdn5_x - (S3b_yz * zz_3 + bKy3 * z2_3))))))))))))));
+  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u4_3 * L_3_0 - (b_4 * L_4_0 + (b_5 * L_5_0 - (input.u[0] -
+      (r2_y * bf3c_z - (Real(2.0) * (state.z[1] * bKy1) + (S1_yz * zz_1 + (r3_y * bdf3_z - (bKy2 * z2_2 -
+      (S2_yz * zz_2 - (s3 * bn4_x - (c3 * bdn5_x + (S3b_yz * zz_3 - bKy3 * z2_3))))))))))))));
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = u1_0 * invD_0;
   const Real y_1 = u2_1 * invD_1;
-  const Real zdot_1 = y_1 - L_1_0 * y_0;
+  const Real zdot_1 = y_1 + L_1_0 * y_0;
   const Real y_2 = u3_2 * invD_2;
-  const Real zdot_2 = L_2_0 * y_0 - (y_2 - L_2_1 * zdot_1);
+  const Real zdot_2 = L_2_0 * y_0 + (y_2 - L_2_1 * zdot_1);
   const Real y_3 = u4_3 * invD_3;
-  const Real zdot_3 = L_3_0 * y_0 + (L_3_1 * zdot_1 - (y_3 + L_3_2 * zdot_2));
+  const Real zdot_3 = L_3_0 * y_0 - (L_3_1 * zdot_1 - (y_3 - L_3_2 * zdot_2));
   const Real y_4 = b_4 * invD_4;
-  const Real t419 = zdot_3 - (zdot_1 - zdot_2);
-  const Real zdot_4 = L_4_3 * t419 + (y_4 - L_4_0 * y_0);
+  const Real t429 = zdot_3 + (zdot_1 + zdot_2);
+  const Real zdot_4 = L_4_3 * t429 - (y_4 + L_4_0 * y_0);
   const Real y_5 = b_5 * Real(58.355064750790525);
-  const Real zdot_5 = L_5_3 * t419 + (y_5 + L_5_0 * y_0);
+  const Real zdot_5 = L_5_3 * t429 - (y_5 - L_5_0 * y_0);
   zdot[0] = y_0;
   zdot[1] = zdot_1;
-  zdot[2] = -zdot_2;
-  zdot[3] = -zdot_3;
-  zdot[4] = -zdot_4;
-  zdot[5] = zdot_5;
+  zdot[2] = zdot_2;
+  zdot[3] = zdot_3;
+  zdot[4] = zdot_4;
+  zdot[5] = -zdot_5;
 }
 
 template <class Real>
@@ -509,14 +518,16 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
     noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  const Real angle3 = angle2 + state.y[3];
-  Real s3, c3;
-  detail::sine_cosine(angle3, s3, c3);
+  Real t16, t17;
+  detail::sine_cosine(state.y[3], t16, t17);
+  const Real s3 = c2 * t16 - s2 * t17;
+  const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
   Real s4, c4;
@@ -547,40 +558,40 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real S3b_yz = c3 * S4b_xy + s3 * S4c_xz;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real t67 = r3_x * h3b_x;
-  const Real D3 = t67 - r3_y * h3b_y;
+  const Real t77 = r3_x * h3b_x;
+  const Real D3 = t77 + r3_y * h3b_y;
   const Real S2b_t = s2 * Real(0.59155695167475);
   const Real S2b_xy = c2 * S2b_t;
   const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real S2b_yz = c2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
-  const Real h2_x = h3b_x + h2b_x;
+  const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real J2 = D3 + (S3b_zz + D3) + Real(0.59565195167475);
-  const Real S2_xy = S2b_xy + (r3_y * h3b_x - (S3b_xy + r3_x * h3b_y));
-  const Real S2_xz = S3b_xz - S2b_xz;
+  const Real J2 = D3 - (S3b_zz - D3) - Real(0.59565195167475);
+  const Real S2_xy = S2b_xy - (r3_y * h3b_x - (S3b_xy - r3_x * h3b_y));
+  const Real S2_xz = S3b_xz + S2b_xz;
   const Real S2_yz = S3b_yz + S2b_yz;
-  const Real t93 = r2_x * h2_x;
-  const Real D2 = t93 - r2_y * h2_y;
+  const Real t103 = r2_x * h2_x;
+  const Real D2 = t103 - r2_y * h2_y;
   const Real S1b_t = s1 * Real(1.7550195384100002);
   const Real S1b_xy = c1 * S1b_t;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
   const Real S1b_yz = c1 * Real(0.4084992088750001);
   const Real h1b_y = c1 * Real(4.4329225);
-  const Real h1_y = h2_y - h1b_y;
-  const Real J1 = D2 + (J2 + D2) + Real(1.7701269384100002);
-  const Real S1_xy = S1b_xy + (r2_y * h2_x + (S2_xy - r2_x * h2_y));
-  const Real S1_xz = S2_xz - S1b_xz;
-  const Real S1_yz = S2_yz + S1b_yz;
-  const Real S0b_zz = Real(2.0) * (t67 + t93) + (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx -
+  const Real h1_y = h2_y + h1b_y;
+  const Real J1 = D2 + (J2 + D2) - Real(1.7701269384100002);
+  const Real S1_xy = S1b_xy - (r2_y * h2_x + (S2_xy - r2_x * h2_y));
+  const Real S1_xz = S2_xz + S1b_xz;
+  const Real S1_yz = S2_yz - S1b_yz;
+  const Real S0b_zz = Real(2.0) * (t77 + t103) - (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx +
       J1) + Real(0.0020475)) + Real(0.0075537)) - Real(0.00333)) - Real(0.29520861244275));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
   const Real w4pp_y = s3 * state.z[0];
-  const Real w4_z = w4pp_x - state.z[4];
-  const Real w5pp_x = c4 * w4pp_y + s4 * w3_z;
+  const Real w4_z = w4pp_x + state.z[4];
+  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
   const Real adn0_z = S0b_zz * zdot[0];
   const Real aKy1 = S1_xy * state.z[0];
   const Real zz_1 = state.z[1] * state.z[1];
@@ -601,9 +612,9 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aal2o_z = zdot[1] + zdot[2];
   const Real aW2w22 = w2_z * w2_z;
   const Real aW2U1_y = aW1w00 + aW2w22;
-  const Real aa3o_x = r3_y * aal2o_z - (aa2o_x + r3_x * aW2w22);
-  const Real aa3o_y = r3_y * aW2U1_y + (aa2o_y + r3_x * aal2o_z);
-  const Real aKy3 = S3b_xy * state.z[0] + S3b_yz * w2_z;
+  const Real aa3o_x = r3_y * aal2o_z + (aa2o_x + r3_x * aW2w22);
+  const Real aa3o_y = r3_y * aW2U1_y - (aa2o_y + r3_x * aal2o_z);
+  const Real aKy3 = S3b_xy * state.z[0] - S3b_yz * w2_z;
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w2_z + w3_z);
@@ -616,44 +627,44 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aal3o_z = aal2o_z + zdot[3];
   const Real aal4p_x = c3 * zdot[0] - s3 * aal3o_y;
   const Real aal4p_y = s3 * zdot[0] + c3 * aal3o_y;
-  const Real aKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y + S4b_xy * w3_z);
-  const Real aKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
+  const Real aKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
+  const Real aKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
   const Real adn4_z = S4b_zz * zdot[4];
-  const Real aal4o_x = aal4p_y + w3_z * state.z[4];
-  const Real aal4o_y = aal3o_z - w4pp_y * state.z[4];
-  const Real aal5p_y = c4 * aal4o_y - s4 * aal4o_x;
+  const Real aal4o_x = aal4p_y - w3_z * state.z[4];
+  const Real aal4o_y = aal3o_z + w4pp_y * state.z[4];
+  const Real aal5p_y = c4 * aal4o_y + s4 * aal4o_x;
   const Real aKx5 = S5b_xx * w4_z + S5b_xy * w5pp_x;
   const Real aKy5 = S5b_xy * w4_z - S5b_yy * w5pp_x;
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real adn5_x = aKy5 * z2_5;
   const Real adn5_y = aKx5 * z2_5;
   const Real adn5_z = Real(0.0171364731454) * zdot[5];
-  const Real an4_x = s4 * adn5_z - (c4 * adn5_y - (aKy4 * z2_4 - (S4b_xz * zdot[4] - S4b_yz * zz_4)));
-  const Real an4_z = adn4_z - adn5_x;
-  const Real an3_z = s4 * adn5_y + (c4 * adn5_z - (aKx4 * z2_4 - (S4b_xz * zz_4 + (adn3_z + S4b_yz *
+  const Real an4_x = s4 * adn5_z + (c4 * adn5_y + (aKy4 * z2_4 - (S4b_xz * zdot[4] - S4b_yz * zz_4)));
+  const Real an4_z = adn4_z + adn5_x;
+  const Real an3_z = s4 * adn5_y - (c4 * adn5_z + (aKx4 * z2_4 + (S4b_xz * zz_4 + (adn3_z + S4b_yz *
       zdot[4]))));
   const Real af3c_x = adf3_x + (h2_y * zdot[2] + h2_x * zw_2);
   const Real af3c_y = adf3_y + (h2_x * zdot[2] - h2_y * zw_2);
   const Real af3c_z = adf2_z + adf3_z;
-  const Real an3c_z = r3_y * adf3_x - (r3_x * adf3_y + (adn2_z + an3_z));
-  const Real an0_z = r2_y * af3c_z + (Real(2.0) * (state.z[1] * aKy1) - (S1_yz * zz_1 - (S1_xz * zdot[1] +
-      (r3_y * adf3_z + (aKy2 * z2_2 - (S2_yz * zz_2 - (S2_xz * zdot[2] + (s3 * an4_x - (c3 * an4_z + (aKy3 *
-      z2_3 + (S3b_yz * zz_3 - (adn0_z + S3b_xz * zdot[3]))))))))))));
-  const Real aQ1_0 = r2_y * af3c_x - (r2_x * af3c_y + (adn1_z - (an3c_z + (S1_xz * zdot[0] - (h1_y *
-      Real(9.81) + state.z[0] * aKy1)))));
-  const Real aQ2_0 = an3c_z - (S2_yz * aal1o_y + (h2_y * aa2o_x + (h2_x * aa2o_y + (J2 * zdot[1] + (state.z[0]
+  const Real an3c_z = r3_y * adf3_x + (r3_x * adf3_y + (adn2_z + an3_z));
+  const Real an0_z = r2_y * af3c_z - (Real(2.0) * (state.z[1] * aKy1) + (S1_yz * zz_1 - (S1_xz * zdot[1] -
+      (r3_y * adf3_z - (aKy2 * z2_2 - (S2_yz * zz_2 - (S2_xz * zdot[2] + (s3 * an4_x - (c3 * an4_z - (aKy3 *
+      z2_3 - (S3b_yz * zz_3 - (adn0_z + S3b_xz * zdot[3]))))))))))));
+  const Real aQ1_0 = r2_y * af3c_x - (r2_x * af3c_y + (adn1_z + (an3c_z - (S1_xz * zdot[0] - (h1_y *
+      Real(9.81) - state.z[0] * aKy1)))));
+  const Real aQ2_0 = an3c_z + (S2_yz * aal1o_y + (h2_y * aa2o_x + (h2_x * aa2o_y + (J2 * zdot[1] + (state.z[0]
       * aKy2 - S2_xz * zdot[0])))));
-  const Real aQ3_0 = an3_z - (h3b_y * aa3o_x - (h3b_x * aa3o_y + (S3b_yz * aal2o_y + (S3b_zz * aal2o_z -
-      (state.z[0] * aKy3 + S3b_xz * zdot[0])))));
-  const Real aQ4_0 = an4_z - (w4pp_y * aKy4 + (w3_z * aKx4 + (S4b_yz * aal3o_z + (S4b_zz * aal4p_x + S4b_xz *
+  const Real aQ3_0 = an3_z + (h3b_y * aa3o_x - (h3b_x * aa3o_y - (S3b_yz * aal2o_y - (S3b_zz * aal2o_z -
+      (state.z[0] * aKy3 - S3b_xz * zdot[0])))));
+  const Real aQ4_0 = an4_z + (w4pp_y * aKy4 + (w3_z * aKx4 - (S4b_yz * aal3o_z - (S4b_zz * aal4p_x + S4b_xz *
       aal4p_y))));
   const Real aQ5_0 = adn5_z - (w5pp_x * aKx5 - (Real(0.0171364731454) * aal5p_y + w4_z * aKy5));
-  tau[0] = -an0_z;
-  tau[1] = -aQ1_0;
+  tau[0] = an0_z;
+  tau[1] = aQ1_0;
   tau[2] = -aQ2_0;
-  tau[3] = aQ3_0;
+  tau[3] = -aQ3_0;
   tau[4] = -aQ4_0;
   tau[5] = aQ5_0;
 }
@@ -662,14 +673,16 @@ template <class Real>
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
-  const Real angle2 = state.y[1] + state.y[2];
-  Real s2, c2;
-  detail::sine_cosine(angle2, s2, c2);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = c1 * t4 + s1 * t5;
+  const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  const Real angle3 = angle2 + state.y[3];
-  Real s3, c3;
-  detail::sine_cosine(angle3, s3, c3);
+  Real t16, t17;
+  detail::sine_cosine(state.y[3], t16, t17);
+  const Real s3 = c2 * t16 - s2 * t17;
+  const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
   Real s4, c4;
@@ -696,28 +709,28 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real t61 = r3_x * h3b_x;
-  const Real D3 = t61 - r3_y * h3b_y;
+  const Real t71 = r3_x * h3b_x;
+  const Real D3 = t71 + r3_y * h3b_y;
   const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
-  const Real h2_x = h3b_x + h2b_x;
+  const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real J2 = D3 + (S3b_zz + D3) + Real(0.59565195167475);
-  const Real S2_xz = S3b_xz - S2b_xz;
-  const Real t79 = r2_x * h2_x;
-  const Real D2 = t79 - r2_y * h2_y;
+  const Real J2 = D3 - (S3b_zz - D3) - Real(0.59565195167475);
+  const Real S2_xz = S3b_xz + S2b_xz;
+  const Real t89 = r2_x * h2_x;
+  const Real D2 = t89 - r2_y * h2_y;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
-  const Real J1 = D2 + (J2 + D2) + Real(1.7701269384100002);
-  const Real S1_xz = S2_xz - S1b_xz;
-  const Real S0b_zz = Real(2.0) * (t61 + t79) - (S4b_xx - (S4b_zz + (s1 * s1 * Real(1.7550195384100002) + (s2
-      * s2 * Real(0.59155695167475) + (s3 * S3b_t + (S4c_xx - J1) + Real(0.0020475)) + Real(0.0075537)) -
+  const Real J1 = D2 + (J2 + D2) - Real(1.7701269384100002);
+  const Real S1_xz = S2_xz + S1b_xz;
+  const Real S0b_zz = Real(2.0) * (t71 + t89) + (S4b_xx - (S4b_zz + (s1 * s1 * Real(1.7550195384100002) + (s2
+      * s2 * Real(0.59155695167475) + (s3 * S3b_t + (S4c_xx + J1) + Real(0.0020475)) + Real(0.0075537)) -
       Real(0.00333))) + Real(0.29520861244275));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
   const Real w4pp_y = s3 * state.z[0];
-  const Real w5pp_y = c4 * w3_z - s4 * w4pp_y;
+  const Real w5pp_y = c4 * w3_z + s4 * w4pp_y;
   const Real v0L_z = S0b_zz * state.z[0];
   const Real v1L_x = S1_xz * state.z[1];
   const Real v1L_z = J1 * state.z[1];
@@ -727,7 +740,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v2P_y = h2_x * state.z[2];
   const Real v2L_x = S2_xz * state.z[2];
   const Real v2L_z = J2 * state.z[2];
-  const Real v3o_x = v2o_x + r3_y * w2_z;
+  const Real v3o_x = v2o_x - r3_y * w2_z;
   const Real v3o_y = v2o_y + r3_x * w2_z;
   const Real v3P_x = h3b_y * state.z[3];
   const Real v3P_y = h3b_x * state.z[3];
@@ -737,24 +750,27 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v4L_y = S4b_yz * state.z[4];
   const Real v4L_z = S4b_zz * state.z[4];
   const Real v5L_z = Real(0.0171364731454) * state.z[5];
-  const Real T5 = (state.z[0] * v0L_z - (state.z[1] * v1L_z + (state.z[2] * v2L_z + (state.z[3] * v3L_z -
-      (state.z[4] * v4L_z - state.z[5] * v5L_z))))) * Real(0.5) + (state.z[0] * (v3L_x + (v1L_x + v2L_x)) -
-      (w5pp_y * v5L_z + (w4pp_y * v4L_x + (w4pp_x * v4L_z + (w3_z * v4L_y + (v3o_y * v3P_y - (v3o_x * v3P_x -
-      (w2_z * v3L_z + (v2o_y * v2P_y + (state.z[1] * v2L_z - v2o_x * v2P_x))))))))));
-  return -T5;
+  const Real T5 = (state.z[0] * v0L_z - (state.z[1] * v1L_z + (state.z[2] * v2L_z - (state.z[3] * v3L_z -
+      (state.z[4] * v4L_z - state.z[5] * v5L_z))))) * Real(0.5) + (state.z[0] * (v3L_x + (v1L_x + v2L_x)) +
+      (w5pp_y * v5L_z - (w4pp_y * v4L_x + (w4pp_x * v4L_z - (w3_z * v4L_y - (v3o_y * v3P_y - (v3o_x * v3P_x +
+      (w2_z * v3L_z - (v2o_y * v2P_y + (state.z[1] * v2L_z - v2o_x * v2P_x))))))))));
+  return T5;
 }
 
 template <class Real>
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real s1 = detail::sine(state.y[1]);
-  const Real angle2 = state.y[1] + state.y[2];
-  const Real s2 = detail::sine(angle2);
-  const Real angle3 = angle2 + state.y[3];
-  const Real c3 = detail::cosine(angle3);
+  Real s1, t3;
+  detail::sine_cosine(state.y[1], s1, t3);
+  Real t4, t5;
+  detail::sine_cosine(state.y[2], t4, t5);
+  const Real s2 = t3 * t4 + s1 * t5;
+  Real t13, t14;
+  detail::sine_cosine(state.y[3], t13, t14);
+  const Real c3 = s2 * t13 + (s1 * t4 - t3 * t5) * t14;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h1b_x = s1 * Real(4.4329225);
-  const Real hg0_z = h1b_x + (h3b_x + h2b_x) - Real(1.5151591301);
+  const Real hg0_z = h1b_x - (h3b_x - h2b_x) - Real(1.5151591301);
   const Real V = hg0_z * Real(9.81);
   return -V;
 }

@@ -95,8 +95,10 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
   std::string derivatives;
   if (with_derivatives)
     derivatives = fmt::format(
-        "void derivatives(const double* t, const double* y, const double* z, const double* u, double* zdot_y, "
-        "double* zdot_z) {{\n  constexpr int nz = Model::velocity_count;\n  static Real zd[nz], by_y[nz][nz], by_z[nz][nz];\n"
+        "void derivatives(const double* t, const double* y, const double* z, const double* u, double* "
+        "zdot_y, "
+        "double* zdot_z) {{\n  constexpr int nz = Model::velocity_count;\n  static Real zd[nz], "
+        "by_y[nz][nz], by_z[nz][nz];\n"
         "  ::{}::forward_dynamics_derivatives(model(), to_state(t, y, z), to_input(u), zd, by_y, by_z);\n"
         "  write(*by_y, zdot_y, nz * nz);\n  write(*by_z, zdot_z, nz * nz);\n}}\n\n",
         name);

@@ -99,7 +99,8 @@ std::vector<std::string> default_methods(DerivativeTerms terms, std::size_t velo
                                [](const std::string& m) { return emit::find_stepper(m)->implicit; }),
                 methods.end());
   fmt::print(stderr,
-             "note: with more than {} velocities linearly implicit methods are left out, whose derivatives take long to "
+             "note: with more than {} velocities linearly implicit methods are left out, whose derivatives "
+             "take long to "
              "compile; --methods asks for them\n",
              kMostVelocities);
   return methods;

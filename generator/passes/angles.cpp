@@ -53,7 +53,8 @@ class Splitting {
 
   bool is_sum(ValueId id) const {
     const Node& node = program_[id];
-    return (node.op == Op::kAdd || node.op == Op::kSubtract) && !fixed_[node.a.value] && !fixed_[node.b.value];
+    return (node.op == Op::kAdd || node.op == Op::kSubtract) && !fixed_[node.a.value] &&
+           !fixed_[node.b.value];
   }
 
   /// Runs of parallel joints are sums of sums: each partial sum is split once.
@@ -66,7 +67,8 @@ class Splitting {
       Pair b = pair_of(node.b);
       if (node.op == Op::kSubtract) b.sine = -b.sine;
       pair.sine = builder_.add(builder_.multiply(a.sine, b.cosine), builder_.multiply(a.cosine, b.sine));
-      pair.cosine = builder_.subtract(builder_.multiply(a.cosine, b.cosine), builder_.multiply(a.sine, b.sine));
+      pair.cosine =
+          builder_.subtract(builder_.multiply(a.cosine, b.cosine), builder_.multiply(a.sine, b.sine));
     } else {
       pair = {builder_.unary(Op::kSin, copy_[id.value]), builder_.unary(Op::kCos, copy_[id.value])};
     }

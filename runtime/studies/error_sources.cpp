@@ -54,7 +54,8 @@ ErrorSources error_sources(const Flow<double>& flow, const Flow<LongReal>& long_
   Memory start_memory = long_flow.fresh_memory(method);
   for (std::size_t step = 0; step < steps; ++step) {
     const std::size_t k = step * stride;
-    const bool starting = step < static_cast<std::size_t>(method.history);
+    // What an implicit method remembers comes from its step on the exact solution before.
+    const bool starting = method.implicit || step < static_cast<std::size_t>(method.history);
     Memory memory = starting
                         ? start_memory
                         : long_flow.memory_of(method, earlier_points(reference, k, stride, method.history));

@@ -70,8 +70,8 @@ MatrixXd emitted_linearisation(const Flow<double>& flow, const Point<double>& po
   const auto nz = static_cast<Index>(flow.table().velocity_count);
   RowMajor by_y(nz, nz), by_z(nz, nz);
   const std::vector<double> u = flow.inputs().at(point.t);
-  flow.table().derivatives(&point.t, point.x.data(), point.x.data() + flow.position_count(), u.data(), by_y.data(),
-                           by_z.data());
+  flow.table().derivatives(&point.t, point.x.data(), point.x.data() + flow.position_count(), u.data(),
+                           by_y.data(), by_z.data());
   MatrixXd A(2 * nz, 2 * nz);
   A << MatrixXd::Zero(nz, nz), MatrixXd::Identity(nz, nz), by_y, by_z;
   return A;

@@ -72,6 +72,7 @@ Json methods_json(const jourdain_model_table& table, const Study& study) {
                   {"order", method.order},
                   {"measured_order", number(study.work.orders[m])},
                   {"evaluations", method.evaluations},
+                  {"implicit", method.implicit != 0},
                   {"operations", method.operations},
                   {"step_time_s", time.median},
                   {"step_time_quartiles_s", {time.lower_quartile, time.upper_quartile}}};

@@ -150,7 +150,8 @@ LimitsAlong no_limits(std::size_t count) {
 const MethodLimit* stiff_limit(const Stability& stability) {
   const MethodLimit* longest = nullptr;
   for (const MethodLimit& limit : stability.limits)
-    if (limit.h > 0 && std::isfinite(limit.h) && !limit.implicit && (!longest || limit.h > longest->h)) longest = &limit;
+    if (limit.h > 0 && std::isfinite(limit.h) && !limit.implicit && (!longest || limit.h > longest->h))
+      longest = &limit;
   return longest && is_stiff(*longest, stability.rate) ? longest : nullptr;
 }
 

@@ -137,7 +137,7 @@ std::vector<Family> state_families() {
       {"spatial links", "angles", -20, 30, 1, spatial, scale_positions, false},
       {"universal joints", "angles", -20, 30, 1, universals, scale_positions, false},
       {"Panda", "angles", -20, 30, 5, always(panda()), scale_positions, false},
-      {"planar links", "angles", -20, 30, 1, planar, scale_positions, false, Loss::kLargeAngle},
+      {"planar links", "angles", -20, 30, 1, planar, scale_positions, false},
       {"screw, hinge and slide", "angles, travel", -20, 20, 1, always(screw_hinge_slide(0.25)),
        scale_positions, false, Loss::kSmallMoment},
       {"mass in a gimbal, on the shaft", "from lock, rad", -40, 0, 1, always(gimballed_mass(0, 0, 1)),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ir/builder.hpp"
+#include "passes/angles.hpp"
 #include "passes/constants.hpp"
 #include "passes/factor.hpp"
 #include "passes/hoist.hpp"
@@ -126,12 +127,38 @@ TEST(Passes, AreIdempotent) {
   }
 }
 
+TEST(SplitAngles, KeepsTheDigitsThatASumOfLargeAnglesLoses) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1),
+               z = b.leaf(LeafKind::kPosition, 2), sum = b.add(b.add(x, y), -z);
+  b.output("s", 0, -1, b.unary(ir::Op::kSin, sum));
+  b.output("c", 0, -1, b.unary(ir::Op::kCos, sum));
+  const Program program = b.finish("sum"), split = split_angles(program);
+  ir::LeafValues<double> leaves;
+  leaves[LeafKind::kPosition] = {1e9 + 0.3, 2e9 - 0.7, 7e8 + 0.1};
+  const std::vector<double>& angles = leaves[LeafKind::kPosition];
+  const long double exact = static_cast<long double>(angles[0]) + angles[1] - angles[2];  // without rounding
+  const std::vector<double> values = ir::interpret(split, leaves), rounded = ir::interpret(program, leaves);
+  EXPECT_NEAR(values[0], double(std::sin(exact)), 1e-15);
+  EXPECT_NEAR(values[1], double(std::cos(exact)), 1e-15);
+  EXPECT_GT(std::fabs(rounded[0] - double(std::sin(exact))), 1e-9);
+  EXPECT_EQ(operations(split), 12u);
+}
+
+TEST(SplitAngles, LeavesAConstantOffsetInItsSum) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0);
+  b.output("s", 0, -1, b.unary(ir::Op::kSin, b.add(x, b.literal(0.5))));
+  const Program program = b.finish("offset");
+  EXPECT_EQ(print(split_angles(program)), print(program));
+}
+
 TEST(Pipeline, RecordsWhatEachPassDid) {
   const Optimised result = optimise(module_of(random_program(7)));
-  ASSERT_EQ(result.records.size(), 4u);
+  ASSERT_EQ(result.records.size(), 5u);
   EXPECT_EQ(result.records.back().name, "hoist");
   EXPECT_EQ(result.records.back().operations_after, arithmetic(result.module));
-  EXPECT_EQ(optimise(module_of(random_program(7)), {"factor"}).records.size(), 3u);
+  EXPECT_EQ(optimise(module_of(random_program(7)), {"factor"}).records.size(), 4u);
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ EmittedModel emitted_from(const std::string& text, const std::vector<std::string
 }
 
 EmittedModel emitted_model(const std::string& name, const std::vector<std::string>& functions) {
-  return emitted_from(support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/" + name + ".toml"), functions);
+  return emitted_from(support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/" + name + ".toml"),
+                      functions);
 }
 
 std::size_t method_called(const jourdain_model_table& table, const std::string& name) {

@@ -1,24 +1,173 @@
-// Stiff models: the limits that are predicted against the ones that runs show, and what the implicit steppers do beyond.
+// Stiff models: limits that are predicted against those that runs show, and the implicit steppers at many times RK4's limit.
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "agreement/shared_data.hpp"
+#include "commands/build_model.hpp"
 #include "studies/judged.hpp"
+#include "studies/report.hpp"
 
 namespace jourdain::tests {
 namespace {
 
-TEST(Explore, Limits) {
-  struct Case { const char* model; const char* parameter; std::vector<double> values; double duration; bool conserves; };
-  for (const Case& c : {Case{"spring_pendulum","k",{1e2,1e4,1e6,1e8,1e10,1e12},1,true}, Case{"elastic_arm","k",{1e3,1e6,1e9},1,false}, Case{"contact_wheel","k",{1e6,1e7,1e8},1,false}, Case{"spring_joint","k",{1e4,1e6,1e8,1e10},1,false}}) {
-    for (double v : c.values) {
-      EmittedModel m = emitted_model(c.model);
-      m.set_parameter(c.parameter, v);
-      const Judged j(std::move(m), 32, c.conserves, c.duration/32);
-      for (const char* method : {"euler","rk4"}) { const MethodLimit& l = j.limit(method);
-        fmt::print("{} {}={:g} {}: predicted {:.4g} observed {:.4g} mode {:.4g}{:+.4g}i kind {} fast {}\n", c.model,c.parameter,v,method,l.h,l.observed?l.observed->h:0.0,l.mode.real(),l.mode.imag(),int(l.kind),l.fast); }
-    }
+#ifndef JOURDAIN_SANITIZED  // runs by the million are too slow there
+
+/// A model with one of its parameters, over a time (s) that its fast mode fills with a few hundred periods.
+struct StiffCase {
+  const char* model;
+  const char* parameter;
+  double value, duration;
+  bool conserves = false;
+};
+
+void PrintTo(const StiffCase& c, std::ostream* out) {
+  *out << fmt::format("{} {}={:g}", c.model, c.parameter, c.value);
+}
+
+class StiffModels : public ::testing::TestWithParam<StiffCase> {};
+
+TEST_P(StiffModels, DivergeAtThePredictedStepsOfEulerAndRk4) {
+  constexpr long kIntervals = 16;
+  const StiffCase& c = GetParam();
+  EmittedModel model = emitted_model(c.model, commands::loadable_functions({"euler", "rk4", "rk5"}));
+  model.set_parameter(c.parameter, c.value);
+  const Judged judged(std::move(model), kIntervals, c.conserves, c.duration / kIntervals);
+  for (const char* method : {"euler", "rk4"}) {
+    const MethodLimit& limit = judged.limit(method);
+    fmt::print("{:<16} {} = {:<6g} {:<6} predicted {:<10} observed {:<10} mode {}\n", c.model, c.parameter,
+               c.value, method, limit_text(limit),
+               limit.observed ? fmt::format("{:.4g} s", limit.observed->h) : "-", mode_text(limit.mode));
+    if (limit.h > 0) judged.expect_observed(method);
   }
+  if (c.conserves) {
+    EXPECT_EQ(judged.limit("euler").h, 0);
+    EXPECT_NEAR(judged.limit("rk4").h * std::abs(judged.limit("rk4").mode), std::sqrt(8.0), 1e-3);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Limits, StiffModels,
+    ::testing::Values(StiffCase{"spring_pendulum", "k", 1e4, 0.5, true},
+                      StiffCase{"spring_pendulum", "k", 1e6, 0.2, true},
+                      StiffCase{"spring_pendulum", "k", 1e8, 0.05, true},
+                      StiffCase{"spring_pendulum", "k", 1e10, 0.1, true},
+                      StiffCase{"spring_pendulum", "k", 1e12, 3e-3, true},
+                      StiffCase{"elastic_arm", "k", 1e3, 1}, StiffCase{"elastic_arm", "k", 1e6, 0.1},
+                      StiffCase{"elastic_arm", "k", 1e9, 3e-3}, StiffCase{"contact_wheel", "k", 1e7, 0.5},
+                      StiffCase{"contact_wheel", "k", 3e7, 0.2}, StiffCase{"spring_joint", "k", 1e4, 0.5},
+                      StiffCase{"spring_joint", "k", 1e8, 0.01}, StiffCase{"bushing_chain", "k", 1e6, 0.02}));
+
+#endif
+
+/// Largest differences along the way.
+struct Differences {
+  double position = 0, velocity = 0;
+};
+
+/// Positions and velocities at `count` times of a run of `method`.
+std::vector<std::vector<double>> sampled(const Flow<double>& flow, const char* method, double h, long steps,
+                                         long count) {
+  const jourdain_method& m = flow.table().methods[method_called(flow.table(), method)];
+  Point<double> point = flow.start();
+  Memory memory = flow.fresh_memory(m);
+  std::vector<std::vector<double>> samples;
+  for (long i = 0; i < count; ++i) {
+    flow.step(m, point, h, steps, memory);
+    samples.push_back(point.x);
+  }
+  return samples;
+}
+
+/// Of the link angles of the elastic arm: motor and spring together.
+Differences of_links(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
+  Differences worst;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t i = 0; i < 6; i += 2) {
+      const auto link = [i](const std::vector<double>& x, std::size_t first) {
+        return x[first + i] + x[first + i + 1];
+      };
+      worst.position = larger_error(worst.position, std::fabs(link(a[k], 0) - link(b[k], 0)));
+      worst.velocity = larger_error(worst.velocity, std::fabs(link(a[k], 6) - link(b[k], 6)));
+    }
+  return worst;
+}
+
+/// 2 s of the arm at 20 times RK4's largest stable step, against explicit steps at a thirtieth of it.
+class ElasticArm {
+ public:
+  ElasticArm(EmittedModel& model, double k, double damping_ratio, double deflection)
+      : flow_(model.table(), none_) {
+    model.set_parameter("k", k);
+    model.set_parameter("damping_ratio", damping_ratio);
+    std::vector<double> x = flow_.start().x;
+    for (std::size_t i = 1; i < 6; i += 2) x[i] *= deflection;
+    flow_.set_start(x);
+    const double rk4 = kRk4Limit * std::sqrt(1e6 / k);
+    count_ = long(2 / (20 * rk4));
+    constexpr long kFiner = 400;
+    exact_ = sampled(flow_, "rk5", step() / kFiner, kFiner, count_);
+  }
+
+  double step() const { return 2.0 / double(count_); }
+  Differences error(const char* method) const {
+    const Differences d = of_links(sampled(flow_, method, step(), 1, count_), exact_);
+    fmt::print("  {:<23} h = {:.3g} s: link angles {:.1e} rad, velocities {:.1e} rad/s\n", method, step(),
+               d.position, d.velocity);
+    return d;
+  }
+
+ private:
+  static constexpr double kRk4Limit = 2.588e-4;  // s, at k = 1e6 N m/rad; seen in the limits above
+  ConstantInputs none_{{}};
+  Flow<double> flow_;
+  long count_ = 0;
+  std::vector<std::vector<double>> exact_;
+};
+
+constexpr double kLinks = 1e-5;  // rad
+
+TEST(ElasticArm, KeepsItsLinkAnglesAtTwentyTimesTheLimitOfRk4) {
+#ifdef JOURDAIN_SANITIZED
+  GTEST_SKIP() << "runs by the million are too slow under the sanitizers";
+#endif
+  EmittedModel model = emitted_model("elastic_arm");
+  for (const double k : {1e6, 1e9})
+    for (const auto& [ratio, deflection] : {std::pair(0.05, 1.0), {0.05, 1.5}, {0.0, 1.5}}) {
+      fmt::print("k = {:g} N m/rad, damping ratio {}, started at {} times the static deflection\n", k, ratio,
+                 deflection);
+      const ElasticArm arm(model, k, ratio, deflection);
+      for (const char* method : {"ros34pw2", "rosw43", "rodas4"})
+        EXPECT_LE(arm.error(method).position, kLinks) << method;
+    }
+}
+
+/// Largest error of the governor's slider (m) over 10 s at every `interval` (s), against a run of rk5.
+double slider_error(const Flow<double>& flow, const char* method, double h,
+                    const std::vector<std::vector<double>>& exact, double interval) {
+  const auto samples = sampled(flow, method, h, std::lround(interval / h), long(exact.size()));
+  double worst = 0;
+  for (std::size_t k = 0; k < exact.size(); ++k)
+    worst = larger_error(worst, std::fabs(samples[k][1] - exact[k][1]));
+  fmt::print("  {:<23} h = {:.3g} s: slider {:.1e} m\n", method, h, worst);
+  return worst;
+}
+
+TEST(FlyballGovernor, KeepsItsSliderAtTwentyTimesTheLimitOfRk4) {
+#ifdef JOURDAIN_SANITIZED
+  GTEST_SKIP() << "runs by the million are too slow under the sanitizers";
+#endif
+  EmittedModel model = emitted_model("flyball_governor");
+  const ConstantInputs none{{}};
+  const Flow<double> flow(model.table(), none);
+  constexpr double kStep = 10.0 / 1450;  // 6.9e-3 s, over 20 times 3.43e-4 s
+  const auto exact = sampled(flow, "rk5", kStep / 50, 50, 1450);
+  EXPECT_LE(slider_error(flow, "rosw43", kStep, exact, kStep), 1e-5);
+  EXPECT_LE(slider_error(flow, "rodas4", kStep, exact, kStep), 1e-5);
+  EXPECT_LE(slider_error(flow, "ros34pw2", kStep, exact, kStep), 2e-5);  // 1e-5 at 17 times the limit
+  constexpr double kShorter = 10.0 / 1740;
+  EXPECT_LE(slider_error(flow, "ros34pw2", kShorter, sampled(flow, "rk5", kShorter / 50, 50, 1740), kShorter),
+            1e-5);
 }
 
 }  // namespace
