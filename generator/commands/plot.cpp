@@ -13,9 +13,9 @@ namespace jourdain::commands {
 namespace {
 
 /// Readable on white and on black.
-constexpr const char* kPalette[] = {"#d9480f", "#2f7ed8", "#2b8a3e", "#a64dc9",
-                                    "#b8860b", "#0c9aa8", "#d6336c", "#868e96"};
-constexpr int kMarks[] = {7, 5, 9, 11, 13, 4, 6, 8};  ///< gnuplot's point types
+constexpr const char* kPalette[] = {"#d9480f", "#2f7ed8", "#2b8a3e", "#a64dc9", "#b8860b", "#0c9aa8",
+                                    "#d6336c", "#868e96", "#5c7cfa", "#e8590c", "#12b886", "#9c6644"};
+constexpr int kMarks[] = {7, 5, 9, 11, 13, 4, 6, 8, 10, 12, 15, 14};  ///< gnuplot's point types
 
 /// Between single quotes of gnuplot.
 std::string quoted(const std::string& text) {
@@ -52,7 +52,7 @@ std::string script(const Plot& plot, const std::string& output) {
   text += "set title " + quoted(plot.title) + " noenhanced\nset xlabel " + quoted(plot.x_title) +
           " noenhanced offset 0,0.4\nset ylabel " + quoted(plot.y_title) + " noenhanced\n";
   text +=
-      "set key bmargin center horizontal noenhanced\nset grid lc rgb '#808080' lw 0.4\nset border lw 0.8\n";
+      "set key bmargin center horizontal noenhanced samplen 2 width -2\nset grid lc rgb '#808080' lw 0.4\nset border lw 0.8\n";
   if (plot.x_logarithmic) text += "set logscale x 10\nset format x '10^{%L}'\n";
   if (plot.y_logarithmic) text += "set logscale y 10\nset format y '10^{%L}'\n";
   std::string list;
