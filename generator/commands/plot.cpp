@@ -52,7 +52,8 @@ std::string script(const Plot& plot, const std::string& output) {
   text += "set title " + quoted(plot.title) + " noenhanced\nset xlabel " + quoted(plot.x_title) +
           " noenhanced offset 0,0.4\nset ylabel " + quoted(plot.y_title) + " noenhanced\n";
   text +=
-      "set key bmargin center horizontal noenhanced samplen 2 width -2\nset grid lc rgb '#808080' lw 0.4\nset border lw 0.8\n";
+      "set key bmargin center horizontal noenhanced samplen 2 width -2\nset grid lc rgb '#808080' lw "
+      "0.4\nset border lw 0.8\n";
   if (plot.x_logarithmic) text += "set logscale x 10\nset format x '10^{%L}'\n";
   if (plot.y_logarithmic) text += "set logscale y 10\nset format y '10^{%L}'\n";
   std::string list;
