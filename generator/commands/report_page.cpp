@@ -324,6 +324,7 @@ std::vector<support::FileText> report_pages(const studies::ReportHead& head,
     for (std::size_t i = 0; i < of_stability.size(); ++i) text += drawing(svgs[next++]);
     sections += section("Stability", text);
   }
+  if (!study.extremes.empty()) sections += section("Extremes", extremes_table(study));
   if (has_energy) sections += section("Energy", drawing(svgs[next++]));
   if (has_forms) sections += section("Equations of the first kind", drawing(svgs[next++]));
   const std::string remarks = items(studies::remarks(table, study));

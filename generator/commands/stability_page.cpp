@@ -121,4 +121,17 @@ std::string stability_table(const jourdain_model_table& table, const Study& stud
   return text + "</table></div>\n";
 }
 
+std::string extremes_table(const Study& study) {
+  std::string text =
+      "<p class=\"soft\">Accelerations far from the usual, against 50 digits: worst errors in units of "
+      "rounding, and at which "
+      "factor.</p>\n<div "
+      "class=\"table\"><table><tr><th>swept</th><th>range</th><th>backward</th><th>forward</th>"
+      "<th>not finite at</th></tr>\n";
+  for (const std::vector<std::string>& row : studies::extremes_rows(study.extremes))
+    text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", row[0], row[1],
+                        row[2], row[3], row[4]);
+  return text + "</table></div>\n";
+}
+
 }  // namespace jourdain::commands

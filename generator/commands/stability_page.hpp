@@ -1,4 +1,4 @@
-// The part of a report's page that is about stability.
+// The parts of a report's page that are about stability and extremes.
 #pragma once
 
 #include <string>
@@ -14,5 +14,8 @@ std::vector<Plot> stability_plots(const jourdain_model_table& table, const studi
 
 /// The largest stable steps as an HTML table.
 std::string stability_table(const jourdain_model_table& table, const studies::Study& study);
+
+/// Accelerations far from the usual, as an HTML table.
+std::string extremes_table(const studies::Study& study);
 
 }  // namespace jourdain::commands

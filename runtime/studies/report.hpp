@@ -24,7 +24,7 @@ struct ReportHead {
 /// For a terminal, lines of 110 characters at most.
 std::string report_text(const ReportHead& head, const jourdain_model_table& table, const Study& study);
 
-/// work_precision.csv, error_sources.csv, stability.csv, first_kind.csv: as far as the study has them.
+/// work_precision.csv, error_sources.csv, stability.csv, extremes.csv, first_kind.csv: as far as the study has them.
 std::vector<support::FileText> report_csv(const jourdain_model_table& table, const Study& study);
 
 std::string report_json(const ReportHead& head, const jourdain_model_table& table, const Study& study);
@@ -41,6 +41,12 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
 
 /// Fastest mode, stiffness and each method's limit over time. An empty field: no limit; 0: no step is stable.
 std::string stability_csv(const jourdain_model_table& table, const Stability& stability);
+
+/// Worst errors of each sweep and where it breaks, for a terminal; empty where nothing was swept.
+std::string extremes_text(const std::vector<ExtremeSweep>& sweeps);
+/// A sweep in words: range, worst errors and their places, where accelerations stop being finite.
+std::vector<std::vector<std::string>> extremes_rows(const std::vector<ExtremeSweep>& sweeps);
+std::string extremes_csv(const std::vector<ExtremeSweep>& sweeps);
 
 /// That explicit methods are held to short steps by a damped mode and not by accuracy; empty where they are not.
 std::string stiff_text(const jourdain_model_table& table, const Study& study);

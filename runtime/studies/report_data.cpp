@@ -145,6 +145,20 @@ Json limit_json(const jourdain_model_table& table, const MethodLimit& limit) {
   return entry;
 }
 
+Json extremes_json(const Study& study) {
+  Json sweeps = Json::array();
+  for (const ExtremeSweep& sweep : study.extremes) {
+    Json points = Json::array();
+    for (const ExtremePoint& p : sweep.points)
+      points.push_back({{"factor", p.factor},
+                        {"backward_u", number(p.backward)},
+                        {"forward_u", number(p.forward)},
+                        {"finite", p.finite}});
+    sweeps.push_back({{"quantity", sweep.quantity}, {"points", points}});
+  }
+  return sweeps;
+}
+
 Json stability_json(const jourdain_model_table& table, const Study& study) {
   const Stability& s = study.stability;
   Json limits = Json::array(), owners = Json::array(), points = Json::array();
@@ -209,6 +223,7 @@ std::vector<support::FileText> report_csv(const jourdain_model_table& table, con
   if (!study.sources.empty()) files.push_back({"error_sources.csv", error_sources_csv(table, study)});
   if (!study.stability.points.empty())
     files.push_back({"stability.csv", stability_csv(table, study.stability)});
+  if (!study.extremes.empty()) files.push_back({"extremes.csv", extremes_csv(study.extremes)});
   if (!study.forms.empty()) files.push_back({"first_kind.csv", first_kind_csv(study)});
   return files;
 }
@@ -233,6 +248,7 @@ std::string report_json(const ReportHead& head, const jourdain_model_table& tabl
                        {"error_sources", sources_json(table, study)},
                        {"rounding", roundings_json(table, study)},
                        {"stability", stability_json(table, study)},
+                       {"extremes", extremes_json(study)},
                        {"first_kind", forms_json(study)},
                        {"recommendation", advice_json(table, study)}};
   return report.dump(1) + "\n";

@@ -185,7 +185,8 @@ std::string report_text(const ReportHead& head, const jourdain_model_table& tabl
                   head.real, head.scenario.empty() ? "" : ", " + head.scenario);
   for (const std::string& remark : remarks(table, study)) text += "  " + remark + "\n";
   text += "\n" + methods_table(table, study) + errors_table(table, study) + sources_table(table, study) +
-          stability_text(table, study) + forms_table(study) + forms_ratio(table, study);
+          stability_text(table, study) + extremes_text(study.extremes) + forms_table(study) +
+          forms_ratio(table, study);
   const std::string advice = advice_text(table, study);
   if (!advice.empty()) text += "\n  " + advice + "\n";
   return text;

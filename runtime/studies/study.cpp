@@ -186,6 +186,8 @@ Study run_study(const model::Mechanism& mechanism, const std::vector<double>& pa
   if (options.forms)
     study.forms = study_forms(mechanism, parameters, inputs, study.steps, sampling, study.reference,
                               options.seconds / 4, progress);
+  if (long_flow)
+    study.extremes = study_extremes(mechanism, parameters, flow, *long_flow, study.reference, progress);
   if (options.question.tolerance || options.question.budget) {
     progress("recommendation", 0);
     study.advice = advise(options.question, study.work, flow, sampling, study.reference, held);

@@ -8,6 +8,7 @@
 #include "model/mechanism.hpp"
 #include "studies/advice.hpp"
 #include "studies/error_sources.hpp"
+#include "studies/extremes.hpp"
 #include "studies/first_kind.hpp"
 #include "studies/sensitivity.hpp"
 #include "studies/stability.hpp"
@@ -56,6 +57,7 @@ struct Study {
   std::vector<SourceSummary> summaries;
   std::vector<FormCurve> forms;
   Stability stability;
+  std::vector<ExtremeSweep> extremes;  ///< empty without 50 digits
   std::optional<Advice> advice;
 };
 

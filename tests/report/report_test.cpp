@@ -144,6 +144,33 @@ TEST_F(Reports, PartsOfTheErrorPredictIt) {
   }
 }
 
+TEST_F(Reports, AccelerationsFarFromTheUsualKeepTheirDigits) {
+  constexpr double kBackward = 100;  // units of rounding
+  for (const auto& [name, report] : reports_) {
+    EXPECT_FALSE(report["extremes"].empty()) << name;
+    double worst = 0;
+    for (const json& sweep : report["extremes"])
+      for (const json& point : sweep["points"]) {
+        EXPECT_TRUE(point["finite"].get<bool>())
+            << name << " " << sweep["quantity"] << " " << point["factor"];
+        EXPECT_LE(point["backward_u"].get<double>(), kBackward)
+            << name << " " << sweep["quantity"] << " " << point["factor"];
+        worst = std::max(worst, point["backward_u"].get<double>());
+      }
+    fmt::print("{:<16} backward error {:.1f} u at most\n", name, worst);
+    EXPECT_NE(texts_[name].find("accelerations far from the usual"), std::string::npos);
+  }
+}
+
+TEST_F(Reports, StabilityAndStiffnessAreToldOfEveryModel) {
+  for (const auto& [name, report] : reports_) {
+    const json& limits = report["stability"]["limits"];
+    EXPECT_EQ(limits.size(), report["methods"].size()) << name;
+    EXPECT_NE(texts_[name].find("largest stable step"), std::string::npos);
+    EXPECT_NE(texts_[name].find("none: L-stable"), std::string::npos);
+  }
+}
+
 TEST_F(Reports, ErrorsOnThePendulumAreTheExactOnes) {
   for (const double h : {0.016, 0.008, 0.004, 0.002, 0.001, 0.0005}) {
     const pendulum::Model<> emitted;

@@ -170,5 +170,58 @@ TEST(FlyballGovernor, KeepsItsSliderAtTwentyTimesTheLimitOfRk4) {
             1e-5);
 }
 
+constexpr const char* kTrueJoint = R"(
+[model]
+name = "true_joint"
+gravity = [0, -9.81, 0]
+[[body]]
+name = "rod"
+mass = 1.0
+center_of_mass = [0.5, 0, 0]
+shape = { kind = "rod", length = 1.0, axis = "x" }
+[[joint]]
+name = "hinge"
+type = "revolute"
+parent = "world"
+child = "rod"
+axis = [0, 0, 1]
+)";
+
+TEST(SpringJoint, TendsToTheTrueJointAndPaysForItInSteps) {
+#ifdef JOURDAIN_SANITIZED
+  GTEST_SKIP() << "runs by the million are too slow under the sanitizers";
+#endif
+  constexpr double kDuration = 1,
+                   kLimit = 5.85e-3;  // s; RK4's largest stable step at k = 1e4 N/m, seen in the limits above
+  const ConstantInputs none{{}};
+  const EmittedModel hinge = emitted_from(kTrueJoint);
+  EmittedModel springs = emitted_model("spring_joint");
+  const auto angle = [&](const EmittedModel& model, std::size_t entry, const char* method, long steps) {
+    const Flow<double> flow(model.table(), none);
+    return sampled(flow, method, kDuration / double(steps), steps, 1)[0][entry];
+  };
+  const auto operations = [](const EmittedModel& model, const char* method) {
+    return double(model.table().methods[method_called(model.table(), method)].operations);
+  };
+  const double exact = angle(hinge, 0, "rk5", 4000);
+  constexpr long kHingeSteps = 250;  // RK4 errs by less than 1e-7 rad
+  double previous = 0;
+  for (const double k : {1e4, 1e6, 1e8, 1e10}) {
+    springs.set_parameter("k", k);
+    const long steps = long(kDuration / (0.9 * kLimit * std::sqrt(1e4 / k)));
+    const double difference = std::fabs(angle(springs, 2, "rk4", std::max(steps, 2000L)) - exact);
+    fmt::print(
+        "  k = {:<6g} N/m: off by {:.1e} rad, RK4 needs {} steps a second, {:.0f} times the operations of "
+        "the true joint\n",
+        k, difference, steps,
+        double(steps) * operations(springs, "rk4") / (double(kHingeSteps) * operations(hinge, "rk4")));
+    if (previous > 0 && k < 1e10) {
+      EXPECT_NEAR(previous / difference, 100, 50) << k;  // inversely as the stiffness
+    }
+    previous = difference;
+  }
+  EXPECT_LE(std::fabs(angle(hinge, 0, "rk4", kHingeSteps) - exact), 1e-7);
+}
+
 }  // namespace
 }  // namespace jourdain::tests

@@ -1,0 +1,205 @@
+#include "studies/extremes.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "model/coordinates.hpp"
+#include "studies/linearisation.hpp"
+
+namespace jourdain::studies {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t kStates = 5;  ///< of the trajectory
+constexpr int kDecades = 6;         ///< of a factor, up and down
+constexpr int kAngleDecades = 9;
+
+void set_parameters(const jourdain_model_table& table, const std::vector<double>& values) {
+  const auto parts = static_cast<std::size_t>(table.parts);
+  std::vector<double> numbers(parts * values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) numbers[i * parts] = values[i];
+  table.set_parameters(numbers.data());
+}
+
+/// Entries of y that are angles of scalar coordinates.
+std::vector<std::size_t> angles_of(const model::Mechanism& mechanism) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  std::vector<std::size_t> entries;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
+      if (const auto entry = layout.joints[j].position[c];
+          entry && mechanism.joints[j].coordinates[c].angular)
+        entries.push_back(*entry);
+  return entries;
+}
+
+double norm(const std::vector<LongReal>& v) {
+  double sum = 0;
+  for (const LongReal& entry : v) sum = std::hypot(sum, static_cast<double>(entry));
+  return sum;
+}
+
+std::vector<LongReal> difference(const std::vector<LongReal>& a, const std::vector<LongReal>& b) {
+  std::vector<LongReal> result;
+  for (std::size_t i = 0; i < a.size(); ++i) result.push_back(a[i] - b[i]);
+  return result;
+}
+
+class Comparison {
+ public:
+  Comparison(const model::Mechanism& mechanism, const Flow<double>& flow, const Flow<LongReal>& long_flow)
+      : flow_(flow), long_flow_(long_flow) {
+    tangent_ = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
+  }
+
+  /// Takes the errors at a state into `point`.
+  void widen(ExtremePoint& point, double t, std::vector<double> x) const {
+    if (flow_.table().unit_roundoff > 1e-10)
+      for (double& entry : x) entry = static_cast<double>(static_cast<float>(entry));
+    const auto first = static_cast<std::ptrdiff_t>(flow_.position_count());
+    const std::vector<double> working = flow_.rates(t, x);
+    point.finite = point.finite &&
+                   std::all_of(working.begin(), working.end(), [](double r) { return std::isfinite(r); });
+    if (!point.finite) return;
+    const std::vector<LongReal> exact_x(x.begin(), x.end()), zdot(working.begin() + first, working.end());
+    const std::vector<LongReal> rates = long_flow_.rates(LongReal(t), exact_x),
+                                exact(rates.begin() + first, rates.end());
+    const double unit = flow_.table().unit_roundoff;
+    if (norm(exact) > 0) take(point.forward, norm(difference(zdot, exact)) / norm(exact) / unit);
+    const Residual residual(long_flow_, t, exact_x);
+    const VectorXd row_errors = as_vector(difference(residual.at(zdot), residual.at(exact))).cwiseAbs();
+    const VectorXd scale = row_scales(residual.mass_matrix(), as_vector(exact), t, x);
+    for (Eigen::Index i = 0; i < scale.size(); ++i)
+      if (scale[i] > 0) take(point.backward, row_errors[i] / scale[i] / unit);
+  }
+
+ private:
+  /// M ż − k̄ + q̄ at zero inputs.
+  class Residual {
+   public:
+    Residual(const Flow<LongReal>& flow, double t, const std::vector<LongReal>& x)
+        : table_(flow.table()),
+          t_(t),
+          y_(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(flow.position_count())),
+          z_(x.begin() + static_cast<std::ptrdiff_t>(flow.position_count()), x.end()) {}
+
+    std::vector<LongReal> at(const std::vector<LongReal>& zdot) const {
+      return inverse_dynamics(table_, t_, y_, z_, zdot);
+    }
+
+    MatrixXd mass_matrix() const {
+      std::vector<LongReal> zdot(z_.size(), LongReal(0.0));
+      const std::vector<LongReal> rest = at(zdot);
+      const auto n = static_cast<Eigen::Index>(z_.size());
+      MatrixXd M(n, n);
+      for (std::size_t j = 0; j < z_.size(); ++j) {
+        zdot[j] = LongReal(1.0);
+        M.col(static_cast<Eigen::Index>(j)) = as_vector(difference(at(zdot), rest));
+        zdot[j] = LongReal(0.0);
+      }
+      return M;
+    }
+
+   private:
+    const jourdain_model_table& table_;
+    LongReal t_;
+    std::vector<LongReal> y_, z_;
+  };
+
+  static VectorXd as_vector(const std::vector<LongReal>& v) {
+    VectorXd result(static_cast<Eigen::Index>(v.size()));
+    for (std::size_t i = 0; i < v.size(); ++i)
+      result[static_cast<Eigen::Index>(i)] = static_cast<double>(v[i]);
+    return result;
+  }
+
+  /// Σ_j |M_ij| |ż_j| + Σ_k |∂r_i/∂x_k| |x_k|: what rounding the accelerations and the state once would change in a row; the time too.
+  VectorXd row_scales(const MatrixXd& M, const VectorXd& zdot, double t, const std::vector<double>& x) const {
+    const auto n = static_cast<Eigen::Index>(flow_.table().velocity_count);
+    const MatrixXd A = linearisation(flow_, {t, x}, {});
+    VectorXd sizes(2 * n);
+    for (const model::Tangent::Scalar& s : tangent_.scalars)
+      sizes[static_cast<Eigen::Index>(s.velocity)] = std::fabs(x[s.position]);
+    for (const model::Tangent::Scalar& s : tangent_.quaternions)
+      sizes.segment<3>(static_cast<Eigen::Index>(s.velocity)).setOnes();
+    for (Eigen::Index i = 0; i < n; ++i)
+      sizes[n + i] = std::fabs(x[flow_.position_count() + static_cast<std::size_t>(i)]);
+    return M.cwiseAbs() * zdot.cwiseAbs() + (M * A.bottomRows(n)).cwiseAbs() * sizes +
+           (M * by_time(t, x)).cwiseAbs();
+  }
+
+  /// t ∂ż/∂t by a difference.
+  VectorXd by_time(double t, const std::vector<double>& x) const {
+    constexpr double kShare = 1e-8;
+    const std::vector<double> later = flow_.rates(t * (1 + kShare), x),
+                              earlier = flow_.rates(t * (1 - kShare), x);
+    const auto n = static_cast<Eigen::Index>(flow_.table().velocity_count);
+    const auto tail = [n](const std::vector<double>& rates) {
+      return Eigen::Map<const VectorXd>(rates.data() + rates.size() - static_cast<std::size_t>(n), n);
+    };
+    return (tail(later) - tail(earlier)) / (2 * kShare);
+  }
+
+  static void take(double& worst, double value) { worst = std::max(worst, value); }
+
+  const Flow<double>& flow_;
+  const Flow<LongReal>& long_flow_;
+  model::Tangent tangent_;
+};
+
+}  // namespace
+
+std::vector<ExtremeSweep> study_extremes(const model::Mechanism& mechanism,
+                                         const std::vector<double>& parameters, const Flow<double>& flow,
+                                         const Flow<LongReal>& long_flow, const ReferenceSolution& reference,
+                                         const Progress& progress) {
+  if (!flow.table().derivatives) return {};
+  const Comparison comparison(mechanism, flow, long_flow);
+  std::vector<Point<double>> states;
+  const std::size_t count = reference.points.size();
+  for (std::size_t k = 0; k < kStates; ++k)
+    states.push_back(reference.points[k * (count - 1) / (kStates - 1)]);
+  std::vector<ExtremeSweep> sweeps;
+  const auto sweep = [&](const std::string& quantity, int from, int to,
+                         const std::function<void(double, std::vector<double>&)>& change) {
+    progress("extremes", 0);
+    ExtremeSweep result{quantity, {}};
+    for (int decade = from; decade <= to; ++decade) {
+      ExtremePoint& point = result.points.emplace_back();
+      point.factor = std::pow(10.0, decade);
+      for (const Point<double>& state : states) {
+        std::vector<double> x = state.x;
+        change(point.factor, x);
+        comparison.widen(point, state.t, std::move(x));
+      }
+    }
+    sweeps.push_back(std::move(result));
+  };
+  sweep("all velocities", -kDecades, kDecades, [&](double factor, std::vector<double>& x) {
+    for (std::size_t i = flow.position_count(); i < x.size(); ++i) x[i] *= factor;
+  });
+  const std::vector<std::size_t> angles = angles_of(mechanism);
+  if (!angles.empty())
+    sweep("all angles", 0, kAngleDecades, [&](double added, std::vector<double>& x) {
+      for (const std::size_t i : angles) x[i] += added;
+    });
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    sweep(mechanism.parameters[p].name, -kDecades, kDecades, [&](double factor, std::vector<double>&) {
+      std::vector<double> values = parameters;
+      values[p] *= factor;
+      if (flow.table().unit_roundoff > 1e-10) values[p] = static_cast<double>(static_cast<float>(values[p]));
+      for (const jourdain_model_table* table : {&flow.table(), &long_flow.table()})
+        set_parameters(*table, values);
+    });
+  for (const jourdain_model_table* table : {&flow.table(), &long_flow.table()})
+    set_parameters(*table, parameters);
+  return sweeps;
+}
+
+}  // namespace jourdain::studies
