@@ -18,8 +18,8 @@ enum class DerivativeTerms {
 
 /// One program for each of `functions` that holds derivatives or is made for them; the others are passed over. Positions are
 /// differentiated by the displacements of model::Tangent. With r(y, z, a, u, t) = M a − k̄ + q̄ and a = ż,
-/// ∂ż = −M⁻¹ ∂r at a = ż: no derivative of the factorisation is taken. Of forward and reverse elimination the one with
-/// fewer operations is chosen.
+/// ∂ż = −M⁻¹ ∂r at a = ż: no derivative of the factorisation is taken. Of some orders of
+/// elimination the one with the fewest operations is chosen.
 std::vector<ir::Program> derivative_programs(const model::Mechanism& mechanism,
                                              const dynamics::DerivationOptions& options,
                                              const std::vector<emit::FunctionInfo>& functions,

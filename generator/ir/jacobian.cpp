@@ -31,7 +31,9 @@ class Graph {
   }
 
   JacobianEntries eliminate(EliminationOrder order) {
-    for (std::size_t k = 0; k < count_; ++k) remove(order == EliminationOrder::kForward ? k : count_ - 1 - k);
+    const auto forward = static_cast<std::size_t>(order.forward * static_cast<double>(count_));
+    for (std::size_t k = 0; k < forward; ++k) remove(k);
+    for (std::size_t k = count_; k-- > forward;) remove(k);
     JacobianEntries entries;
     for (std::size_t r = 0; r < rows_; ++r)
       for (const auto& [operand, partial] : operands_[row(r)])
