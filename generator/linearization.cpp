@@ -321,7 +321,6 @@ std::size_t remaining_operations(const Program& program) {
 template <class Build>
 Program cheapest(const Build& build) {
   constexpr std::size_t kLarge = 10000;  // operations beyond which few orders are tried
-  constexpr int kSteps = 40;
   Program best = build(EliminationOrder{0});
   std::size_t fewest = remaining_operations(best);
   const auto compare = [&](double forward) {
@@ -331,10 +330,8 @@ Program cheapest(const Build& build) {
     fewest = operations;
     best = std::move(other);
   };
-  if (fewest > kLarge)
-    for (const double forward : {0.15, 0.5, 1.0}) compare(forward);
-  else
-    for (int k = 1; k <= kSteps; k += k < kSteps / 2 ? 1 : 5) compare(double(k) / kSteps);
+  const std::vector<double> few = {0.15, 0.5, 1}, many = {0.05, 0.1, 0.15, 0.2, 0.25, 0.5, 1};
+  for (const double forward : fewest > kLarge ? few : many) compare(forward);
   return best;
 }
 
