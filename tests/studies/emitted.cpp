@@ -74,4 +74,21 @@ std::string oscillator_text(double stiffness, double damping) {
       stiffness, damping);
 }
 
+std::string bushing_chain_text(int count) {
+  std::string text =
+      "[model]\nname = \"bushing_chain\"\ngravity = [0, -9.81, 0]\n[parameters]\nk = 1e6\nc = 200.0\nbending "
+      "= 20.0\n";
+  for (int i = 1; i <= count; ++i)
+    text += fmt::format(
+        "[[body]]\nname = \"rod{0}\"\nmass = 0.5\ncenter_of_mass = [0.1, 0, 0]\n"
+        "shape = {{ kind = \"rod\", length = 0.2, axis = \"x\" }}\n"
+        "[[joint]]\nname = \"bush{0}\"\ntype = \"planar\"\nparent = \"{1}\"\nchild = \"rod{0}\"\nposition = "
+        "[{2}, 0, 0]\n"
+        "axis = [0, 0, 1]\nx = {{ stiffness = \"k\", damping = \"c\" }}\ny = {{ stiffness = \"k\", damping = "
+        "\"c\" }}\n"
+        "angle = {{ stiffness = \"bending\", damping = 0.05 }}\n",
+        i, i == 1 ? "world" : fmt::format("rod{}", i - 1), i == 1 ? 0.0 : 0.2);
+  return text;
+}
+
 }  // namespace jourdain::tests

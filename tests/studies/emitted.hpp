@@ -36,4 +36,8 @@ std::size_t method_called(const jourdain_model_table& table, const std::string& 
 /// A mass on a rail with a spring (N/m) and a damper (N s/m), 0.1 m from rest; 1 kg.
 std::string oscillator_text(double stiffness, double damping);
 
+/// Chain of `count` rods (0.2 m, 0.5 kg) in a vertical plane, each held to the one before by a bushing: parameters k (N/m) and c
+/// (N s/m) along and across, bending (N m/rad). Three velocities a rod, two of them stiff.
+std::string bushing_chain_text(int count);
+
 }  // namespace jourdain::tests
