@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "agreement/shared_data.hpp"
+#include "articulation.hpp"
 #include "commands/build_model.hpp"
 #include "studies/judged.hpp"
 #include "studies/report.hpp"
@@ -62,6 +63,13 @@ INSTANTIATE_TEST_SUITE_P(
                       StiffCase{"spring_joint", "k", 1e8, 0.01}, StiffCase{"bushing_chain", "k", 1e6, 0.02}));
 
 #endif
+
+TEST(BushingChain, IsSolvedThroughArticulatedBodies) {
+  support::Diagnostics diagnostics("chain.toml", bushing_chain_text(20));
+  const auto chain = model::read_mechanism(diagnostics);
+  ASSERT_TRUE(chain);
+  EXPECT_LE(choose_articulation(*chain, {}).operations, 3525u);  // 88482 by factoring M
+}
 
 /// Largest differences along the way.
 struct Differences {
