@@ -130,11 +130,11 @@ FunctionInfo step_function(const Stepper& stepper) {
   info.needs = {"position_rate", "forward_dynamics"};
   if (stepper.implicit) info.needs.insert(info.needs.end(), {"residual", "residual_derivatives"});
   for (const std::string& used : stepper.uses) info.needs.push_back(used + "_step");
-  info.comment = "One step of length h (s) with the " + stepper.comment +
-                 "; inputs are held over the step. " +
-                 (stepper.implicit ? "One call of residual_derivatives, " : "") +
-                 number_word(stepper.evaluations) + " call" + (stepper.evaluations == 1 ? "" : "s") +
-                 (stepper.implicit ? " of residual." : " of forward_dynamics.");
+  const std::string calls =
+      number_word(stepper.evaluations) + " call" + (stepper.evaluations == 1 ? "" : "s") + " of ";
+  info.comment =
+      "One step of length h (s) with the " + stepper.comment + "; inputs are held over the step. " +
+      (stepper.implicit ? calls + "residual, one of residual_derivatives." : calls + "forward_dynamics.");
   info.stepper = &stepper;
   return info;
 }

@@ -268,8 +268,9 @@ TEST(Report, MostAccurateWithinABudget) {
                 "--no-plots", "-o", folder.path() + "/out"});
   ASSERT_EQ(result.status, 0) << result.output;
   const json advice = json::parse(support::read_file(folder.path() + "/out/report.json"))["recommendation"];
-  EXPECT_TRUE(advice["confirmed"].get<bool>());
-  EXPECT_LE(advice["run_time_per_simulated_second_s"].get<double>() * 1e-3, 20e-6);
+  // The confirming run measures anew, and a busy machine may be slower then: the report has to say so.
+  const double run_time = advice["run_time_per_simulated_second_s"].get<double>() * 1e-3;
+  EXPECT_EQ(advice["confirmed"].get<bool>(), run_time <= 20e-6);
   const double steps = 1e-3 / advice["step_s"].get<double>();
   EXPECT_NEAR(steps, std::round(steps), 1e-9);
 }
