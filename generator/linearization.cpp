@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "dynamics/outputs.hpp"
 #include "ir/jacobian.hpp"
 #include "ir/lower.hpp"
 #include "model/coordinates.hpp"
@@ -61,7 +62,7 @@ class Assembly {
   Program residual_derivatives() {
     write_matrix("M", mass_matrix());
     const bool all = terms_ == DerivativeTerms::kAll;
-    write_derivatives("r", differentiated(all ? equations_.residual : equations_.load), 0);
+    write_residual_derivatives(differentiated(all ? equations_.residual : equations_.load));
     return finish("residual_derivatives");
   }
 
@@ -110,20 +111,22 @@ class Assembly {
 
   bool is_zero(Signed value) const { return builder_.is_literal(value, 0); }
 
-  /// Copies a program; accelerations are read from zdot_ where that is filled in. Returns its outputs.
-  Column insert(const Program& program) {
+  /// Copies a program into a builder; accelerations are read from `zdot` where that is not empty. Returns its outputs.
+  static Column copied(const Program& program, Builder& builder, const Column& zdot) {
     Column copy(program.nodes.size());
     for (std::size_t i = 0; i < program.nodes.size(); ++i) {
       const ir::Node& node = program.nodes[i];
       const bool acceleration = node.op == ir::Op::kLeaf && node.leaf == LeafKind::kAcceleration;
-      copy[i] = acceleration && !zdot_.empty() ? zdot_[node.index]
-                                               : builder_.apply(node, copy[node.a.value], copy[node.b.value]);
-      if (!program.labels[i].empty()) builder_.label(copy[i].value, program.labels[i]);
+      copy[i] = acceleration && !zdot.empty() ? zdot[node.index]
+                                              : builder.apply(node, copy[node.a.value], copy[node.b.value]);
+      if (!program.labels[i].empty()) builder.label(copy[i].value, program.labels[i]);
     }
     Column outputs;
     for (const ir::Output& output : program.outputs) outputs.push_back(copy[output.value.value]);
     return outputs;
   }
+
+  Column insert(const Program& program) { return copied(program, builder_, zdot_); }
 
   Program lowered(const std::vector<dynamics::Ex>& values) const {
     return ir::lower(equations_.statements, targets("v", values), "values");
@@ -170,14 +173,7 @@ class Assembly {
   JacobianEntries differentiated(const std::vector<dynamics::Ex>& values, bool by_acceleration = false) {
     // In a builder of its own, where ż is a leaf: accelerations inserted before would be followed to their own leaves.
     Builder builder;
-    const Program program = lowered(values);
-    Column copy(program.nodes.size()), outputs;
-    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
-      const ir::Node& node = program.nodes[i];
-      copy[i] = builder.apply(node, copy[node.a.value], copy[node.b.value]);
-      if (!program.labels[i].empty()) builder.label(copy[i].value, program.labels[i]);
-    }
-    for (const ir::Output& output : program.outputs) outputs.push_back(copy[output.value.value]);
+    const Column outputs = copied(lowered(values), builder, {});
     std::vector<ir::Seed> list = seeds(builder);
     const std::size_t first = columns_.time_column() + 1;
     for (std::size_t i = 0; by_acceleration && i < columns_.velocities; ++i)
@@ -192,17 +188,17 @@ class Assembly {
     return result;
   }
 
-  void write_derivatives(const std::string& name, const JacobianEntries& J, std::size_t first_row) {
+  void write_residual_derivatives(const JacobianEntries& J) {
     for (const auto& [at, value] : J) {
-      const int row = static_cast<int>(first_row + at.first);
-      if (at.second == columns_.time_column())
-        builder_.output(name + "_t", row, -1, value);
-      else if (at.second >= columns_.input(0))
-        builder_.output(name + "_u", row, static_cast<int>(at.second - columns_.input(0)), value);
-      else if (at.second >= columns_.velocity(0))
-        builder_.output(name + "_z", row, static_cast<int>(at.second - columns_.velocity(0)), value);
+      const auto [row, column] = at;
+      if (column == columns_.time_column())
+        builder_.output("r_t", static_cast<int>(row), -1, value);
+      else if (column >= columns_.input(0))
+        write("r_u", row, column - columns_.input(0), value);
+      else if (column >= columns_.velocity(0))
+        write("r_z", row, column - columns_.velocity(0), value);
       else
-        builder_.output(name + "_y", row, static_cast<int>(at.second), value);
+        write("r_y", row, column, value);
     }
   }
 
@@ -265,10 +261,7 @@ class Assembly {
 
   /// C, D and ∂/∂t of the outputs; those that take accelerations by the chain rule.
   void write_outputs(const JacobianEntries& acceleration) {
-    std::vector<dynamics::Ex> values;
-    for (const auto& output : equations_.outputs)
-      for (const dynamics::OutputValues& member : output)
-        values.insert(values.end(), member.values.begin(), member.values.end());
+    const std::vector<dynamics::Ex> values = dynamics::output_entries(equations_);
     if (values.empty()) return;
     JacobianEntries J = differentiated(values, true);
     const std::size_t first = columns_.time_column() + 1;

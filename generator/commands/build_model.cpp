@@ -179,13 +179,6 @@ studies::LoadedModel build_model(const std::string& name, const CompiledModel& c
   return studies::LoadedModel(in_folder("model.so"));
 }
 
-void set_parameters(const jourdain_model_table& table, const std::vector<double>& values) {
-  const auto parts = static_cast<std::size_t>(table.parts);
-  std::vector<double> numbers(parts * values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) numbers[i * parts] = values[i];
-  table.set_parameters(numbers.data());
-}
-
 std::string compiler_text(NumberType number) {
   std::string text = compiler();
   for (const std::string& option : text_of(number).compiler_options) text += " " + option;

@@ -19,9 +19,6 @@ std::vector<std::string> loadable_functions(const std::vector<std::string>& step
 /// compiler's words when that fails.
 studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, NumberType number);
 
-/// From now on the model has these values of its parameters, in the mechanism's order.
-void set_parameters(const jourdain_model_table& table, const std::vector<double>& values);
-
 /// The compiler's name and the options that decide speed.
 std::string compiler_text(NumberType number);
 

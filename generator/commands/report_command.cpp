@@ -193,7 +193,7 @@ int run(Arguments arguments) {
   const jourdain_model_table& table = models.working.table();
   const jourdain_model_table* long_table = models.precise ? &models.precise->table() : nullptr;
   for (const jourdain_model_table* t : {&table, long_table})
-    if (t) set_parameters(*t, model->parameters);
+    if (t) studies::set_parameters(*t, model->parameters);
   const std::optional<RunInputs> inputs = read_inputs(arguments.run, *model, table, long_table, status);
   if (!inputs) return status;
   studies::Flow<double> flow(table, *inputs->inputs);

@@ -181,7 +181,7 @@ int run(const Arguments& arguments) {
     return kInternal;
   }
   const studies::LoadedModel loaded = build_model(options.name, compiled, number_type(arguments.run.real));
-  set_parameters(loaded.table(), model->parameters);
+  studies::set_parameters(loaded.table(), model->parameters);
   const std::optional<RunInputs> inputs = read_inputs(arguments.run, *model, loaded.table(), nullptr, status);
   if (!inputs) return status;
   Flow<double> flow(loaded.table(), *inputs->inputs);

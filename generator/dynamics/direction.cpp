@@ -2,6 +2,8 @@
 
 #include <cln/cln.h>
 
+#include "dynamics/outputs.hpp"
+
 namespace jourdain::dynamics {
 
 using cln::cl_R;
@@ -54,14 +56,6 @@ std::vector<cl_R> values(const std::vector<kinematics::Ex>& expressions, const H
   std::vector<cl_R> list;
   for (const kinematics::Ex& e : expressions) list.push_back(at.value(e));
   return list;
-}
-
-std::vector<kinematics::Ex> output_entries(const Equations& equations) {
-  std::vector<kinematics::Ex> entries;
-  for (const auto& output : equations.outputs)
-    for (const OutputValues& member : output)
-      entries.insert(entries.end(), member.values.begin(), member.values.end());
-  return entries;
 }
 
 }  // namespace

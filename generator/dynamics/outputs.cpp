@@ -331,4 +331,12 @@ std::vector<std::vector<OutputValues>> derive_outputs(Scene& scene, const Equati
   return values;
 }
 
+std::vector<Ex> output_entries(const Equations& equations) {
+  std::vector<Ex> entries;
+  for (const auto& output : equations.outputs)
+    for (const OutputValues& member : output)
+      entries.insert(entries.end(), member.values.begin(), member.values.end());
+  return entries;
+}
+
 }  // namespace jourdain::dynamics

@@ -13,4 +13,7 @@ std::vector<std::vector<OutputValues>> derive_outputs(Scene& scene, const Equati
                                                       const std::vector<Ex>& zdot,
                                                       const AppliedForces& applied);
 
+/// The numbers of all outputs in their order, matrices row by row.
+std::vector<Ex> output_entries(const Equations& equations);
+
 }  // namespace jourdain::dynamics

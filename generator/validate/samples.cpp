@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <random>
 
+#include "model/angles.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::validate {
@@ -25,17 +26,6 @@ class Uniform {
 
 /// Steps towards the initial state where a random state has no values.
 constexpr int kTries = 40;
-
-/// For each entry of y whether it is an angle.
-std::vector<bool> angular_positions(const model::Mechanism& mechanism,
-                                    const model::CoordinateLayout& layout) {
-  std::vector<bool> angular(layout.position_count(), false);
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
-      if (const auto entry = layout.joints[j].position[c])
-        angular[*entry] = mechanism.joints[j].coordinates[c].angular;
-  return angular;
-}
 
 void normalise(double* quaternion) {
   double square = 0;
@@ -93,7 +83,7 @@ std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t 
   Uniform uniform, directions;
   std::vector<Sample> samples;
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  const std::vector<bool> angular = angular_positions(mechanism, layout);
+  const std::vector<bool> angular = model::angular_positions(mechanism);
   for (std::size_t k = 0; k < count; ++k) {
     Sample sample;
     sample.t = k == 0 ? 0.0 : uniform(0, 2);

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <functional>
 
+#include "model/angles.hpp"
 #include "model/coordinates.hpp"
 #include "studies/linearisation.hpp"
+#include "studies/loaded_model.hpp"
 
 namespace jourdain::studies {
 
@@ -19,25 +21,6 @@ using Eigen::VectorXd;
 constexpr std::size_t kStates = 5;  ///< of the trajectory
 constexpr int kDecades = 6;         ///< of a factor, up and down
 constexpr int kAngleDecades = 9;
-
-void set_parameters(const jourdain_model_table& table, const std::vector<double>& values) {
-  const auto parts = static_cast<std::size_t>(table.parts);
-  std::vector<double> numbers(parts * values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) numbers[i * parts] = values[i];
-  table.set_parameters(numbers.data());
-}
-
-/// Entries of y that are angles of scalar coordinates.
-std::vector<std::size_t> angles_of(const model::Mechanism& mechanism) {
-  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  std::vector<std::size_t> entries;
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
-      if (const auto entry = layout.joints[j].position[c];
-          entry && mechanism.joints[j].coordinates[c].angular)
-        entries.push_back(*entry);
-  return entries;
-}
 
 double norm(const std::vector<LongReal>& v) {
   double sum = 0;
@@ -184,10 +167,11 @@ std::vector<ExtremeSweep> study_extremes(const model::Mechanism& mechanism,
   sweep("all velocities", -kDecades, kDecades, [&](double factor, std::vector<double>& x) {
     for (std::size_t i = flow.position_count(); i < x.size(); ++i) x[i] *= factor;
   });
-  const std::vector<std::size_t> angles = angles_of(mechanism);
-  if (!angles.empty())
+  const std::vector<bool> angular = model::angular_positions(mechanism);
+  if (std::find(angular.begin(), angular.end(), true) != angular.end())
     sweep("all angles", 0, kAngleDecades, [&](double added, std::vector<double>& x) {
-      for (const std::size_t i : angles) x[i] += added;
+      for (std::size_t i = 0; i < angular.size(); ++i)
+        if (angular[i]) x[i] += added;
     });
   for (std::size_t p = 0; p < parameters.size(); ++p)
     sweep(mechanism.parameters[p].name, -kDecades, kDecades, [&](double factor, std::vector<double>&) {

@@ -25,4 +25,11 @@ LoadedModel::LoadedModel(const std::string& path) : handle_(dlopen(path.c_str(),
   table_ = reinterpret_cast<const jourdain_model_table* (*)()>(symbol)();
 }
 
+void set_parameters(const jourdain_model_table& table, const std::vector<double>& values) {
+  const auto parts = static_cast<std::size_t>(table.parts);
+  std::vector<double> numbers(parts * values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) numbers[i * parts] = values[i];
+  table.set_parameters(numbers.data());
+}
+
 }  // namespace jourdain::studies

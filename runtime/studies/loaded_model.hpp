@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "jourdain/model_table.h"
 
@@ -24,5 +25,8 @@ class LoadedModel {
   std::unique_ptr<void, Close> handle_;
   const jourdain_model_table* table_ = nullptr;
 };
+
+/// From now on the model has these values of its parameters, in the mechanism's order.
+void set_parameters(const jourdain_model_table& table, const std::vector<double>& values);
 
 }  // namespace jourdain::studies

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "agreement/judge.hpp"
+#include "agreement/leaf_value.hpp"
 #include "agreement/shared_data.hpp"
 #include "compile.hpp"
 #include "dynamics/direction.hpp"
@@ -31,24 +31,6 @@ ir::Module derivative_module(const model::Mechanism& mechanism,
   ir::Module module;
   module.functions = derivative_programs(mechanism, {}, functions, terms);
   return passes::optimise(module).module;
-}
-
-double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::size_t i) {
-  switch (kind) {
-    case kinematics::LeafKind::kParameter:
-      return sample.parameters[i];
-    case kinematics::LeafKind::kPosition:
-      return sample.y[i];
-    case kinematics::LeafKind::kVelocity:
-      return sample.z[i];
-    case kinematics::LeafKind::kAcceleration:
-      return sample.zdot[i];
-    case kinematics::LeafKind::kInput:
-      return sample.u[i];
-    case kinematics::LeafKind::kTime:
-      return sample.t;
-  }
-  return 0;
 }
 
 /// Exact derivatives, a column each for displacements, velocities, inputs and time.

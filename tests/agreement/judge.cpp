@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "agreement/leaf_value.hpp"
 #include "agreement/shared_data.hpp"
 #include "compile.hpp"
 #include "kinematics/numbers.hpp"
@@ -19,24 +20,6 @@ VectorX<long double> to_vector(const std::vector<double>& values) {
   VectorX<long double> v(Eigen::Index(values.size()));
   for (std::size_t i = 0; i < values.size(); ++i) v[Eigen::Index(i)] = values[i];
   return v;
-}
-
-double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::size_t i) {
-  switch (kind) {
-    case kinematics::LeafKind::kParameter:
-      return sample.parameters[i];
-    case kinematics::LeafKind::kPosition:
-      return sample.y[i];
-    case kinematics::LeafKind::kVelocity:
-      return sample.z[i];
-    case kinematics::LeafKind::kAcceleration:
-      return sample.zdot[i];
-    case kinematics::LeafKind::kInput:
-      return sample.u[i];
-    case kinematics::LeafKind::kTime:
-      return sample.t;
-  }
-  return 0;
 }
 
 double relative(double value, double exact, long double scale) {

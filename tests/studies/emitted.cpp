@@ -28,7 +28,7 @@ void EmittedModel::set_parameter(const std::string& name, double value) {
       found = true;
     }
   JD_CHECK(found, "no parameter {}", name);
-  commands::set_parameters(table(), parameter_values(mechanism));
+  studies::set_parameters(table(), parameter_values(mechanism));
 }
 
 std::vector<std::string> all_loadable_functions() {
@@ -50,7 +50,7 @@ EmittedModel emitted_from(const std::string& text, const std::vector<std::string
   const CompiledModel compiled = compile(*mechanism, options);
   EmittedModel result{*mechanism,
                       commands::build_model(options.name, compiled, commands::NumberType::kDouble)};
-  commands::set_parameters(result.table(), parameter_values(*mechanism));
+  studies::set_parameters(result.table(), parameter_values(*mechanism));
   return result;
 }
 
