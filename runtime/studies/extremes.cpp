@@ -105,7 +105,7 @@ class Comparison {
   /// Σ_j |M_ij| |ż_j| + Σ_k |∂r_i/∂x_k| |x_k|: what rounding the accelerations and the state once would change in a row; the time too.
   VectorXd row_scales(const MatrixXd& M, const VectorXd& zdot, double t, const std::vector<double>& x) const {
     const auto n = static_cast<Eigen::Index>(flow_.table().velocity_count);
-    const MatrixXd A = linearisation(flow_, {t, x}, {});
+    const MatrixXd A = linearisation(flow_, {t, x}, tangent_);
     VectorXd sizes(2 * n);
     for (const model::Tangent::Scalar& s : tangent_.scalars)
       sizes[static_cast<Eigen::Index>(s.velocity)] = std::fabs(x[s.position]);

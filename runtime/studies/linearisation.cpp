@@ -50,18 +50,12 @@ Eigen::Matrix<double, 4, 3> turning(const Eigen::Vector4d& q) {
   return m / 2;
 }
 
-/// What small rotations and the other positions do to y, ny × nz. Without quaternions the identity.
-MatrixXd position_tangents(const VectorXd& y, Index nz, const std::vector<std::size_t>& quaternions) {
+/// What small rotations and the other positions do to y, ny × nz.
+MatrixXd position_tangents(const VectorXd& y, Index nz, const model::Tangent& tangent) {
   MatrixXd T = MatrixXd::Zero(y.size(), nz);
-  for (Index row = 0, column = 0; row < y.size();) {
-    if (std::find(quaternions.begin(), quaternions.end(), static_cast<std::size_t>(row)) !=
-        quaternions.end()) {
-      T.block<4, 3>(row, column) = turning(y.segment<4>(row));
-      row += 4, column += 3;
-    } else {
-      T(row++, column++) = 1;
-    }
-  }
+  for (const model::Tangent::Scalar& s : tangent.scalars) T(Index(s.position), Index(s.velocity)) = 1;
+  for (const model::Tangent::Scalar& s : tangent.quaternions)
+    T.block<4, 3>(Index(s.position), Index(s.velocity)) = turning(y.segment<4>(Index(s.position)));
   return T;
 }
 
@@ -79,13 +73,12 @@ MatrixXd emitted_linearisation(const Flow<double>& flow, const Point<double>& po
 
 }  // namespace
 
-MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point,
-                       const std::vector<std::size_t>& quaternions) {
+MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point, const model::Tangent& tangent) {
   if (flow.table().derivatives) return emitted_linearisation(flow, point);
   const MatrixXd J = extrapolated_jacobian(flow, point);
-  if (quaternions.empty()) return J;
+  if (tangent.quaternions.empty()) return J;
   const auto ny = static_cast<Index>(flow.position_count()), nz = J.cols() - ny;
-  const MatrixXd T = position_tangents(Eigen::Map<const VectorXd>(point.x.data(), ny), nz, quaternions);
+  const MatrixXd T = position_tangents(Eigen::Map<const VectorXd>(point.x.data(), ny), nz, tangent);
   MatrixXd A(2 * nz, 2 * nz);
   // In axes that do not turn, a small rotation changes by the difference of the angular velocities and by nothing else.
   A << MatrixXd::Zero(nz, nz), MatrixXd::Identity(nz, nz), J.bottomLeftCorner(nz, ny) * T,

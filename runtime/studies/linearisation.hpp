@@ -6,17 +6,18 @@
 #include <complex>
 #include <vector>
 
+#include "model/coordinates.hpp"
 #include "studies/flow.hpp"
 
 namespace jourdain::studies {
 
-/// A = ∂(ẏ, ż)/∂(y, z) at `point`, 2nz × 2nz, positions first. A quaternion (entry of its w in `quaternions`) counts
+/// A = ∂(ẏ, ż)/∂(y, z) at `point`, 2nz × 2nz, positions first. A quaternion counts
 /// as a small rotation δθ, δquat = ½ quat ⊗ (0, δθ), so that its length adds no mode. The axes are the body's at
 /// that moment and do not turn with it: in axes that do, a fixed deviation seems to oscillate at |ω|, which no
 /// method has to survive. Position k is the one that velocity k moves. From the emitted derivatives where the table has
 /// them, else by differences, with about 10 digits in double.
 Eigen::MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point,
-                              const std::vector<std::size_t>& quaternions);
+                              const model::Tangent& tangent);
 
 /// Eigenvalues µ (1/s) with their eigenvectors.
 struct Modes {

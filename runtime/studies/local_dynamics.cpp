@@ -51,8 +51,7 @@ double shrinking(const Flow<double>& flow, const std::vector<Local>& locals) {
 }  // namespace
 
 std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
-                             const std::vector<std::size_t>& quaternions, double seconds,
-                             const Progress& progress) {
+                             const model::Tangent& tangent, double seconds, const Progress& progress) {
   const auto begin = Clock::now();
   std::vector<Local> locals;
   const std::size_t last = reference.points.size() - 1, count = std::min(kPoints, last);
@@ -61,7 +60,7 @@ std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& 
     progress("stability", 0.5 * double(k) / double(count));
     if (spent > seconds) break;
     const Point<double>& point = reference.points[k * last / count];
-    const MatrixXd A = linearisation(flow, point, quaternions);
+    const MatrixXd A = linearisation(flow, point, tangent);
     if (!A.allFinite()) continue;
     locals.push_back({&point, A, modes_of(A)});
   }

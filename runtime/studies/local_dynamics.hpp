@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "model/coordinates.hpp"
 #include "studies/linearisation.hpp"
 #include "studies/reference_solution.hpp"
 
@@ -25,8 +26,7 @@ struct Scene {
 
 /// At evenly spaced points of the reference, in time; fewer where `seconds` are over before.
 std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
-                             const std::vector<std::size_t>& quaternions, double seconds,
-                             const Progress& progress);
+                             const model::Tangent& tangent, double seconds, const Progress& progress);
 
 /// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing.
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,

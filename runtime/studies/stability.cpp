@@ -156,10 +156,10 @@ const MethodLimit* stiff_limit(const Stability& stability) {
 }
 
 Stability study_stability(const Flow<double>& flow, const ReferenceSolution& reference,
-                          const std::vector<std::size_t>& quaternions, bool conserves_energy, double seconds,
+                          const model::Tangent& tangent, bool conserves_energy, double seconds,
                           const Progress& progress) {
   Stability result;
-  const std::vector<Local> locals = linearise(flow, reference, quaternions, seconds / 4, progress);
+  const std::vector<Local> locals = linearise(flow, reference, tangent, seconds / 4, progress);
   if (locals.empty()) return result;
   const Scene scene = describe_scene(flow, reference, locals, conserves_energy);
   result.rate = scene.rate;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/coordinates.hpp"
 #include "studies/flow.hpp"
 #include "studies/mode_limits.hpp"
 #include "studies/reference_solution.hpp"
@@ -44,9 +45,9 @@ struct Stability {
 /// longer steps. Null where the scene is not stiff.
 const MethodLimit* stiff_limit(const Stability& stability);
 
-/// Along `reference`; `quaternions` are the entries of y that hold each quaternion's w. Takes about `seconds` at most.
+/// Along `reference`; `tangent` says which entries of y are quaternions. Takes about `seconds` at most.
 Stability study_stability(const Flow<double>& flow, const ReferenceSolution& reference,
-                          const std::vector<std::size_t>& quaternions, bool conserves_energy, double seconds,
+                          const model::Tangent& tangent, bool conserves_energy, double seconds,
                           const Progress& progress);
 
 /// Runs that look for a limit.

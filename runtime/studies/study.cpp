@@ -181,7 +181,8 @@ Study run_study(const model::Mechanism& mechanism, const std::vector<double>& pa
     for (std::size_t m = 0; m < study.work.step_times.size(); ++m)
       study.summaries.push_back(summarise(m, study));
   }
-  study.stability = study_stability(flow, study.reference, model::lay_out_coordinates(mechanism).quaternions,
+  study.stability = study_stability(flow, study.reference,
+                                    model::tangent_of(mechanism, model::lay_out_coordinates(mechanism)),
                                     options.conserves_energy, options.seconds, progress);
   if (options.forms)
     study.forms = study_forms(mechanism, parameters, inputs, study.steps, sampling, study.reference,

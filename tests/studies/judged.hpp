@@ -24,7 +24,7 @@ struct Judged {
   ConstantInputs none;
   Flow<double> flow;
   ReferenceSolution reference;
-  std::vector<std::size_t> quaternions;
+  model::Tangent tangent;
   Stability stability;
 
   Judged(EmittedModel emitted, long count, bool conserves_energy, double interval = 0.0625)
@@ -32,8 +32,8 @@ struct Judged {
         none(std::vector<double>(static_cast<std::size_t>(model.table().input_count))),
         flow(model.table(), none),
         reference(solve_reference(flow, nullptr, ReferenceKind::kCvode, interval, count, 1, 1, kSilent)),
-        quaternions(model::lay_out_coordinates(model.mechanism).quaternions),
-        stability(study_stability(flow, reference, quaternions, conserves_energy, 60, kSilent)) {}
+        tangent(model::tangent_of(model.mechanism, model::lay_out_coordinates(model.mechanism))),
+        stability(study_stability(flow, reference, tangent, conserves_energy, 60, kSilent)) {}
 
   const MethodLimit& limit(const std::string& method) const {
     return stability.limits[method_called(model.table(), method)];

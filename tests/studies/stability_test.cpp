@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "commands/build_model.hpp"
 #include "studies/judged.hpp"
 #include "studies/report.hpp"
 #include "studies/stability.hpp"
@@ -102,6 +103,24 @@ TEST(RegionBoundary, LiesWhereNothingGrows) {
   }
 }
 
+TEST(Linearisation, ByDifferencesIsThatOfTheEmittedDerivatives) {
+  for (const char* name : {"crane", "flyball_governor"}) {
+    const EmittedModel with = emitted_model(name),
+                       without = emitted_model(name, commands::loadable_functions({"euler"}));
+    ASSERT_TRUE(with.table().derivatives && !without.table().derivatives);
+    const ConstantInputs none{{}};
+    const Flow<double> flow(with.table(), none);
+    Point<double> point = flow.start();
+    for (std::size_t i = flow.position_count(); i < point.x.size(); ++i) point.x[i] = 0.3 + 0.1 * double(i);
+    const model::Tangent tangent =
+        model::tangent_of(with.mechanism, model::lay_out_coordinates(with.mechanism));
+    const Eigen::MatrixXd exact = linearisation(flow, point, tangent),
+                          differences = linearisation(Flow<double>(without.table(), none), point, tangent);
+    EXPECT_LE((differences - exact).norm(), 1e-8 * exact.norm())
+        << name;  // of differences about 10 digits are left
+  }
+}
+
 #ifndef JOURDAIN_SANITIZED  // runs by the million are too slow there
 
 TEST(Stability, StiffGovernorHasTheLimitsThatItsRunsShow) {
@@ -157,7 +176,7 @@ TEST(Stability, TopOnABallJointHasNoModeOfItsQuaternion) {
   EXPECT_NEAR(std::abs(top.stability.fastest.imag()), 39.8, 0.1);
   top.expect_observed("rk4");
   top.expect_observed("adams_bashforth3");
-  const Eigen::MatrixXd A = linearisation(top.flow, top.reference.points[3], top.quaternions);
+  const Eigen::MatrixXd A = linearisation(top.flow, top.reference.points[3], top.tangent);
   ASSERT_EQ(A.rows(), 6);
   // Turning the whole scene about the vertical changes nothing.
   const Eigen::Vector4d q(top.reference.points[3].x.data());
