@@ -95,6 +95,12 @@ TEST(Models, CartPoleFollowsBartoSuttonAndAnderson) {
 }
 
 // Straight and horizontal: rod k weighs on hinge i with the lever (k − i + ½), 0 ≤ i ≤ k < 4.
+TEST(Models, ElasticArmStartsAtItsStaticDeflection) {
+  const Terms terms = initial_terms("elastic_arm.toml");
+  // The torques and deflections in the file carry the weight to rounding; the softest row of M is 0.01 kg m².
+  EXPECT_LE(reference::forward_dynamics(terms).lpNorm<Eigen::Infinity>(), 1e-9);
+}
+
 TEST(Models, Chain4StartsStraightUnderItsWeight) {
   const Terms terms = initial_terms("chain4.toml");
   const double levers[] = {8.0, 4.5, 2.0, 0.5};
