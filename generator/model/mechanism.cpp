@@ -1,6 +1,54 @@
 #include "model/mechanism.hpp"
 
+#include <algorithm>
+
 namespace jourdain::model {
+
+namespace {
+
+/// From the body inward to the one that stands on the world.
+std::vector<BodyIndex> inward(const Mechanism& mechanism, std::optional<BodyIndex> body) {
+  std::vector<BodyIndex> path;
+  while (body) {
+    path.push_back(*body);
+    const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
+                                    [&](const Joint& j) { return j.child == *body; });
+    JD_CHECK(joint != mechanism.joints.end() && path.size() <= mechanism.bodies.size(), "no tree of joints");
+    body = joint->parent;
+  }
+  return path;
+}
+
+}  // namespace
+
+std::size_t row_count(LoopType type) {
+  switch (type) {
+    case LoopType::kBall:
+      return 3;
+    case LoopType::kRevolute:
+    case LoopType::kPrismatic:
+      return 5;
+    case LoopType::kUniversal:
+    case LoopType::kCylindrical:
+      return 4;
+    case LoopType::kPlanarPin:
+    case LoopType::kPointOnLine:
+      return 2;
+    case LoopType::kPointInPlane:
+    case LoopType::kRod:
+    case LoopType::kResidual:
+      return 1;
+  }
+  return 0;
+}
+
+std::optional<BodyIndex> carrier(const Mechanism& mechanism, std::optional<BodyIndex> a,
+                                 std::optional<BodyIndex> b) {
+  const std::vector<BodyIndex> carries_b = inward(mechanism, b);
+  for (const BodyIndex body : inward(mechanism, a))
+    if (std::find(carries_b.begin(), carries_b.end(), body) != carries_b.end()) return body;
+  return {};
+}
 
 std::vector<JointIndex> depth_first(const Mechanism& mechanism) {
   std::vector<std::vector<std::size_t>> joints_of_body(mechanism.bodies.size());

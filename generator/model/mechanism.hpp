@@ -91,6 +91,8 @@ struct Coordinate {
   std::optional<Expression>
       motion;  ///< of time and parameters: the coordinate is prescribed, no part of y and z
   SourceRange motion_where = {};
+  /// Where the coordinate may go, rad or m; what the compiler proves about loops it proves there. None: anywhere.
+  std::optional<std::array<double, 2>> range;
 };
 
 /// Suffixes of the coordinates' names and whether they are angles, in order; one without suffix for joints with one
@@ -197,6 +199,58 @@ struct CoordinateForce {
   SourceRange where = {};
 };
 
+enum class LoopType {
+  kBall,          ///< Δ = 0 (3 rows, axes of the carrier)
+  kRevolute,      ///< Δ = 0, a₁·w = 0, a₂·w = 0
+  kUniversal,     ///< Δ = 0, n·w = 0
+  kPrismatic,     ///< a₁·Δ = 0, a₂·Δ = 0, a₁·w = 0, a₂·w = 0, a₁·b₂ = 0
+  kCylindrical,   ///< a₁·Δ = 0, a₂·Δ = 0, a₁·w = 0, a₂·w = 0
+  kPlanarPin,     ///< c₁·Δ = 0, c₂·Δ = 0
+  kPointInPlane,  ///< n·Δ = 0
+  kPointOnLine,   ///< a₁·Δ = 0, a₂·Δ = 0
+  kRod,           ///< (Δ·Δ − l²)/(2 l) = 0
+  kResidual       ///< residual = 0
+};
+
+/// A joint that closes a kinematic loop: constraint rows g = 0 beside the tree of the joints. Δ leads from the origin of `from`
+/// to that of `to`; n is the unit vector along `axis`, (a₁, a₂) = plane_axes(n), both fixed in `from`; w along `to_axis` and
+/// (b₁, b₂) = plane_axes(w) are fixed in `to`. The carrier is the last body that both ends hang on (see `carrier`); a pin's
+/// (c₁, c₂) = plane_axes(axis) are fixed in the carrier. Rows come in the order that LoopType gives.
+/// Parallel axes n and w, and a₁ and b₁ of a prismatic joint, point the same way.
+struct Loop {
+  std::string name;
+  LoopType type = LoopType::kBall;
+  FrameIndex from, to;                     ///< on two bodies, or one on the world; no part of kResidual
+  std::array<double, 3> axis{0, 0, 1};     ///< not normalised; in `from`, of a pin in the carrier's axes
+  std::array<double, 3> to_axis{0, 0, 1};  ///< in `to`, not normalised
+  Expression length;                       ///< rod, m: of time and parameters, positive
+  Expression residual;                     ///< of time, coordinates and positions of frames
+  SourceRange where = {};
+};
+
+/// Number of constraint rows.
+std::size_t row_count(LoopType type);
+
+/// How the constraints of loops are met.
+enum class LoopTreatment {
+  kExplicit,     ///< dependent coordinates in closed form
+  kPartitioned,  ///< dependent coordinates by a fixed number of Newton iterations
+  kMultipliers   ///< all coordinates are kept; constraint forces and a projection at the end of a step
+};
+
+struct LoopOptions {
+  std::optional<LoopTreatment> treatment;  ///< none: the compiler chooses
+  /// Independent coordinates, for all but multipliers; empty: the compiler chooses.
+  struct CoordinateName {
+    JointIndex joint;
+    std::size_t coordinate = 0;
+  };
+  std::vector<CoordinateName> independent;
+  int iterations = 2;        ///< Newton iterations that close the loops at the end of a step
+  double stabilisation = 5;  ///< 1/s: multipliers meet g̈ + 2 s ġ + s² g = 0
+  SourceRange where = {};
+};
+
 enum class OutputKind {
   kPose,          ///< position (m, inertial frame) and rotation matrix (frame to inertial) of a frame
   kVelocity,      ///< v (inertial frame) and ω (frame components) of a frame
@@ -235,6 +289,8 @@ struct Mechanism {
   std::vector<Spring> springs;
   std::vector<CoordinateForce> coordinate_forces;
   std::vector<Output> outputs;
+  std::vector<Loop> loops;
+  LoopOptions loop_options;
   /// Constant rotation matrices whose entries lie within kSnapTolerance of 0 or ±1 are read as those exact values.
   bool snap = true;
 };
@@ -244,6 +300,10 @@ inline constexpr double kSnapTolerance = 1e-9;
 /// Joints parent before child, depth first from the world, siblings in order of declaration. This is the order of
 /// the coordinates (joints of type kFixed have none). The mechanism must have passed `check_mechanism`.
 std::vector<JointIndex> depth_first(const Mechanism& mechanism);
+
+/// The last body that carries both bodies through joints, possibly one of the two; none: the world.
+std::optional<BodyIndex> carrier(const Mechanism& mechanism, std::optional<BodyIndex> a,
+                                 std::optional<BodyIndex> b);
 
 /// Those of `depth_first` that are not fixed.
 std::vector<JointIndex> moving_joints(const Mechanism& mechanism);

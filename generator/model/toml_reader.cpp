@@ -40,6 +40,7 @@
 //   friction, friction_speed       # N m (N), rad/s (m/s): -friction v/sqrt(v^2 + friction_speed^2); default 0, 1e-3
 //   initial_position, initial_velocity      # rad, rad/s (m, m/s); default 0
 //   motion = "0.1*sin(20*t)"       # prescribes the coordinate as a function of t
+//   range = [-1, 1]                # rad (m): where the coordinate may go; what is proven of loops is proven there
 //   # Joints with several coordinates have a table for each: cylindrical angle, slide; universal first, second;
 //   # planar x, y, angle:           angle = { stiffness = 5, motion = "2*t" }
 //   # Spherical: damping (N m s/rad), initial_orientation = [w, x, y, z], initial_angular_velocity = [x, y, z] (rad/s,
@@ -78,6 +79,24 @@
 //   stiffness, damping, free_length         # N/m, N s/m, m; default 0
 //   law = "100*(length - 1)^3"     # N, added; of length and rate
 //   potential = "25*(length - 1)^4"         # J, of the law
+//
+//   [[loop]]                       # closes a kinematic loop between two frames; the joints make the tree
+//   name = "closure"
+//   type = "ball"                  # revolute, universal, prismatic, cylindrical, planar_pin, point_in_plane,
+//                                  # point_on_line, rod, residual
+//   from = "tip"                   # frames on two bodies, or one on the world; not of a residual
+//   to = "world"
+//   axis = [0, 0, 1]               # in `from`; planar_pin: normal of the plane, in the axes of the last body that
+//                                  # carries both ends (the world's where there is none)
+//   to_axis = [0, 0, 1]            # in `to`; default: the numbers of `axis`
+//   length = "0.4 + 0.01*sin(t)"   # rod, m
+//   residual = "tip.x - 2*hinge"   # residual: of t, coordinates and positions of frames; it is kept at zero
+//
+//   [loops]                        # how loops are closed; everything is chosen where left out
+//   treatment = "partitioned"      # explicit, multipliers
+//   independent = ["crank"]        # coordinates, by name
+//   iterations = 2                 # of Newton's method at the end of a step
+//   stabilisation = 5              # 1/s, multipliers
 //
 //   [[output]]
 //   name = "tip_pose"
