@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "dynamics/outputs.hpp"
-#include "ir/jacobian.hpp"
+#include "elimination.hpp"
+#include "ir/compose.hpp"
 #include "ir/lower.hpp"
 #include "model/coordinates.hpp"
-#include "passes/pipeline.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain {
@@ -111,22 +111,13 @@ class Assembly {
 
   bool is_zero(Signed value) const { return builder_.is_literal(value, 0); }
 
-  /// Copies a program into a builder; accelerations are read from `zdot` where that is not empty. Returns its outputs.
-  static Column copied(const Program& program, Builder& builder, const Column& zdot) {
-    Column copy(program.nodes.size());
-    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
-      const ir::Node& node = program.nodes[i];
-      const bool acceleration = node.op == ir::Op::kLeaf && node.leaf == LeafKind::kAcceleration;
-      copy[i] = acceleration && !zdot.empty() ? zdot[node.index]
-                                              : builder.apply(node, copy[node.a.value], copy[node.b.value]);
-      if (!program.labels[i].empty()) builder.label(copy[i].value, program.labels[i]);
-    }
-    Column outputs;
-    for (const ir::Output& output : program.outputs) outputs.push_back(copy[output.value.value]);
-    return outputs;
+  /// Copies a program into this builder; accelerations are those of `zdot_` where that is not empty.
+  Column insert(const Program& program) {
+    return ir::insert(builder_, program, [this](LeafKind kind, std::size_t i) {
+      const bool given = kind == LeafKind::kAcceleration && !zdot_.empty();
+      return given ? std::optional(zdot_[i]) : std::nullopt;
+    });
   }
-
-  Column insert(const Program& program) { return copied(program, builder_, zdot_); }
 
   Program lowered(const std::vector<dynamics::Ex>& values) const {
     return ir::lower(equations_.statements, targets("v", values), "values");
@@ -140,11 +131,8 @@ class Assembly {
 
   /// Where the columns enter: the derivatives of the leaves.
   std::vector<ir::Seed> seeds(Builder& builder) const {
-    std::vector<ir::Seed> list;
+    std::vector<ir::Seed> list = displacement_seeds(builder, tangent_);
     const Signed one = builder.literal(1);
-    for (const model::Tangent::Scalar& s : tangent_.scalars)
-      list.push_back({builder.leaf(LeafKind::kPosition, s.position), s.velocity, one});
-    for (const model::Tangent::Scalar& s : tangent_.quaternions) add_quaternion(builder, s, list);
     for (std::size_t i = 0; i < columns_.velocities; ++i)
       list.push_back({builder.leaf(LeafKind::kVelocity, i), columns_.velocity(i), one});
     for (std::size_t i = 0; i < columns_.inputs; ++i)
@@ -153,27 +141,11 @@ class Assembly {
     return list;
   }
 
-  /// ½ quat ⊗ (0, e_k)
-  static void add_quaternion(Builder& builder, const model::Tangent::Scalar& at,
-                             std::vector<ir::Seed>& list) {
-    Signed q[4], half[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-      q[k] = builder.leaf(LeafKind::kPosition, at.position + k);
-      half[k] = builder.multiply(builder.literal(0.5), q[k]);
-    }
-    const Signed by[4][3] = {{-half[1], -half[2], -half[3]},
-                             {half[0], -half[3], half[2]},
-                             {half[3], half[0], -half[1]},
-                             {-half[2], half[1], half[0]}};
-    for (std::size_t k = 0; k < 4; ++k)
-      for (std::size_t c = 0; c < 3; ++c) list.push_back({q[k], at.velocity + c, by[k][c]});
-  }
-
   /// Derivatives of `values` at constant accelerations, as values of this builder.
   JacobianEntries differentiated(const std::vector<dynamics::Ex>& values, bool by_acceleration = false) {
     // In a builder of its own, where ż is a leaf: accelerations inserted before would be followed to their own leaves.
     Builder builder;
-    const Column outputs = copied(lowered(values), builder, {});
+    const Column outputs = ir::insert(builder, lowered(values));
     std::vector<ir::Seed> list = seeds(builder);
     const std::size_t first = columns_.time_column() + 1;
     for (std::size_t i = 0; by_acceleration && i < columns_.velocities; ++i)
@@ -302,31 +274,6 @@ class Assembly {
   Matrix L_;
   Column inverse_D_;
 };
-
-/// Operations that remain after the passes: they find more in some orders than in others.
-std::size_t remaining_operations(const Program& program) {
-  ir::Module module;
-  module.functions = {program};
-  return ir::count_operations(passes::optimise(std::move(module)).module.functions[0]).arithmetic();
-}
-
-/// The cheapest of some orders. On the robot arms the first quarter of the program goes forward: rotations and velocities.
-template <class Build>
-Program cheapest(const Build& build) {
-  constexpr std::size_t kLarge = 10000;  // operations beyond which few orders are tried
-  Program best = build(EliminationOrder{0});
-  std::size_t fewest = remaining_operations(best);
-  const auto compare = [&](double forward) {
-    Program other = build(EliminationOrder{forward});
-    const std::size_t operations = remaining_operations(other);
-    if (operations >= fewest) return;
-    fewest = operations;
-    best = std::move(other);
-  };
-  const std::vector<double> few = {0.15, 0.5, 1}, many = {0.05, 0.1, 0.15, 0.2, 0.25, 0.5, 1};
-  for (const double forward : fewest > kLarge ? few : many) compare(forward);
-  return best;
-}
 
 }  // namespace
 

@@ -80,8 +80,10 @@ Signed Builder::unary(Op op, Signed a) {
     case Op::kNegate:
       return -a;
     case Op::kSin:
+      if (is_literal(a, 0)) return literal(0);
       return {intern({.op = op, .a = a.value}), a.negative};
     case Op::kCos:
+      if (is_literal(a, 0)) return literal(1);
       return {intern({.op = op, .a = a.value}), false};
     case Op::kSqrt: {
       const ValueId operand = a.negative ? intern({.op = Op::kNegate, .a = a.value}) : a.value;

@@ -1,0 +1,22 @@
+// The constraints of the loops and their derivatives as programs.
+#pragma once
+
+#include "dynamics/equations.hpp"
+#include "ir/program.hpp"
+#include "model/mechanism.hpp"
+
+namespace jourdain::loops {
+
+/// g(y, t), its Jacobian G by the displacements of model::Tangent and g_t; ġ = G z + g_t and γ = g̈ − G ż. Leaves are the
+/// y and z of the tree, t and parameters. Entries that are zero whatever the state are left out.
+struct ConstraintPrograms {
+  ir::Program value;     ///< ("g", row), every row
+  ir::Program jacobian;  ///< ("G", row, velocity), ("g_t", row)
+  ir::Program rates;     ///< ("rate", row) and ("gamma", row), every row
+};
+
+/// A loop does not feel how its carrier moves: the coordinates inward of it are taken as zero in its rows.
+ConstraintPrograms constraint_programs(const model::Mechanism& mechanism,
+                                       const dynamics::Equations& equations);
+
+}  // namespace jourdain::loops
