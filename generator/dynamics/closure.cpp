@@ -57,16 +57,16 @@ class Closure {
  public:
   explicit Closure(Scene& scene) : scene_(scene) {}
 
-  std::vector<Ex> rows(const Loop& loop) {
+  LoopClosure close(const Loop& loop) {
     if (loop.type == LoopType::kResidual)
-      return {general_value(scene_, loop.name, loop.residual, Inputs::kZero)};
+      return {{general_value(scene_, loop.name, loop.residual, Inputs::kZero)}, {}};
     const model::Frame &from = scene_.mechanism.frames[loop.from.value],
                        &to = scene_.mechanism.frames[loop.to.value];
     const std::size_t ancestor = common_ancestor(scene_.tree, link_of(from.body), link_of(to.body));
     const SeenFrame a(scene_, from, ancestor, loop.name + "a"), b(scene_, to, ancestor, loop.name + "b");
     const Vector3 difference = scene_.statements.bind(loop.name + "d", b.position() - a.position());
     const std::optional<model::BodyIndex> carrier = model::carrier(scene_.mechanism, from.body, to.body);
-    std::vector<Ex> g;
+    std::vector<Ex> g, senses;
     const auto across = [&](const Axes& axes, const SeenFrame& frame, const Vector3& v) {
       for (const Vector3& axis : axes) g.push_back(dot(frame.direction(axis), v));
     };
@@ -84,6 +84,7 @@ class Closure {
       case LoopType::kRevolute:
         coincide();
         across(from_axes, a, w());
+        senses = {dot(n(), w())};
         break;
       case LoopType::kUniversal:
         coincide();
@@ -93,10 +94,12 @@ class Closure {
         across(from_axes, a, difference);
         across(from_axes, a, w());
         g.push_back(dot(a.direction(from_axes[0]), b.direction(to_axes[1])));
+        senses = {dot(n(), w()), dot(a.direction(from_axes[0]), b.direction(to_axes[0]))};
         break;
       case LoopType::kCylindrical:
         across(from_axes, a, difference);
         across(from_axes, a, w());
+        senses = {dot(n(), w())};
         break;
       case LoopType::kPlanarPin: {
         const Vector3 seen = in_carrier(carrier, difference, loop.name);
@@ -119,7 +122,8 @@ class Closure {
         break;
     }
     for (Ex& row : g) row = scene_.statements.bind("g_" + loop.name, kinematics::settled(row));
-    return g;
+    for (Ex& sense : senses) sense = scene_.statements.bind("sense_" + loop.name, kinematics::settled(sense));
+    return {g, senses};
   }
 
  private:
@@ -140,12 +144,10 @@ class Closure {
 
 }  // namespace
 
-std::vector<Ex> derive_closure(Scene& scene) {
-  std::vector<Ex> g;
-  Closure closure(scene);
-  for (const Loop& loop : scene.mechanism.loops)
-    for (const Ex& row : closure.rows(loop)) g.push_back(row);
-  return g;
+std::vector<LoopClosure> derive_closure(Scene& scene) {
+  std::vector<LoopClosure> closures;
+  for (const Loop& loop : scene.mechanism.loops) closures.push_back(Closure(scene).close(loop));
+  return closures;
 }
 
 }  // namespace jourdain::dynamics

@@ -4,7 +4,6 @@
 
 #include "dynamics/accelerations.hpp"
 #include "dynamics/applied_forces.hpp"
-#include "dynamics/closure.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/outputs.hpp"
 #include "dynamics/scene.hpp"
@@ -55,7 +54,7 @@ class Derivation {
     for (const model::Output& output : mechanism_.outputs) equations.output_names.push_back(output.name);
     equations.outputs = derive_outputs(
         scene_, equations, options_.for_derivatives ? scene_.leaves.zdot : equations.zdot, applied);
-    equations.closure = derive_closure(scene_);
+    equations.closures = derive_closure(scene_);
     equations.statements = std::move(scene_.statements);
     return equations;
   }

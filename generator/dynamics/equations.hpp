@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/closure.hpp"
 #include "kinematics/link_tree.hpp"
 #include "kinematics/statements.hpp"
 #include "model/mechanism.hpp"
@@ -40,7 +41,7 @@ struct Equations {
   std::vector<Ex> tau;             ///< M ż − k̄ + q̄ at u = 0, with ż a leaf (inverse dynamics)
   std::vector<Ex> residual;        ///< M ż − k̄ + q̄, with ż a leaf; only for derivatives
   std::vector<Ex> load;            ///< of q̄ all but gravity; only for derivatives
-  std::vector<Ex> closure;         ///< g(y, t) of the loops, row by row; empty for a tree
+  std::vector<LoopClosure> closures;  ///< by loop
   Ex kinetic_energy;               ///< J
   Ex potential_energy;             ///< J; gravity (zero at the inertial origin), joint springs and springs
   std::vector<Ex> initial_position;

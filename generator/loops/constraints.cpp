@@ -37,28 +37,31 @@ std::map<std::size_t, double> positions_inward(const model::Mechanism& mechanism
   return values;
 }
 
-Program value_program(const model::Mechanism& mechanism, const dynamics::Equations& equations) {
+/// One output per value of every loop, in order.
+Program lowered(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+                std::vector<dynamics::Ex> dynamics::LoopClosure::*values, const char* name) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   Builder builder;
   std::size_t row = 0;
-  for (const model::Loop& loop : mechanism.loops) {
+  for (std::size_t l = 0; l < mechanism.loops.size(); ++l) {
+    const model::Loop& loop = mechanism.loops[l];
     std::map<std::size_t, double> fixed;
     if (loop.type != model::LoopType::kResidual)
       fixed = positions_inward(mechanism, layout,
                                model::carrier(mechanism, mechanism.frames[loop.from.value].body,
                                               mechanism.frames[loop.to.value].body));
-    for (std::size_t k = 0; k < model::row_count(loop.type); ++k, ++row) {
-      const Program lowered = ir::lower(
-          equations.statements, {{"g", static_cast<int>(row), -1, equations.closure[row]}}, "closure");
-      const Signed g = ir::insert(builder, lowered, [&](LeafKind kind, std::size_t i) {
+    for (const dynamics::Ex& value : equations.closures[l].*values) {
+      const Program one = ir::lower(equations.statements, {{name, -1, -1, value}}, name);
+      const Signed copy = ir::insert(builder, one, [&](LeafKind kind, std::size_t i) {
         const auto it = fixed.find(i);
         const bool given = kind == LeafKind::kPosition && it != fixed.end();
         return given ? std::optional(builder.literal(it->second)) : std::nullopt;
       })[0];
-      builder.output("g", static_cast<int>(row), -1, g);
+      const bool is_row = values == &dynamics::LoopClosure::rows;
+      builder.output(name, static_cast<int>(is_row ? row++ : l), -1, copy);
     }
   }
-  return passes::remove_dead_code(builder.finish("closure"));
+  return passes::remove_dead_code(builder.finish(name));
 }
 
 /// A builder that holds g and differentiates it.
@@ -132,7 +135,8 @@ ConstraintPrograms constraint_programs(const model::Mechanism& mechanism,
                                        const dynamics::Equations& equations) {
   const model::Tangent tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
   ConstraintPrograms programs;
-  programs.value = value_program(mechanism, equations);
+  programs.value = lowered(mechanism, equations, &dynamics::LoopClosure::rows, "g");
+  programs.senses = lowered(mechanism, equations, &dynamics::LoopClosure::senses, "sense");
   programs.jacobian =
       cheapest([&](EliminationOrder o) { return Differentiation(tangent, programs.value, o).jacobian(); });
   programs.rates =

@@ -11,6 +11,7 @@ namespace jourdain::loops {
 /// y and z of the tree, t and parameters. Entries that are zero whatever the state are left out.
 struct ConstraintPrograms {
   ir::Program value;     ///< ("g", row), every row
+  ir::Program senses;    ///< ("sense", loop), as in dynamics::LoopClosure
   ir::Program jacobian;  ///< ("G", row, velocity), ("g_t", row)
   ir::Program rates;     ///< ("rate", row) and ("gamma", row), every row
 };

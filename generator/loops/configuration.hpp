@@ -1,0 +1,74 @@
+// The constraints at given configurations, in numbers: assembling, counting degrees of freedom.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <cstddef>
+#include <vector>
+
+#include "loops/constraints.hpp"
+#include "model/coordinates.hpp"
+
+namespace jourdain::loops {
+
+using Vector = Eigen::VectorX<long double>;
+using Matrix = Eigen::MatrixX<long double>;
+
+/// Generalized coordinates of the tree at a time (s); at the parameters' values.
+struct Configuration {
+  long double t = 0;
+  Vector y;
+};
+
+/// Residuals of rows with lengths below this count as closed, m (of products of unit vectors: without unit).
+inline constexpr long double kClosed = 1e-14L;
+
+/// The constraints of one mechanism at fixed values of the parameters. Evaluations are const.
+class NumericClosure {
+ public:
+  NumericClosure(const model::Mechanism& mechanism, const ConstraintPrograms& programs,
+                 std::vector<double> parameters);
+
+  std::size_t row_count() const { return rows_; }
+  std::size_t velocity_count() const { return velocities_; }
+
+  Vector value(const Configuration& at) const;     ///< g
+  Matrix jacobian(const Configuration& at) const;  ///< G, rows × nz
+  Vector time_rate(const Configuration& at) const;  ///< g_t
+  /// γ = g̈ − G ż
+  Vector bias(const Configuration& at, const Vector& z) const;
+  /// Loops that are closed with axes against each other.
+  std::vector<std::size_t> reversed(const Configuration& at) const;
+
+  /// y moved by the displacement; quaternions keep unit length.
+  Configuration displaced(const Configuration& from, const Vector& displacement) const;
+
+  /// The nearest closed configuration, by damped Gauss-Newton steps of least norm over the velocities listed in `moving`
+  /// (empty: all). Check `value` of the result: it may not be closed.
+  Configuration assembled(Configuration start, const std::vector<bool>& moving) const;
+
+  /// The nearest velocities that meet G z + g_t = 0, of those in `moving`.
+  Vector consistent(const Configuration& at, const Vector& z, const std::vector<bool>& moving) const;
+
+ private:
+  ir::LeafValues<long double> leaves(const Configuration& at, const Vector& z) const;
+
+  const ConstraintPrograms& programs_;
+  model::Tangent tangent_;
+  std::vector<double> parameters_;
+  std::size_t rows_ = 0, velocities_ = 0;
+};
+
+/// Singular values below this share of the largest count as zero.
+inline constexpr long double kRankTolerance = 1e-9L;
+
+std::size_t rank_of(const Matrix& A);
+
+/// A⁺ b, the least-squares solution of least norm.
+Vector least_norm(const Matrix& A, const Vector& b);
+
+/// Closed configurations from seeded random walks on the constraint manifold, the first is `start`.
+std::vector<Configuration> walk(const NumericClosure& closure, const Configuration& start,
+                                const model::Mechanism& mechanism, std::size_t count);
+
+}  // namespace jourdain::loops

@@ -1,0 +1,103 @@
+#include "loops/dense_solver.hpp"
+
+namespace jourdain::loops {
+
+using ir::Signed;
+
+namespace {
+
+constexpr std::size_t kLargestByCofactors = 3;
+
+}  // namespace
+
+DenseSolver::DenseSolver(ir::Builder& builder, std::vector<Column> A) : builder_(builder), A_(std::move(A)) {
+  A_.size() <= kLargestByCofactors ? invert() : orthogonalise();
+}
+
+Signed DenseSolver::product(const Column& a, const Column& b) const {
+  Signed sum = builder_.literal(0);
+  for (std::size_t i = 0; i < a.size(); ++i) sum = builder_.add(sum, builder_.multiply(a[i], b[i]));
+  return sum;
+}
+
+void DenseSolver::subtract(Column& a, Signed factor, const Column& b) const {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    a[i] = builder_.subtract(a[i], builder_.multiply(factor, b[i]));
+}
+
+/// The determinant without a row and a column, with the sign that it has in the inverse.
+Signed DenseSolver::minor(std::size_t row, std::size_t column) const {
+  const std::size_t n = A_.size();
+  if (n == 1) return builder_.literal(1);
+  if (n == 2) {
+    const Signed entry = A_[1 - row][1 - column];
+    return row == column ? entry : -entry;
+  }
+  const std::size_t r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
+  return builder_.subtract(builder_.multiply(A_[r1][c1], A_[r2][c2]),
+                           builder_.multiply(A_[r1][c2], A_[r2][c1]));
+}
+
+void DenseSolver::invert() {
+  const std::size_t n = A_.size();
+  cofactors_.assign(n, Column(n));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) cofactors_[i][j] = minor(i, j);
+  inverse_determinant_ = builder_.divide(builder_.literal(1), product(A_[0], cofactors_[0]));
+}
+
+void DenseSolver::orthogonalise() {
+  const std::size_t n = A_.size();
+  R_.assign(n, Column(n, builder_.literal(0)));
+  for (std::size_t j = 0; j < n; ++j) {
+    Column v;
+    for (std::size_t i = 0; i < n; ++i) v.push_back(A_[i][j]);
+    for (std::size_t i = 0; i < j; ++i) {
+      R_[i][j] = builder_.multiply(product(Q_[i], v), inverse_squares_[i]);
+      subtract(v, R_[i][j], Q_[i]);
+    }
+    inverse_squares_.push_back(builder_.divide(builder_.literal(1), product(v, v)));
+    Q_.push_back(std::move(v));
+  }
+}
+
+Column DenseSolver::solve(Column b) const {
+  const std::size_t n = A_.size();
+  Column x(n);
+  if (n <= kLargestByCofactors) {
+    for (std::size_t j = 0; j < n; ++j) {
+      Signed sum = builder_.literal(0);
+      for (std::size_t i = 0; i < n; ++i)
+        sum = builder_.add(sum, builder_.multiply(cofactors_[i][j], b[i]));
+      x[j] = builder_.multiply(sum, inverse_determinant_);
+    }
+    return x;
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    x[j] = builder_.multiply(product(Q_[j], b), inverse_squares_[j]);
+    subtract(b, x[j], Q_[j]);
+  }
+  for (std::size_t j = n; j-- > 0;)
+    for (std::size_t i = 0; i < j; ++i) x[i] = builder_.subtract(x[i], builder_.multiply(R_[i][j], x[j]));
+  return x;
+}
+
+Column DenseSolver::solve_transposed(const Column& b) const {
+  const std::size_t n = A_.size();
+  Column x(n, builder_.literal(0));
+  if (n <= kLargestByCofactors) {
+    for (std::size_t i = 0; i < n; ++i)
+      x[i] = builder_.multiply(product(cofactors_[i], b), inverse_determinant_);
+    return x;
+  }
+  Column w = b;
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < j; ++i) w[j] = builder_.subtract(w[j], builder_.multiply(R_[i][j], w[i]));
+  for (std::size_t j = 0; j < n; ++j) {
+    const Signed share = builder_.multiply(w[j], inverse_squares_[j]);
+    subtract(x, -share, Q_[j]);
+  }
+  return x;
+}
+
+}  // namespace jourdain::loops

@@ -1,0 +1,37 @@
+// Small square systems as operations of a program, without pivoting and regular wherever the matrix is.
+#pragma once
+
+#include <vector>
+
+#include "ir/builder.hpp"
+
+namespace jourdain::loops {
+
+using Column = std::vector<ir::Signed>;
+
+/// Solves A x = b and Aᵀ x = b: up to three unknowns by cofactors, more by orthogonalisation (modified Gram-Schmidt). Elimination in
+/// a fixed order would divide by pivots that vanish where A is regular.
+class DenseSolver {
+ public:
+  /// `A` by row.
+  DenseSolver(ir::Builder& builder, std::vector<Column> A);
+
+  Column solve(Column b) const;
+  Column solve_transposed(const Column& b) const;
+
+ private:
+  ir::Signed minor(std::size_t row, std::size_t column) const;
+  void invert();
+  void orthogonalise();
+  ir::Signed product(const Column& a, const Column& b) const;
+  void subtract(Column& a, ir::Signed factor, const Column& b) const;
+
+  ir::Builder& builder_;
+  std::vector<Column> A_;
+  std::vector<Column> cofactors_;  ///< by row; up to three unknowns
+  ir::Signed inverse_determinant_;
+  std::vector<Column> Q_, R_;  ///< orthogonal columns, not normalised; unit upper triangle by row
+  Column inverse_squares_;     ///< of the columns of Q
+};
+
+}  // namespace jourdain::loops

@@ -1,0 +1,197 @@
+#include "loops/partition.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "support/check.hpp"
+
+namespace jourdain::loops {
+
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// Partitions beyond this number are not tried one by one.
+constexpr std::size_t kMostPartitions = 4000;
+/// A preferred partition may be conditioned this much worse.
+constexpr double kPreference = 4;
+
+std::vector<std::size_t> others(std::size_t count, const std::vector<std::size_t>& chosen) {
+  std::vector<std::size_t> rest;
+  for (std::size_t k = 0; k < count; ++k)
+    if (std::find(chosen.begin(), chosen.end(), k) == chosen.end()) rest.push_back(k);
+  return rest;
+}
+
+/// Smallest over largest singular value of the dependent columns, the worst of all.
+double conditioning(const std::vector<Matrix>& jacobians, const std::vector<std::size_t>& dependents,
+                    double enough = 0) {
+  double worst = 1;
+  for (const Matrix& G : jacobians) {
+    Matrix block(G.rows(), at(dependents.size()));
+    for (std::size_t k = 0; k < dependents.size(); ++k) block.col(at(k)) = G.col(at(dependents[k]));
+    if (block.size() == 0) continue;
+    const Vector values = Eigen::JacobiSVD<Matrix>(block).singularValues();
+    const double ratio = values[0] > 0 ? static_cast<double>(values.tail(1)[0] / values[0]) : 0;
+    worst = std::min(worst, ratio);
+    if (worst < enough) return worst;
+  }
+  return worst;
+}
+
+/// Strongly connected components of a directed graph (Tarjan), in an order in which edges lead to earlier ones.
+class Components {
+ public:
+  explicit Components(const std::vector<std::vector<std::size_t>>& edges)
+      : edges_(edges), index_(edges.size(), 0), low_(edges.size(), 0), open_(edges.size(), false) {
+    for (std::size_t v = 0; v < edges.size(); ++v)
+      if (index_[v] == 0) visit(v);
+  }
+  const std::vector<std::vector<std::size_t>>& list() const { return list_; }
+
+ private:
+  void visit(std::size_t v) {
+    index_[v] = low_[v] = ++count_;
+    stack_.push_back(v);
+    open_[v] = true;
+    for (const std::size_t w : edges_[v]) {
+      if (index_[w] == 0) visit(w);
+      if (open_[w]) low_[v] = std::min(low_[v], low_[w]);
+    }
+    if (low_[v] != index_[v]) return;
+    std::vector<std::size_t>& component = list_.emplace_back();
+    while (open_[v]) {
+      component.push_back(stack_.back());
+      open_[stack_.back()] = false;
+      stack_.pop_back();
+    }
+    std::sort(component.begin(), component.end());
+  }
+
+  const std::vector<std::vector<std::size_t>>& edges_;
+  std::vector<std::size_t> index_, low_, stack_;
+  std::vector<bool> open_;
+  std::vector<std::vector<std::size_t>> list_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+Groups velocity_groups(const model::Mechanism& mechanism) {
+  const model::Tangent tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
+  Groups groups;
+  for (const model::Tangent::Scalar& s : tangent.scalars) groups.push_back({s.velocity});
+  for (const model::Tangent::Scalar& s : tangent.quaternions)
+    groups.push_back({s.velocity, s.velocity + 1, s.velocity + 2});
+  std::sort(groups.begin(), groups.end());
+  return groups;
+}
+
+std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians) {
+  std::vector<std::size_t> rows;
+  std::vector<std::size_t> ranks(jacobians.size(), 0);
+  for (Eigen::Index r = 0; r < jacobians.front().rows(); ++r) {
+    std::vector<std::size_t> more;
+    bool grows = false;
+    for (std::size_t k = 0; k < jacobians.size(); ++k) {
+      Matrix upper(at(rows.size() + 1), jacobians[k].cols());
+      for (std::size_t i = 0; i < rows.size(); ++i) upper.row(at(i)) = jacobians[k].row(at(rows[i]));
+      upper.row(at(rows.size())) = jacobians[k].row(r);
+      more.push_back(rank_of(upper));
+      grows = grows || more[k] > ranks[k];
+    }
+    if (!grows) continue;
+    rows.push_back(static_cast<std::size_t>(r));
+    ranks = more;
+  }
+  return rows;
+}
+
+std::vector<Block> triangular_blocks(const std::vector<Matrix>& jacobians,
+                                     const std::vector<std::size_t>& dependents) {
+  const std::size_t n = dependents.size();
+  std::vector<std::vector<std::size_t>> columns_of(n);  // of each row, positions in `dependents`
+  for (std::size_t r = 0; r < n; ++r)
+    for (std::size_t c = 0; c < n; ++c)
+      if (std::any_of(jacobians.begin(), jacobians.end(),
+                      [&](const Matrix& G) { return G(at(r), at(dependents[c])) != 0; }))
+        columns_of[r].push_back(c);
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> row_of(n, kNone);  // a perfect matching, by augmenting paths
+  for (std::size_t r = 0; r < n; ++r) {
+    std::vector<bool> seen(n, false);
+    const std::function<bool(std::size_t)> augment = [&](std::size_t row) {
+      for (const std::size_t c : columns_of[row]) {
+        if (seen[c]) continue;
+        seen[c] = true;
+        if (row_of[c] != kNone && !augment(row_of[c])) continue;
+        row_of[c] = row;
+        return true;
+      }
+      return false;
+    };
+    if (!augment(r)) return {};
+  }
+  std::vector<std::size_t> column_of(n);
+  for (std::size_t c = 0; c < n; ++c) column_of[row_of[c]] = c;
+  std::vector<std::vector<std::size_t>> needs(n);  // rows that determine the other columns of a row
+  for (std::size_t r = 0; r < n; ++r)
+    for (const std::size_t c : columns_of[r])
+      if (c != column_of[r]) needs[r].push_back(row_of[c]);
+  std::vector<Block> blocks;
+  const Components components(needs);
+  for (const std::vector<std::size_t>& component : components.list()) {
+    Block& block = blocks.emplace_back();
+    block.rows = component;
+    for (const std::size_t r : component) block.dependents.push_back(dependents[column_of[r]]);
+    std::sort(block.dependents.begin(), block.dependents.end());
+  }
+  return blocks;
+}
+
+std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
+                                         const std::vector<std::size_t>& independent) {
+  const Matrix& G = jacobians.front();
+  const std::vector<std::size_t> dependents = others(static_cast<std::size_t>(G.cols()), independent);
+  if (at(dependents.size()) != G.rows()) return {};
+  Partition partition{independent, triangular_blocks(jacobians, dependents),
+                      conditioning(jacobians, dependents)};
+  std::sort(partition.independent.begin(), partition.independent.end());
+  if (partition.blocks.empty() && !dependents.empty()) partition.conditioning = 0;
+  return partition;
+}
+
+std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, const Groups& groups,
+                                          const std::vector<bool>& preferred) {
+  const auto columns = static_cast<std::size_t>(jacobians.front().cols());
+  const auto freedom = columns - static_cast<std::size_t>(jacobians.front().rows());
+  std::vector<std::size_t> best, chosen;
+  double best_score = 0, best_conditioning = 0;
+  std::size_t tried = 0;
+  const std::function<void(std::size_t)> choose = [&](std::size_t group) {
+    if (chosen.size() == freedom) {
+      if (++tried > kMostPartitions) return;
+      std::size_t liked = 0;
+      for (const std::size_t k : chosen) liked += preferred[k];
+      const double weight = liked == freedom ? kPreference : 1;
+      const double found = conditioning(jacobians, others(columns, chosen), best_score / weight);
+      if (!(found * weight > best_score)) return;
+      best = chosen;
+      best_score = found * weight;
+      best_conditioning = found;
+      return;
+    }
+    if (group == groups.size() || tried > kMostPartitions) return;
+    if (chosen.size() + groups[group].size() <= freedom) {
+      chosen.insert(chosen.end(), groups[group].begin(), groups[group].end());
+      choose(group + 1);
+      chosen.resize(chosen.size() - groups[group].size());
+    }
+    choose(group + 1);
+  };
+  choose(0);
+  if (!(best_conditioning > 0)) return {};
+  return given_partition(jacobians, best);
+}
+
+}  // namespace jourdain::loops

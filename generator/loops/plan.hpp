@@ -1,0 +1,52 @@
+// What is decided offline about a mechanism's loops: where it starts, which coordinates are independent, how loops are closed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loops/configuration.hpp"
+#include "model/mechanism.hpp"
+#include "support/diagnostics.hpp"
+
+namespace jourdain::loops {
+
+/// Rows that determine dependent velocities of the tree, once those of earlier blocks are known. Square.
+struct Block {
+  std::vector<std::size_t> rows, dependents;
+};
+
+struct Moved {
+  std::string coordinate;
+  double from = 0, to = 0;  ///< rad, m; rad/s, m/s of a velocity
+  bool velocity = false;
+};
+
+struct LoopPlan {
+  model::LoopTreatment treatment = model::LoopTreatment::kMultipliers;
+  std::string reason;                    ///< why not a treatment that comes before it; a phrase
+  std::vector<double> y, z;              ///< where the mechanism starts, all coordinates of the tree
+  std::vector<Moved> moved;              ///< what the assembly changed
+  std::size_t freedom = 0;               ///< degrees of freedom
+  std::vector<std::string> redundant;    ///< rows that follow from others, by name
+  std::vector<std::size_t> rows;         ///< the others
+  std::vector<std::size_t> independent;  ///< velocities; empty with multipliers
+  std::vector<Block> blocks;             ///< of the dependent ones, in the order of solution; empty with multipliers
+  double conditioning = 0;  ///< smallest over largest singular value of the dependent block, worst at the configurations seen
+  std::vector<double> row_length;  ///< m by row: what its multiplier is divided by to be a force
+  double regularisation = 0;       ///< added to G M⁻¹ Gᵀ of rows with lengths, 1/kg; see multipliers
+  int iterations = 2;
+  double stabilisation = 0;  ///< 1/s
+
+  bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
+};
+
+/// Decides on the loops of `mechanism`. Nothing after diagnostics (loops that cannot be assembled, no freedom left, a treatment
+/// that is asked for and not possible).
+std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
+                                   support::Diagnostics& diagnostics);
+
+/// "closure: a1.w" and so on, by row.
+std::vector<std::string> row_names(const model::Mechanism& mechanism);
+
+}  // namespace jourdain::loops

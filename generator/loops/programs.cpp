@@ -1,0 +1,296 @@
+#include "loops/programs.hpp"
+
+#include <map>
+
+#include "ir/compose.hpp"
+#include "loops/dependence.hpp"
+#include "loops/multipliers.hpp"
+#include "passes/rewrite.hpp"
+#include "support/check.hpp"
+
+namespace jourdain::loops {
+
+using ir::Builder;
+using ir::LeafKind;
+using ir::Program;
+using ir::Signed;
+
+namespace {
+
+std::size_t subscript(int i) { return static_cast<std::size_t>(i); }
+
+/// One program under construction.
+class LoopProgram {
+ public:
+  explicit LoopProgram(const LoopSystem& system) : system_(system), dependence_(builder_, system) {}
+
+  Program finish(const std::string& name) { return passes::remove_dead_code(builder_.finish(name)); }
+
+  void write_function(const std::string& name) {
+    if (name == "position_rate") return write("ydot", position_rates(builder_, system_, dependence_.z()));
+    if (name == "mass_matrix") return write_mass_matrix();
+    if (name == "k_bar") return write("k", k_bar());
+    if (name == "q_bar") return write("q", dependence_.projected(vector("q_bar")));
+    if (name == "residual") return write("r", residual(acceleration_leaves()));
+    if (name == "inverse_dynamics")
+      return write("tau", dependence_.projected(
+                              vector("inverse_dynamics", dependence_.accelerations(acceleration_leaves()))));
+    if (name == "forward_dynamics") return write("zdot", zdot());
+    if (name == "outputs") return write_outputs();
+    if (name == "initial_state") return write_initial_state();
+    if (name == "constraint_residual") return write_constraint_residual();
+    if (name == "constraint_forces") return write("lambda", constraint_forces());
+    if (name == "project") return write_projection();
+    JD_CHECK(name == "kinetic_energy" || name == "potential_energy", "no function '{}'", name);
+    const Program tree = system_.tree(name);
+    builder_.output(tree.outputs[0].name, -1, -1, insert(tree, {})[0]);
+  }
+
+  Column zdot() {
+    if (!system_.plan.is_reduced()) return constrained_motion().zdot;
+    return solved(mass_matrix(), forces());
+  }
+
+ private:
+  struct Motion {
+    Column zdot, lambda;
+  };
+
+  void write(const char* name, const Column& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) builder_.output(name, static_cast<int>(i), -1, values[i]);
+  }
+
+  /// A program of the tree with the velocities of this state, and the accelerations `a` of the tree.
+  Column insert(const Program& tree, const Column& a) {
+    return ir::insert(builder_, tree, [&](LeafKind kind, std::size_t i) -> std::optional<Signed> {
+      if (kind == LeafKind::kVelocity) return dependence_.z()[i];
+      if (kind == LeafKind::kAcceleration && !a.empty()) return a[i];
+      return {};
+    });
+  }
+
+  Column vector(const std::string& function, const Column& a = {}) {
+    return insert(system_.tree(function), a);
+  }
+
+  Column acceleration_leaves() {
+    Column leaves;
+    for (std::size_t i = 0; i < dependence_.independent_count(); ++i)
+      leaves.push_back(builder_.leaf(LeafKind::kAcceleration, i));
+    return leaves;
+  }
+
+  /// M of the tree, full.
+  std::vector<Column> tree_mass_matrix() {
+    const std::size_t n = system_.layout.velocity_count();
+    std::vector<Column> M(n, Column(n, builder_.literal(0)));
+    const Program tree = system_.tree("mass_matrix");
+    const Column values = insert(tree, {});
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::size_t i = subscript(tree.outputs[k].row), j = subscript(tree.outputs[k].column);
+      M[i][j] = M[j][i] = values[k];
+    }
+    return M;
+  }
+
+  Column times(const std::vector<Column>& M, const Column& x) {
+    Column y;
+    for (const Column& row : M) {
+      Signed sum = builder_.literal(0);
+      for (std::size_t k = 0; k < x.size(); ++k) sum = builder_.add(sum, builder_.multiply(row[k], x[k]));
+      y.push_back(sum);
+    }
+    return y;
+  }
+
+  /// Bᵀ M B. With one degree of freedom twice the kinetic energy at z = B, where nothing else moves: that costs less than M.
+  std::vector<Column> mass_matrix() {
+    const std::vector<Column>& B = dependence_.B();
+    if (B.size() == 1 && !system_.layout.rheonomic) {
+      const Signed T = ir::insert(builder_, system_.tree("kinetic_energy"), [&](LeafKind kind, std::size_t i) {
+        return kind == LeafKind::kVelocity ? std::optional(B[0][i]) : std::nullopt;
+      })[0];
+      return {{builder_.multiply(builder_.literal(2), T)}};
+    }
+    const std::vector<Column> M = tree_mass_matrix();
+    if (!system_.plan.is_reduced()) return M;
+    std::vector<Column> reduced;
+    for (const Column& column : B) reduced.push_back(dependence_.projected(times(M, column)));
+    return reduced;
+  }
+
+  /// k̄ − q̄ of the independent coordinates: minus the residual of the tree at ż = β.
+  Column forces() {
+    Column list = dependence_.projected(vector("residual", dependence_.beta()));
+    for (Signed& entry : list) entry = -entry;
+    return list;
+  }
+
+  Column k_bar() {
+    const Column tree = vector("k_bar");
+    if (!system_.plan.is_reduced()) return tree;
+    const Column bias = times(tree_mass_matrix(), dependence_.beta());
+    Column rows;
+    for (std::size_t k = 0; k < tree.size(); ++k) rows.push_back(builder_.subtract(tree[k], bias[k]));
+    return dependence_.projected(rows);
+  }
+
+  Column residual(const Column& zdot) {
+    Column r = dependence_.projected(vector("residual", dependence_.accelerations(zdot)));
+    if (system_.plan.is_reduced()) return r;
+    const Column lambda = constrained_motion().lambda;
+    const ConstraintValues constraints(builder_, system_);
+    for (std::size_t k = 0; k < r.size(); ++k)
+      for (std::size_t row = 0; row < lambda.size(); ++row)
+        r[k] = builder_.add(r[k], builder_.multiply(constraints.G(row, k), lambda[row]));
+    return r;
+  }
+
+  /// Solution of a symmetric positive definite system, M = Lᵀ D L.
+  Column solved(std::vector<Column> M, Column b) {
+    const std::size_t n = b.size();
+    Column inverse(n);
+    std::vector<Column> L(n, Column(n, builder_.literal(0)));
+    for (std::size_t k = n; k-- > 0;) {
+      inverse[k] = builder_.divide(builder_.literal(1), M[k][k]);
+      for (std::size_t i = k; i-- > 0;) {
+        L[k][i] = builder_.multiply(M[k][i], inverse[k]);
+        for (std::size_t j = 0; j <= i; ++j)
+          M[i][j] = builder_.subtract(M[i][j], builder_.multiply(L[k][i], M[k][j]));
+        b[i] = builder_.subtract(b[i], builder_.multiply(L[k][i], b[k]));
+      }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      b[k] = builder_.multiply(inverse[k], b[k]);
+      for (std::size_t i = 0; i < k; ++i) b[k] = builder_.subtract(b[k], builder_.multiply(L[k][i], b[i]));
+    }
+    return b;
+  }
+
+  Motion constrained_motion() {
+    const ConstraintValues constraints(builder_, system_);
+    const MultiplierSolver solver(builder_, system_, tree_mass_matrix(), constraints);
+    const ConstraintRates rates = constraint_rates(builder_, system_, dependence_.z());
+    const Column pushed = solver.lowered(forces());
+    Column c = solver.constrained(pushed);
+    const double s = system_.plan.stabilisation;
+    for (std::size_t r = 0; r < c.size(); ++r) {
+      c[r] = builder_.add(c[r], rates.gamma[r]);
+      c[r] = builder_.add(c[r], builder_.multiply(builder_.literal(2 * s), rates.rate[r]));
+      c[r] = builder_.add(c[r], builder_.multiply(builder_.literal(s * s), constraints.g(r)));
+    }
+    const Column lambda = solver.multipliers(c);
+    return {solver.accelerations(pushed, lambda), lambda};
+  }
+
+  Column constraint_forces() {
+    if (!system_.plan.is_reduced()) return constrained_motion().lambda;
+    Column missing = vector("residual", dependence_.accelerations(zdot()));
+    for (Signed& entry : missing) entry = -entry;
+    return dependence_.multipliers(missing);
+  }
+
+  void write_mass_matrix() {
+    const std::vector<Column> M = mass_matrix();
+    for (std::size_t i = 0; i < M.size(); ++i)
+      for (std::size_t j = i; j < M.size(); ++j)
+        builder_.output("M", static_cast<int>(i), static_cast<int>(j), M[i][j]);
+  }
+
+  void write_constraint_residual() {
+    const ConstraintValues constraints(builder_, system_);
+    const Column rate = constraint_rates(builder_, system_, dependence_.z()).rate;
+    for (std::size_t r = 0; r < rate.size(); ++r)
+      builder_.output("g", static_cast<int>(r), -1, constraints.g(r));
+    write("g_rate", rate);
+  }
+
+  void write_projection() {
+    const std::vector<Column> M = tree_mass_matrix();
+    const ConstraintValues here(builder_, system_);
+    Column g, opening;
+    for (std::size_t r = 0; r < system_.constraints.value.outputs.size(); ++r) g.push_back(here.g(r));
+    const Column nothing(M.size(), builder_.literal(0));
+    const MultiplierSolver solver(builder_, system_, M, here);
+    const Column y = displaced(builder_, system_, position_leaves(builder_, system_),
+                               solver.accelerations(nothing, solver.multipliers(g)));
+    const ConstraintValues there(builder_, system_, y);
+    for (std::size_t r = 0; r < g.size(); ++r) {
+      Signed sum = there.g_t(r);
+      for (std::size_t k = 0; k < M.size(); ++k)
+        sum = builder_.add(sum, builder_.multiply(there.G(r, k), dependence_.z()[k]));
+      opening.push_back(sum);
+    }
+    const MultiplierSolver again(builder_, system_, M, there);
+    const Column change = again.accelerations(nothing, again.multipliers(opening));
+    write("y", y);
+    for (std::size_t k = 0; k < M.size(); ++k)
+      builder_.output("z", static_cast<int>(k), -1, builder_.add(dependence_.z()[k], change[k]));
+  }
+
+  void write_initial_state() {
+    for (std::size_t i = 0; i < system_.plan.y.size(); ++i)
+      builder_.output("y", static_cast<int>(i), -1, builder_.literal(system_.plan.y[i]));
+    if (system_.plan.is_reduced())
+      for (std::size_t j = 0; j < system_.plan.independent.size(); ++j)
+        builder_.output("z", static_cast<int>(j), -1,
+                        builder_.literal(system_.plan.z[system_.plan.independent[j]]));
+    else
+      for (std::size_t k = 0; k < system_.plan.z.size(); ++k)
+        builder_.output("z", static_cast<int>(k), -1, builder_.literal(system_.plan.z[k]));
+  }
+
+  void write_outputs() {
+    const Program tree = system_.tree("outputs");
+    const Column values = insert(tree, dependence_.accelerations(zdot()));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      builder_.output(tree.outputs[k].name, tree.outputs[k].row, tree.outputs[k].column, values[k]);
+  }
+
+  const LoopSystem& system_;
+  Builder builder_;
+  Dependence dependence_;
+};
+
+/// Newton iterations block by block: each block is closed before the next one starts.
+Program closing_program(const LoopSystem& system) {
+  Builder builder;
+  Column y = position_leaves(builder, system);
+  std::vector<bool> dependent(system.layout.velocity_count(), false);
+  for (const Block& block : system.plan.blocks) {
+    for (const std::size_t k : block.dependents) dependent[k] = true;
+    for (int i = 0; i < system.plan.iterations; ++i) {
+      const ConstraintValues values(builder, system, y);
+      std::vector<Column> A;
+      Column open;
+      for (const std::size_t r : block.rows) {
+        A.emplace_back();
+        for (const std::size_t k : block.dependents) A.back().push_back(values.G(r, k));
+        open.push_back(-values.g(r));
+      }
+      const Column change = DenseSolver(builder, std::move(A)).solve(open);
+      Column displacement(dependent.size(), builder.literal(0));
+      for (std::size_t k = 0; k < change.size(); ++k) displacement[block.dependents[k]] = change[k];
+      y = displaced(builder, system, y, displacement);
+    }
+  }
+  const auto write = [&](std::size_t entry) {
+    builder.output("y", static_cast<int>(entry), -1, y[entry]);
+  };
+  for (const model::Tangent::Scalar& s : system.tangent.scalars)
+    if (dependent[s.velocity]) write(s.position);
+  for (const model::Tangent::Scalar& s : system.tangent.quaternions)
+    for (std::size_t k = 0; dependent[s.velocity] && k < 4; ++k) write(s.position + k);
+  return passes::remove_dead_code(builder.finish("close_loops"));
+}
+
+}  // namespace
+
+Program loop_program(const LoopSystem& system, const std::string& function) {
+  if (function == "close_loops") return closing_program(system);
+  LoopProgram program(system);
+  program.write_function(function);
+  return program.finish(function);
+}
+
+}  // namespace jourdain::loops
