@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "ir/lower.hpp"
+#include "loops/closed_system.hpp"
+#include "loops/validation.hpp"
+#include "lowering.hpp"
 #include "model/coordinates.hpp"
 #include "model/names.hpp"
 #include "omissions.hpp"
@@ -14,56 +16,8 @@
 namespace jourdain {
 
 using dynamics::Equations;
-using kinematics::Ex;
 
 namespace {
-
-std::vector<ir::Target> vector_targets(const std::string& name, const std::vector<Ex>& values) {
-  std::vector<ir::Target> targets;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    targets.push_back({name, static_cast<int>(i), -1, values[i]});
-  return targets;
-}
-
-/// Upper triangle; the emitter fills both.
-std::vector<ir::Target> matrix_targets(const std::vector<std::vector<Ex>>& M) {
-  std::vector<ir::Target> targets;
-  for (std::size_t i = 0; i < M.size(); ++i)
-    for (std::size_t j = i; j < M.size(); ++j)
-      targets.push_back({"M", static_cast<int>(i), static_cast<int>(j), M[i][j]});
-  return targets;
-}
-
-std::vector<ir::Target> output_targets(const Equations& equations) {
-  std::vector<ir::Target> targets;
-  for (std::size_t k = 0; k < equations.outputs.size(); ++k)
-    for (const dynamics::OutputValues& member : equations.outputs[k]) {
-      const std::string name = equations.output_names[k] + (member.member.empty() ? "" : "." + member.member);
-      for (std::size_t i = 0; i < member.values.size(); ++i) {
-        const int entry = static_cast<int>(i);
-        targets.push_back({name, member.rows > 1 ? entry / member.columns : -1,
-                           member.is_matrix ? entry % member.columns : -1, member.values[i]});
-      }
-    }
-  return targets;
-}
-
-/// What each emitted function computes.
-std::vector<ir::Target> targets_of(const std::string& function, const Equations& equations) {
-  if (function == "position_rate") return vector_targets("ydot", equations.ydot);
-  if (function == "outputs") return output_targets(equations);
-  if (function == "mass_matrix") return matrix_targets(equations.M);
-  if (function == "k_bar") return vector_targets("k", equations.k_bar);
-  if (function == "q_bar") return vector_targets("q", equations.q_bar);
-  if (function == "forward_dynamics") return vector_targets("zdot", equations.zdot);
-  if (function == "inverse_dynamics") return vector_targets("tau", equations.tau);
-  if (function == "kinetic_energy") return {{"T", -1, -1, equations.kinetic_energy}};
-  if (function == "potential_energy") return {{"V", -1, -1, equations.potential_energy}};
-  JD_CHECK(function == "initial_state", "no targets for '{}'", function);
-  std::vector<ir::Target> targets = vector_targets("y", equations.initial_position);
-  for (const ir::Target& target : vector_targets("z", equations.initial_velocity)) targets.push_back(target);
-  return targets;
-}
 
 /// What an output is, in words.
 std::string describe(const model::Mechanism& mechanism, const model::Output& output) {
@@ -114,6 +68,18 @@ std::vector<emit::OutputDeclaration> output_texts(const model::Mechanism& mechan
   return texts;
 }
 
+/// Names, tangent and sentences of a mechanism with loops.
+void describe_loops(const model::Mechanism& mechanism, const loops::LoopPlan& plan, emit::ModelText& text) {
+  text.constraints = loops::row_names(mechanism);
+  text.dependents = loops::dependent_positions(plan, text.tangent);
+  text.loops = loops::sentences(mechanism, plan);
+  if (!plan.is_reduced()) return;
+  text.tangent = loops::independent_tangent(plan, text.tangent);
+  const std::vector<std::string> all = std::move(text.velocities);
+  text.velocities.clear();
+  for (const std::size_t k : plan.independent) text.velocities.push_back(all[k]);
+}
+
 emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptions& options) {
   emit::ModelText text;
   text.name = options.name.empty() ? model::cpp_name(mechanism.name) : options.name;
@@ -129,6 +95,7 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.tangent = model::tangent_of(mechanism, layout);
   text.rheonomic = layout.rheonomic;
   text.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
+  if (options.loops) describe_loops(mechanism, *options.loops, text);
   for (const model::Parameter& parameter : mechanism.parameters)
     text.parameters.push_back({parameter.name, parameter.value, parameter.unit, parameter.description});
   return text;
@@ -176,12 +143,11 @@ ir::Module lower_functions(const Equations& equations, const std::vector<emit::F
   ir::Module module;
   for (const emit::FunctionInfo& function : functions)
     if (function.shape != emit::Shape::kStep && !function.holds_derivatives)
-      module.functions.push_back(
-          ir::lower(equations.statements, targets_of(function.name, equations), function.name));
+      module.functions.push_back(lower_function(equations, function.name));
   return module;
 }
 
-emit::SceneShape shape_of(const model::Mechanism& mechanism) {
+emit::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPlan* plan) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   emit::SceneShape shape;
   shape.positions = layout.position_count();
@@ -190,6 +156,10 @@ emit::SceneShape shape_of(const model::Mechanism& mechanism) {
   shape.outputs = mechanism.outputs.size();
   shape.inputs = layout.input_count();
   shape.rheonomic = layout.rheonomic;
+  if (!plan) return shape;
+  shape.constraints = plan->row_length.size();
+  shape.has_dependents = plan->is_reduced();
+  if (plan->is_reduced()) shape.velocities = plan->independent.size();
   return shape;
 }
 
@@ -201,23 +171,63 @@ void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diag
   }
 }
 
-CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& options) {
+namespace {
+
+/// `options` with what only the compiler decides.
+CompileOptions completed(const model::Mechanism& mechanism, const CompileOptions& options) {
+  CompileOptions chosen = options;
+  if (mechanism.loops.empty() || options.loops) return chosen;
+  support::Diagnostics diagnostics("model", "");
+  chosen.loops = loops::plan_loops(mechanism, diagnostics);
+  JD_CHECK(chosen.loops, "loops that were not checked: {}", diagnostics.format());
+  return chosen;
+}
+
+ir::Module lower_tree(const model::Mechanism& mechanism, const CompileOptions& options,
+                      const Equations& equations, const std::vector<emit::FunctionInfo>& functions) {
+  ir::Module lowered = lower_functions(equations, functions);
+  for (ir::Program& program :
+       derivative_programs(mechanism, options.derivation, functions, options.derivative_terms))
+    lowered.functions.push_back(std::move(program));
+  return lowered;
+}
+
+ir::Module lower_closed(const loops::ClosedSystem& closed, const std::vector<emit::FunctionInfo>& functions) {
+  ir::Module lowered;
+  for (const emit::FunctionInfo& function : functions)
+    if (function.shape != emit::Shape::kStep)
+      lowered.functions.push_back(loops::loop_program(closed.system(), function.name));
+  return lowered;
+}
+
+}  // namespace
+
+CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& given) {
   CompiledModel result;
-  result.shape = shape_of(mechanism);
+  const CompileOptions options = completed(mechanism, given);
+  const loops::LoopPlan* plan = options.loops ? &*options.loops : nullptr;
+  result.shape = shape_of(mechanism, plan);
   result.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
   result.tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
+  if (plan) result.dependents = loops::dependent_positions(*plan, result.tangent);
+  if (plan && plan->is_reduced()) result.tangent = loops::independent_tangent(*plan, result.tangent);
   for (const model::Parameter& parameter : mechanism.parameters)
     result.parameter_names.push_back(parameter.name);
   result.functions = emit::with_needed(options.functions, result.shape);
   CompileOptions chosen = options;
-  if (options.derivation.articulated.empty())
-    result.articulation = choose_articulation(mechanism, options.derivation);
-  chosen.derivation.articulated = result.articulation.links;
-  const Equations equations = dynamics::derive_equations(mechanism, chosen.derivation);
-  ir::Module lowered = lower_functions(equations, result.functions);
-  for (ir::Program& program :
-       derivative_programs(mechanism, options.derivation, result.functions, options.derivative_terms))
-    lowered.functions.push_back(std::move(program));
+  Equations equations;
+  ir::Module lowered;
+  if (plan) {
+    const loops::ClosedSystem closed(mechanism, options.derivation, *plan);
+    lowered = lower_closed(closed, result.functions);
+    equations = closed.equations();
+  } else {
+    if (options.derivation.articulated.empty())
+      result.articulation = choose_articulation(mechanism, options.derivation);
+    chosen.derivation.articulated = result.articulation.links;
+    equations = dynamics::derive_equations(mechanism, chosen.derivation);
+    lowered = lower_tree(mechanism, options, equations, result.functions);
+  }
   passes::Optimised optimised = passes::optimise(std::move(lowered), options.passes_off);
   result.module = std::move(optimised.module);
   result.passes = std::move(optimised.records);
@@ -240,8 +250,9 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   result.files.clear();
   std::optional<Equations> load;
   if (options.derivative_terms == DerivativeTerms::kApplied) load = weightless(mechanism);
-  result.verdict =
-      validate::validate_translation(mechanism, equations, result.module, 8, load ? &*load : nullptr);
+  result.verdict = options.loops ? loops::validate_closed(mechanism, equations, result.module, *options.loops)
+                                 : validate::validate_translation(mechanism, equations, result.module, 8,
+                                                                  load ? &*load : nullptr);
   result.assumptions = assumptions(mechanism, options, result.verdict);
   if (!result.verdict.accepted()) return;
   emit::ModelText text = model_text(mechanism, options);

@@ -8,6 +8,7 @@
 #include "dynamics/equations.hpp"
 #include "emit/files.hpp"
 #include "linearization.hpp"
+#include "loops/plan.hpp"
 #include "model/coordinates.hpp"
 #include "model/mechanism.hpp"
 #include "passes/pipeline.hpp"
@@ -21,9 +22,10 @@ struct CompileOptions {
   std::vector<std::string> functions = emit::default_functions();
   dynamics::DerivationOptions derivation;
   DerivativeTerms derivative_terms = DerivativeTerms::kAll;
-  std::vector<std::string> passes_off;  ///< names of passes to leave out
-  std::string path;                     ///< of the description, as printed in the emitted files
-  std::string sha256;                   ///< of the description
+  std::vector<std::string> passes_off;   ///< names of passes to leave out
+  std::string path;                      ///< of the description, as printed in the emitted files
+  std::string sha256;                    ///< of the description
+  std::optional<loops::LoopPlan> loops;  ///< of a mechanism with loops; none: planned by `compile`
   bool damping = true;  ///< printed as an assumption when joint damping was switched off on reading
 };
 
@@ -36,7 +38,8 @@ struct Omission {
 
 struct CompiledModel {
   emit::SceneShape shape;
-  model::Tangent tangent;
+  model::Tangent tangent;               ///< of the independent coordinates
+  std::vector<std::size_t> dependents;  ///< entries of y that close_loops sets
   bool all_derivatives = true;
   std::vector<std::string> parameter_names;  ///< as in the emitted Parameters
   Articulation articulation;
@@ -61,7 +64,7 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
 void validate_and_emit(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                        const CompileOptions& options, CompiledModel& model);
 
-emit::SceneShape shape_of(const model::Mechanism& mechanism);
+emit::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPlan* plan = nullptr);
 
 /// Equations lowered to one program per function that holds no derivatives, before any pass.
 ir::Module lower_functions(const dynamics::Equations& equations,

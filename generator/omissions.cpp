@@ -86,7 +86,7 @@ void describe_mass_matrix(const CompiledModel& compiled, std::vector<Omission>& 
 std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledModel& compiled) {
   std::vector<Omission> list;
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  if (layout.quaternions.empty()) list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
+  if (!compiled.shape.has_rate()) list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
   if (!layout.rheonomic) list.push_back({"t", "nothing depends on time", 0});
   const auto none = [&](auto member) {
     return std::all_of(mechanism.joints.begin(), mechanism.joints.end(), [member](const model::Joint& joint) {
@@ -117,6 +117,7 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
 
 std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const CompileOptions& options,
                                      const dynamics::Equations& equations, const CompiledModel& compiled) {
+  if (options.loops) return absent(mechanism, compiled);
   const ir::Module lowered = forward_module(equations, compiled.shape);
   const long with = static_cast<long>(optimised_operations(lowered, options));
   std::vector<Omission> list;

@@ -9,8 +9,10 @@ namespace jourdain::dynamics {
 
 /// Of one loop.
 struct LoopClosure {
-  std::vector<Ex> rows;    ///< g: zero where the loop is closed. Lengths in m, products of unit vectors without unit
-  std::vector<Ex> senses;  ///< products of unit vectors that are 1 where it is closed, and −1 where it is closed the wrong way
+  std::vector<Ex>
+      rows;  ///< g: zero where the loop is closed. Lengths in m, products of unit vectors without unit
+  std::vector<Ex>
+      senses;  ///< products of unit vectors that are 1 where it is closed, and −1 where it is closed the wrong way
 };
 
 /// By loop.

@@ -32,6 +32,11 @@ class Derivation {
 
   Equations derive() {
     Equations equations;
+    if (options_.closures_only) {
+      equations.closures = derive_closure(scene_);
+      equations.statements = std::move(scene_.statements);
+      return equations;
+    }
     const AppliedForces applied = derive_applied_forces(scene_, Inputs::kGiven);
     if (options_.accelerations_only) {
       equations.zdot = accelerations(applied);

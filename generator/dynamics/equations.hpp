@@ -18,6 +18,7 @@ struct DerivationOptions {
   kinematics::LinkTreeOptions link_tree;
   std::vector<bool> articulated;    ///< see ArticulatedLinks; empty: none but free links
   bool accelerations_only = false;  ///< nothing but zdot
+  bool closures_only = false;       ///< nothing but the closures of loops
   bool for_derivatives = false;     ///< fills in residual and load; outputs take ż as a leaf
 };
 
@@ -42,8 +43,8 @@ struct Equations {
   std::vector<Ex> residual;        ///< M ż − k̄ + q̄, with ż a leaf; only for derivatives
   std::vector<Ex> load;            ///< of q̄ all but gravity; only for derivatives
   std::vector<LoopClosure> closures;  ///< by loop
-  Ex kinetic_energy;               ///< J
-  Ex potential_energy;             ///< J; gravity (zero at the inertial origin), joint springs and springs
+  Ex kinetic_energy;                  ///< J
+  Ex potential_energy;                ///< J; gravity (zero at the inertial origin), joint springs and springs
   std::vector<Ex> initial_position;
   std::vector<Ex> initial_velocity;
   std::vector<std::string> output_names;

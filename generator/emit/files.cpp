@@ -26,18 +26,35 @@ SceneShape shape_of(const ModelText& model) {
   for (const OutputDeclaration& output : model.outputs)
     for (const OutputMember& member : output.members)
       numbers += static_cast<std::size_t>(member.rows) * static_cast<std::size_t>(member.columns);
-  return {model.positions.size(), model.velocities.size(), model.tangent.quaternions.size(),
-          model.outputs.size(),   model.inputs.size(),     numbers,
-          model.rheonomic};
+  return {model.positions.size(), model.velocities.size(),  model.tangent.quaternions.size(),
+          model.outputs.size(),   model.inputs.size(),      numbers,
+          model.rheonomic,        model.constraints.size(), !model.dependents.empty()};
 }
 
 class Emitter {
  public:
   Emitter(const ModelText& model, const std::vector<FunctionInfo>& functions, const ir::Module& module)
       : model_(model), functions_(functions), module_(module), scene_(shape_of(model)) {
-    Names names({"Scalar", "Parameters", "State", "Input", "Model", "Real", "position_count",
-                 "velocity_count", "input_count", "parameter_count", "output_count", "Outputs", "parameters",
-                 "model", "detail", "w", "RateHistory", "Accelerations", "Linearization"});
+    Names names({"Scalar",
+                 "Parameters",
+                 "State",
+                 "Input",
+                 "Model",
+                 "Real",
+                 "position_count",
+                 "velocity_count",
+                 "input_count",
+                 "parameter_count",
+                 "output_count",
+                 "constraint_count",
+                 "Outputs",
+                 "parameters",
+                 "model",
+                 "detail",
+                 "w",
+                 "RateHistory",
+                 "Accelerations",
+                 "Linearization"});
     for (const ir::Output& output : module.constants.outputs) {
       const ir::Node& node = module.constants[output.value];
       const bool is_parameter = node.op == ir::Op::kLeaf;
@@ -60,6 +77,10 @@ class Emitter {
         {"NZ", fmt::format("{}", scene_.velocities)},
         {"NO", fmt::format("{}", scene_.outputs)},
         {"STATE", state_members()},
+        {"STATE_NOTE", state_note()},
+        {"NG", scene_.constraints == 0
+                   ? ""
+                   : fmt::format("  static constexpr int constraint_count = {};\n", scene_.constraints)},
         {"OUTPUTS", output_struct(model_)},
         {"OUTPUTS_ALIAS",
          scene_.outputs == 0 ? "" : fmt::format("  using Outputs = {}::Outputs<Real>;\n", model_.name)},
@@ -121,7 +142,9 @@ class Emitter {
     text += "//\n";
     const char* t = model_.rheonomic ? ", t" : "";
     line(fmt::format("Equations of motion: M(y{0}) zdot = k_bar(y, z{0}) - q_bar(y, z{0}, u), dy/dt = {1}.",
-                     t, scene_.quaternions > 0 ? "Z(y) z" : "z"));
+                     t, scene_.has_rate() ? "Z(y) z" : "z"));
+    if (!model_.loops.empty()) text += "//\n// Loops\n";
+    for (const std::string& sentence : model_.loops) line("- " + comment_text(sentence));
     text += "//\n// Assumptions\n";
     for (const std::string& assumption : model_.assumptions) line("- " + comment_text(assumption));
     text += "// Left out\n";
@@ -161,6 +184,7 @@ class Emitter {
     for (const ParameterText& parameter : model_.parameters) parameters.push_back(parameter.name);
     array("position_names", model_.positions);
     array("velocity_names", model_.velocities);
+    if (!model_.constraints.empty()) array("constraint_names", model_.constraints);
     array("input_names", model_.inputs);
     std::vector<std::string> outputs;
     for (const OutputDeclaration& output : model_.outputs) outputs.push_back(output.name);
@@ -243,7 +267,7 @@ class Emitter {
   std::string constructor(std::string& parts) const {
     std::set<std::string> reserved(constants_.begin(), constants_.end());
     reserved.insert({"parameters", "w", "n", "Scalar", "position_count", "velocity_count", "input_count",
-                     "parameter_count"});
+                     "parameter_count", "constraint_count"});
     const auto print = [&](const StoredValues& stored) {
       return print_body(
           module_.constants, Names(reserved), [this](LeafKind kind, std::size_t i) { return leaf(kind, i); },
@@ -267,7 +291,7 @@ class Emitter {
   std::string program_body(const FunctionInfo& function, std::string& parts) const {
     const std::vector<Argument> list = arguments(function, "Real", scene_);
     std::set<std::string> reserved = {"model", "state",   "input",  "zdot", "h",
-                                      "w",     "initial", "detail", "Real"};
+                                      "w",     "initial", "detail", "Real", "closed"};
     reserved.insert(function.result);
     reserved.insert("result");
     for (const ArrayResult& array : function.arrays) reserved.insert(array.name);
@@ -282,6 +306,8 @@ class Emitter {
     std::string text = body_text(function.name, body, list, parts);
     for (const ArrayResult& array : function.arrays)
       if (scene_.has(array)) text = cleared(function, array) + text;
+    if (function.shape == Shape::kCorrection)
+      text = "  State<Real> closed = state;\n" + text + "  state = closed;\n";
     if (function.shape == Shape::kState)
       text = "  State<Real> initial;\n  initial.t = Real(0.0);\n" + text + "  return initial;\n";
     return "\ntemplate <class Real>\n" + wrapped(signature(function, "Real", scene_, &text) + " {", 0) +
@@ -293,6 +319,8 @@ class Emitter {
     switch (function.shape) {
       case Shape::kState:
         return fmt::format("initial.{}[{}] = {};", output.name, output.row, value);
+      case Shape::kCorrection:
+        return fmt::format("closed.{}[{}] = {};", output.name, output.row, value);
       case Shape::kScalar:
         return fmt::format("return {};", value);
       case Shape::kVector:
@@ -349,7 +377,18 @@ class Emitter {
     return text;
   }
 
-  StepScene step_scene() const { return {scene_, model_.tangent, model_.all_derivatives}; }
+  std::string state_note() const {
+    if (model_.dependents.empty()) return "";
+    std::string names;
+    for (const std::size_t entry : model_.dependents)
+      names += (names.empty() ? "" : ", ") + model_.positions[entry];
+    return wrapped_doc("The independent positions and z are the state proper. The others (" + names +
+                           ") follow from them: they are where close_loops starts its search and what it "
+                           "found.",
+                       0);
+  }
+
+  StepScene step_scene() const { return {scene_, model_.tangent, model_.all_derivatives, model_.dependents}; }
 
   const ModelText& model_;
   const std::vector<FunctionInfo>& functions_;

@@ -45,6 +45,9 @@ struct ModelText {
   bool all_derivatives = true;  ///< those of the residual hold all terms
   std::vector<OutputDeclaration> outputs;
   std::vector<ParameterText> parameters;
+  std::vector<std::string> constraints;  ///< names of the rows of all loops
+  std::vector<std::size_t> dependents;   ///< entries of y that follow from the others
+  std::vector<std::string> loops;        ///< sentences on how loops are closed
   std::vector<std::string> assumptions;  ///< sentences
   std::vector<std::string> left_out;     ///< sentences
   std::string validation;                ///< a sentence

@@ -75,6 +75,14 @@ std::vector<FunctionInfo> computed_functions() {
   };
 }
 
+FunctionInfo correction(const char* name, const char* comment) {
+  FunctionInfo info;
+  info.name = name;
+  info.shape = Shape::kCorrection;
+  info.comment = comment;
+  return info;
+}
+
 FunctionInfo array_function(const std::string& name, bool takes_acceleration, std::vector<ArrayResult> arrays,
                             const std::string& comment) {
   FunctionInfo info;
@@ -117,6 +125,30 @@ std::vector<FunctionInfo> derivative_functions() {
   return list;
 }
 
+/// Functions of mechanisms with loops.
+std::vector<FunctionInfo> loop_functions() {
+  std::vector<FunctionInfo> list = {
+      correction("close_loops",
+                 "Sets the dependent positions to those that close the loops at state.t and the independent "
+                 "positions, near\nwhere they are. Call it after changing a state; steps end with it."),
+      correction(
+          "project",
+          "Moves positions and velocities to the nearest ones (weighted by mass) that the loops allow, "
+          "to first order.\nCall it after changing a state, several times where that was far; steps end "
+          "with it."),
+      array_function("constraint_residual", false,
+                     {{"g", {Extent::kConstraints}}, {"g_rate", {Extent::kConstraints}}},
+                     "How far the loops are open: g(y, t), zero where they are closed, in m (rows without a "
+                     "length: without unit),\nand its rate G z + g_t. Rows as in constraint_names."),
+      array_function("constraint_forces", false, {{"lambda", {Extent::kConstraints}}},
+                     "Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the "
+                     "tree; the force of the\nconstraints is -G^T lambda. N; N m for rows without a length."),
+  };
+  list[2].takes_input = false;
+  for (FunctionInfo& function : list) function.on_request = function.holds_derivatives = false;
+  return list;
+}
+
 std::string number_word(int n) {
   static const char* const words[] = {"no", "One", "Two", "Three", "Four", "Five", "Six", "Seven"};
   return n < 8 ? words[n] : std::to_string(n);
@@ -129,6 +161,7 @@ FunctionInfo step_function(const Stepper& stepper) {
   info.takes_input = true;
   info.needs = {"position_rate", "forward_dynamics"};
   if (stepper.implicit) info.needs.insert(info.needs.end(), {"residual", "residual_derivatives"});
+  info.needs.insert(info.needs.end(), {"close_loops", "project"});
   for (const std::string& used : stepper.uses) info.needs.push_back(used + "_step");
   const std::string calls =
       number_word(stepper.evaluations) + " call" + (stepper.evaluations == 1 ? "" : "s") + " of ";
@@ -151,6 +184,8 @@ std::size_t SceneShape::count(Extent extent) const {
       return inputs;
     case Extent::kOutputs:
       return output_numbers;
+    case Extent::kConstraints:
+      return constraints;
   }
   return 0;
 }
@@ -163,6 +198,7 @@ bool SceneShape::has(const ArrayResult& array) const {
 const std::vector<FunctionInfo>& all_functions() {
   static const std::vector<FunctionInfo> functions = [] {
     std::vector<FunctionInfo> list = computed_functions();
+    for (const FunctionInfo& function : loop_functions()) list.push_back(function);
     for (const FunctionInfo& function : derivative_functions()) list.push_back(function);
     for (const Stepper& stepper : all_steppers()) list.push_back(step_function(stepper));
     return list;
@@ -192,11 +228,14 @@ bool has_function(const FunctionInfo& function, const SceneShape& shape) {
       return true;
     case Shape::kVector:
     case Shape::kMatrix:
-    case Shape::kArrays:
     case Shape::kLinearization:
       return shape.velocities > 0;
+    case Shape::kArrays:
+      return shape.velocities > 0 && shape.has(function.arrays.front());
     case Shape::kRate:
-      return shape.quaternions > 0;
+      return shape.has_rate();
+    case Shape::kCorrection:
+      return function.name == shape.correction();
     case Shape::kOutputs:
       return shape.outputs > 0;
   }

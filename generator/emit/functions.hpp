@@ -18,6 +18,7 @@ enum class Shape {
   kOutputs,        ///< fills an Outputs
   kArrays,         ///< fills several arrays
   kLinearization,  ///< fills a Linearization, whose members are the arrays
+  kCorrection,     ///< replaces entries of a State
   kStep            ///< advances a State; its body is a template file, not a program
 };
 
@@ -26,7 +27,8 @@ enum class Extent {
   kVelocities,  ///< nz
   kStates,      ///< 2 nz: displacements and velocities
   kInputs,
-  kOutputs,  ///< numbers of all outputs
+  kOutputs,      ///< numbers of all outputs
+  kConstraints,  ///< rows of all loops
 };
 
 /// An array that a function fills; entries without an output of the program are zero.
@@ -55,7 +57,15 @@ struct SceneShape {
   std::size_t positions = 0, velocities = 0, quaternions = 0, outputs = 0;
   std::size_t inputs = 0, output_numbers = 0;
   bool rheonomic = false;
+  std::size_t constraints = 0;  ///< rows of all loops
+  bool has_dependents = false;  ///< some positions follow from others
 
+  /// dy/dt is not z.
+  bool has_rate() const { return quaternions > 0 || has_dependents; }
+  /// The function that brings a state back to the closed loops at the end of a step; empty for trees.
+  const char* correction() const {
+    return constraints == 0 ? "" : has_dependents ? "close_loops" : "project";
+  }
   std::size_t count(Extent extent) const;
   /// Whether the array has entries.
   bool has(const ArrayResult& array) const;

@@ -50,6 +50,12 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
   field("parameter_count", fmt::format("{}", model.parameters.size()));
   field("positions", string_array(model.positions));
   field("velocities", string_array(model.velocities));
+  if (!model.constraints.empty()) {
+    std::vector<std::string> dependents;
+    for (const std::size_t entry : model.dependents) dependents.push_back(model.positions[entry]);
+    field("constraints", string_array(model.constraints));
+    field("dependent_positions", string_array(dependents));
+  }
   field("inputs", string_array(model.inputs));
   std::vector<std::string> outputs;
   for (const OutputDeclaration& output : model.outputs) outputs.push_back(output.name);

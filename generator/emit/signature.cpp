@@ -23,7 +23,8 @@ std::vector<Argument> arguments(const FunctionInfo& function, const std::string&
   std::vector<Argument> list = {{fmt::format("const Model<{}>&", real), "model", ""}};
   if (function.shape == Shape::kState) return list;
   const bool step = function.shape == Shape::kStep;
-  list.push_back({fmt::format("{}State<{}>&", step ? "" : "const ", real), "state", ""});
+  const bool changes = step || function.shape == Shape::kCorrection;
+  list.push_back({fmt::format("{}State<{}>&", changes ? "" : "const ", real), "state", ""});
   if (function.takes_input) list.push_back({fmt::format("const Input<{}>&", real), "input", ""});
   if (function.takes_acceleration) list.push_back({"const " + real, "zdot", fmt::format("[{}]", nz)});
   if (step) list.push_back({real, "h", ""});

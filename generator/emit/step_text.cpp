@@ -43,12 +43,14 @@ bool any_step(const std::vector<FunctionInfo>& functions) {
 
 std::string body(const StepScene& scene, const FunctionInfo& function) {
   if (scene.shape.velocities == 0) return "  state.t = state.t + h;\n";
+  const std::string correction = scene.shape.correction();
+  const std::string corrected = correction.empty() ? "" : fmt::format("  {}(model, state);\n", correction);
   if (const Rosenbrock* method = find_rosenbrock(function.stepper->name))
-    return rosenbrock_body(scene, *method);
+    return rosenbrock_body(scene, *method) + corrected;
   std::string text(template_text(function.name + ".in"));
   for (const model::Tangent::Scalar& quaternion : scene.tangent.quaternions)
     text += fmt::format("  detail::normalise(state.y + {});\n", quaternion.position);
-  return text;
+  return text + corrected;
 }
 
 }  // namespace
@@ -60,16 +62,16 @@ std::string step_support(const StepScene& scene, const std::vector<FunctionInfo>
   std::map<std::string, std::string> holes = {
       {"NY", fmt::format("{}", scene.shape.positions)},
       {"NZ", fmt::format("{}", scene.shape.velocities)},
-      {"VELOCITIES", scene.shape.quaternions > 0
+      {"VELOCITIES", scene.shape.has_rate()
                          ? "  position_rate(model, stage, ydot);\n"
                          : "  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];\n"},
       {"TEMPLATE", has_input ? "template <class Real, class Inputs>" : "template <class Real>"},
       {"INPUTS", has_input ? "const Inputs&" : "const Input<Real>&"},
       {"INPUT", has_input ? "input_at(input, stage)" : "input"},
-      {"VELOCITIES_MODEL", scene.shape.quaternions > 0 ? " model" : ""}};
+      {"VELOCITIES_MODEL", scene.shape.has_rate() ? " model" : ""}};
   std::string text = has_input ? kInputAt : "";
   text += fill(template_text("rates.in"), holes);
-  if (scene.shape.quaternions > 0) text += kNormalise;
+  if (!scene.tangent.quaternions.empty()) text += kNormalise;
   return text + implicit_support(scene, functions, find_program(module, "residual_derivatives"));
 }
 
@@ -123,13 +125,15 @@ long step_operations(const StepScene& scene, const Stepper& stepper, const ir::M
     const ir::Program* program = find_program(module, name);
     return program ? static_cast<long>(ir::count_operations(*program).arithmetic()) : 0;
   };
+  const long correction = scene.shape.constraints > 0 ? count(scene.shape.correction()) : 0;
   if (const Rosenbrock* method = find_rosenbrock(stepper.name))
-    return count("residual_derivatives") + stepper.evaluations * count("residual") +
+    return correction * (1 + closings_of(scene, *method)) + count("residual_derivatives") +
+           stepper.evaluations * count("residual") +
            rosenbrock_operations(scene, *method, *find_program(module, "residual_derivatives"));
   const long entries = static_cast<long>(scene.shape.positions + scene.shape.velocities);
-  return stepper.evaluations * (count("forward_dynamics") + count("position_rate")) +
+  return correction + stepper.evaluations * (count("forward_dynamics") + count("position_rate")) +
          stepper.fixed_operations + stepper.entry_operations * entries +
-         kNormaliseOperations * static_cast<long>(scene.shape.quaternions);
+         kNormaliseOperations * static_cast<long>(scene.tangent.quaternions.size());
 }
 
 }  // namespace jourdain::emit

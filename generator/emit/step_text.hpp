@@ -15,6 +15,7 @@ struct StepScene {
   SceneShape shape;
   model::Tangent tangent;
   bool all_derivatives = true;
+  std::vector<std::size_t> dependents = {};  ///< entries of y that close_loops sets
 };
 
 /// What steps of kernels call: inputs at a stage, rates, unit length. Empty without steps.

@@ -32,8 +32,8 @@ class NumericClosure {
   std::size_t row_count() const { return rows_; }
   std::size_t velocity_count() const { return velocities_; }
 
-  Vector value(const Configuration& at) const;     ///< g
-  Matrix jacobian(const Configuration& at) const;  ///< G, rows × nz
+  Vector value(const Configuration& at) const;      ///< g
+  Matrix jacobian(const Configuration& at) const;   ///< G, rows × nz
   Vector time_rate(const Configuration& at) const;  ///< g_t
   /// γ = g̈ − G ż
   Vector bias(const Configuration& at, const Vector& z) const;

@@ -21,8 +21,7 @@ Signed DenseSolver::product(const Column& a, const Column& b) const {
 }
 
 void DenseSolver::subtract(Column& a, Signed factor, const Column& b) const {
-  for (std::size_t i = 0; i < a.size(); ++i)
-    a[i] = builder_.subtract(a[i], builder_.multiply(factor, b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = builder_.subtract(a[i], builder_.multiply(factor, b[i]));
 }
 
 /// The determinant without a row and a column, with the sign that it has in the inverse.
@@ -67,8 +66,7 @@ Column DenseSolver::solve(Column b) const {
   if (n <= kLargestByCofactors) {
     for (std::size_t j = 0; j < n; ++j) {
       Signed sum = builder_.literal(0);
-      for (std::size_t i = 0; i < n; ++i)
-        sum = builder_.add(sum, builder_.multiply(cofactors_[i][j], b[i]));
+      for (std::size_t i = 0; i < n; ++i) sum = builder_.add(sum, builder_.multiply(cofactors_[i][j], b[i]));
       x[j] = builder_.multiply(sum, inverse_determinant_);
     }
     return x;

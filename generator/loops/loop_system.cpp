@@ -30,8 +30,8 @@ ConstraintValues::ConstraintValues(Builder& builder, const LoopSystem& system, c
   const Column values = ir::insert(builder, jacobian, with(LeafKind::kPosition, y));
   for (std::size_t k = 0; k < values.size(); ++k) {
     const ir::Output& output = jacobian.outputs[k];
-    (output.name == "g_t" ? g_t_[subscript(output.row)] : G_[subscript(output.row)][subscript(output.column)]) =
-        values[k];
+    (output.name == "g_t" ? g_t_[subscript(output.row)]
+                          : G_[subscript(output.row)][subscript(output.column)]) = values[k];
   }
 }
 

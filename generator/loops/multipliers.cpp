@@ -64,8 +64,7 @@ void MultiplierSolver::factorise_mass(std::vector<Column> M) {
 
 Column MultiplierSolver::lowered(Column x) const {
   for (std::size_t k = x.size(); k-- > 0;)
-    for (std::size_t i = k; i-- > 0;)
-      x[i] = builder_.subtract(x[i], builder_.multiply(L_[k][i], x[k]));
+    for (std::size_t i = k; i-- > 0;) x[i] = builder_.subtract(x[i], builder_.multiply(L_[k][i], x[k]));
   return x;
 }
 
@@ -137,8 +136,7 @@ Column MultiplierSolver::constrained(const Column& lowered) const {
     scaled.push_back(builder_.multiply(inverse_D_[k], lowered[k]));
   for (const Column& v : V_) {
     Signed sum = builder_.literal(0);
-    for (std::size_t k = 0; k < v.size(); ++k)
-      sum = builder_.add(sum, builder_.multiply(v[k], scaled[k]));
+    for (std::size_t k = 0; k < v.size(); ++k) sum = builder_.add(sum, builder_.multiply(v[k], scaled[k]));
     result.push_back(sum);
   }
   return result;
@@ -150,8 +148,7 @@ Column MultiplierSolver::accelerations(const Column& lowered, const Column& lamb
     for (std::size_t r = 0; r < V_.size(); ++r)
       x[k] = builder_.subtract(x[k], builder_.multiply(V_[r][k], lambda[r]));
     x[k] = builder_.multiply(inverse_D_[k], x[k]);
-    for (std::size_t i = 0; i < k; ++i)
-      x[k] = builder_.subtract(x[k], builder_.multiply(L_[k][i], x[i]));
+    for (std::size_t i = 0; i < k; ++i) x[k] = builder_.subtract(x[k], builder_.multiply(L_[k][i], x[i]));
   }
   return x;
 }

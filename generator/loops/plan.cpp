@@ -85,8 +85,8 @@ class Planner {
     plan_.freedom = layout_.velocity_count() - plan_.rows.size();
     if (plan_.freedom == 0) {
       diagnostics_.error(mechanism_.loops.front().where, "the loops leave no degree of freedom",
-                         fmt::format("{} coordinates, {} independent constraints",
-                                     layout_.velocity_count(), plan_.rows.size()));
+                         fmt::format("{} coordinates, {} independent constraints", layout_.velocity_count(),
+                                     plan_.rows.size()));
       return {};
     }
     set_lengths();
@@ -119,15 +119,17 @@ class Planner {
       return false;
     }
     for (const std::size_t loop : closure_.reversed(start_))
-      diagnostics_.error(mechanism_.loops[loop].where,
-                         fmt::format("loop '{}' closes with its axes against each other", mechanism_.loops[loop].name),
-                         "turn 'to_axis' round, or start nearer to the configuration that is meant");
+      diagnostics_.error(
+          mechanism_.loops[loop].where,
+          fmt::format("loop '{}' closes with its axes against each other", mechanism_.loops[loop].name),
+          "turn 'to_axis' round, or start nearer to the configuration that is meant");
     if (!closure_.reversed(start_).empty()) return false;
     const Vector z = closure_.consistent(start_, initial.z, moving());
     const Vector rate = closure_.jacobian(start_) * z + closure_.time_rate(start_);
     if (!(rate.lpNorm<Eigen::Infinity>() <= 1e-10L * (1 + z.lpNorm<Eigen::Infinity>()))) {
-      diagnostics_.error(mechanism_.loops.front().where, "no velocities agree with the loops at the start",
-                         fmt::format("they open at {:.3g} m/s", static_cast<double>(rate.lpNorm<Eigen::Infinity>())));
+      diagnostics_.error(
+          mechanism_.loops.front().where, "no velocities agree with the loops at the start",
+          fmt::format("they open at {:.3g} m/s", static_cast<double>(rate.lpNorm<Eigen::Infinity>())));
       return false;
     }
     record(initial.y, start_.y, layout_.position_names, false, plan_.y);
@@ -157,8 +159,8 @@ class Planner {
 
   void set_lengths() {
     reference::State<long double> state{0, start_.y, Vector::Zero(at(layout_.velocity_count()))};
-    const auto terms = reference::Reference<long double>(mechanism_).evaluate(
-        state, Vector::Zero(at(layout_.input_count())));
+    const auto terms = reference::Reference<long double>(mechanism_)
+                           .evaluate(state, Vector::Zero(at(layout_.input_count())));
     const Matrix& G = jacobians_.front();
     const Vector S = (G * terms.M.ldlt().solve(G.transpose())).diagonal();
     long double largest = 0;
@@ -178,7 +180,8 @@ class Planner {
     for (const model::Actuator& actuator : mechanism_.actuators)
       list[*layout_.joints[actuator.joint.value].velocity[actuator.coordinate]] = true;
     for (const model::CoordinateForce& force : mechanism_.coordinate_forces)
-      if (const auto entry = layout_.joints[force.joint.value].velocity[force.coordinate]) list[*entry] = true;
+      if (const auto entry = layout_.joints[force.joint.value].velocity[force.coordinate])
+        list[*entry] = true;
     for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
       for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
         if (const auto entry = layout_.joints[j].velocity[c];
@@ -207,9 +210,10 @@ class Planner {
     const bool good = partition && partition->conditioning >= kWorstConditioning;
     if (!good && (options.treatment || !named.empty())) return report_bad(partition);
     if (!good) {
-      plan_.reason = partition ? fmt::format("no choice of independent coordinates stays regular (conditioning {:.1g})",
-                                             partition->conditioning)
-                               : "no coordinates can be independent as a whole";
+      plan_.reason =
+          partition ? fmt::format("no choice of independent coordinates stays regular (conditioning {:.1g})",
+                                  partition->conditioning)
+                    : "no coordinates can be independent as a whole";
       return true;
     }
     plan_.treatment = LoopTreatment::kPartitioned;
@@ -224,15 +228,16 @@ class Planner {
   bool report_bad(const std::optional<Partition>& partition) {
     const support::SourceRange where = mechanism_.loop_options.where;
     if (!partition)
-      diagnostics_.error(where,
-                         fmt::format("the mechanism has {} degree{} of freedom: so many independent coordinates are "
-                                     "needed, each with all of its velocities",
-                                     plan_.freedom, plan_.freedom == 1 ? "" : "s"));
+      diagnostics_.error(
+          where, fmt::format("the mechanism has {} degree{} of freedom: so many independent coordinates are "
+                             "needed, each with all of its velocities",
+                             plan_.freedom, plan_.freedom == 1 ? "" : "s"));
     else
-      diagnostics_.error(where, "the dependent coordinates do not follow from the independent ones everywhere",
-                         fmt::format("the dependent block's smallest singular value falls to {:.1g} of its largest; "
-                                     "declare the range of coordinates, or use treatment = \"multipliers\"",
-                                     partition->conditioning));
+      diagnostics_.error(
+          where, "the dependent coordinates do not follow from the independent ones everywhere",
+          fmt::format("the dependent block's smallest singular value falls to {:.1g} of its largest; "
+                      "declare the range of coordinates, or use treatment = \"multipliers\"",
+                      partition->conditioning));
     return false;
   }
 

@@ -31,8 +31,9 @@ struct LoopPlan {
   std::vector<std::string> redundant;    ///< rows that follow from others, by name
   std::vector<std::size_t> rows;         ///< the others
   std::vector<std::size_t> independent;  ///< velocities; empty with multipliers
-  std::vector<Block> blocks;             ///< of the dependent ones, in the order of solution; empty with multipliers
-  double conditioning = 0;  ///< smallest over largest singular value of the dependent block, worst at the configurations seen
+  std::vector<Block> blocks;  ///< of the dependent ones, in the order of solution; empty with multipliers
+  double conditioning =
+      0;  ///< smallest over largest singular value of the dependent block, worst at the configurations seen
   std::vector<double> row_length;  ///< m by row: what its multiplier is divided by to be a force
   double regularisation = 0;       ///< added to G M⁻¹ Gᵀ of rows with lengths, 1/kg; see multipliers
   int iterations = 2;

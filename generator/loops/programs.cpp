@@ -107,9 +107,10 @@ class LoopProgram {
   std::vector<Column> mass_matrix() {
     const std::vector<Column>& B = dependence_.B();
     if (B.size() == 1 && !system_.layout.rheonomic) {
-      const Signed T = ir::insert(builder_, system_.tree("kinetic_energy"), [&](LeafKind kind, std::size_t i) {
-        return kind == LeafKind::kVelocity ? std::optional(B[0][i]) : std::nullopt;
-      })[0];
+      const Signed T =
+          ir::insert(builder_, system_.tree("kinetic_energy"), [&](LeafKind kind, std::size_t i) {
+            return kind == LeafKind::kVelocity ? std::optional(B[0][i]) : std::nullopt;
+          })[0];
       return {{builder_.multiply(builder_.literal(2), T)}};
     }
     const std::vector<Column> M = tree_mass_matrix();
@@ -274,9 +275,7 @@ Program closing_program(const LoopSystem& system) {
       y = displaced(builder, system, y, displacement);
     }
   }
-  const auto write = [&](std::size_t entry) {
-    builder.output("y", static_cast<int>(entry), -1, y[entry]);
-  };
+  const auto write = [&](std::size_t entry) { builder.output("y", static_cast<int>(entry), -1, y[entry]); };
   for (const model::Tangent::Scalar& s : system.tangent.scalars)
     if (dependent[s.velocity]) write(s.position);
   for (const model::Tangent::Scalar& s : system.tangent.quaternions)

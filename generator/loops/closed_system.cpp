@@ -1,0 +1,119 @@
+#include "loops/closed_system.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "lowering.hpp"
+
+namespace jourdain::loops {
+
+namespace {
+
+dynamics::DerivationOptions for_residual(dynamics::DerivationOptions options) {
+  options.articulated.clear();
+  options.for_derivatives = true;
+  return options;
+}
+
+}  // namespace
+
+ClosedSystem::ClosedSystem(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options,
+                           const LoopPlan& plan)
+    : equations_(dynamics::derive_equations(mechanism, for_residual(options))),
+      constraints_(constraint_programs(mechanism, equations_)),
+      system_{constraints_, plan, mechanism, model::lay_out_coordinates(mechanism), {}, {}} {
+  system_.tangent = model::tangent_of(mechanism, system_.layout);
+  system_.tree = [this](const std::string& function) { return tree(function); };
+}
+
+const ir::Program& ClosedSystem::tree(const std::string& function) {
+  const auto known = lowered_.find(function);
+  if (known != lowered_.end()) return known->second;
+  return lowered_[function] = lower_function(equations_, function);
+}
+
+namespace {
+
+/// Position of each velocity of the tree among the independent ones.
+std::vector<std::optional<std::size_t>> places(const LoopPlan& plan) {
+  std::vector<std::optional<std::size_t>> list(plan.z.size());
+  for (std::size_t j = 0; j < plan.independent.size(); ++j) list[plan.independent[j]] = j;
+  return list;
+}
+
+}  // namespace
+
+model::Tangent independent_tangent(const LoopPlan& plan, const model::Tangent& tree) {
+  const auto place = places(plan);
+  model::Tangent tangent;
+  for (const model::Tangent::Scalar& s : tree.scalars)
+    if (place[s.velocity]) tangent.scalars.push_back({s.position, *place[s.velocity]});
+  for (const model::Tangent::Scalar& s : tree.quaternions)
+    if (place[s.velocity]) tangent.quaternions.push_back({s.position, *place[s.velocity]});
+  return tangent;
+}
+
+std::vector<std::size_t> dependent_positions(const LoopPlan& plan, const model::Tangent& tree) {
+  std::vector<std::size_t> entries;
+  if (!plan.is_reduced()) return entries;
+  const auto place = places(plan);
+  for (const model::Tangent::Scalar& s : tree.scalars)
+    if (!place[s.velocity]) entries.push_back(s.position);
+  for (const model::Tangent::Scalar& s : tree.quaternions)
+    for (std::size_t k = 0; !place[s.velocity] && k < 4; ++k) entries.push_back(s.position + k);
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+std::vector<std::string> sentences(const model::Mechanism& mechanism, const LoopPlan& plan) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  std::vector<std::string> list;
+  list.push_back(fmt::format(
+      "{} degree{} of freedom: {} coordinates of the tree, {} independent of {} constraints", plan.freedom,
+      plan.freedom == 1 ? "" : "s", layout.velocity_count(), plan.rows.size(), plan.row_length.size()));
+  if (!plan.redundant.empty())
+    list.push_back(fmt::format("redundant constraints: {}", fmt::join(plan.redundant, ", ")));
+  std::vector<std::string> independent;
+  for (const std::size_t k : plan.independent) independent.push_back(layout.velocity_names[k]);
+  switch (plan.treatment) {
+    case model::LoopTreatment::kExplicit:
+      list.push_back(
+          fmt::format("independent: {}; the others in closed form, on the branch of the initial state",
+                      fmt::join(independent, ", ")));
+      break;
+    case model::LoopTreatment::kPartitioned:
+      list.push_back(fmt::format(
+          "independent: {}; the others by {} Newton iteration{} at the end of a step. Smallest over largest "
+          "singular "
+          "value of what is solved for them: {:.2g} or more at the configurations seen",
+          fmt::join(independent, ", "), plan.iterations, plan.iterations == 1 ? "" : "s", plan.conditioning));
+      break;
+    case model::LoopTreatment::kMultipliers:
+      list.push_back(
+          fmt::format("multipliers, stabilised with {:g}/s; one projection of positions and velocities at "
+                      "the end of a step",
+                      plan.stabilisation));
+      list.push_back(
+          fmt::format("G M^-1 G^T is regularised by {:.2g}/kg: multipliers and accelerations lose a share "
+                      "(d/(s + d))^3, d that and s "
+                      "the singular value of G M^-1 G^T, near singular configurations and where constraints "
+                      "are redundant",
+                      plan.regularisation));
+      break;
+  }
+  if (!plan.reason.empty() && plan.reason != "asked for")
+    list.push_back(fmt::format("why so: {}", plan.reason));
+  return list;
+}
+
+std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
+  if (mechanism.loops.empty()) return {};
+  dynamics::DerivationOptions options;
+  options.closures_only = true;
+  const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
+  return plan_loops(mechanism, constraint_programs(mechanism, equations), diagnostics);
+}
+
+}  // namespace jourdain::loops

@@ -1,0 +1,334 @@
+#include "loops/validation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+
+#include "dynamics/closure_motion.hpp"
+#include "kinematics/numbers.hpp"
+#include "model/checks.hpp"
+
+namespace jourdain::loops {
+
+using dynamics::HighPrecision;
+using dynamics::to_double;
+using ir::LeafKind;
+using validate::Verdict;
+
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+constexpr std::size_t kStates = 8, kLarge = 24;  ///< velocities from which on two states must do
+
+/// A state of motion with all coordinates of the tree.
+struct ClosedSample {
+  Configuration configuration;
+  std::vector<double> y, z, u, zdot;  ///< of the independent velocities; with multipliers of all
+};
+
+/// Random numbers that are the same on every platform.
+class Uniform {
+ public:
+  double operator()(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
+
+ private:
+  std::mt19937_64 engine_{17};
+};
+
+/// What the programs should compute at one state.
+struct Expected {
+  Matrix M, B;  ///< of the tree; of the independent velocities
+  Vector k, q, z, beta;
+  Matrix G;
+  Vector g, rate, gamma;
+  Matrix M_terms;
+  Vector load;  ///< |M| |β| + |k̄| + |q̄|
+  long double condition = 1;
+};
+
+class Comparison {
+ public:
+  Comparison(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+             const dynamics::Equations& closures, const ir::Module& module, const LoopPlan& plan,
+             const ClosedSample& sample, Verdict& verdict)
+      : mechanism_(mechanism),
+        equations_(equations),
+        closures_(closures),
+        module_(module),
+        plan_(plan),
+        sample_(sample),
+        verdict_(verdict),
+        layout_(model::lay_out_coordinates(mechanism)),
+        parameters_(model::default_values(mechanism)) {}
+
+  void run() {
+    evaluate();
+    ir::LeafValues<double> leaves;
+    leaves[LeafKind::kParameter] = parameters_;
+    leaves[LeafKind::kConstant] = ir::interpret(module_.constants, leaves);
+    leaves[LeafKind::kPosition] = sample_.y;
+    leaves[LeafKind::kVelocity] = sample_.z;
+    leaves[LeafKind::kAcceleration] = sample_.zdot;
+    leaves[LeafKind::kInput] = sample_.u;
+    leaves[LeafKind::kTime] = {static_cast<double>(sample_.configuration.t)};
+    for (const ir::Program& program : module_.functions) compare(program, ir::interpret(program, leaves));
+  }
+
+ private:
+  double leaf(kinematics::LeafKind kind, std::size_t i, const Vector& z) const {
+    switch (kind) {
+      case kinematics::LeafKind::kParameter:
+        return parameters_[i];
+      case kinematics::LeafKind::kPosition:
+        return sample_.y[i];
+      case kinematics::LeafKind::kVelocity:
+        return static_cast<double>(z[at(i)]);
+      case kinematics::LeafKind::kAcceleration:
+        return 0;
+      case kinematics::LeafKind::kInput:
+        return sample_.u[i];
+      case kinematics::LeafKind::kTime:
+        return static_cast<double>(sample_.configuration.t);
+    }
+    return 0;
+  }
+
+  dynamics::ClosureMotion closures_at(const Vector& z) const {
+    return dynamics::closure_motion(
+        closures_, model::tangent_of(mechanism_, layout_), layout_.velocity_count(),
+        [&](kinematics::LeafKind kind, std::size_t i) { return leaf(kind, i, z); });
+  }
+
+  void evaluate() {
+    const std::size_t n = layout_.velocity_count();
+    e_.z = Vector::Zero(at(n));
+    e_.beta = e_.z;
+    e_.B = Matrix::Identity(at(n), at(n));
+    if (plan_.is_reduced())
+      reduce();
+    else
+      for (std::size_t k = 0; k < n; ++k) e_.z[at(k)] = sample_.z[k];
+    const dynamics::ClosureMotion motion = closures_at(e_.z);
+    const std::size_t rows = motion.g.size();
+    const auto vector = [](const std::vector<double>& v) {
+      return Vector(Eigen::Map<const Eigen::VectorXd>(v.data(), at(v.size())).cast<long double>());
+    };
+    e_.g = vector(motion.g);
+    e_.rate = vector(motion.rate);
+    e_.gamma = vector(motion.gamma);
+    e_.G.resize(at(rows), at(n));
+    for (std::size_t r = 0; r < rows; ++r) e_.G.row(at(r)) = vector(motion.G[r]).transpose();
+    if (plan_.is_reduced()) e_.beta = dependents(-e_.gamma, e_.beta);
+    const HighPrecision exact(equations_.statements,
+                              [&](kinematics::LeafKind kind, std::size_t i) { return leaf(kind, i, e_.z); });
+    e_.M.resize(at(n), at(n));
+    e_.k.resize(at(n));
+    e_.q.resize(at(n));
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) e_.M(at(i), at(j)) = to_double(exact.value(equations_.M[i][j]));
+      e_.k[at(i)] = to_double(exact.value(equations_.k_bar[i]));
+      e_.q[at(i)] = to_double(exact.value(equations_.q_bar[i]));
+    }
+    kinetic_energy_ = to_double(exact.value(equations_.kinetic_energy));
+    potential_energy_ = to_double(exact.value(equations_.potential_energy));
+    // Entries may be small differences: their scale is that of the tree's largest.
+    e_.load = Vector::Constant(at(n), (e_.M.cwiseAbs() * e_.beta.cwiseAbs()).maxCoeff() +
+                                          e_.k.cwiseAbs().maxCoeff() + e_.q.cwiseAbs().maxCoeff() +
+                                          e_.M.cwiseAbs().maxCoeff());
+  }
+
+  /// Solves G x = right for the dependent entries.
+  Vector dependents(const Vector& right, const Vector& known) const {
+    Matrix D(at(plan_.rows.size()), at(dependent_.size()));
+    Vector b(D.rows());
+    for (std::size_t r = 0; r < plan_.rows.size(); ++r) {
+      const Eigen::Index row = at(plan_.rows[r]);
+      for (std::size_t c = 0; c < dependent_.size(); ++c) D(at(r), at(c)) = e_.G(row, at(dependent_[c]));
+      b[at(r)] = right[row] - e_.G.row(row).dot(known);
+    }
+    const Vector solution = D.fullPivLu().solve(b);
+    Vector x = known;
+    for (std::size_t c = 0; c < dependent_.size(); ++c) x[at(dependent_[c])] = solution[at(c)];
+    return x;
+  }
+
+  void reduce() {
+    const std::size_t n = layout_.velocity_count();
+    for (std::size_t k = 0; k < n; ++k)
+      if (std::find(plan_.independent.begin(), plan_.independent.end(), k) == plan_.independent.end())
+        dependent_.push_back(k);
+    const dynamics::ClosureMotion motion = closures_at(e_.z);
+    e_.G.resize(at(motion.g.size()), at(n));
+    Vector g_t(at(motion.g.size()));
+    for (std::size_t r = 0; r < motion.g.size(); ++r) {
+      g_t[at(r)] = motion.g_t[r];
+      for (std::size_t k = 0; k < n; ++k) e_.G(at(r), at(k)) = motion.G[r][k];
+    }
+    e_.B.resize(at(n), at(plan_.independent.size()));
+    e_.z = dependents(-g_t, Vector::Zero(at(n)));
+    for (std::size_t j = 0; j < plan_.independent.size(); ++j) {
+      e_.B.col(at(j)) = dependents(Vector::Zero(g_t.size()), Vector::Unit(at(n), at(plan_.independent[j])));
+      e_.z += e_.B.col(at(j)) * sample_.z[j];
+    }
+    e_.condition = 1 / static_cast<long double>(plan_.conditioning);
+  }
+
+  void record(const std::string& what, const Vector& value, const Vector& expected, long double scale,
+              double& worst) {
+    const auto error = static_cast<double>((value - expected).lpNorm<Eigen::Infinity>() / scale);
+    if (!(error <= validate::kTolerance))
+      verdict_.failures.push_back(fmt::format("{} is off by {:.2g} of its term sum", what, error));
+    worst = std::max(worst, error);
+  }
+
+  void compare(const ir::Program& program, const std::vector<double>& values) {
+    const Vector v = Eigen::Map<const Eigen::VectorXd>(values.data(), at(values.size())).cast<long double>();
+    const auto entry = [&](const Vector& expected, long double scale) {
+      record(program.name, v, expected, scale * e_.condition, verdict_.entry_error);
+    };
+    const long double load = e_.load.maxCoeff() * e_.B.cwiseAbs().maxCoeff();
+    const Vector force = e_.k - e_.q - e_.M * e_.beta;
+    const std::string& name = program.name;
+    if (name == "k_bar") return entry(e_.B.transpose() * (e_.k - e_.M * e_.beta), load);
+    if (name == "q_bar") return entry(e_.B.transpose() * e_.q, load);
+    if (name == "mass_matrix") return compare_mass_matrix(program, v);
+    if (name == "forward_dynamics") return compare_motion(v);
+    if (name == "kinetic_energy") return entry(Vector::Constant(1, kinetic_energy_), 1 + kinetic_energy_);
+    if (name == "potential_energy")
+      return entry(Vector::Constant(1, potential_energy_), 1 + std::fabs(potential_energy_) + load);
+    if (name == "constraint_residual") {
+      Vector expected(2 * e_.g.size());
+      expected << e_.g, e_.rate;
+      return entry(expected, 1 + e_.z.cwiseAbs().maxCoeff() * e_.G.cwiseAbs().maxCoeff());
+    }
+    if (name == "residual") {
+      const Vector zdot =
+          Eigen::Map<const Eigen::VectorXd>(sample_.zdot.data(), at(sample_.zdot.size())).cast<long double>();
+      if (plan_.is_reduced())
+        entry(e_.B.transpose() * (e_.M * (e_.B * zdot) - force), load * (1 + zdot.lpNorm<1>()));
+    }
+    if (name == "close_loops" || name == "project") compare_correction(program, v);
+  }
+
+  void compare_mass_matrix(const ir::Program& program, const Vector& v) {
+    const Matrix M = e_.B.transpose() * e_.M * e_.B;
+    Vector expected(v.size());
+    for (Eigen::Index k = 0; k < v.size(); ++k) {
+      const ir::Output& output = program.outputs[static_cast<std::size_t>(k)];
+      expected[k] = M(output.row, output.column);
+    }
+    record(program.name, v, expected, e_.M.cwiseAbs().maxCoeff() * e_.B.cwiseAbs().maxCoeff() * e_.condition,
+           verdict_.entry_error);
+    const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(M).eigenvalues();
+    verdict_.condition = std::max(verdict_.condition, static_cast<double>(values.tail(1)[0] / values[0]));
+  }
+
+  /// As a backward error.
+  void compare_motion(const Vector& zdot) {
+    if (plan_.is_reduced()) {
+      const Vector r = e_.B.transpose() * (e_.M * (e_.B * zdot + e_.beta) - e_.k + e_.q);
+      const long double scale =
+          e_.load.maxCoeff() + (e_.M.cwiseAbs() * (e_.B.cwiseAbs() * zdot.cwiseAbs())).maxCoeff();
+      return record("M zdot = k_bar - q_bar with the program's zdot", r, Vector::Zero(r.size()),
+                    scale * e_.B.cwiseAbs().maxCoeff() * e_.condition, verdict_.backward_error);
+    }
+    // M ż + Gᵀ λ = k̄ − q̄ for some λ, and G ż + γ = 0 (with the stabilisation) where constraints are regular.
+    const Vector missing = e_.k - e_.q - e_.M * zdot;
+    const Vector lambda = least_norm(e_.G.transpose(), missing);
+    const long double scale = e_.load.maxCoeff() + (e_.M.cwiseAbs() * zdot.cwiseAbs()).maxCoeff();
+    record("M zdot + G^T lambda = k_bar - q_bar with the program's zdot", missing, e_.G.transpose() * lambda,
+           scale, verdict_.backward_error);
+    const Matrix S = e_.G * e_.M.ldlt().solve(e_.G.transpose());
+    Vector sigma = Eigen::JacobiSVD<Matrix>(scaled(S)).singularValues();
+    long double smallest = sigma[0];
+    for (const long double s : sigma)
+      if (s > kRankTolerance * sigma[0]) smallest = std::min(smallest, s);
+    if (smallest < 1e3L * plan_.regularisation) return;  // too near a singular configuration to judge
+    const long double s = plan_.stabilisation;
+    const Vector opening = e_.G * zdot + e_.gamma + 2 * s * e_.rate + s * s * e_.g;
+    const long double terms = (e_.G.cwiseAbs() * zdot.cwiseAbs() + e_.gamma.cwiseAbs()).maxCoeff() +
+                              2 * s * (e_.G.cwiseAbs() * e_.z.cwiseAbs()).maxCoeff();
+    const long double share = std::pow(plan_.regularisation / smallest, 3);
+    record("G zdot + gamma = 0 with the program's zdot", opening, Vector::Zero(opening.size()),
+           (terms + S.cwiseAbs().maxCoeff() * lambda.lpNorm<Eigen::Infinity>() *
+                        (share / validate::kTolerance + sigma[0] / smallest)),
+           verdict_.backward_error);
+  }
+
+  Matrix scaled(const Matrix& S) const {
+    Matrix result = S;
+    for (Eigen::Index i = 0; i < S.rows(); ++i)
+      for (Eigen::Index j = 0; j < S.cols(); ++j)
+        result(i, j) *=
+            plan_.row_length[static_cast<std::size_t>(i)] * plan_.row_length[static_cast<std::size_t>(j)];
+    return result;
+  }
+
+  /// A closed state stays where it is.
+  void compare_correction(const ir::Program& program, const Vector& v) {
+    Vector expected(v.size());
+    for (Eigen::Index k = 0; k < v.size(); ++k) {
+      const ir::Output& output = program.outputs[static_cast<std::size_t>(k)];
+      const auto i = static_cast<std::size_t>(output.row);
+      expected[k] = output.name == "y" ? sample_.y[i] : sample_.z[i];
+    }
+    // A state is closed to kClosed, no better.
+    record(program.name, v, expected, 1e3L * (1 + expected.lpNorm<Eigen::Infinity>()) * e_.condition,
+           verdict_.entry_error);
+  }
+
+  const model::Mechanism& mechanism_;
+  const dynamics::Equations &equations_, &closures_;
+  const ir::Module& module_;
+  const LoopPlan& plan_;
+  const ClosedSample& sample_;
+  Verdict& verdict_;
+  model::CoordinateLayout layout_;
+  std::vector<double> parameters_;
+  std::vector<std::size_t> dependent_;
+  Expected e_;
+  double kinetic_energy_ = 0, potential_energy_ = 0;
+};
+
+}  // namespace
+
+Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+                        const ir::Module& module, const LoopPlan& plan) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  const std::size_t states = layout.velocity_count() >= kLarge ? 2 : kStates;
+  ir::Module nothing;
+  Verdict verdict = validate::validate_translation(mechanism, equations, nothing, states);
+  dynamics::DerivationOptions options;
+  options.closures_only = true;
+  const dynamics::Equations closures = dynamics::derive_equations(mechanism, options);
+  const ConstraintPrograms programs = constraint_programs(mechanism, closures);
+  const NumericClosure closure(mechanism, programs, model::default_values(mechanism));
+  Configuration start;
+  start.y = Eigen::Map<const Eigen::VectorXd>(plan.y.data(), at(plan.y.size())).cast<long double>();
+  Uniform uniform;
+  verdict.states = 0;
+  for (const Configuration& configuration : walk(closure, start, mechanism, states)) {
+    ClosedSample sample{configuration, {}, {}, {}, {}};
+    for (const long double y : configuration.y) sample.y.push_back(static_cast<double>(y));
+    Vector z(at(layout.velocity_count()));
+    for (long double& entry : z) entry = uniform(-2, 2);
+    z = closure.consistent(configuration, z, {});
+    for (std::size_t k = 0; k < plan.z.size(); ++k) {
+      const bool kept = !plan.is_reduced() || std::find(plan.independent.begin(), plan.independent.end(),
+                                                        k) != plan.independent.end();
+      if (!kept) continue;
+      sample.z.push_back(static_cast<double>(z[at(k)]));
+      sample.zdot.push_back(uniform(-5, 5));
+    }
+    for (std::size_t k = 0; k < layout.input_count(); ++k) sample.u.push_back(uniform(-5, 5));
+    Comparison(mechanism, equations, closures, module, plan, sample, verdict).run();
+    ++verdict.states;
+  }
+  return verdict;
+}
+
+}  // namespace jourdain::loops
