@@ -40,19 +40,17 @@ DescriptorReference<Scalar>::DescriptorReference(const model::Mechanism& mechani
     joints_.push_back(descriptor::read_joint(joint, parameters, snap));
   for (const auto& frame : mechanism.frames)
     frames_.push_back(descriptor::read_frame(frame, parameters, snap));
+  loops_ = descriptor::read_loops<Scalar>(mechanism);
 }
 
 template <class Scalar>
-typename DescriptorReference<Scalar>::System DescriptorReference<Scalar>::linearise(
-    const std::vector<AbsoluteBody<Scalar>>& motions, const Coordinates& coordinates) const {
-  System system;
-  system.motions = motions;
+void DescriptorReference<Scalar>::add_joint_rows(const Coordinates& coordinates, System& system) const {
   std::vector<Eigen::RowVectorX<Scalar>> G;
   std::vector<Scalar> g, g_rate, gamma;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     std::vector<Scalar> near;
     for (const auto& coordinate : coordinates[j]) near.push_back(coordinate.value);
-    system.joints.push_back(descriptor::joint_rows(joints_[j], bodies_, motions,
+    system.joints.push_back(descriptor::joint_rows(joints_[j], bodies_, system.motions,
                                                    std::span<const Scalar>(near), options_.parallel_axes));
     const JointRows<Scalar>& rows = system.joints.back();
     system.first_row.push_back(Eigen::Index(G.size()));
@@ -73,6 +71,41 @@ typename DescriptorReference<Scalar>::System DescriptorReference<Scalar>::linear
   system.g = Eigen::Map<Eigen::VectorX<Scalar>>(g.data(), count);
   system.g_rate = Eigen::Map<Eigen::VectorX<Scalar>>(g_rate.data(), count);
   system.gamma = Eigen::Map<Eigen::VectorX<Scalar>>(gamma.data(), count);
+}
+
+template <class Scalar>
+void DescriptorReference<Scalar>::add_loop_rows(Scalar t, const Coordinates& coordinates,
+                                                System& system) const {
+  std::vector<std::vector<Scalar>> near(joints_.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (const auto& coordinate : coordinates[j]) near[j].push_back(coordinate.value);
+  const descriptor::Parts<Scalar> parts{bodies_, joints_, frames_, loops_, parameters_};
+  const descriptor::LoopRows<Scalar> rows = descriptor::loop_rows(parts, t, system.motions, near);
+  const Eigen::MatrixX<Scalar> independent = descriptor::independent_combinations(system.G, rows.jacobian);
+
+  const Eigen::Index before = system.G.rows(), count = rows.value.size();
+  const auto extend = [&](Eigen::VectorX<Scalar>& column, const Eigen::VectorX<Scalar>& more) {
+    column.conservativeResize(before + count);
+    column.tail(count) = more;
+  };
+  system.loop_row_count = count;
+  system.G.conservativeResize(before + count, Eigen::NoChange);
+  system.G.bottomRows(count) = rows.jacobian;
+  extend(system.g, rows.value);
+  extend(system.g_rate, rows.rate);
+  extend(system.gamma, rows.gamma);
+  if (independent.rows() == count) return;
+  system.solved = Eigen::MatrixX<Scalar>::Identity(before + independent.rows(), before + count);
+  system.solved->bottomRightCorner(independent.rows(), count) = independent;
+}
+
+template <class Scalar>
+typename DescriptorReference<Scalar>::System DescriptorReference<Scalar>::linearise(
+    Scalar t, const std::vector<AbsoluteBody<Scalar>>& motions, const Coordinates& coordinates) const {
+  System system;
+  system.motions = motions;
+  add_joint_rows(coordinates, system);
+  if (!loops_.empty()) add_loop_rows(t, coordinates, system);
   return system;
 }
 

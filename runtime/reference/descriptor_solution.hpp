@@ -76,29 +76,68 @@ void DescriptorReference<Scalar>::recover_velocity_rates(std::size_t joint, cons
 
 template <class Scalar>
 Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::index1_matrix(const System& system) {
-  const Eigen::Index nx = system.M.rows(), constraints = system.G.rows();
+  const Eigen::MatrixX<Scalar> G = system.as_solved(system.G);
+  const Eigen::Index nx = system.M.rows(), constraints = G.rows();
   Eigen::MatrixX<Scalar> matrix = Eigen::MatrixX<Scalar>::Zero(nx + constraints, nx + constraints);
   matrix.topLeftCorner(nx, nx) = system.M;
-  matrix.topRightCorner(nx, constraints) = system.G.transpose();
-  matrix.bottomLeftCorner(constraints, nx) = system.G;
+  matrix.topRightCorner(nx, constraints) = G.transpose();
+  matrix.bottomLeftCorner(constraints, nx) = G;
   return matrix;
 }
 
+/// The multipliers of least norm among those of the loops that give the open tree the same forces, and those of the
+/// joints that go with them: Gᵀ λ stays what it is.
 template <class Scalar>
-DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& system) const {
-  const Eigen::Index nx = system.M.rows(), constraints = system.G.rows();
+Eigen::VectorX<Scalar> DescriptorReference<Scalar>::with_least_loop_forces(
+    const System& system, const Eigen::MatrixX<Scalar>& X, const Eigen::VectorX<Scalar>& lambda) {
+  using Matrix = Eigen::MatrixX<Scalar>;
+  const Eigen::Index joints = system.joint_row_count(), loops = system.loop_row_count;
+  const Eigen::Index rank = system.solved->rows() - joints;
+  const Matrix of_joints = system.G.topRows(joints), of_loops = system.G.bottomRows(loops);
+  const Eigen::JacobiSVD<Matrix> svd(of_loops * X, Eigen::ComputeThinU);
+  const Matrix kept = svd.matrixU().leftCols(rank);
+  Eigen::VectorX<Scalar> least = lambda;
+  least.tail(loops) = kept * (kept.transpose() * lambda.tail(loops));
+  const Eigen::VectorX<Scalar> moved = of_loops.transpose() * (lambda.tail(loops) - least.tail(loops));
+  least.head(joints) += Eigen::ColPivHouseholderQR<Matrix>(of_joints.transpose()).solve(moved);
+  return least;
+}
+
+/// What holds of the loops in the velocities z of the open tree, x = X z + x̄. As the joints' constraint forces do no work
+/// along X, what the bodies' momentum balance lacks along it is the loops' share.
+template <class Scalar>
+void DescriptorReference<Scalar>::add_loops(const System& system, const Eigen::MatrixX<Scalar>& X,
+                                            const Eigen::VectorX<Scalar>& xdot,
+                                            const Eigen::VectorX<Scalar>& lambda,
+                                            DescriptorSolution<Scalar>& result) {
+  const Eigen::Index count = system.loop_row_count;
+  const Eigen::MatrixX<Scalar> G = system.G.bottomRows(count);
+  result.loops = {G * X, system.g.tail(count), system.g_rate.tail(count)};
+  const Eigen::VectorX<Scalar> convective = xdot - X * result.zdot;
+  result.loop_gamma = G * convective + system.gamma.tail(count);
+  result.loop_lambda = lambda.tail(count);
+  result.loop_forces = X.transpose() * (system.forces - system.M * xdot);
+  result.loop_rank = (system.solved ? system.solved->rows() : system.G.rows()) - system.joint_row_count();
+}
+
+template <class Scalar>
+DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& system,
+                                                                 const Eigen::MatrixX<Scalar>& X) const {
+  const Eigen::Index nx = system.M.rows();
   const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
-  Eigen::VectorX<Scalar> right(nx + constraints);
-  right << system.forces, -system.gamma;
+  Eigen::VectorX<Scalar> right(matrix.rows());
+  right << system.forces, -system.as_solved(system.gamma);
   const Eigen::FullPivLU<Eigen::MatrixX<Scalar>> factors(matrix);
   const Eigen::VectorX<Scalar> unknowns = factors.solve(right);
-  const Eigen::VectorX<Scalar> xdot = unknowns.head(nx), lambda = unknowns.tail(constraints);
+  const Eigen::VectorX<Scalar> xdot = unknowns.head(nx);
+  Eigen::VectorX<Scalar> lambda = unknowns.tail(matrix.rows() - nx);
+  if (system.solved) lambda = with_least_loop_forces(system, X, system.solved->transpose() * lambda);
 
   DescriptorSolution<Scalar> result;
   result.zdot.resize(Eigen::Index(layout_.velocity_count()));
-  result.g = system.g;
-  result.g_rate = system.g_rate;
-  result.size = matrix.rows();
+  result.g = system.g.head(system.joint_row_count());
+  result.g_rate = system.g_rate.head(system.joint_row_count());
+  result.size = nx + system.G.rows();
   result.rank = factors.rank();
   result.reciprocal_condition = factors.rcond();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -113,6 +152,7 @@ DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& s
     add_joint_forces(j, system, xdot, lambda, result);
     recover_velocity_rates(j, system, xdot, result);
   }
+  add_loops(system, X, xdot, lambda, result);
   return result;
 }
 
@@ -120,22 +160,32 @@ template <class Scalar>
 DescriptorSolution<Scalar> DescriptorReference<Scalar>::solve(Scalar t, const Eigen::VectorX<Scalar>& y,
                                                               const Eigen::VectorX<Scalar>& z,
                                                               const Eigen::VectorX<Scalar>& u) const {
-  System system = linearise(absolute_state(t, y, z), coordinates_at(t, y, z));
+  System system = linearise(t, absolute_state(t, y, z), coordinates_at(t, y, z));
   add_forces(scene_at(t, u, system), system);
   add_inertia(system);
-  return solution(system);
+  return solution(system, tree_velocities(t, y, z));
+}
+
+template <class Scalar>
+LoopConstraints<Scalar> DescriptorReference<Scalar>::loop_constraints(Scalar t,
+                                                                      const Eigen::VectorX<Scalar>& y,
+                                                                      const Eigen::VectorX<Scalar>& z) const {
+  const System system = linearise(t, absolute_state(t, y, z), coordinates_at(t, y, z));
+  const Eigen::Index count = system.loop_row_count;
+  return {system.G.bottomRows(count) * tree_velocities(t, y, z), system.g.tail(count),
+          system.g_rate.tail(count)};
 }
 
 template <class Scalar>
 AbsoluteRates<Scalar> DescriptorReference<Scalar>::rates(const AbsoluteState<Scalar>& state,
                                                          const Eigen::VectorX<Scalar>& u) const {
-  System system = linearise(state.bodies, coordinates_near(state.t, state.near));
+  System system = linearise(state.t, state.bodies, coordinates_near(state.t, state.near));
   const descriptor::Scene<Scalar> scene = scene_at(state.t, u, system);
   add_forces(scene, system);
   add_inertia(system);
   const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
   Eigen::VectorX<Scalar> right(matrix.rows());
-  right << system.forces, -system.gamma;
+  right << system.forces, -system.as_solved(system.gamma);
   const Eigen::VectorX<Scalar> unknowns = matrix.partialPivLu().solve(right);
   return {unknowns.head(system.M.rows()), system.g, system.g_rate, scene.position, matrix.rows()};
 }
@@ -146,7 +196,7 @@ Eigen::VectorX<Scalar> DescriptorReference<Scalar>::correction(
     const System& system, const Eigen::VectorX<Scalar>& violation) const {
   const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
   Eigen::VectorX<Scalar> right = Eigen::VectorX<Scalar>::Zero(matrix.rows());
-  right.tail(violation.size()) = -violation;
+  right.tail(matrix.rows() - system.M.rows()) = -system.as_solved(violation);
   return matrix.partialPivLu().solve(right).head(system.M.rows());
 }
 
@@ -154,7 +204,7 @@ template <class Scalar>
 AbsoluteState<Scalar> DescriptorReference<Scalar>::projected(AbsoluteState<Scalar> state) const {
   constexpr int kNewtonSteps = 2;
   const auto at_state = [&] {
-    System system = linearise(state.bodies, coordinates_near(state.t, state.near));
+    System system = linearise(state.t, state.bodies, coordinates_near(state.t, state.near));
     system.forces = Eigen::VectorX<Scalar>::Zero(6 * Eigen::Index(bodies_.size()));
     add_inertia(system);
     return system;
