@@ -2,13 +2,12 @@
 
 #include <tuple>
 
+#include "reference/descriptor_solution.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::reference {
 
 namespace {
-
-using descriptor::JointRows;
 
 template <class Scalar>
 std::vector<Scalar> parameter_defaults(const model::Mechanism& mechanism) {
@@ -17,32 +16,7 @@ std::vector<Scalar> parameter_defaults(const model::Mechanism& mechanism) {
   return values;
 }
 
-template <class Scalar>
-Eigen::Index coordinate_count(const JointRows<Scalar>& rows) {
-  return rows.jacobian.rows() - rows.constraint_count;
-}
-
-/// Gradient c of a scalar coordinate: θ̇ = c x. Shape 6 nb.
-template <class Scalar>
-Eigen::VectorX<Scalar> gradient(const JointRows<Scalar>& rows, Eigen::Index coordinate) {
-  return rows.jacobian.row(rows.constraint_count + coordinate).transpose();
-}
-
 }  // namespace
-
-/// The index-1 system at one state. Constraint rows are ordered joint by joint, constraints before prescribed
-/// coordinates.
-template <class Scalar>
-struct DescriptorReference<Scalar>::System {
-  std::vector<AbsoluteBody<Scalar>> motions;
-  std::vector<JointRows<Scalar>> joints;
-  std::vector<Eigen::Index> first_row;               ///< of each joint's constraints in G
-  Eigen::MatrixX<Scalar> G;                          ///< rows × 6 nb
-  Eigen::VectorX<Scalar> g, g_rate, gamma;           ///< g, G x + g_t, γ
-  Eigen::MatrixX<Scalar> M;                          ///< 6 nb × 6 nb, with rotors
-  Eigen::VectorX<Scalar> forces;                     ///< right-hand side of M ẋ + Gᵀ λ, 6 nb
-  std::vector<Eigen::VectorX<Scalar>> joint_forces;  ///< by joint, its share Cᵀ Q of `forces`, 6 nb
-};
 
 template <class Scalar>
 DescriptorReference<Scalar>::DescriptorReference(const model::Mechanism& mechanism,
@@ -66,19 +40,17 @@ DescriptorReference<Scalar>::DescriptorReference(const model::Mechanism& mechani
     joints_.push_back(descriptor::read_joint(joint, parameters, snap));
   for (const auto& frame : mechanism.frames)
     frames_.push_back(descriptor::read_frame(frame, parameters, snap));
+  loops_ = descriptor::read_loops<Scalar>(mechanism);
 }
 
 template <class Scalar>
-typename DescriptorReference<Scalar>::System DescriptorReference<Scalar>::linearise(
-    const std::vector<AbsoluteBody<Scalar>>& motions, const Coordinates& coordinates) const {
-  System system;
-  system.motions = motions;
+void DescriptorReference<Scalar>::add_joint_rows(const Coordinates& coordinates, System& system) const {
   std::vector<Eigen::RowVectorX<Scalar>> G;
   std::vector<Scalar> g, g_rate, gamma;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     std::vector<Scalar> near;
     for (const auto& coordinate : coordinates[j]) near.push_back(coordinate.value);
-    system.joints.push_back(descriptor::joint_rows(joints_[j], bodies_, motions,
+    system.joints.push_back(descriptor::joint_rows(joints_[j], bodies_, system.motions,
                                                    std::span<const Scalar>(near), options_.parallel_axes));
     const JointRows<Scalar>& rows = system.joints.back();
     system.first_row.push_back(Eigen::Index(G.size()));
@@ -99,6 +71,41 @@ typename DescriptorReference<Scalar>::System DescriptorReference<Scalar>::linear
   system.g = Eigen::Map<Eigen::VectorX<Scalar>>(g.data(), count);
   system.g_rate = Eigen::Map<Eigen::VectorX<Scalar>>(g_rate.data(), count);
   system.gamma = Eigen::Map<Eigen::VectorX<Scalar>>(gamma.data(), count);
+}
+
+template <class Scalar>
+void DescriptorReference<Scalar>::add_loop_rows(Scalar t, const Coordinates& coordinates,
+                                                System& system) const {
+  std::vector<std::vector<Scalar>> near(joints_.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (const auto& coordinate : coordinates[j]) near[j].push_back(coordinate.value);
+  const descriptor::Parts<Scalar> parts{bodies_, joints_, frames_, loops_, parameters_};
+  const descriptor::LoopRows<Scalar> rows = descriptor::loop_rows(parts, t, system.motions, near);
+  const Eigen::MatrixX<Scalar> independent = descriptor::independent_combinations(system.G, rows.jacobian);
+
+  const Eigen::Index before = system.G.rows(), count = rows.value.size();
+  const auto extend = [&](Eigen::VectorX<Scalar>& column, const Eigen::VectorX<Scalar>& more) {
+    column.conservativeResize(before + count);
+    column.tail(count) = more;
+  };
+  system.loop_row_count = count;
+  system.G.conservativeResize(before + count, Eigen::NoChange);
+  system.G.bottomRows(count) = rows.jacobian;
+  extend(system.g, rows.value);
+  extend(system.g_rate, rows.rate);
+  extend(system.gamma, rows.gamma);
+  if (independent.rows() == count) return;
+  system.solved = Eigen::MatrixX<Scalar>::Identity(before + independent.rows(), before + count);
+  system.solved->bottomRightCorner(independent.rows(), count) = independent;
+}
+
+template <class Scalar>
+typename DescriptorReference<Scalar>::System DescriptorReference<Scalar>::linearise(
+    Scalar t, const std::vector<AbsoluteBody<Scalar>>& motions, const Coordinates& coordinates) const {
+  System system;
+  system.motions = motions;
+  add_joint_rows(coordinates, system);
+  if (!loops_.empty()) add_loop_rows(t, coordinates, system);
   return system;
 }
 
@@ -176,179 +183,6 @@ void DescriptorReference<Scalar>::add_inertia(System& system) const {
       system.M += rotor_inertias_[j][i] * c * c.transpose();
       system.forces -= rotor_inertias_[j][i] * rows.gamma[rows.constraint_count + i] * c;
     }
-}
-
-template <class Scalar>
-JointWrench<Scalar> DescriptorReference<Scalar>::wrench_on_child(std::size_t joint, const System& system,
-                                                                 const Eigen::VectorX<Scalar>& forces) const {
-  const std::size_t child = joints_[joint].child;
-  const Eigen::Index first = 6 * Eigen::Index(child);
-  const Vector3<Scalar> inertial = forces.template segment<3>(first);
-  const Vector3<Scalar> force = system.motions[child].orientation.conjugate() * inertial;
-  return {.force = force, .moment = forces.template segment<3>(first + 3) + bodies_[child].p_BC.cross(force)};
-}
-
-template <class Scalar>
-void DescriptorReference<Scalar>::add_joint_forces(std::size_t joint, const System& system,
-                                                   const Eigen::VectorX<Scalar>& xdot,
-                                                   const Eigen::VectorX<Scalar>& lambda,
-                                                   DescriptorSolution<Scalar>& result) const {
-  const JointRows<Scalar>& rows = system.joints[joint];
-  const auto& coordinates = mechanism_.joints[joint].coordinates;
-  const Eigen::Index first = system.first_row[joint];
-  Eigen::Index last = first + rows.constraint_count;
-  result.drives.emplace_back(coordinates.size());
-  for (std::size_t i = 0; i < coordinates.size(); ++i)
-    if (coordinates[i].motion) result.drives[joint][i] = -lambda[last++];
-
-  Eigen::VectorX<Scalar> transmitted = system.joint_forces[joint];
-  for (Eigen::Index row = first; row < last; ++row)
-    transmitted -= lambda[row] * system.G.row(row).transpose();
-  result.reactions.push_back(wrench_on_child(joint, system, transmitted));
-
-  Eigen::VectorX<Scalar> rotors = Eigen::VectorX<Scalar>::Zero(xdot.size());
-  for (Eigen::Index i = 0; i < rotor_inertias_[joint].size(); ++i) {
-    const Eigen::VectorX<Scalar> c = gradient(rows, i);
-    const Scalar acceleration = c.dot(xdot) + rows.gamma[rows.constraint_count + i];
-    rotors -= rotor_inertias_[joint][i] * acceleration * c;
-  }
-  result.rotor_wrenches.push_back(wrench_on_child(joint, system, rotors));
-}
-
-/// Joint by joint from the two bodies' accelerations: scalar coordinates by their rows, θ̈ = c ẋ + γ_θ; the spin ω_C −
-/// R_CP ω_P of a spherical joint by differentiating it in the child; a free joint's v and ω are the child's own.
-template <class Scalar>
-void DescriptorReference<Scalar>::recover_velocity_rates(std::size_t joint, const System& system,
-                                                         const Eigen::VectorX<Scalar>& xdot,
-                                                         DescriptorSolution<Scalar>& result) const {
-  const model::JointEntries& entries = layout_.joints[joint];
-  const JointRows<Scalar>& rows = system.joints[joint];
-  for (std::size_t i = 0; i < entries.velocity.size(); ++i) {
-    if (!entries.velocity[i]) continue;
-    const Eigen::Index row = rows.constraint_count + Eigen::Index(i);
-    result.zdot[Eigen::Index(*entries.velocity[i])] = rows.jacobian.row(row).dot(xdot) + rows.gamma[row];
-  }
-  const auto first = Eigen::Index(entries.first_velocity);
-  const BodyAcceleration<Scalar>& child = result.bodies[joints_[joint].child];
-  if (joints_[joint].type == model::JointType::kFree) {
-    result.zdot.template segment<3>(first) = child.a_O;
-    result.zdot.template segment<3>(first + 3) = child.omega_dot;
-  }
-  if (joints_[joint].type != model::JointType::kSpherical) return;
-  result.zdot.template segment<3>(first) = child.omega_dot;
-  if (!joints_[joint].parent) return;
-  const std::size_t parent = *joints_[joint].parent;
-  const AbsoluteBody<Scalar>& motion = system.motions[joints_[joint].child];
-  const Matrix3<Scalar> R_CP =
-      (motion.orientation.conjugate() * system.motions[parent].orientation).toRotationMatrix();
-  const Vector3<Scalar> carried = R_CP * system.motions[parent].omega;
-  const Vector3<Scalar> spin = motion.omega - carried;
-  result.zdot.template segment<3>(first) -= R_CP * result.bodies[parent].omega_dot - spin.cross(carried);
-}
-
-template <class Scalar>
-Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::index1_matrix(const System& system) {
-  const Eigen::Index nx = system.M.rows(), constraints = system.G.rows();
-  Eigen::MatrixX<Scalar> matrix = Eigen::MatrixX<Scalar>::Zero(nx + constraints, nx + constraints);
-  matrix.topLeftCorner(nx, nx) = system.M;
-  matrix.topRightCorner(nx, constraints) = system.G.transpose();
-  matrix.bottomLeftCorner(constraints, nx) = system.G;
-  return matrix;
-}
-
-template <class Scalar>
-DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& system) const {
-  const Eigen::Index nx = system.M.rows(), constraints = system.G.rows();
-  const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
-  Eigen::VectorX<Scalar> right(nx + constraints);
-  right << system.forces, -system.gamma;
-  const Eigen::FullPivLU<Eigen::MatrixX<Scalar>> factors(matrix);
-  const Eigen::VectorX<Scalar> unknowns = factors.solve(right);
-  const Eigen::VectorX<Scalar> xdot = unknowns.head(nx), lambda = unknowns.tail(constraints);
-
-  DescriptorSolution<Scalar> result;
-  result.zdot.resize(Eigen::Index(layout_.velocity_count()));
-  result.g = system.g;
-  result.g_rate = system.g_rate;
-  result.size = matrix.rows();
-  result.rank = factors.rank();
-  result.reciprocal_condition = factors.rcond();
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Vector3<Scalar> a_C = xdot.template segment<3>(6 * Eigen::Index(b));
-    const Vector3<Scalar> omega_dot = xdot.template segment<3>(6 * Eigen::Index(b) + 3);
-    const Vector3<Scalar>& omega = system.motions[b].omega;
-    const Vector3<Scalar> arm = -bodies_[b].p_BC;
-    const Vector3<Scalar> relative = omega_dot.cross(arm) + omega.cross(omega.cross(arm));
-    result.bodies.push_back({a_C + system.motions[b].orientation * relative, a_C, omega_dot});
-  }
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    add_joint_forces(j, system, xdot, lambda, result);
-    recover_velocity_rates(j, system, xdot, result);
-  }
-  return result;
-}
-
-template <class Scalar>
-DescriptorSolution<Scalar> DescriptorReference<Scalar>::solve(Scalar t, const Eigen::VectorX<Scalar>& y,
-                                                              const Eigen::VectorX<Scalar>& z,
-                                                              const Eigen::VectorX<Scalar>& u) const {
-  System system = linearise(absolute_state(t, y, z), coordinates_at(t, y, z));
-  add_forces(scene_at(t, u, system), system);
-  add_inertia(system);
-  return solution(system);
-}
-
-template <class Scalar>
-AbsoluteRates<Scalar> DescriptorReference<Scalar>::rates(const AbsoluteState<Scalar>& state,
-                                                         const Eigen::VectorX<Scalar>& u) const {
-  System system = linearise(state.bodies, coordinates_near(state.t, state.near));
-  const descriptor::Scene<Scalar> scene = scene_at(state.t, u, system);
-  add_forces(scene, system);
-  add_inertia(system);
-  const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
-  Eigen::VectorX<Scalar> right(matrix.rows());
-  right << system.forces, -system.gamma;
-  const Eigen::VectorX<Scalar> unknowns = matrix.partialPivLu().solve(right);
-  return {unknowns.head(system.M.rows()), system.g, system.g_rate, scene.position, matrix.rows()};
-}
-
-/// Change of x that moves the constraints' linearisation by −violation.
-template <class Scalar>
-Eigen::VectorX<Scalar> DescriptorReference<Scalar>::correction(
-    const System& system, const Eigen::VectorX<Scalar>& violation) const {
-  const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
-  Eigen::VectorX<Scalar> right = Eigen::VectorX<Scalar>::Zero(matrix.rows());
-  right.tail(violation.size()) = -violation;
-  return matrix.partialPivLu().solve(right).head(system.M.rows());
-}
-
-template <class Scalar>
-AbsoluteState<Scalar> DescriptorReference<Scalar>::projected(AbsoluteState<Scalar> state) const {
-  constexpr int kNewtonSteps = 2;
-  const auto at_state = [&] {
-    System system = linearise(state.bodies, coordinates_near(state.t, state.near));
-    system.forces = Eigen::VectorX<Scalar>::Zero(6 * Eigen::Index(bodies_.size()));
-    add_inertia(system);
-    return system;
-  };
-  for (int i = 0; i < kNewtonSteps; ++i) {
-    const System system = at_state();
-    const Eigen::VectorX<Scalar> change = correction(system, system.g);
-    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-      AbsoluteBody<Scalar>& body = state.bodies[b];
-      const Vector3<Scalar> turn = change.template segment<3>(6 * Eigen::Index(b) + 3) / 2;
-      body.p_WC += change.template segment<3>(6 * Eigen::Index(b));
-      body.orientation =
-          (body.orientation * Eigen::Quaternion<Scalar>(1, turn.x(), turn.y(), turn.z())).normalized();
-    }
-  }
-  const System system = at_state();
-  const Eigen::VectorX<Scalar> change = correction(system, system.g_rate);
-  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-    state.bodies[b].v_C += change.template segment<3>(6 * Eigen::Index(b));
-    state.bodies[b].omega += change.template segment<3>(6 * Eigen::Index(b) + 3);
-  }
-  return state;
 }
 
 template class DescriptorReference<double>;

@@ -10,8 +10,9 @@
 //   [ M + Cᵀ J C   Gᵀ ] [ ẋ ]   [ f − ω × I ω + Cᵀ (Q − J γ_θ) ]     J: rotor inertias, gear² each
 //   [ G            0  ] [ λ ] = [ −γ                           ]     constraint force on the system: −Gᵀ λ
 //
-// A prescribed coordinate is the constraint θ − motion(t) = 0. Minimal coordinates serve only to set up a consistent
-// state. Clarity over speed.
+// A prescribed coordinate is the constraint θ − motion(t) = 0. Loop joints add rows of their own; where some of all rows
+// are redundant, independent combinations take their place. Minimal coordinates serve only to set up a consistent state
+// and to say what the loops' forces are in them. Clarity over speed.
 #pragma once
 
 #include <Eigen/Dense>
@@ -25,6 +26,7 @@
 #include "model/mechanism.hpp"
 #include "reference/descriptor_forces.hpp"
 #include "reference/descriptor_joints.hpp"
+#include "reference/descriptor_loops.hpp"
 #include "reference/descriptor_rows.hpp"
 
 namespace jourdain::reference {
@@ -48,6 +50,13 @@ struct JointWrench {
   Vector3<Scalar> moment = Vector3<Scalar>::Zero();
 };
 
+/// Constraints of the loops in the velocities z of the open tree, rows as model::Loop orders them: ġ = G z + g_t.
+template <class Scalar>
+struct LoopConstraints {
+  Eigen::MatrixX<Scalar> G;        ///< rows × nz
+  Eigen::VectorX<Scalar> g, rate;  ///< g, and G z + g_t
+};
+
 template <class Scalar>
 struct DescriptorSolution {
   std::vector<BodyAcceleration<Scalar>> bodies;  ///< in the order of `Mechanism::bodies`
@@ -61,8 +70,17 @@ struct DescriptorSolution {
   /// By joint and scalar coordinate, what the motion's actuator must apply, positive forward, N m or N: beyond all
   /// other forces on that coordinate, with the rotors' acceleration. None where the coordinate is free.
   std::vector<std::vector<std::optional<Scalar>>> drives;
-  /// g and G x + g_t at the given state, joint by joint, constraints before prescribed coordinates: rounding only.
+  /// g and G x + g_t at the given state, joint by joint, constraints before prescribed coordinates: rounding only. Those
+  /// of loops are apart.
   Eigen::VectorX<Scalar> g, g_rate;
+  LoopConstraints<Scalar> loops;
+  Eigen::VectorX<Scalar> loop_gamma;  ///< γ of the loops in z: g̈ = G ż + γ
+  /// Multipliers of the loops' rows in M ż = k̄ − q̄ − Gᵀ λ, in z; of redundant rows those of least norm. Reactions and
+  /// drives go with them.
+  Eigen::VectorX<Scalar> loop_lambda;
+  /// Gᵀ λ in z, N or N m, from the bodies' accelerations rather than from λ: what the open tree's equations lack.
+  Eigen::VectorX<Scalar> loop_forces;
+  Eigen::Index loop_rank = 0;       ///< of the loops' rows on the motions of the tree (see `kDependent`)
   Eigen::Index size = 0, rank = 0;  ///< of the system's matrix; a lower rank leaves ẋ or λ undetermined
   Scalar reciprocal_condition = 0;  ///< of that matrix, estimated in the 1-norm, units taken as they are
 };
@@ -79,7 +97,7 @@ struct AbsoluteState {
 template <class Scalar>
 struct AbsoluteRates {
   Eigen::VectorX<Scalar> xdot;       ///< of (v_C, ω) body by body, 6 nb
-  Eigen::VectorX<Scalar> g, g_rate;  ///< constraint violation g and G x + g_t
+  Eigen::VectorX<Scalar> g, g_rate;  ///< constraint violation g and G x + g_t, of joints, then of loops
   std::vector<std::vector<Scalar>>
       near;                   ///< scalar coordinates measured there, prescribed ones as prescribed
   Eigen::Index unknowns = 0;  ///< of the linear system: accelerations and multipliers
@@ -103,9 +121,14 @@ class DescriptorReference {
   std::vector<AbsoluteBody<Scalar>> absolute_state(Scalar t, const Eigen::VectorX<Scalar>& y,
                                                    const Eigen::VectorX<Scalar>& z) const;
 
-  /// Accelerations and forces at that state with inputs `u` in the order of the layout.
+  /// Accelerations and forces at that state with inputs `u` in the order of the layout. The state is one of the open tree;
+  /// where it leaves the loops, they hold in accelerations all the same.
   DescriptorSolution<Scalar> solve(Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z,
                                    const Eigen::VectorX<Scalar>& u) const;
+
+  /// Constraints of the loops at that state.
+  LoopConstraints<Scalar> loop_constraints(Scalar t, const Eigen::VectorX<Scalar>& y,
+                                           const Eigen::VectorX<Scalar>& z) const;
 
   /// The same state in absolute coordinates.
   AbsoluteState<Scalar> absolute(Scalar t, const Eigen::VectorX<Scalar>& y,
@@ -115,7 +138,7 @@ class DescriptorReference {
   AbsoluteRates<Scalar> rates(const AbsoluteState<Scalar>& state, const Eigen::VectorX<Scalar>& u) const;
 
   /// The state brought back to the constraints: two Newton steps on the positions, then the velocities, each along
-  /// M⁻¹ Gᵀ (the smallest change, weighted by mass).
+  /// M⁻¹ Gᵀ (the smallest change, weighted by mass). Redundant rows of loops are met in the least squares.
   AbsoluteState<Scalar> projected(AbsoluteState<Scalar> state) const;
 
  private:
@@ -131,15 +154,25 @@ class DescriptorReference {
   Coordinates coordinates_near(Scalar t, const std::vector<std::vector<Scalar>>& near) const;
   Eigen::VectorX<Scalar> correction(const System& system, const Eigen::VectorX<Scalar>& violation) const;
   static Eigen::MatrixX<Scalar> index1_matrix(const System& system);
-  System linearise(const std::vector<AbsoluteBody<Scalar>>& motions, const Coordinates& coordinates) const;
+  System linearise(Scalar t, const std::vector<AbsoluteBody<Scalar>>& motions,
+                   const Coordinates& coordinates) const;
+  void add_joint_rows(const Coordinates& coordinates, System& system) const;
+  void add_loop_rows(Scalar t, const Coordinates& coordinates, System& system) const;
+  Eigen::MatrixX<Scalar> tree_velocities(Scalar t, const Eigen::VectorX<Scalar>& y,
+                                         const Eigen::VectorX<Scalar>& z) const;
   descriptor::Scene<Scalar> scene_at(Scalar t, const Eigen::VectorX<Scalar>& u, const System& system) const;
   Eigen::VectorX<Scalar> spin_damping(std::size_t joint,
                                       const std::vector<AbsoluteBody<Scalar>>& motions) const;
   void add_forces(const descriptor::Scene<Scalar>& scene, System& system) const;
   void add_inertia(System& system) const;
-  DescriptorSolution<Scalar> solution(const System& system) const;
+  DescriptorSolution<Scalar> solution(const System& system, const Eigen::MatrixX<Scalar>& X) const;
   JointWrench<Scalar> wrench_on_child(std::size_t joint, const System& system,
                                       const Eigen::VectorX<Scalar>& forces) const;
+  static Eigen::VectorX<Scalar> with_least_loop_forces(const System& system, const Eigen::MatrixX<Scalar>& X,
+                                                       const Eigen::VectorX<Scalar>& lambda);
+  static void add_loops(const System& system, const Eigen::MatrixX<Scalar>& X,
+                        const Eigen::VectorX<Scalar>& xdot, const Eigen::VectorX<Scalar>& lambda,
+                        DescriptorSolution<Scalar>& result);
   void add_joint_forces(std::size_t joint, const System& system, const Eigen::VectorX<Scalar>& xdot,
                         const Eigen::VectorX<Scalar>& lambda, DescriptorSolution<Scalar>& result) const;
   void recover_velocity_rates(std::size_t joint, const System& system, const Eigen::VectorX<Scalar>& xdot,
@@ -152,6 +185,7 @@ class DescriptorReference {
   std::vector<descriptor::Body<Scalar>> bodies_;
   std::vector<descriptor::Joint<Scalar>> joints_;  // as declared
   std::vector<descriptor::Frame<Scalar>> frames_;
+  std::vector<descriptor::Loop<Scalar>> loops_;
   std::vector<Eigen::VectorX<Scalar>> rotor_inertias_;  // by joint and scalar coordinate
 };
 

@@ -2,12 +2,6 @@
 
 namespace jourdain::reference::descriptor {
 
-namespace {
-
-template <class Scalar>
-using Velocity = Eigen::Matrix<Scalar, 6, 1>;  // v_C, ω
-
-/// The body frame's pose as time goes on: with velocity (v_C, ω) and no acceleration (v̇_C = 0, ω̇ = 0).
 template <class Scalar>
 Pose<TimeJet<Scalar>> coasting(const Body<Scalar>& body, const AbsoluteBody<Scalar>& motion,
                                const Velocity<Scalar>& velocity) {
@@ -26,6 +20,8 @@ Pose<TimeJet<Scalar>> coasting(const Body<Scalar>& body, const AbsoluteBody<Scal
   pose.p_WF -= pose.R_WF * body.p_BC.template cast<T>();
   return pose;
 }
+
+namespace {
 
 /// Constraints, then coordinates, at given velocities of the two bodies.
 template <class Scalar>
@@ -103,8 +99,9 @@ JointRows<Scalar> joint_rows(const Joint<Scalar>& joint, const std::vector<Body<
   return result;
 }
 
-#define JOURDAIN_INSTANTIATE(S)                                                  \
-  template JointRows<S> joint_rows(const Joint<S>&, const std::vector<Body<S>>&, \
+#define JOURDAIN_INSTANTIATE(S)                                                                   \
+  template Pose<TimeJet<S>> coasting(const Body<S>&, const AbsoluteBody<S>&, const Velocity<S>&); \
+  template JointRows<S> joint_rows(const Joint<S>&, const std::vector<Body<S>>&,                  \
                                    const std::vector<AbsoluteBody<S>>&, std::span<const S>, ParallelAxes);
 JOURDAIN_INSTANTIATE(double)
 JOURDAIN_INSTANTIATE(long double)

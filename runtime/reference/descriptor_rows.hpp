@@ -11,6 +11,14 @@
 
 namespace jourdain::reference::descriptor {
 
+template <class Scalar>
+using Velocity = Eigen::Matrix<Scalar, 6, 1>;  // v_C, ω
+
+/// The body frame's pose as time goes on: with velocity (v_C, ω) and no acceleration (v̇_C = 0, ω̇ = 0).
+template <class Scalar>
+Pose<TimeJet<Scalar>> coasting(const Body<Scalar>& body, const AbsoluteBody<Scalar>& motion,
+                               const Velocity<Scalar>& velocity);
+
 /// Rows over the absolute velocities x = (v_C, ω) of all bodies: the joint's constraints first, then its scalar
 /// coordinates. For each row h: ḣ = jacobian x and ḧ = jacobian ẋ + gamma.
 template <class Scalar>

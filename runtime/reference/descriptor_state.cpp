@@ -150,18 +150,41 @@ std::vector<AbsoluteBody<Scalar>> DescriptorReference<Scalar>::absolute_state(
   return bodies;
 }
 
-#define JOURDAIN_INSTANTIATE(S)                                                                   \
-  template TimeJet<S> DescriptorReference<S>::prescribed(const model::Expression&, S) const;      \
-  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_at(   \
-      S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                               \
-  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_near( \
-      S, const std::vector<std::vector<S>>&) const;                                               \
-  template AbsoluteState<S> DescriptorReference<S>::absolute(S, const Eigen::VectorX<S>&,         \
-                                                             const Eigen::VectorX<S>&) const;     \
-  template Pose<TimeJet<S>> DescriptorReference<S>::body_pose(                                    \
-      std::size_t, const Pose<TimeJet<S>>&, const DescriptorReference<S>::Coordinates&,           \
-      const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                  \
-  template std::vector<AbsoluteBody<S>> DescriptorReference<S>::absolute_state(                   \
+/// X of x = X z + x̄, the velocities (v_C, ω) of all bodies: 6 nb × nz. Velocities are linear in z, so differences say it.
+template <class Scalar>
+Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::tree_velocities(Scalar t, const Eigen::VectorX<Scalar>& y,
+                                                                    const Eigen::VectorX<Scalar>& z) const {
+  const auto velocities = [&](const Eigen::VectorX<Scalar>& at) {
+    Eigen::VectorX<Scalar> x(6 * Eigen::Index(bodies_.size()));
+    Eigen::Index row = 0;
+    for (const AbsoluteBody<Scalar>& body : absolute_state(t, y, at)) {
+      x.template segment<3>(row) = body.v_C;
+      x.template segment<3>(row + 3) = body.omega;
+      row += 6;
+    }
+    return x;
+  };
+  Eigen::MatrixX<Scalar> X(6 * Eigen::Index(bodies_.size()), z.size());
+  const Eigen::VectorX<Scalar> still = velocities(Eigen::VectorX<Scalar>::Zero(z.size()));
+  for (Eigen::Index k = 0; k < z.size(); ++k)
+    X.col(k) = velocities(Eigen::VectorX<Scalar>::Unit(z.size(), k)) - still;
+  return X;
+}
+
+#define JOURDAIN_INSTANTIATE(S)                                                                       \
+  template TimeJet<S> DescriptorReference<S>::prescribed(const model::Expression&, S) const;          \
+  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_at(       \
+      S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                   \
+  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_near(     \
+      S, const std::vector<std::vector<S>>&) const;                                                   \
+  template AbsoluteState<S> DescriptorReference<S>::absolute(S, const Eigen::VectorX<S>&,             \
+                                                             const Eigen::VectorX<S>&) const;         \
+  template Pose<TimeJet<S>> DescriptorReference<S>::body_pose(                                        \
+      std::size_t, const Pose<TimeJet<S>>&, const DescriptorReference<S>::Coordinates&,               \
+      const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                      \
+  template Eigen::MatrixX<S> DescriptorReference<S>::tree_velocities(S, const Eigen::VectorX<S>&,     \
+                                                                     const Eigen::VectorX<S>&) const; \
+  template std::vector<AbsoluteBody<S>> DescriptorReference<S>::absolute_state(                       \
       S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;
 JOURDAIN_INSTANTIATE(double)
 JOURDAIN_INSTANTIATE(long double)

@@ -1,0 +1,228 @@
+#include "reference/descriptor_loops.hpp"
+
+#include "reference/descriptor_rows.hpp"
+#include "support/check.hpp"
+
+namespace jourdain::reference::descriptor {
+
+namespace {
+
+using model::LoopType;
+
+template <class Scalar>
+void read_direction(const std::array<double, 3>& given, Vector3<Scalar>& axis,
+                    Vector3<Scalar> (&normals)[2]) {
+  const Vector3<double> n = Vector3<double>(given.data()).stableNormalized();
+  const auto across = model::plane_axes({n.x(), n.y(), n.z()});
+  axis = Vector3<double>(given.data()).template cast<Scalar>().stableNormalized();
+  for (std::size_t i = 0; i < 2; ++i) normals[i] = Vector3<double>(across[i].data()).template cast<Scalar>();
+}
+
+/// Writes down the rows of loops where all bodies move as given.
+template <class Scalar>
+class Closing {
+ public:
+  using T = TimeJet<Scalar>;
+  using Direction = Vector3<T>;
+
+  Closing(const Parts<Scalar>& parts, const std::vector<Pose<T>>& bodies, const T& time,
+          const std::vector<std::vector<Scalar>>& near)
+      : parts_(parts), bodies_(bodies), time_(time), near_(near) {}
+
+  std::vector<T> run() {
+    for (const Loop<Scalar>& loop : parts_.loops) add(loop);
+    return std::move(rows_);
+  }
+
+ private:
+  /// A loop's frames at present, all in inertial components.
+  struct Ends {
+    Direction delta, n, a[2], w, b[2];
+  };
+
+  Pose<T> body(const std::optional<std::size_t>& index) const { return index ? bodies_[*index] : Pose<T>(); }
+  Pose<T> frame(std::size_t index) const {
+    const Frame<Scalar>& frame = parts_.frames[index];
+    return body(frame.body).moved(frame.R_BF.template cast<T>(), frame.p_BF.template cast<T>());
+  }
+
+  Ends ends(const Loop<Scalar>& loop) const {
+    const Pose<T> from = frame(loop.from), to = frame(loop.to);
+    const auto seen = [](const Pose<T>& pose, const Vector3<Scalar>& direction) {
+      return Direction(pose.R_WF * direction.template cast<T>());
+    };
+    return {.delta = to.p_WF - from.p_WF,
+            .n = seen(from, loop.axis),
+            .a = {seen(from, loop.normals[0]), seen(from, loop.normals[1])},
+            .w = seen(to, loop.to_axis),
+            .b = {seen(to, loop.to_normals[0]), seen(to, loop.to_normals[1])}};
+  }
+
+  void add(const Loop<Scalar>& loop) {
+    if (loop.type == LoopType::kResidual) {
+      add_row(value(loop.residual));
+      return;
+    }
+    const Ends at = ends(loop);
+    switch (loop.type) {
+      case LoopType::kBall:
+        points_coincide(loop, at);
+        break;
+      case LoopType::kRevolute:
+        points_coincide(loop, at);
+        for (const Direction& a : at.a) add_row(a.dot(at.w));
+        break;
+      case LoopType::kUniversal:
+        points_coincide(loop, at);
+        add_row(at.n.dot(at.w));
+        break;
+      case LoopType::kPrismatic:
+      case LoopType::kCylindrical:
+        for (const Direction& a : at.a) add_row(a.dot(at.delta));
+        for (const Direction& a : at.a) add_row(a.dot(at.w));
+        if (loop.type == LoopType::kPrismatic) add_row(at.a[0].dot(at.b[1]));
+        break;
+      case LoopType::kPlanarPin:
+        for (const Vector3<Scalar>& c : loop.normals)
+          add_row((body(loop.carrier).R_WF * c.template cast<T>()).dot(at.delta));
+        break;
+      case LoopType::kPointInPlane:
+        add_row(at.n.dot(at.delta));
+        break;
+      case LoopType::kPointOnLine:
+        for (const Direction& a : at.a) add_row(a.dot(at.delta));
+        break;
+      case LoopType::kRod: {
+        const T length = value(loop.length);
+        add_row((at.delta.dot(at.delta) - length * length) / (T(2) * length));
+        break;
+      }
+      case LoopType::kResidual:
+        break;
+    }
+  }
+
+  void add_row(const T& g) { rows_.push_back(g); }
+
+  void points_coincide(const Loop<Scalar>& loop, const Ends& at) {
+    const Direction components = body(loop.carrier).R_WF.transpose() * at.delta;
+    for (const T& component : components) add_row(component);
+  }
+
+  /// A joint's scalar coordinate as the bodies' poses have it.
+  T coordinate(std::size_t joint, std::size_t which) const {
+    const Joint<Scalar>& at = parts_.joints[joint];
+    return measure(at, body(at.parent), bodies_[at.child], std::span<const Scalar>(near_[joint]),
+                   ParallelAxes::kFixedNormals)
+        .coordinates.at(which);
+  }
+
+  T value(const model::Expression& expression) const {
+    using Kind = model::Variable::Kind;
+    const std::vector<T> parameters(parts_.parameters.begin(), parts_.parameters.end());
+    return expression.evaluate<T>(
+        parameters, [](double literal) { return T(Scalar(literal)); },
+        [&](const model::Variable& v) -> T {
+          if (v.kind == Kind::kTime) return time_;
+          if (v.kind == Kind::kPosition) return coordinate(v.index, v.component);
+          JD_CHECK(v.kind == Kind::kFramePosition, "a loop depends on variable kind {}", int(v.kind));
+          return frame(v.index).p_WF[Eigen::Index(v.component)];
+        });
+  }
+
+  const Parts<Scalar>& parts_;
+  const std::vector<Pose<T>>& bodies_;
+  T time_;
+  const std::vector<std::vector<Scalar>>& near_;
+  std::vector<T> rows_;
+};
+
+}  // namespace
+
+template <class Scalar>
+std::vector<Loop<Scalar>> read_loops(const model::Mechanism& mechanism) {
+  std::vector<Loop<Scalar>> loops;
+  for (const model::Loop& given : mechanism.loops) {
+    Loop<Scalar>& loop = loops.emplace_back();
+    loop.type = given.type;
+    read_direction<Scalar>(given.axis, loop.axis, loop.normals);
+    read_direction<Scalar>(given.to_axis, loop.to_axis, loop.to_normals);
+    loop.length = given.length;
+    loop.residual = given.residual;
+    if (given.type == LoopType::kResidual) continue;
+    loop.from = given.from.value;
+    loop.to = given.to.value;
+    const auto carrier =
+        model::carrier(mechanism, mechanism.frames[loop.from].body, mechanism.frames[loop.to].body);
+    if (carrier) loop.carrier = carrier->value;
+  }
+  return loops;
+}
+
+template <class Scalar>
+LoopRows<Scalar> loop_rows(const Parts<Scalar>& parts, Scalar t,
+                           const std::vector<AbsoluteBody<Scalar>>& motions,
+                           const std::vector<std::vector<Scalar>>& near) {
+  using T = TimeJet<Scalar>;
+  const std::size_t count = parts.bodies.size();
+  std::vector<Pose<T>> moving, resting;
+  for (std::size_t b = 0; b < count; ++b) {
+    Velocity<Scalar> velocity;
+    velocity << motions[b].v_C, motions[b].omega;
+    moving.push_back(coasting(parts.bodies[b], motions[b], velocity));
+    resting.push_back(coasting<Scalar>(parts.bodies[b], motions[b], Velocity<Scalar>::Zero()));
+  }
+  const std::vector<T> rows = Closing<Scalar>(parts, moving, T(t, 1, 0), near).run();
+  const auto size = Eigen::Index(rows.size());
+  LoopRows<Scalar> result{.jacobian = Eigen::MatrixX<Scalar>::Zero(size, 6 * Eigen::Index(count)),
+                          .value = Eigen::VectorX<Scalar>(size),
+                          .rate = Eigen::VectorX<Scalar>(size),
+                          .gamma = Eigen::VectorX<Scalar>(size)};
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const T& row = rows[std::size_t(i)];
+    result.value[i] = row.value;
+    result.rate[i] = row.rate;
+    result.gamma[i] = row.acceleration;
+  }
+  if (size == 0) return result;
+  // Time stands still while one body moves in one direction.
+  for (std::size_t b = 0; b < count; ++b) {
+    const Pose<T> at_rest = resting[b];
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      resting[b] = coasting<Scalar>(parts.bodies[b], motions[b], Velocity<Scalar>::Unit(k));
+      const std::vector<T> column = Closing<Scalar>(parts, resting, T(t), near).run();
+      for (Eigen::Index i = 0; i < size; ++i)
+        result.jacobian(i, 6 * Eigen::Index(b) + k) = column[std::size_t(i)].rate;
+    }
+    resting[b] = at_rest;
+  }
+  return result;
+}
+
+template <class Scalar>
+Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& joint_rows,
+                                                const Eigen::MatrixX<Scalar>& loop_rows) {
+  using Matrix = Eigen::MatrixX<Scalar>;
+  const Eigen::Index freedom = joint_rows.cols() - joint_rows.rows();
+  Matrix motions = Matrix::Identity(joint_rows.cols(), joint_rows.cols());
+  if (joint_rows.rows() > 0)
+    motions = Eigen::HouseholderQR<Matrix>(joint_rows.transpose()).householderQ() * motions;
+  Eigen::VectorX<Scalar> scales = loop_rows.rowwise().norm();
+  for (Scalar& scale : scales) scale = scale > 0 ? 1 / scale : Scalar(1);
+  const Matrix seen = scales.asDiagonal() * loop_rows * motions.rightCols(freedom);
+  if (seen.size() == 0) return Matrix(0, loop_rows.rows());
+  Eigen::JacobiSVD<Matrix> svd(seen, Eigen::ComputeThinU);
+  svd.setThreshold(Scalar(kDependent));
+  return svd.matrixU().leftCols(svd.rank()).transpose() * scales.asDiagonal();
+}
+
+#define JOURDAIN_INSTANTIATE(S)                                                           \
+  template std::vector<Loop<S>> read_loops(const model::Mechanism&);                      \
+  template LoopRows<S> loop_rows(const Parts<S>&, S, const std::vector<AbsoluteBody<S>>&, \
+                                 const std::vector<std::vector<S>>&);                     \
+  template Eigen::MatrixX<S> independent_combinations(const Eigen::MatrixX<S>&, const Eigen::MatrixX<S>&);
+JOURDAIN_INSTANTIATE(double)
+JOURDAIN_INSTANTIATE(long double)
+#undef JOURDAIN_INSTANTIATE
+
+}  // namespace jourdain::reference::descriptor
