@@ -30,6 +30,8 @@ bool depends_on_time(const Mechanism& mechanism) {
       if (depends_on_time(load.force[i]) || depends_on_time(load.moment[i])) return true;
   for (const CoordinateForce& force : mechanism.coordinate_forces)
     if (depends_on_time(force.force)) return true;
+  for (const Loop& loop : mechanism.loops)
+    if (depends_on_time(loop.length) || depends_on_time(loop.residual)) return true;
   return false;
 }
 
