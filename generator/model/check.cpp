@@ -112,7 +112,9 @@ void check_numbers(const Mechanism& mechanism, Diagnostics& diagnostics) {
 
 void check_mechanism(const Mechanism& mechanism, Diagnostics& diagnostics, support::Severity triangle) {
   check_numbers(mechanism, diagnostics);
-  if (check_graph(mechanism, diagnostics)) check_inertias(mechanism, diagnostics, triangle);
+  if (!check_graph(mechanism, diagnostics)) return;
+  check_loops(mechanism, diagnostics);
+  check_inertias(mechanism, diagnostics, triangle);
 }
 
 }  // namespace jourdain::model

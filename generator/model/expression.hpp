@@ -124,6 +124,7 @@ inline constexpr int kMaximumExpressionDepth = 100;
 struct ScopeEntry {
   std::string name;
   Variable variable;
+  std::string_view refusal = {};  ///< why it may not be used here, a hint; empty: it may
 };
 using Scope = std::vector<ScopeEntry>;
 

@@ -199,6 +199,9 @@ class Parser {
              "rename the parameter");
       return Expression::parameter(ParameterIndex(i));
     }
+    if (variable != scope_.end() && !variable->refusal.empty())
+      fail(begin, word.size(), fmt::format("'{}' may not be used here", word),
+           std::string(variable->refusal));
     if (variable != scope_.end()) return Expression::variable(variable->variable);
     if (word == "pi") return Expression(std::numbers::pi);
     if (word == "deg") return Expression(std::numbers::pi / 180);
@@ -208,7 +211,8 @@ class Parser {
            fmt::format("write {}(...)", word));
     std::vector<std::string> known = parameters_;
     known.insert(known.end(), {"pi", "deg"});
-    for (const ScopeEntry& entry : scope_) known.push_back(entry.name);
+    for (const ScopeEntry& entry : scope_)
+      if (entry.refusal.empty()) known.push_back(entry.name);
     const std::string close = support::nearest(word, known);
     fail(begin, word.size(), fmt::format("unknown name '{}'", support::shown(word)),
          !close.empty() ? fmt::format("did you mean '{}'?", close)

@@ -26,6 +26,7 @@ void for_general_expressions(Mechanism& mechanism, Change&& change) {
     }
   for (CoordinateForce& force : mechanism.coordinate_forces) change(force.force);
   for (Output& output : mechanism.outputs) change(output.value);
+  for (Loop& loop : mechanism.loops) change(loop.residual);
 }
 
 /// What acts on the joint goes with it; where an expression names its coordinates, their rates or its actuators'
@@ -40,6 +41,7 @@ void lock(Mechanism& mechanism, std::size_t j) {
   for (std::size_t i = 0; i < mechanism.inputs.size(); ++i) input.emplace_back(kept++);
   std::erase_if(mechanism.actuators, on_joint);
   std::erase_if(mechanism.coordinate_forces, on_joint);
+  std::erase_if(mechanism.loop_options.independent, on_joint);
   std::erase_if(mechanism.outputs, [&](const Output& output) {
     return output.kind == OutputKind::kDrive && output.joint == JointIndex(j);
   });
@@ -115,6 +117,7 @@ std::optional<Mechanism> finish_reading(Mechanism mechanism, const Completeness&
   if (mechanism.snap) note_snapped_rotations(mechanism, diagnostics);
   check_numbers(mechanism, diagnostics);
   const bool tree = complete.structure && check_graph(mechanism, diagnostics);
+  if (tree) check_loops(mechanism, diagnostics);
   if (tree && complete.numbers) check_inertias(mechanism, diagnostics, triangle);
   if (diagnostics.has_errors()) return {};
   return mechanism;

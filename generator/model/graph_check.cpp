@@ -46,11 +46,12 @@ class GraphCheck {
     } else if (first) {
       sound_ = false;
       const Joint& other = mechanism_.joints[*first];
-      diagnostics_.error(child_range(joint),
-                         fmt::format("body '{}' is the child of two joints, '{}' and '{}'", shown(child),
-                                     shown(other.name), shown(joint.name)),
-                         fmt::format("'{}' is declared{}; closed loops are not supported yet by this version",
-                                     shown(other.name), at_line(other.where)));
+      diagnostics_.error(
+          child_range(joint),
+          fmt::format("body '{}' is the child of two joints, '{}' and '{}'", shown(child), shown(other.name),
+                      shown(joint.name)),
+          fmt::format("'{}' is declared{}; the joint that closes a loop is a [[loop]] of a TOML model",
+                      shown(other.name), at_line(other.where)));
     }
     if (!first) first = j;
   }
@@ -95,7 +96,7 @@ class GraphCheck {
     diagnostics_.error(
         child_range(mechanism_.joints[*joint_of_[start]]),
         fmt::format("the joints form a loop: '{}' -> {}", shown(mechanism_.bodies[start].name), way),
-        "no joint of the loop leads to the world");
+        "one joint must lead to the world; the one that closes a loop is a [[loop]] of a TOML model");
   }
 
   const Mechanism& mechanism_;

@@ -226,6 +226,7 @@ struct Loop {
   Expression length;                       ///< rod, m: of time and parameters, positive
   Expression residual;                     ///< of time, coordinates and positions of frames
   SourceRange where = {};
+  SourceRange to_where = {};  ///< of the name of the end `to`; line 0: use `where`
 };
 
 /// Number of constraint rows.

@@ -1,4 +1,4 @@
-// Scalar coordinates of joints: springs, dampers, friction, initial values, prescribed motion.
+// Scalar coordinates of joints: springs, dampers, friction, initial values, range, prescribed motion.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,13 +10,36 @@ namespace jourdain::model {
 
 namespace {
 
-const Scope kTimeScope = {{"t", {.kind = Variable::Kind::kTime}}};
+/// The initial position must lie in the range, at the parameters' default values.
+void read_range(TomlFile& file, const TomlTable& table, Coordinate& coordinate) {
+  const std::size_t mark = file.error_count();
+  const std::optional<std::array<double, 2>> range = table.constant_pair("range");
+  if (coordinate.motion && table.has("range"))
+    table.error("range", fmt::format("{} has a prescribed motion and no 'range'", table.what()),
+                "the motion says where it goes");
+  if (!range || file.error_count() != mark) return;
+  const auto [least, greatest] = *range;
+  const double start = file.value(coordinate.initial_position);
+  if (!(least < greatest))
+    table.error("range",
+                fmt::format("{} is empty: {} is not below {}", table.quoted("range"), least, greatest),
+                "write the smaller number first");
+  else if (!(least <= start && start <= greatest))
+    table.error("range", fmt::format("{} starts at {}, outside its range from {} to {}", table.what(), start,
+                                     least, greatest));
+  coordinate.range = range;
+}
 
-/// Motion must have finite first and second derivatives at the start, at the parameters' default values.
-void check_motion(TomlFile& file, const TomlTable& table, const Expression& motion) {
+}  // namespace
+
+Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key) {
+  static const Scope kTimeScope = {{"t", {.kind = Variable::Kind::kTime}}};
+  const std::size_t mark = file.error_count();
+  const Expression function = table.function(key, kTimeScope);
+  if (file.error_count() != mark) return function;
   std::vector<Taylor<double>> parameters;
   for (const double value : file.values()) parameters.push_back({value, 0, 0});
-  const Taylor<double> at_start = motion.evaluate<Taylor<double>>(
+  const Taylor<double> at_start = function.evaluate<Taylor<double>>(
       parameters,
       [](double v) {
         return Taylor<double>{v, 0, 0};
@@ -29,11 +52,10 @@ void check_motion(TomlFile& file, const TomlTable& table, const Expression& moti
                      : !std::isfinite(at_start.second) ? "acceleration"
                                                        : nullptr;
   if (what)
-    table.error("motion", fmt::format("the {} of {} is not finite at t = 0", what, table.quoted("motion")),
-                "the motion must start smoothly");
+    table.error(key, fmt::format("the {} of {} is not finite at t = 0", what, table.quoted(key)),
+                fmt::format("the {} must start smoothly", key));
+  return function;
 }
-
-}  // namespace
 
 void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordinate) {
   coordinate.stiffness = table.number("stiffness");
@@ -45,11 +67,10 @@ void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordin
   if (table.has("friction_speed")) coordinate.friction_speed = table.positive("friction_speed");
   coordinate.initial_position = table.number("initial_position");
   coordinate.initial_velocity = table.number("initial_velocity");
-  if (!table.has("motion")) return;
-  const std::size_t mark = file.error_count();
-  coordinate.motion = table.function("motion", kTimeScope);
+  if (table.has("motion")) coordinate.motion = read_time_function(file, table, "motion");
+  read_range(file, table, coordinate);
+  if (!coordinate.motion) return;
   coordinate.motion_where = table.where("motion");
-  if (file.error_count() == mark) check_motion(file, table, *coordinate.motion);
   for (const char* key : {"initial_position", "initial_velocity"})
     if (table.has(key))
       table.error(key, fmt::format("{} has a prescribed motion and no '{}'", table.what(), key),
@@ -58,8 +79,8 @@ void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordin
 
 const std::vector<std::string>& coordinate_keys() {
   static const std::vector<std::string> keys = {
-      "stiffness",      "rest",   "damping",          "friction",
-      "friction_speed", "motion", "initial_position", "initial_velocity"};
+      "stiffness",        "rest", "damping", "friction", "friction_speed", "motion", "initial_position",
+      "initial_velocity", "range"};
   return keys;
 }
 

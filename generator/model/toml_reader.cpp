@@ -123,8 +123,8 @@ class TomlReader {
   TomlReader(Diagnostics& diagnostics, const toml::table& root) : file_(diagnostics), root_(root) {}
 
   Mechanism read() {
-    const std::vector<std::string> known{"model",    "parameters", "body",  "joint",  "frame",
-                                         "actuator", "input",      "force", "spring", "output"};
+    const std::vector<std::string> known{"model", "parameters", "body",   "joint", "frame", "actuator",
+                                         "input", "force",      "spring", "loop",  "loops", "output"};
     const TomlTable top(file_, root_, "the file", {}, known);
     Mechanism mechanism;
     if (const toml::table* section = top.table("parameters"))
@@ -143,6 +143,11 @@ class TomlReader {
     if (const auto* section = tables(top, "force")) read_forces(file_, *section, mechanism);
     if (const auto* section = tables(top, "spring")) read_springs(file_, *section, mechanism);
     if (const auto* section = tables(top, "output")) read_outputs(file_, *section, mechanism);
+    if (const auto* section = tables(top, "loop")) read_loops(file_, *section, mechanism);
+    if (const auto* section = top.table("loops"))
+      mechanism.loop_options = read_loop_options(file_, *section, top.where("loops"), mechanism);
+    if (top.has("loops") && !top.has("loop"))
+      top.error("loops", "the file has [loops] and no [[loop]]", "each loop joint is a [[loop]]");
     return mechanism;
   }
 

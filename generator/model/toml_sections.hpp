@@ -30,6 +30,10 @@ std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
 void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordinate);
 const std::vector<std::string>& coordinate_keys();
 
+/// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values; zero after a
+/// diagnostic that it cannot be read or where it is missing.
+Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key);
+
 /// The scalar coordinate of `joint` that the table's 'coordinate' names; nothing after a diagnostic.
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint);
 
@@ -39,10 +43,15 @@ std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const
 /// All [[input]] tables.
 std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism);
 
-/// [[force]], [[spring]] and [[output]]: what refers to bodies, joints, frames and inputs, which `mechanism` has already.
+/// [[force]], [[spring]], [[output]] and [[loop]]: what refers to bodies, joints, frames and inputs, which `mechanism` has already.
 /// Bodies that are named where a frame may stand become frames.
 void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
+void read_loops(TomlFile& file, const toml::array& section, Mechanism& mechanism);
+
+/// [loops]; `mechanism` has its joints already.
+LoopOptions read_loop_options(TomlFile& file, const toml::table& section, SourceRange where,
+                              const Mechanism& mechanism);
 
 }  // namespace jourdain::model

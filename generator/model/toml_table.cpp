@@ -120,10 +120,12 @@ Expression TomlTable::positive(std::string_view key) const {
   return result;
 }
 
+/// `count`: two to four.
 const toml::array* TomlTable::numbers(std::string_view key, std::size_t count) const {
+  constexpr const char* kWords[] = {"two", "three", "four"};
   const toml::array* array = find(key)->as_array();
   if (!array) {
-    wrong_type(key, fmt::format("an array of {} numbers", count == 3 ? "three" : "four"));
+    wrong_type(key, fmt::format("an array of {} numbers", kWords[count - 2]));
   } else if (array->size() != count) {
     error(key, fmt::format("{} needs {} numbers, found {}", quoted(key), count, array->size()));
     array = nullptr;
@@ -183,6 +185,15 @@ std::array<double, 3> TomlTable::constant_vector(std::string_view key,
   std::array<double, 3> result{};
   for (std::size_t i = 0; i < 3; ++i) result[i] = file_.constant((*array)[i], quoted(key));
   return file_.error_count() == mark ? result : otherwise;
+}
+
+std::optional<std::array<double, 2>> TomlTable::constant_pair(std::string_view key) const {
+  const toml::array* array = has(key) ? numbers(key, 2) : nullptr;
+  if (!array) return {};
+  const std::size_t mark = file_.error_count();
+  std::array<double, 2> result{};
+  for (std::size_t i = 0; i < 2; ++i) result[i] = file_.constant((*array)[i], quoted(key));
+  return file_.error_count() == mark ? std::optional(result) : std::nullopt;
 }
 
 Rotation TomlTable::rotation(std::string_view key) const {

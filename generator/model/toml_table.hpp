@@ -87,6 +87,8 @@ class TomlTable {
   Vector3 vector(std::string_view key, const Vector3& otherwise = {}) const;
   /// Three numbers that do not depend on parameters.
   std::array<double, 3> constant_vector(std::string_view key, const std::array<double, 3>& otherwise) const;
+  /// Two numbers that do not depend on parameters; nothing (after a diagnostic if it is something else) where it is missing.
+  std::optional<std::array<double, 2>> constant_pair(std::string_view key) const;
   Rotation rotation(std::string_view key) const;
   /// Four numbers (w, x, y, z) of a unit quaternion; constant ones are normalised. The identity where it is missing.
   std::array<Expression, 4> quaternion(std::string_view key) const;

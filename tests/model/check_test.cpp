@@ -110,9 +110,10 @@ TEST(CheckMechanism, UsesParameterDefaults) {
 TEST(CheckMechanism, ReportsEachLoopOnce) {
   Mechanism mechanism = welded({body(1, 0, 0, 0), body(1, 0, 0, 0), body(1, 0, 0, 0)});
   mechanism.joints[0].parent = BodyIndex(1);
-  EXPECT_EQ(messages(mechanism),
-            "f: error: the joints form a loop: 'b0' -> 'b1' -> 'b0'\n      | no joint of the loop leads to "
-            "the world\n");
+  EXPECT_EQ(
+      messages(mechanism),
+      "f: error: the joints form a loop: 'b0' -> 'b1' -> 'b0'\n      | one joint must lead to the world; the "
+      "one that closes a loop is a [[loop]] of a TOML model\n");
 }
 
 TEST(DepthFirst, ListsParentsBeforeChildrenAndSiblingsAsDeclared) {

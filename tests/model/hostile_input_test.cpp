@@ -37,9 +37,10 @@ TEST(HostileInput, TenMegabytesOfBrackets) {
 }
 
 TEST(HostileInput, LessThanTheLargestFileOfBrackets) {
-  for (const char* part : {"[",     "a=[",        "{a=",         "<a>",     "<a b='", "</a>", "<!--", "a.",
-                           "a=1\n", "[a.a]\n",    "\"",          "'''",     "\n",     "<",    "&lt;", "=",
-                           "a=\"",  "[[body]]\n", "[[joint]]\n", "<robot>", "[a]\n",  "]]>",  "#\n"})
+  for (const char* part :
+       {"[",           "a=[",     "{a=",   "<a>", "<a b='", "</a>",       "<!--",     "a.",   "a=1\n",
+        "[a.a]\n",     "\"",      "'''",   "\n",  "<",      "&lt;",       "=",        "a=\"", "[[body]]\n",
+        "[[joint]]\n", "<robot>", "[a]\n", "]]>", "#\n",    "[[loop]]\n", "[loops]\n"})
     refused(repeated(part, 3'900'000) + "x");
 }
 
@@ -115,7 +116,11 @@ TEST(HostileInput, DamagedFiles) {
   const std::string toml =
       "[model]\nname=\"m\"\n[parameters]\na={value=1}\n[[body]]\nname=\"b\"\nmass=\"a*2\"\n"
       "shape={kind=\"box\",size=[1,2,3]}\n[[joint]]\nname=\"j\"\ntype=\"prismatic\"\n"
-      "parent=\"world\"\nchild=\"b\"\naxis=[0,1,0]\n[[actuator]]\njoint=\"j\"\n";
+      "parent=\"world\"\nchild=\"b\"\naxis=[0,1,0]\nrange=[-1,1]\n[[actuator]]\njoint=\"j\"\n"
+      "[[loop]]\nname=\"k\"\ntype=\"rod\"\nfrom=\"b\"\nto=\"world\"\nlength=\"1+t\"\n"
+      "[[loop]]\ntype=\"point_on_line\"\nfrom=\"world\"\nto=\"b\"\naxis=[0,1,0]\n"
+      "[[loop]]\ntype=\"residual\"\nresidual=\"j-b.y\"\n"
+      "[loops]\ntreatment=\"partitioned\"\nindependent=[\"j\"]\niterations=2\n";
   const std::string urdf =
       "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"><inertial><origin xyz=\"0 0 1\"/>"
       "<mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/>"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <type_traits>
 #include <vector>
 
@@ -30,6 +31,8 @@ class Writer {
                            actuator.name, coordinate(actuator.joint, actuator.coordinate),
                            value(actuator.gear_ratio), value(actuator.rotor_inertia));
     add_forces();
+    for (const model::Loop& loop : mechanism_.loops) add(loop);
+    if (!mechanism_.loops.empty()) add(mechanism_.loop_options);
     for (const model::Output& output : mechanism_.outputs) add(output);
     return text_;
   }
@@ -164,6 +167,8 @@ class Writer {
         "stiffness = {1}{0}rest = {2}{0}damping = {3}{0}friction = {4}{0}friction_speed = {5}", separator,
         value(c.stiffness), value(c.rest), value(c.damping), value(c.friction), value(c.friction_speed));
     if (c.motion) return text + fmt::format("{}motion = {}", separator, value(*c.motion));
+    if (c.range)
+      text += fmt::format("{}range = [{}, {}]", separator, number((*c.range)[0]), number((*c.range)[1]));
     return text + fmt::format("{0}initial_position = {1}{0}initial_velocity = {2}", separator,
                               value(c.initial_position), value(c.initial_velocity));
   }
@@ -187,11 +192,18 @@ class Writer {
 
   const std::string& frame(model::FrameIndex index) const { return mechanism_.frames[index.value].name; }
 
+  /// A frame that stands for a body or the world is not declared.
+  bool is_body(const std::string& name) const {
+    return name == "world" || std::any_of(mechanism_.bodies.begin(), mechanism_.bodies.end(),
+                                          [&](const model::Body& body) { return body.name == name; });
+  }
+
   void add_forces() {
     for (const model::Frame& f : mechanism_.frames)
-      text_ += fmt::format("\n[[frame]]\nname = \"{}\"\nbody = \"{}\"\nposition = {}\nrpy = {}\n", f.name,
-                           f.body ? mechanism_.bodies[f.body->value].name : "world",
-                           vector(f.placement.position), vector(f.placement.rotation.rpy));
+      if (!is_body(f.name))
+        text_ += fmt::format("\n[[frame]]\nname = \"{}\"\nbody = \"{}\"\nposition = {}\nrpy = {}\n", f.name,
+                             f.body ? mechanism_.bodies[f.body->value].name : "world",
+                             vector(f.placement.position), vector(f.placement.rotation.rpy));
     for (const model::Input& input : mechanism_.inputs)
       text_ += fmt::format("\n[[input]]\nname = \"{}\"\n", input.name);
     for (const model::Load& load : mechanism_.loads)
@@ -210,6 +222,39 @@ class Writer {
           value(spring.free_length), with({"length", "rate"}, spring.law));
       if (spring.potential) text_ += fmt::format("potential = {}\n", with({"length"}, *spring.potential));
     }
+  }
+
+  void add(const model::Loop& loop) {
+    using Type = model::LoopType;
+    static constexpr const char* kTypes[] = {"ball",        "revolute",   "universal",      "prismatic",
+                                             "cylindrical", "planar_pin", "point_in_plane", "point_on_line",
+                                             "rod",         "residual"};
+    const Type type = loop.type;
+    text_ += fmt::format("\n[[loop]]\nname = \"{}\"\ntype = \"{}\"\n", loop.name, kTypes[std::size_t(type)]);
+    if (type == Type::kResidual) {
+      text_ += fmt::format("residual = {}\n", value(loop.residual));
+      return;
+    }
+    text_ += fmt::format("from = \"{}\"\nto = \"{}\"\n", frame(loop.from), frame(loop.to));
+    if (type == Type::kRod) text_ += fmt::format("length = {}\n", value(loop.length));
+    if (type != Type::kRod && type != Type::kBall) text_ += axis("axis", loop.axis);
+    if (type >= Type::kRevolute && type <= Type::kCylindrical) text_ += axis("to_axis", loop.to_axis);
+  }
+
+  void add(const model::LoopOptions& options) {
+    using Treatment = model::LoopTreatment;
+    static constexpr const char* kTreatments[] = {"explicit", "partitioned", "multipliers"};
+    text_ += "\n[loops]\n";
+    if (options.treatment)
+      text_ += fmt::format("treatment = \"{}\"\n", kTreatments[std::size_t(*options.treatment)]);
+    std::vector<std::string> names;
+    for (const auto& [joint, coordinate] : options.independent)
+      names.push_back(fmt::format("\"{}\"", mechanism_.joints[joint.value].coordinates[coordinate].name));
+    if (!names.empty()) text_ += fmt::format("independent = [{}]\n", fmt::join(names, ", "));
+    if (options.treatment != Treatment::kExplicit)
+      text_ += fmt::format("iterations = {}\n", options.iterations);
+    if (options.treatment.value_or(Treatment::kMultipliers) == Treatment::kMultipliers)
+      text_ += fmt::format("stabilisation = {}\n", number(options.stabilisation));
   }
 
   void add(const model::Output& output) {
