@@ -113,6 +113,8 @@ class EquationPrinter {
         return {fmt::format("{}sin({})", function, a(0)), 2};
       case Op::kCos:
         return {fmt::format("{}cos({})", function, a(0)), 2};
+      case Op::kAtan2:
+        return {fmt::format("{}({}, {})", latex_ ? "\\operatorname{atan2}" : "atan2", a(0), b(0)), 2};
     }
     return {};
   }

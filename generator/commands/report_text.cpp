@@ -7,8 +7,9 @@ namespace jourdain::commands {
 namespace {
 
 std::string operations_row(const std::string& name, const ir::Operations& c) {
-  return fmt::format("  {:<18} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} | {:>5} {:>5} {:>5}\n", name,
-                     c.arithmetic(), c.multiply, c.add, c.subtract, c.divide, c.sqrt, c.negate, c.sin, c.cos);
+  return fmt::format("  {:<18} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} | {:>5} {:>5} {:>5}{}\n", name,
+                     c.arithmetic(), c.multiply, c.add, c.subtract, c.divide, c.sqrt, c.negate, c.sin, c.cos,
+                     c.atan2 == 0 ? "" : fmt::format("  and {} atan2", c.atan2));
 }
 
 }  // namespace

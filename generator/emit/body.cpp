@@ -231,6 +231,9 @@ class BodyPrinter {
         return {fmt::format("detail::sine({})", expression(node.a, true).text)};
       case Op::kCos:
         return {fmt::format("detail::cosine({})", expression(node.a, true).text)};
+      case Op::kAtan2:
+        return {fmt::format("detail::arctangent2({}, {})", expression(node.a, true).text,
+                            expression(node.b, true).text)};
     }
     return {};
   }

@@ -89,6 +89,7 @@ class Emitter {
          linearizes(functions_)
              ? fmt::format("  using Linearization = {}::Linearization<Real>;\n", model_.name)
              : ""},
+        {"ARCTANGENT", ir::has_arctangent(module_) ? std::string(template_text("arctangent.in")) : ""},
         {"STEP_SUPPORT", step_support(step_scene(), functions_, module_)},
         {"HISTORY", history_struct(step_scene(), functions_)},
         {"NU", fmt::format("{}", model_.inputs.size())},
@@ -195,9 +196,9 @@ class Emitter {
 
   std::string operations_comment(const FunctionInfo& function) const {
     const ir::Operations count = ir::count_operations(program(function.name));
-    return fmt::format("/// {} operations ({} mul, {} add and sub, {} div), {} sin and cos.\n",
+    return fmt::format("/// {} operations ({} mul, {} add and sub, {} div), {} sin and cos{}.\n",
                        count.arithmetic(), count.multiply, count.add + count.subtract, count.divide,
-                       count.sin + count.cos);
+                       count.sin + count.cos, count.atan2 == 0 ? "" : fmt::format(", {} atan2", count.atan2));
   }
 
   std::string step_comment(const FunctionInfo& function) const {

@@ -17,9 +17,9 @@ std::string string_array(const std::vector<std::string>& entries) {
 
 std::string operations_object(const ir::Operations& count) {
   return fmt::format(
-      R"({{"arithmetic": {}, "add": {}, "sub": {}, "mul": {}, "div": {}, "sqrt": {}, "neg": {}, "sin": {}, "cos": {}}})",
+      R"({{"arithmetic": {}, "add": {}, "sub": {}, "mul": {}, "div": {}, "sqrt": {}, "neg": {}, "sin": {}, "cos": {}{}}})",
       count.arithmetic(), count.add, count.subtract, count.multiply, count.divide, count.sqrt, count.negate,
-      count.sin, count.cos);
+      count.sin, count.cos, count.atan2 == 0 ? "" : fmt::format(R"(, "atan2": {})", count.atan2));
 }
 
 }  // namespace

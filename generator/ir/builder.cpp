@@ -75,6 +75,17 @@ Signed Builder::divide(Signed a, Signed b) {
   return {intern({.op = Op::kDivide, .a = a.value, .b = b.value}), negative};
 }
 
+/// The sign as an operation of its own, for operands from which it cannot be pulled.
+ValueId Builder::with_its_sign(Signed a) {
+  return a.negative ? intern({.op = Op::kNegate, .a = a.value}) : a.value;
+}
+
+Signed Builder::atan2(Signed a, Signed b) {
+  if (is_literal(a, 0) && is_literal(b) && literal_of(b) > 0) return literal(0);
+  const ValueId opposite = with_its_sign(a), adjacent = with_its_sign(b);
+  return {intern({.op = Op::kAtan2, .a = opposite, .b = adjacent}), false};
+}
+
 Signed Builder::unary(Op op, Signed a) {
   switch (op) {
     case Op::kNegate:
@@ -85,16 +96,15 @@ Signed Builder::unary(Op op, Signed a) {
     case Op::kCos:
       if (is_literal(a, 0)) return literal(1);
       return {intern({.op = op, .a = a.value}), false};
-    case Op::kSqrt: {
-      const ValueId operand = a.negative ? intern({.op = Op::kNegate, .a = a.value}) : a.value;
-      return {intern({.op = op, .a = operand}), false};
-    }
+    case Op::kSqrt:
+      return {intern({.op = op, .a = with_its_sign(a)}), false};
     case Op::kLiteral:
     case Op::kLeaf:
     case Op::kAdd:
     case Op::kSubtract:
     case Op::kMultiply:
     case Op::kDivide:
+    case Op::kAtan2:
       break;
   }
   JD_CHECK(false, "{} is not unary", op_name(op));
@@ -120,6 +130,8 @@ Signed Builder::apply(const Node& node, Signed a, Signed b) {
     case Op::kSin:
     case Op::kCos:
       return unary(node.op, a);
+    case Op::kAtan2:
+      return atan2(a, b);
   }
   return a;
 }

@@ -26,6 +26,9 @@ class Builder {
   Signed multiply(Signed a, Signed b);
   Signed divide(Signed a, Signed b);
   Signed unary(Op op, Signed a);  ///< kNegate, kSqrt, kSin (odd), kCos (even)
+  /// The angle of (b, a). Signs stay inside: atan2(−a, b) is not −atan2(a, b) where a = 0 and b < 0. Of literals only
+  /// atan2(0, b > 0) = 0 is folded: the others' last digit is the machine's.
+  Signed atan2(Signed a, Signed b);
 
   /// The operation of `node` on operands of this builder.
   Signed apply(const Node& node, Signed a, Signed b);
@@ -42,6 +45,7 @@ class Builder {
 
  private:
   ValueId intern(const Node& node);
+  ValueId with_its_sign(Signed a);
   double literal_of(Signed a) const;
   bool is_literal(Signed a) const { return program_[a.value].op == Op::kLiteral; }
 

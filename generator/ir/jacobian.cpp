@@ -96,6 +96,13 @@ class Graph {
       case Op::kCos:
         if (by_a) from_a(-builder_.unary(Op::kSin, a));
         break;
+      case Op::kAtan2: {
+        if (!by_a && !by_b) break;
+        const Signed square = builder_.add(builder_.multiply(a, a), builder_.multiply(b, b));
+        if (by_a) from_a(builder_.divide(b, square));
+        if (by_b) connect(node.b.value, i, -builder_.divide(a, square));
+        break;
+      }
     }
   }
 

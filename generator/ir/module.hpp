@@ -20,4 +20,11 @@ inline const Program* find_program(const Module& module, const std::string& name
   return nullptr;
 }
 
+/// Has any of the module's programs an arctangent?
+inline bool has_arctangent(const Module& module) {
+  std::size_t count = count_operations(module.constants).atan2;
+  for (const Program& program : module.functions) count += count_operations(program).atan2;
+  return count > 0;
+}
+
 }  // namespace jourdain::ir

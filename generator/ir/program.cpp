@@ -20,6 +20,7 @@ int operand_count(Op op) {
     case Op::kSubtract:
     case Op::kMultiply:
     case Op::kDivide:
+    case Op::kAtan2:
       return 2;
   }
   return 0;
@@ -47,6 +48,8 @@ const char* op_name(Op op) {
       return "sin";
     case Op::kCos:
       return "cos";
+    case Op::kAtan2:
+      return "atan2";
   }
   return "";
 }
@@ -100,6 +103,9 @@ Operations count_operations(const Program& program) {
         break;
       case Op::kCos:
         ++count.cos;
+        break;
+      case Op::kAtan2:
+        ++count.atan2;
         break;
     }
   return count;
@@ -176,6 +182,9 @@ std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leav
         break;
       case Op::kCos:
         v.push_back(std::cos(a()));
+        break;
+      case Op::kAtan2:
+        v.push_back(std::atan2(a(), b()));
         break;
     }
   }

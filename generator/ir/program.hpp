@@ -23,7 +23,8 @@ enum class Op : std::uint8_t {
   kDivide,
   kSqrt,
   kSin,
-  kCos
+  kCos,
+  kAtan2  ///< atan2(a, b): the angle of (b, a), in (−π, π]
 };
 
 /// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed once.
@@ -76,9 +77,10 @@ struct Program {
 
 /// Operations of a program by kind. Leaves and literals cost nothing.
 struct Operations {
-  std::size_t add = 0, subtract = 0, multiply = 0, divide = 0, sqrt = 0, negate = 0, sin = 0, cos = 0;
+  std::size_t add = 0, subtract = 0, multiply = 0, divide = 0, sqrt = 0, negate = 0, sin = 0, cos = 0,
+              atan2 = 0;
 
-  /// add + subtract + multiply + divide + sqrt; negations and sin, cos are counted apart.
+  /// add + subtract + multiply + divide + sqrt; negations and sin, cos, atan2 are counted apart.
   std::size_t arithmetic() const { return add + subtract + multiply + divide + sqrt; }
   friend bool operator==(const Operations&, const Operations&) = default;
 };

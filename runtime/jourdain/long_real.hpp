@@ -49,6 +49,11 @@ class LongReal {
   /// Emitted code asks for the sine and the cosine of an angle one after the other: CLN has both at the price of one.
   friend LongReal sin(const LongReal& a) { return long_float(both(a.value_).sin); }
   friend LongReal cos(const LongReal& a) { return long_float(both(a.value_).cos); }
+  /// The angle of (x, y), in (−π, π]; 0 for (0, 0).
+  friend LongReal atan2(const LongReal& y, const LongReal& x) {
+    if (cln::zerop(x.value_) && cln::zerop(y.value_)) return LongReal();
+    return long_float(cln::atan(x.value_, y.value_));
+  }
 
  private:
   static cln::float_format_t format() {

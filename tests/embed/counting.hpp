@@ -26,10 +26,12 @@ struct Counting {
   friend Counting sqrt(Counting a);
   friend Counting sin(Counting a);
   friend Counting cos(Counting a);
+  friend Counting atan2(Counting a, Counting b);
 };
 
 Counting sqrt(Counting a);
 Counting sin(Counting a);
 Counting cos(Counting a);
+Counting atan2(Counting a, Counting b);
 
 }  // namespace jourdain::tests

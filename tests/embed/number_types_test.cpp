@@ -29,6 +29,10 @@ struct Dual {
   friend Dual sin(Dual a) { return Dual(std::sin(a.value), a.derivative * std::cos(a.value)); }
   friend Dual cos(Dual a) { return Dual(std::cos(a.value), -a.derivative * std::sin(a.value)); }
   friend Dual sqrt(Dual a) { return Dual(std::sqrt(a.value), a.derivative / (2 * std::sqrt(a.value))); }
+  friend Dual atan2(Dual a, Dual b) {
+    return Dual(std::atan2(a.value, b.value),
+                (b.value * a.derivative - a.value * b.derivative) / (a.value * a.value + b.value * b.value));
+  }
 };
 
 /// Four values side by side.
@@ -66,6 +70,9 @@ struct Pack {
   }
   friend Pack sqrt(const Pack& a) {
     return each([&](std::size_t i) { return std::sqrt(a.v[i]); });
+  }
+  friend Pack atan2(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return std::atan2(a.v[i], b.v[i]); });
   }
 };
 

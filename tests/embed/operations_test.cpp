@@ -49,6 +49,7 @@ TEST(Operations, AreThoseOfTheManifest) {
       EXPECT_EQ(s["sqrt"], c.sqrt) << model << " " << function;
       EXPECT_EQ(s["sin"], c.sin) << model << " " << function;
       EXPECT_EQ(s["cos"], c.cos) << model << " " << function;
+      EXPECT_EQ(s.value("atan2", std::size_t(0)), c.atan2) << model << " " << function;
       EXPECT_EQ(s["arithmetic"], c.arithmetic()) << model << " " << function;
     }
   }

@@ -9,6 +9,7 @@
 #include "emit/layout.hpp"
 #include "emit/names.hpp"
 #include "emit/templates.hpp"
+#include "ir/builder.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::emit {
@@ -57,6 +58,22 @@ TEST(Templates, FillEveryHole) {
   EXPECT_EQ(fill("a @X@ b @X@@Y@", {{"X", "1"}, {"Y", "@Z@"}}), "a 1 b 1@Z@");
   EXPECT_THROW(fill("@X@", {}), support::InternalError);
   EXPECT_THROW(template_text("nothing.in"), support::InternalError);
+}
+
+TEST(Body, CallsTheArctangentWithBothItsOperands) {
+  ir::Builder b;
+  const ir::Signed x = b.leaf(ir::LeafKind::kPosition, 0), y = b.leaf(ir::LeafKind::kPosition, 1);
+  b.output("r", 0, -1, b.multiply(b.atan2(b.add(x, y), -x), y));
+  const Body body = print_body(
+      b.finish("angle"), Names({}), [](ir::LeafKind, std::size_t i) { return "y" + std::to_string(i); },
+      [](const ir::Output&, const std::string& value) { return value; });
+  EXPECT_EQ(body.parts[0].lines, (std::vector<std::string>{"y1 * detail::arctangent2(y0 + y1, -y0)"}));
+}
+
+TEST(Templates, HaveTheArctangentForBothBuiltInTypesAndOthers) {
+  const std::string_view text = template_text("arctangent.in");
+  for (const char* call : {"::atan2(y, x)", "::atan2f(y, x)", "return atan2(y, x)"})
+    EXPECT_NE(text.find(call), std::string_view::npos) << call;
 }
 
 TEST(Body, IsCutIntoPartsOfTheWantedLength) {

@@ -50,20 +50,42 @@ TEST(Builder, SimplifiesZeroOneAndEqualOperands) {
   EXPECT_TRUE(b.multiply(b.literal(-1), x).negative);
 }
 
+TEST(Builder, KeepsSignsInsideAnArctangent) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1);
+  b.output("q", 0, -1, b.atan2(-x, y));
+  EXPECT_EQ(print(b.finish("atan2")),
+            "program atan2\n"
+            "%0 = y[0]\n"
+            "%1 = y[1]\n"
+            "%2 = neg %0\n"
+            "%3 = atan2 %2 %1\n"
+            "q[0] := %3\n");
+}
+
+TEST(Builder, FoldsTheArctangentThatIsExact) {
+  Builder b;
+  EXPECT_TRUE(b.is_literal(b.atan2(b.literal(0), b.literal(2)), 0));
+  b.output("half_turn", -1, -1, b.atan2(b.literal(0), b.literal(-2)));
+  EXPECT_EQ(interpret(b.finish("fold"), LeafValues<double>{}), std::vector<double>{std::acos(-1.0)});
+}
+
 TEST(Interpreter, ComputesEveryOperation) {
   Builder b;
   const Signed x = b.leaf(LeafKind::kPosition, 0), u = b.leaf(LeafKind::kInput, 0);
   b.output("r", 0, -1, b.divide(b.unary(Op::kSqrt, x), u));
   b.output("r", 1, -1, -b.unary(Op::kCos, b.subtract(x, u)));
+  b.output("r", 2, -1, b.atan2(u, -x));
   const Program program = b.finish("all");
   LeafValues<double> leaves;
   leaves[LeafKind::kPosition] = {4};
   leaves[LeafKind::kInput] = {0.5};
-  EXPECT_EQ(interpret(program, leaves), (std::vector<double>{4.0, -std::cos(3.5)}));
+  EXPECT_EQ(interpret(program, leaves), (std::vector<double>{4.0, -std::cos(3.5), std::atan2(0.5, -4.0)}));
   const Operations count = count_operations(program);
   EXPECT_EQ(count.arithmetic(), 3u);
-  EXPECT_EQ(count.negate, 1u);
+  EXPECT_EQ(count.negate, 2u);
   EXPECT_EQ(count.cos, 1u);
+  EXPECT_EQ(count.atan2, 1u);
 }
 
 TEST(Interpreter, AssertsThatLeavesAreThere) {

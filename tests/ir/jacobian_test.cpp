@@ -26,9 +26,9 @@ class Orders : public ::testing::TestWithParam<EliminationOrder> {};
 TEST_P(Orders, DifferentiateEveryOperation) {
   Builder b;
   const Signed y0 = b.leaf(LeafKind::kPosition, 0), y1 = b.leaf(LeafKind::kPosition, 1), one = b.literal(1);
-  const std::vector<Signed> values = {b.multiply(b.unary(Op::kSin, y0), y1),
-                                      b.divide(y0, b.add(y1, b.unary(Op::kCos, y0))),
-                                      -b.unary(Op::kSqrt, b.subtract(y1, b.multiply(y0, y0)))};
+  const std::vector<Signed> values = {
+      b.multiply(b.unary(Op::kSin, y0), y1), b.divide(y0, b.add(y1, b.unary(Op::kCos, y0))),
+      -b.unary(Op::kSqrt, b.subtract(y1, b.multiply(y0, y0))), b.atan2(b.multiply(y0, y1), -y1)};
   const JacobianEntries J = differentiate(b, values, {{y0, 0, one}, {y1, 1, one}}, GetParam());
   auto at = evaluated(b, J, 0.3, 1.7);
   const double s = std::sin(0.3), c = std::cos(0.3), root = std::sqrt(1.7 - 0.09);
@@ -38,6 +38,8 @@ TEST_P(Orders, DifferentiateEveryOperation) {
   EXPECT_NEAR((at[{1, 1}]), -0.3 / ((1.7 + c) * (1.7 + c)), 1e-15);
   EXPECT_NEAR((at[{2, 0}]), 0.3 / root, 1e-15);
   EXPECT_NEAR((at[{2, 1}]), -0.5 / root, 1e-15);
+  EXPECT_NEAR((at[{3, 0}]), -1 / (1 + 0.09), 1e-15);  // the angle of (−y1, y0 y1): atan2(y0, −1) where y1 > 0
+  EXPECT_NEAR((at[{3, 1}]), 0, 1e-15);
 }
 
 TEST_P(Orders, LeaveOutWhatDoesNotDependOnAColumn) {

@@ -24,6 +24,10 @@ struct Dual {
   friend Dual sqrt(Dual a) { return Dual(std::sqrt(a.value), a.slope / (2 * std::sqrt(a.value))); }
   friend Dual sin(Dual a) { return Dual(std::sin(a.value), a.slope * std::cos(a.value)); }
   friend Dual cos(Dual a) { return Dual(std::cos(a.value), -a.slope * std::sin(a.value)); }
+  friend Dual atan2(Dual a, Dual b) {
+    return Dual(std::atan2(a.value, b.value),
+                (b.value * a.slope - a.value * b.slope) / (a.value * a.value + b.value * b.value));
+  }
 };
 
 }  // namespace jourdain::tests

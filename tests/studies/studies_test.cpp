@@ -25,6 +25,13 @@ TEST(LongReal, HasFiftyDigitsAndSplitsIntoDoublesWithoutLoss) {
   EXPECT_LT(std::fabs(double(third * LongReal(3.0) - LongReal(1.0))), 1e-50);
   const LongReal angle(0.7), one = sin(angle) * sin(angle) + cos(angle) * cos(angle);
   EXPECT_LT(std::fabs(double(one - LongReal(1.0))), 1e-50);
+  for (const double turn : {-3.1, -1.0, 0.7, 2.5}) {
+    const LongReal x(turn), back = atan2(sin(x), cos(x));
+    EXPECT_LT(std::fabs(double(back - x)), 1e-49);
+  }
+  EXPECT_EQ(double(atan2(LongReal(0.0), LongReal(-1.0))), std::atan2(0.0, -1.0));
+  EXPECT_EQ(double(atan2(LongReal(0.0), LongReal(1.0))), 0);
+  EXPECT_EQ(double(atan2(LongReal(0.0), LongReal(0.0))), 0);
   double parts[4];
   third.split(parts, 4);
   EXPECT_EQ(double(LongReal::joined(parts, 4) - third), 0);

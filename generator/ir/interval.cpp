@@ -1,0 +1,169 @@
+#include "ir/interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+namespace jourdain::ir {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kPi = std::numbers::pi;
+/// Beyond it an angle is not reduced to its place in the circle.
+constexpr double kLargestAngle = 1e6;
+/// Of a quarter turn: an extremum this near to an end counts as inside, which covers the rounding of the reduction.
+constexpr double kQuarterSlack = 1e-8;
+constexpr int kFunctionUnits = 4;
+
+double below(double x, int units = 1) {
+  for (; units > 0; --units) x = std::nextafter(x, -kInfinity);
+  return x;
+}
+
+double above(double x, int units = 1) { return -below(-x, units); }
+
+/// The smallest interval with all of `values`, widened by `units` of the last place; the line where one is not a number.
+Interval around(std::initializer_list<double> values, int units = 1) {
+  Interval result{kInfinity, -kInfinity};
+  for (const double value : values) {
+    if (std::isnan(value)) return Interval::line();
+    result.low = std::min(result.low, value);
+    result.high = std::max(result.high, value);
+  }
+  return {below(result.low, units), above(result.high, units)};
+}
+
+Interval negated(Interval a) { return {-a.high, -a.low}; }
+
+Interval square(Interval a) {
+  const Interval ends = around({a.low * a.low, a.high * a.high});
+  return {a.contains(0) ? 0 : std::max(0.0, ends.low), ends.high};
+}
+
+Interval quotient(Interval a, Interval b) {
+  if (b.contains(0)) return Interval::line();
+  return around({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
+}
+
+Interval root(Interval a) {
+  const Interval ends = around({std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0))});
+  return {std::max(ends.low, 0.0), ends.high};
+}
+
+/// Is there a whole number k with quarter turns `offset` + 4 k inside?
+bool has_quarter(Interval angle, double offset) {
+  const double low = (angle.low / (kPi / 2) - offset) / 4 - kQuarterSlack,
+               high = (angle.high / (kPi / 2) - offset) / 4 + kQuarterSlack;
+  return std::ceil(low) <= std::floor(high);
+}
+
+/// `maximum`: the quarter turn of the value 1; −1 is two quarters later.
+Interval wave(Interval angle, double (*function)(double), double maximum) {
+  if (!(std::max(std::fabs(angle.low), std::fabs(angle.high)) <= kLargestAngle)) return {-1, 1};
+  Interval result = around({function(angle.low), function(angle.high)}, kFunctionUnits);
+  if (has_quarter(angle, maximum)) result.high = 1;
+  if (has_quarter(angle, maximum + 2)) result.low = -1;
+  return {std::max(result.low, -1.0), std::min(result.high, 1.0)};
+}
+
+double sine(double x) { return std::sin(x); }
+double cosine(double x) { return std::cos(x); }
+
+/// On a box without the cut, which runs from the origin along negative b, the angle is largest and least at corners.
+Interval angle(Interval a, Interval b) {
+  if (a.contains(0) && b.low <= 0) return {below(-kPi), above(kPi)};
+  return around({std::atan2(a.low, b.low), std::atan2(a.low, b.high), std::atan2(a.high, b.low),
+                 std::atan2(a.high, b.high)},
+                kFunctionUnits);
+}
+
+bool undefined(const Node& node, Interval a, Interval b) {
+  switch (node.op) {
+    case Op::kSqrt:
+      return a.low < 0;
+    case Op::kDivide:
+      return b.contains(0);
+    case Op::kAtan2:
+      return a.contains(0) && b.contains(0);
+    case Op::kLiteral:
+    case Op::kLeaf:
+    case Op::kNegate:
+    case Op::kAdd:
+    case Op::kSubtract:
+    case Op::kMultiply:
+    case Op::kSin:
+    case Op::kCos:
+      break;
+  }
+  return false;
+}
+
+Interval evaluated(const Node& node, Interval a, Interval b) {
+  switch (node.op) {
+    case Op::kLiteral:
+    case Op::kLeaf:
+      break;
+    case Op::kNegate:
+      return negated(a);
+    case Op::kAdd:
+      return a + b;
+    case Op::kSubtract:
+      return a - b;
+    case Op::kMultiply:
+      return node.a == node.b ? square(a) : a * b;
+    case Op::kDivide:
+      return quotient(a, b);
+    case Op::kSqrt:
+      return root(a);
+    case Op::kSin:
+      return wave(a, sine, 1);
+    case Op::kCos:
+      return wave(a, cosine, 0);
+    case Op::kAtan2:
+      return angle(a, b);
+  }
+  return Interval::point(node.literal);
+}
+
+}  // namespace
+
+Interval operator+(Interval a, Interval b) {
+  const double low = a.low + b.low, high = a.high + b.high;
+  return std::isnan(low) || std::isnan(high) ? Interval::line() : Interval{below(low), above(high)};
+}
+
+Interval operator-(Interval a, Interval b) { return a + negated(b); }
+
+Interval operator*(Interval a, Interval b) {
+  return around({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+}
+
+IntervalResults interpret_interval(const Program& program, const LeafValues<Interval>& leaves) {
+  const std::size_t count = program.nodes.size();
+  std::vector<Interval> value(count);
+  std::vector<bool> maybe_undefined(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Node& node = program.nodes[i];
+    if (node.op == Op::kLeaf) {
+      JD_CHECK(node.index < leaves[node.leaf].size(), "{}[{}]", leaf_name(node.leaf), node.index);
+      value[i] = leaves[node.leaf][node.index];
+      continue;
+    }
+    const int operands = operand_count(node.op);
+    const Interval a = operands >= 1 ? value[node.a.value] : Interval{},
+                   b = operands == 2 ? value[node.b.value] : Interval{};
+    value[i] = evaluated(node, a, b);
+    maybe_undefined[i] = (operands >= 1 && maybe_undefined[node.a.value]) ||
+                         (operands == 2 && maybe_undefined[node.b.value]) || undefined(node, a, b);
+  }
+  IntervalResults results;
+  for (const Output& output : program.outputs) {
+    results.values.push_back(value[output.value.value]);
+    results.maybe_undefined.push_back(maybe_undefined[output.value.value]);
+  }
+  return results;
+}
+
+}  // namespace jourdain::ir
