@@ -186,17 +186,23 @@ CompileOptions completed(const model::Mechanism& mechanism, const CompileOptions
 ir::Module lower_tree(const model::Mechanism& mechanism, const CompileOptions& options,
                       const Equations& equations, const std::vector<emit::FunctionInfo>& functions) {
   ir::Module lowered = lower_functions(equations, functions);
-  for (ir::Program& program :
-       derivative_programs(mechanism, options.derivation, functions, options.derivative_terms))
+  if (!any_derivatives(functions)) return lowered;
+  for (ir::Program& program : derivative_programs(tree_sources(mechanism, options.derivation), functions,
+                                                  options.derivative_terms))
     lowered.functions.push_back(std::move(program));
   return lowered;
 }
 
-ir::Module lower_closed(const loops::ClosedSystem& closed, const std::vector<emit::FunctionInfo>& functions) {
+ir::Module lower_closed(const loops::ClosedSystem& closed, const CompileOptions& options,
+                        const std::vector<emit::FunctionInfo>& functions) {
   ir::Module lowered;
   for (const emit::FunctionInfo& function : functions)
-    if (function.shape != emit::Shape::kStep)
+    if (function.shape != emit::Shape::kStep && !function.holds_derivatives)
       lowered.functions.push_back(loops::loop_program(closed.system(), function.name));
+  if (!any_derivatives(functions)) return lowered;
+  for (ir::Program& program :
+       derivative_programs(loops::derivative_sources(closed.system()), functions, options.derivative_terms))
+    lowered.functions.push_back(std::move(program));
   return lowered;
 }
 
@@ -219,7 +225,7 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
   ir::Module lowered;
   if (plan) {
     const loops::ClosedSystem closed(mechanism, options.derivation, *plan);
-    lowered = lower_closed(closed, result.functions);
+    lowered = lower_closed(closed, options, result.functions);
     equations = closed.equations();
   } else {
     if (options.derivation.articulated.empty())

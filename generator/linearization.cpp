@@ -34,35 +34,23 @@ struct Columns {
   std::size_t time_column() const { return 2 * velocities + inputs; }
 };
 
-std::vector<ir::Target> targets(const char* name, const std::vector<dynamics::Ex>& values) {
-  std::vector<ir::Target> list;
-  for (std::size_t i = 0; i < values.size(); ++i) list.push_back({name, static_cast<int>(i), -1, values[i]});
-  return list;
-}
-
 using Column = std::vector<Signed>;
 using Matrix = std::vector<Column>;  // by row
 
 /// One program under construction.
 class Assembly {
  public:
-  Assembly(const model::Mechanism& mechanism, const Equations& equations, DerivativeTerms terms,
-           EliminationOrder order)
-      : equations_(equations), terms_(terms), order_(order) {
-    const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-    tangent_ = model::tangent_of(mechanism, layout);
-    columns_ = {layout.velocity_count(), layout.input_count(), layout.rheonomic};
-  }
-
-  Program residual() {
-    return ir::lower(equations_.statements, targets("r", equations_.residual), "residual");
-  }
+  Assembly(const DerivativeSources& sources, DerivativeTerms terms, EliminationOrder order)
+      : sources_(sources),
+        terms_(terms),
+        order_(order),
+        columns_{sources.velocities, sources.inputs, sources.time} {}
 
   /// M and the derivatives of the residual.
   Program residual_derivatives() {
     write_matrix("M", mass_matrix());
     const bool all = terms_ == DerivativeTerms::kAll;
-    write_residual_derivatives(differentiated(all ? equations_.residual : equations_.load));
+    write_residual_derivatives(differentiated(all ? sources_.residual : sources_.load));
     return finish("residual_derivatives");
   }
 
@@ -119,19 +107,15 @@ class Assembly {
     });
   }
 
-  Program lowered(const std::vector<dynamics::Ex>& values) const {
-    return ir::lower(equations_.statements, targets("v", values), "values");
-  }
-
   Matrix mass_matrix() {
     Matrix M;
-    for (const std::vector<dynamics::Ex>& row : equations_.M) M.push_back(insert(lowered(row)));
+    for (const Program& row : sources_.mass_rows) M.push_back(insert(row));
     return M;
   }
 
   /// Where the columns enter: the derivatives of the leaves.
   std::vector<ir::Seed> seeds(Builder& builder) const {
-    std::vector<ir::Seed> list = displacement_seeds(builder, tangent_);
+    std::vector<ir::Seed> list = sources_.position_seeds(builder, columns_.time_column());
     const Signed one = builder.literal(1);
     for (std::size_t i = 0; i < columns_.velocities; ++i)
       list.push_back({builder.leaf(LeafKind::kVelocity, i), columns_.velocity(i), one});
@@ -142,10 +126,10 @@ class Assembly {
   }
 
   /// Derivatives of `values` at constant accelerations, as values of this builder.
-  JacobianEntries differentiated(const std::vector<dynamics::Ex>& values, bool by_acceleration = false) {
+  JacobianEntries differentiated(const Program& values, bool by_acceleration = false) {
     // In a builder of its own, where ż is a leaf: accelerations inserted before would be followed to their own leaves.
     Builder builder;
-    const Column outputs = ir::insert(builder, lowered(values));
+    const Column outputs = ir::insert(builder, values);
     std::vector<ir::Seed> list = seeds(builder);
     const std::size_t first = columns_.time_column() + 1;
     for (std::size_t i = 0; by_acceleration && i < columns_.velocities; ++i)
@@ -204,8 +188,8 @@ class Assembly {
 
   /// ∂ż by all columns.
   JacobianEntries acceleration_derivatives() {
-    zdot_ = insert(lowered(equations_.zdot));
-    const JacobianEntries r = differentiated(equations_.residual);
+    zdot_ = insert(sources_.zdot);
+    const JacobianEntries r = differentiated(sources_.residual);
     factorise();
     JacobianEntries J;
     for (std::size_t c = 0; c <= columns_.time_column(); ++c) {
@@ -223,7 +207,7 @@ class Assembly {
   void write_kinematics() {
     const Signed one = builder_.literal(1);
     for (std::size_t i = 0; i < columns_.velocities; ++i) write("A", i, columns_.velocity(i), one);
-    for (const model::Tangent::Scalar& s : tangent_.quaternions)
+    for (const model::Tangent::Scalar& s : sources_.tangent.quaternions)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
         write("A", s.velocity + j, s.velocity + l, builder_.leaf(LeafKind::kVelocity, s.velocity + k));
@@ -233,9 +217,8 @@ class Assembly {
 
   /// C, D and ∂/∂t of the outputs; those that take accelerations by the chain rule.
   void write_outputs(const JacobianEntries& acceleration) {
-    const std::vector<dynamics::Ex> values = dynamics::output_entries(equations_);
-    if (values.empty()) return;
-    JacobianEntries J = differentiated(values, true);
+    if (sources_.outputs.outputs.empty()) return;
+    const JacobianEntries J = differentiated(sources_.outputs, true);
     const std::size_t first = columns_.time_column() + 1;
     JacobianEntries total;
     const auto add = [&](std::size_t row, std::size_t column, Signed term) {
@@ -264,10 +247,9 @@ class Assembly {
 
   Program finish(const char* name) { return passes::remove_dead_code(builder_.finish(name)); }
 
-  const Equations& equations_;
+  const DerivativeSources& sources_;
   DerivativeTerms terms_;
   EliminationOrder order_;
-  model::Tangent tangent_;
   Columns columns_;
   Builder builder_;
   Column zdot_;
@@ -275,25 +257,58 @@ class Assembly {
   Column inverse_D_;
 };
 
+std::vector<ir::Target> targets(const char* name, const std::vector<dynamics::Ex>& values) {
+  std::vector<ir::Target> list;
+  for (std::size_t i = 0; i < values.size(); ++i) list.push_back({name, static_cast<int>(i), -1, values[i]});
+  return list;
+}
+
 }  // namespace
 
-std::vector<Program> derivative_programs(const model::Mechanism& mechanism,
-                                         const dynamics::DerivationOptions& options,
+bool any_derivatives(const std::vector<emit::FunctionInfo>& functions) {
+  return std::any_of(functions.begin(), functions.end(),
+                     [](const emit::FunctionInfo& function) { return function.holds_derivatives; });
+}
+
+DerivativeSources tree_sources(const model::Mechanism& mechanism,
+                               const dynamics::DerivationOptions& options) {
+  dynamics::DerivationOptions plain = options;
+  plain.articulated.clear();  // M is factorised for the derivatives anyway
+  plain.for_derivatives = true;
+  const Equations equations = dynamics::derive_equations(mechanism, plain);
+  const auto lowered = [&](const std::vector<dynamics::Ex>& values, const char* name, const char* program) {
+    return ir::lower(equations.statements, targets(name, values), program);
+  };
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  DerivativeSources sources;
+  sources.residual = lowered(equations.residual, "r", "residual");
+  sources.load = lowered(equations.load, "v", "values");
+  sources.zdot = lowered(equations.zdot, "v", "values");
+  sources.outputs = lowered(dynamics::output_entries(equations), "v", "values");
+  for (const std::vector<dynamics::Ex>& row : equations.M)
+    sources.mass_rows.push_back(lowered(row, "v", "values"));
+  sources.tangent = model::tangent_of(mechanism, layout);
+  sources.velocities = layout.velocity_count();
+  sources.inputs = layout.input_count();
+  sources.time = layout.rheonomic;
+  sources.position_seeds = [tangent = sources.tangent](Builder& builder, std::size_t) {
+    return displacement_seeds(builder, tangent);
+  };
+  return sources;
+}
+
+std::vector<Program> derivative_programs(const DerivativeSources& sources,
                                          const std::vector<emit::FunctionInfo>& functions,
                                          DerivativeTerms terms) {
   std::vector<Program> programs;
-  std::optional<Equations> equations;
   for (const emit::FunctionInfo& function : functions) {
     if (!function.holds_derivatives) continue;
-    if (!equations) {
-      dynamics::DerivationOptions plain = options;
-      plain.articulated.clear();  // M is factorised for the derivatives anyway
-      plain.for_derivatives = true;
-      equations = dynamics::derive_equations(mechanism, plain);
+    if (function.name == "residual") {
+      programs.push_back(sources.residual);
+      continue;
     }
     programs.push_back(cheapest([&](EliminationOrder order) {
-      Assembly assembly(mechanism, *equations, terms, order);
-      if (function.name == "residual") return assembly.residual();
+      Assembly assembly(sources, terms, order);
       if (function.name == "residual_derivatives") return assembly.residual_derivatives();
       if (function.name == "forward_dynamics_derivatives") return assembly.forward_dynamics_derivatives();
       JD_CHECK(function.name == "linearize", "no derivatives for '{}'", function.name);

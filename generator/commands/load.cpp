@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "loops/closed_system.hpp"
 #include "model/names.hpp"
 #include "start_check.hpp"
 #include "support/files.hpp"
@@ -70,10 +71,14 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
   if (mechanism) check_inertia(*mechanism, diagnostics);
   if (mechanism) check_start(*mechanism, diagnostics);
+  std::optional<loops::LoopPlan> plan;
+  if (mechanism && !diagnostics.has_errors()) plan = loops::plan_loops(*mechanism, diagnostics);
   fmt::print(stderr, "{}", diagnostics.format());
   if (!mechanism || diagnostics.has_errors()) return std::nullopt;
   LoadedMechanism loaded{std::move(*mechanism), {}};
   loaded.options.name = arguments.name.empty() ? model::cpp_name(loaded.mechanism.name) : arguments.name;
+  loaded.options.loops = std::move(plan);
+  if (loaded.options.loops) fmt::print(stderr, "{}", loops::assembly_text(*loaded.options.loops));
   loaded.options.path = printed_path(arguments.path);
   loaded.options.sha256 = sha256(diagnostics.text());
   loaded.options.damping = read.damping;

@@ -108,6 +108,14 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
   return list;
 }
 
+std::string assembly_text(const LoopPlan& plan) {
+  std::string text;
+  for (const Moved& moved : plan.moved)
+    text += fmt::format("note: the loops close with {}{} = {:.10g} instead of {:.10g}\n", moved.coordinate,
+                        moved.velocity ? "'s velocity" : "", moved.to, moved.from);
+  return text;
+}
+
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   if (mechanism.loops.empty()) return {};
   dynamics::DerivationOptions options;

@@ -39,6 +39,9 @@ std::vector<std::size_t> dependent_positions(const LoopPlan& plan, const model::
 /// How the loops are closed, in sentences for the emitted header.
 std::vector<std::string> sentences(const model::Mechanism& mechanism, const LoopPlan& plan);
 
+/// What the assembly moved, for a person; empty where nothing moved.
+std::string assembly_text(const LoopPlan& plan);
+
 /// Plans the loops of `mechanism`, if it has any. Nothing otherwise, and after diagnostics.
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::Diagnostics& diagnostics);
 

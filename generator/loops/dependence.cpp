@@ -24,7 +24,7 @@ Dependence::Dependence(ir::Builder& builder, const LoopSystem& system)
   }
   const Column nothing(rows, builder.literal(0));
   z_.assign(n, builder.literal(0));
-  beta_ = z_;
+  b_ = beta_ = z_;
   for (std::size_t j = 0; j < independent_.size(); ++j) {
     Column known(n, builder.literal(0));
     known[independent_[j]] = builder.literal(1);
@@ -35,8 +35,8 @@ Dependence::Dependence(ir::Builder& builder, const LoopSystem& system)
   if (!system.plan.is_reduced()) return;
   Column opening;
   for (std::size_t r = 0; r < rows; ++r) opening.push_back(values_.g_t(r));
-  const Column driven = dependents(opening, beta_);
-  for (std::size_t k = 0; k < n; ++k) z_[k] = builder.add(z_[k], driven[k]);
+  b_ = dependents(opening, b_);
+  for (std::size_t k = 0; k < n; ++k) z_[k] = builder.add(z_[k], b_[k]);
   beta_ = dependents(constraint_rates(builder, system, z_).gamma, beta_);
 }
 

@@ -14,6 +14,7 @@ class Dependence {
   /// Column of B by independent velocity; entries by velocity of the tree.
   const std::vector<Column>& B() const { return B_; }
   const Column& z() const { return z_; }        ///< of the tree, from the leaves z
+  const Column& b() const { return b_; }        ///< part of z that is driven
   const Column& beta() const { return beta_; }  ///< bias of the accelerations
 
   /// B zdot + β.
@@ -32,7 +33,7 @@ class Dependence {
   ConstraintValues values_;
   std::vector<DenseSolver> solvers_;  ///< by block
   std::vector<Column> B_;
-  Column z_, beta_;
+  Column z_, b_, beta_;
 };
 
 }  // namespace jourdain::loops

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "ir/compose.hpp"
+#include "loops/closed_system.hpp"
 #include "loops/dependence.hpp"
 #include "loops/multipliers.hpp"
 #include "passes/rewrite.hpp"
@@ -36,7 +37,9 @@ class LoopProgram {
       return write("tau", dependence_.projected(
                               vector("inverse_dynamics", dependence_.accelerations(acceleration_leaves()))));
     if (name == "forward_dynamics") return write("zdot", zdot());
-    if (name == "outputs") return write_outputs();
+    if (name == "outputs") return write_outputs(dependence_.accelerations(zdot()));
+    if (name == "outputs at accelerations")
+      return write_outputs(dependence_.accelerations(acceleration_leaves()));
     if (name == "initial_state") return write_initial_state();
     if (name == "constraint_residual") return write_constraint_residual();
     if (name == "constraint_forces") return write("lambda", constraint_forces());
@@ -241,9 +244,9 @@ class LoopProgram {
         builder_.output("z", static_cast<int>(k), -1, builder_.literal(system_.plan.z[k]));
   }
 
-  void write_outputs() {
+  void write_outputs(const Column& a) {
     const Program tree = system_.tree("outputs");
-    const Column values = insert(tree, dependence_.accelerations(zdot()));
+    const Column values = insert(tree, a);
     for (std::size_t k = 0; k < values.size(); ++k)
       builder_.output(tree.outputs[k].name, tree.outputs[k].row, tree.outputs[k].column, values[k]);
   }
@@ -290,6 +293,56 @@ Program loop_program(const LoopSystem& system, const std::string& function) {
   LoopProgram program(system);
   program.write_function(function);
   return program.finish(function);
+}
+
+namespace {
+
+/// Row `i` of a symmetric matrix whose upper triangle is a program's outputs.
+Program row_of(const Program& M, std::size_t i, std::size_t size) {
+  Program row = M;
+  row.outputs.clear();
+  for (std::size_t j = 0; j < size; ++j)
+    for (const ir::Output& output : M.outputs)
+      if (subscript(output.row) == std::min(i, j) && subscript(output.column) == std::max(i, j))
+        row.outputs.push_back(output);
+  return row;
+}
+
+/// Displacements of the independent coordinates move the dependent ones along; so does time.
+std::vector<ir::Seed> independent_seeds(const LoopSystem& system, Builder& builder, std::size_t time_column) {
+  const Dependence dependence(builder, system);
+  std::vector<ir::Seed> seeds;
+  const auto add = [&](const ir::Seed& seed, std::size_t column, Signed share) {
+    if (!builder.is_literal(share, 0))
+      seeds.push_back({seed.leaf, column, builder.multiply(seed.partial, share)});
+  };
+  for (const ir::Seed& seed : displacement_seeds(builder, system.tangent)) {
+    for (std::size_t j = 0; j < dependence.B().size(); ++j) add(seed, j, dependence.B()[j][seed.column]);
+    add(seed, time_column, dependence.b()[seed.column]);
+  }
+  return seeds;
+}
+
+}  // namespace
+
+DerivativeSources derivative_sources(const LoopSystem& system) {
+  DerivativeSources sources;
+  const bool reduced = system.plan.is_reduced();
+  sources.velocities = reduced ? system.plan.independent.size() : system.layout.velocity_count();
+  sources.inputs = system.layout.input_count();
+  sources.time = system.layout.rheonomic;
+  sources.residual = loop_program(system, "residual");
+  sources.load = sources.residual;
+  sources.zdot = loop_program(system, "forward_dynamics");
+  if (!system.mechanism.outputs.empty()) sources.outputs = loop_program(system, "outputs at accelerations");
+  const Program M = loop_program(system, "mass_matrix");
+  for (std::size_t i = 0; i < sources.velocities; ++i)
+    sources.mass_rows.push_back(row_of(M, i, sources.velocities));
+  sources.tangent = reduced ? independent_tangent(system.plan, system.tangent) : system.tangent;
+  sources.position_seeds = [&system](Builder& builder, std::size_t time_column) {
+    return independent_seeds(system, builder, time_column);
+  };
+  return sources;
 }
 
 }  // namespace jourdain::loops

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "linearization.hpp"
 #include "loops/loop_system.hpp"
 
 namespace jourdain::loops {
@@ -18,5 +19,8 @@ namespace jourdain::loops {
 /// Velocities, M, k̄ and q̄ are those of the independent coordinates, with multipliers of all. Leaves of velocities, accelerations
 /// count accordingly; leaves of positions are those of the tree.
 ir::Program loop_program(const LoopSystem& system, const std::string& function);
+
+/// The same equations to be differentiated; positions that depend on others follow them.
+DerivativeSources derivative_sources(const LoopSystem& system);
 
 }  // namespace jourdain::loops
