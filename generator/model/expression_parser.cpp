@@ -194,7 +194,7 @@ class Parser {
                                        [word](const ScopeEntry& entry) { return entry.name == word; });
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       if (parameters_[i] != word) continue;
-      if (variable != scope_.end())
+      if (variable != scope_.end() && variable->refusal.empty())
         fail(begin, word.size(), fmt::format("'{}' names a parameter and something that moves", word),
              "rename the parameter");
       return Expression::parameter(ParameterIndex(i));

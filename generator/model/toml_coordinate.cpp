@@ -32,10 +32,10 @@ void read_range(TomlFile& file, const TomlTable& table, Coordinate& coordinate) 
 
 }  // namespace
 
-Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key) {
-  static const Scope kTimeScope = {{"t", {.kind = Variable::Kind::kTime}}};
+Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
+                              const Scope& scope) {
   const std::size_t mark = file.error_count();
-  const Expression function = table.function(key, kTimeScope);
+  const Expression function = table.function(key, scope);
   if (file.error_count() != mark) return function;
   std::vector<Taylor<double>> parameters;
   for (const double value : file.values()) parameters.push_back({value, 0, 0});

@@ -74,6 +74,15 @@ Scope residual_scope(const Mechanism& mechanism) {
   return scope;
 }
 
+/// The general scope, in which all that moves is refused.
+Scope length_scope(const Mechanism& mechanism) {
+  Scope scope = general_scope(mechanism);
+  for (ScopeEntry& entry : scope)
+    if (entry.variable.kind != Variable::Kind::kTime)
+      entry.refusal = "the length of a rod is of t and parameters";
+  return scope;
+}
+
 class LoopReader {
  public:
   LoopReader(TomlFile& file, const toml::table& table, std::size_t number)
@@ -93,7 +102,7 @@ class LoopReader {
     if (!read_type(loop)) return {};
     const bool ends = read_ends(loop, mechanism);
     read_axes(loop);
-    if (loop.type == LoopType::kRod) read_length(loop);
+    if (loop.type == LoopType::kRod) read_length(loop, mechanism);
     if (loop.type == LoopType::kResidual) read_residual(loop, mechanism);
     if (!ends || file_.error_count() != mark) return {};
     return loop;
@@ -139,11 +148,11 @@ class LoopReader {
     return length == 0 ? otherwise : result;
   }
 
-  void read_length(Loop& loop) {
+  void read_length(Loop& loop, const Mechanism& mechanism) {
     if (!table_.has("length"))
       return table_.missing("length", "m; an expression of t and parameters, or a number");
     const std::size_t mark = file_.error_count();
-    loop.length = read_time_function(file_, table_, "length");
+    loop.length = read_time_function(file_, table_, "length", length_scope(mechanism));
     if (file_.error_count() != mark) return;
     const double start = loop.length.evaluate<double>(
         file_.values(), [](double v) { return v; }, [](const Variable&) { return 0.0; });

@@ -31,8 +31,9 @@ void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordin
 const std::vector<std::string>& coordinate_keys();
 
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values; zero after a
-/// diagnostic that it cannot be read or where it is missing.
-Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key);
+/// diagnostic that it cannot be read or where it is missing. `scope` has t and names that it refuses.
+Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
+                              const Scope& scope = {{"t", {.kind = Variable::Kind::kTime}}});
 
 /// The scalar coordinate of `joint` that the table's 'coordinate' names; nothing after a diagnostic.
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint);

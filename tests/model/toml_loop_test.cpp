@@ -17,10 +17,8 @@ Mechanism read_cleanly(const std::string& text, const ReadOptions& options = {})
   return mechanism.value_or(Mechanism());
 }
 
-const std::string kChain = R"([model]
+const std::string kBare = R"([model]
 name = "chain"
-[parameters]
-l = 2.0
 [[body]]
 name = "crank"
 mass = 1
@@ -46,6 +44,8 @@ name = "tip"
 body = "rod"
 position = [1, 0, 0]
 )";
+
+const std::string kChain = "[parameters]\nl = 2.0\n" + kBare;
 
 TEST(ReadLoops, TakesEveryType) {
   const auto type_of = [](const std::string& type, const std::string& lines = "") {
@@ -101,6 +101,13 @@ TEST(ReadLoops, TakesARodWhoseLengthChanges) {
       std::vector<double>{3.0}, [](double v) { return v; }, [](const Variable&) { return 1.0; });
   EXPECT_DOUBLE_EQ(value, 3 + 0.1 * std::sin(1.0));
   EXPECT_TRUE(lay_out_coordinates(m).rheonomic);
+}
+
+TEST(ReadLoops, AParameterMayHaveTheNameOfWhatALengthRefuses) {
+  const Mechanism m =
+      read_cleanly("[parameters]\nhinge = 3\n" + kBare +
+                   "[[loop]]\ntype = \"rod\"\nfrom = \"tip\"\nto = \"world\"\nlength = \"hinge\"\n");
+  EXPECT_EQ(m.loops.at(0).length.evaluate<double>(std::vector<double>{3.0}), 3);
 }
 
 TEST(ReadLoops, TakesAResidualOfPositions) {
