@@ -25,11 +25,11 @@ constexpr double kRegularisation = 1e-7;
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 const std::vector<std::string>& parts_of(LoopType type) {
-  static const std::vector<std::string> ball = {"x", "y", "z"}, revolute = {"x", "y", "z", "a1.w", "a2.w"},
-                                        universal = {"x", "y", "z", "n.w"},
-                                        prismatic = {"a1.d", "a2.d", "a1.w", "a2.w", "a1.b2"},
-                                        cylindrical = {"a1.d", "a2.d", "a1.w", "a2.w"},
-                                        pin = {"c1.d", "c2.d"}, plane = {"n.d"}, line = {"a1.d", "a2.d"},
+  static const std::vector<std::string> ball = {"x", "y", "z"}, revolute = {"x", "y", "z", "a1_w", "a2_w"},
+                                        universal = {"x", "y", "z", "n_w"},
+                                        prismatic = {"a1_d", "a2_d", "a1_w", "a2_w", "a1_b2"},
+                                        cylindrical = {"a1_d", "a2_d", "a1_w", "a2_w"},
+                                        pin = {"c1_d", "c2_d"}, plane = {"n_d"}, line = {"a1_d", "a2_d"},
                                         rod = {"length"}, residual = {"residual"};
   switch (type) {
     case LoopType::kBall:
@@ -56,10 +56,13 @@ const std::vector<std::string>& parts_of(LoopType type) {
   return residual;
 }
 
-/// Is the row a length (m)? Otherwise a product of unit vectors, or whatever a residual is.
-bool is_length(const std::string& row) {
-  return row.find(".w") == std::string::npos && row.find(".b2") == std::string::npos &&
-         row.find("residual") == std::string::npos;
+/// By row: is it a length (m)? Otherwise it is a product of unit vectors, or whatever a residual is.
+std::vector<bool> lengths(const model::Mechanism& mechanism) {
+  std::vector<bool> list;
+  for (const model::Loop& loop : mechanism.loops)
+    for (const std::string& part : parts_of(loop.type))
+      list.push_back(part != "residual" && !part.ends_with("_w") && !part.ends_with("_b2"));
+  return list;
 }
 
 class Planner {
@@ -163,12 +166,13 @@ class Planner {
                            .evaluate(state, Vector::Zero(at(layout_.input_count())));
     const Matrix& G = jacobians_.front();
     const Vector S = (G * terms.M.ldlt().solve(G.transpose())).diagonal();
+    const std::vector<bool> is_length = lengths(mechanism_);
     long double largest = 0;
     for (std::size_t r = 0; r < names_.size(); ++r)
-      if (is_length(names_[r])) largest = std::max(largest, S[at(r)]);
+      if (is_length[r]) largest = std::max(largest, S[at(r)]);
     if (!(largest > 0)) largest = S.maxCoeff();
     for (std::size_t r = 0; r < names_.size(); ++r) {
-      const bool scaled = !is_length(names_[r]) && S[at(r)] > 0;
+      const bool scaled = !is_length[r] && S[at(r)] > 0;
       plan_.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / S[at(r)])) : 1);
     }
     plan_.regularisation = kRegularisation * static_cast<double>(largest);
@@ -256,7 +260,7 @@ class Planner {
 std::vector<std::string> row_names(const model::Mechanism& mechanism) {
   std::vector<std::string> names;
   for (const model::Loop& loop : mechanism.loops)
-    for (const std::string& part : parts_of(loop.type)) names.push_back(loop.name + ": " + part);
+    for (const std::string& part : parts_of(loop.type)) names.push_back(loop.name + "." + part);
   return names;
 }
 

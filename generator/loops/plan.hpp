@@ -47,7 +47,7 @@ struct LoopPlan {
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
                                    support::Diagnostics& diagnostics);
 
-/// "closure: a1.w" and so on, by row.
+/// "closure.a1_w" and so on, by row.
 std::vector<std::string> row_names(const model::Mechanism& mechanism);
 
 }  // namespace jourdain::loops
