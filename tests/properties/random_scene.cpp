@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "model/coordinates.hpp"
+#include "properties/arithmetic.hpp"
 #include "properties/random.hpp"
 #include "properties/random_tree.hpp"
 #include "reference/massless.hpp"
@@ -16,28 +17,10 @@ namespace {
 using model::Expression;
 using model::JointType;
 using model::Variable;
-using Op = Expression::Op;
 
 constexpr int kMaximumDraws = 2000;
 constexpr double kLargestCondition = 1e8;
 constexpr std::size_t kMostBodies = 8;
-
-Expression operator+(const Expression& a, const Expression& b) { return Expression::binary(Op::kAdd, a, b); }
-Expression operator*(const Expression& a, const Expression& b) {
-  return Expression::binary(Op::kMultiply, a, b);
-}
-Expression operator-(const Expression& a, const Expression& b) {
-  return Expression::binary(Op::kSubtract, a, b);
-}
-Expression operator/(const Expression& a, const Expression& b) {
-  return Expression::binary(Op::kDivide, a, b);
-}
-Expression sine(const Expression& a) { return Expression::unary(Op::kSin, a); }
-Expression cosine(const Expression& a) { return Expression::unary(Op::kCos, a); }
-
-Expression variable(Variable::Kind kind, std::size_t index = 0, std::size_t component = 0) {
-  return Expression::variable({kind, index, component});
-}
 
 /// Whether two directions are within some twenty degrees of each other or of opposite ones.
 bool are_near(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -197,7 +180,7 @@ class Decoration {
       case 3:
         return a * b - number(0, 1);
       default:
-        return a / Expression::unary(Op::kSqrt, b * b + Expression(1.0));
+        return a / Expression::unary(Expression::Op::kSqrt, b * b + Expression(1.0));
     }
   }
 
