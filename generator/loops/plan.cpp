@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "loops/partition.hpp"
+#include "model/angles.hpp"
 #include "model/checks.hpp"
 #include "reference/minimal.hpp"
 
@@ -70,6 +71,7 @@ class Planner {
   Planner(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
           support::Diagnostics& diagnostics)
       : mechanism_(mechanism),
+        constraints_(constraints),
         diagnostics_(diagnostics),
         layout_(model::lay_out_coordinates(mechanism)),
         closure_(mechanism, constraints, model::default_values(mechanism)),
@@ -220,13 +222,54 @@ class Planner {
                     : "no coordinates can be independent as a whole";
       return true;
     }
-    plan_.treatment = LoopTreatment::kPartitioned;
     plan_.independent = partition->independent;
     plan_.blocks = partition->blocks;
     plan_.conditioning = partition->conditioning;
     for (Block& block : plan_.blocks)
       for (std::size_t& row : block.rows) row = plan_.rows[row];
-    return true;
+    plan_.treatment = LoopTreatment::kPartitioned;
+    return options.treatment == LoopTreatment::kPartitioned || close_explicitly();
+  }
+
+  /// Takes closed forms where there are some.
+  bool close_explicitly() {
+    std::variant<ClosedForm, std::string> found = solve_positions();
+    if (ClosedForm* form = std::get_if<ClosedForm>(&found)) {
+      plan_.treatment = LoopTreatment::kExplicit;
+      plan_.closed_form = std::move(*form);
+      return true;
+    }
+    plan_.reason = "no closed form: " + std::get<std::string>(found);
+    if (mechanism_.loop_options.treatment != LoopTreatment::kExplicit) return true;
+    diagnostics_.error(mechanism_.loop_options.where, "the loops cannot be closed explicitly",
+                       std::get<std::string>(found));
+    return false;
+  }
+
+  std::variant<ClosedForm, std::string> solve_positions() const {
+    ClosedFormRequest request;
+    request.g = constraints_.value;
+    const model::Tangent tangent = model::tangent_of(mechanism_, layout_);
+    for (const Block& block : plan_.blocks) {
+      PositionBlock& positions = request.blocks.emplace_back();
+      positions.rows = block.rows;
+      for (const std::size_t velocity : block.dependents) {
+        const auto scalar = std::find_if(tangent.scalars.begin(), tangent.scalars.end(),
+                                         [&](const auto& s) { return s.velocity == velocity; });
+        if (scalar == tangent.scalars.end()) return "a rotation in space depends on other coordinates";
+        positions.dependents.push_back(scalar->position);
+      }
+    }
+    request.initial_y = plan_.y;
+    request.parameters = model::default_values(mechanism_);
+    request.angular = model::angular_positions(mechanism_);
+    request.range.resize(layout_.position_count());
+    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
+      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
+        if (const auto entry = layout_.joints[j].position[c])
+          request.range[*entry] = mechanism_.joints[j].coordinates[c].range;
+    request.names = layout_.position_names;
+    return closed_form(request);
   }
 
   bool report_bad(const std::optional<Partition>& partition) {
@@ -246,6 +289,7 @@ class Planner {
   }
 
   const model::Mechanism& mechanism_;
+  const ConstraintPrograms& constraints_;
   support::Diagnostics& diagnostics_;
   model::CoordinateLayout layout_;
   NumericClosure closure_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "loops/closed_form.hpp"
 #include "loops/configuration.hpp"
 #include "model/mechanism.hpp"
 #include "support/diagnostics.hpp"
@@ -36,6 +37,7 @@ struct LoopPlan {
       0;  ///< smallest over largest singular value of the dependent block, worst at the configurations seen
   std::vector<double> row_length;  ///< m by row: what its multiplier is divided by to be a force
   double regularisation = 0;       ///< added to G M⁻¹ Gᵀ of rows with lengths, 1/kg; see multipliers
+  std::optional<ClosedForm> closed_form;  ///< of the dependent positions; kExplicit
   int iterations = 2;
   double stabilisation = 0;  ///< 1/s
 

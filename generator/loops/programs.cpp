@@ -289,7 +289,8 @@ Program closing_program(const LoopSystem& system) {
 }  // namespace
 
 Program loop_program(const LoopSystem& system, const std::string& function) {
-  if (function == "close_loops") return closing_program(system);
+  if (function == "close_loops")
+    return system.plan.closed_form ? system.plan.closed_form->close : closing_program(system);
   LoopProgram program(system);
   program.write_function(function);
   return program.finish(function);

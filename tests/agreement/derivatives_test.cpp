@@ -29,7 +29,7 @@ ir::Module derivative_module(const model::Mechanism& mechanism,
   const auto functions = emit::with_needed(
       {"residual_derivatives", "forward_dynamics_derivatives", "linearize"}, shape_of(mechanism));
   ir::Module module;
-  module.functions = derivative_programs(mechanism, {}, functions, terms);
+  module.functions = derivative_programs(tree_sources(mechanism, {}), functions, terms);
   return passes::optimise(module).module;
 }
 

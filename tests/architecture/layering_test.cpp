@@ -55,6 +55,7 @@ TEST(Layering, GeneratorLayersNeverReachUp) {
       {"dynamics", {"dynamics", "kinematics", "model", "support"}},
       {"ir", {"ir", "support"}},
       {"passes", {"passes", "ir", "support"}},
+      {"loops", {"loops", "passes", "ir", "support"}},
       {"emit", {"emit", "passes", "ir", "support", "model"}},
       {"validate", {"validate", "dynamics", "kinematics", "ir", "model", "support", "reference"}},
   };

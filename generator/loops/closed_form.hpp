@@ -1,0 +1,47 @@
+// Dependent coordinates of planar loops in closed form: intersections of circles and lines.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ir/program.hpp"
+
+namespace jourdain::loops {
+
+/// A part of g(y, t) = 0 that determines some coordinates once those of earlier blocks are known.
+struct PositionBlock {
+  std::vector<std::size_t> rows;        ///< of g
+  std::vector<std::size_t> dependents;  ///< entries of y, scalar coordinates; as many as rows
+};
+
+struct ClosedFormRequest {
+  ir::Program g;  ///< outputs ("g", row); leaves: positions, time and parameters
+  std::vector<PositionBlock> blocks;
+  std::vector<double> initial_y;  ///< where g = 0 at t = 0: selects one of the two solutions of each block
+  std::vector<double> parameters;
+  std::vector<bool> angular;                                ///< by entry of y
+  std::vector<std::optional<std::array<double, 2>>> range;  ///< by entry of y: what it stays within
+  std::vector<std::string> names;                           ///< by entry of y, for messages; or empty
+};
+
+struct ClosedForm {
+  /// Outputs ("y", k) for each dependent k, block by block. An angle is the solution nearest to the y[k] that is given, so that whole
+  /// turns are kept; of other dependents the given value has no influence.
+  ir::Program close;
+  /// Over the declared range, with the parameters' default values: of every discriminant, as sin² of the angle from a dead
+  /// position, a lower bound that interval arithmetic proves. 1 where no root is taken.
+  double smallest_margin = 1;
+};
+
+/// Solves blocks of one coordinate (linear, or α cos + β sin = γ) and of two: two angles of which the rows are
+/// k + A e_a + B e_b or k + R(a) (u + R(b) w), an angle and a slide of which they are k + A e_a + v s or k + R(a) (u + v s),
+/// two slides. e is (cos, sin); rows may be combined by any regular matrix that the unknowns do not change. Every root is proven to
+/// stay off zero over the range of the independent coordinates that matter: an angle without range may take any value.
+/// Otherwise the reason, a phrase for the user.
+std::variant<ClosedForm, std::string> closed_form(const ClosedFormRequest& request);
+
+}  // namespace jourdain::loops

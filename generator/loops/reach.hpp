@@ -1,0 +1,35 @@
+// Over which independent coordinates a closed form holds.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ir/builder.hpp"
+
+namespace jourdain::loops {
+
+/// A value that must be positive for a closed form to hold.
+struct Requirement {
+  ir::Signed value;
+  bool is_margin = true;   ///< of a discriminant, so that its least value is reported; otherwise of a divisor
+  std::string dependents;  ///< names of what is found by it
+};
+
+struct ReachRequest {
+  const ir::Builder& builder;
+  const std::vector<Requirement>& requirements;
+  const std::vector<double>& parameters;
+  const std::vector<bool>& angular;                                ///< by entry of y
+  const std::vector<std::optional<std::array<double, 2>>>& range;  ///< by entry of y
+  const std::vector<std::string>& names;                           ///< by entry of y
+  const std::vector<std::size_t>& dependents;                      ///< entries of y
+};
+
+/// The least margin that is proven wherever the independent coordinates may be: within their range, an angle without one anywhere. 1
+/// where there is none. Otherwise what is not proven, a phrase for the user.
+std::variant<double, std::string> smallest_margin(const ReachRequest& request);
+
+}  // namespace jourdain::loops

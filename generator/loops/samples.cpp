@@ -1,0 +1,57 @@
+#include "loops/samples.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "passes/rewrite.hpp"
+
+namespace jourdain::loops {
+
+using ir::LeafKind;
+
+namespace {
+
+constexpr double kFarthest = 0.3;
+/// Formulas of an identity differ by rounding, others by their size.
+constexpr double kAgreement = 1e-9;
+
+}  // namespace
+
+Samples samples_near(const std::vector<double>& initial_y, const std::vector<bool>& varied,
+                     const std::vector<double>& parameters, std::size_t count) {
+  std::mt19937_64 bits(1);
+  double radius = kFarthest;
+  const auto offset = [&] { return radius * (2 * std::ldexp(static_cast<double>(bits() >> 11), -53) - 1); };
+  Samples samples(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples[i][LeafKind::kPosition] = initial_y;
+    samples[i][LeafKind::kParameter] = parameters;
+    samples[i][LeafKind::kTime] = {0};
+    if (i == 0) continue;
+    for (std::size_t k = 0; k < initial_y.size(); ++k)
+      if (varied[k]) samples[i][LeafKind::kPosition][k] += offset();
+    samples[i][LeafKind::kTime][0] += offset();
+    radius /= 2;
+  }
+  return samples;
+}
+
+std::vector<std::vector<double>> evaluated(const std::vector<Scalar>& values, const Samples& samples) {
+  std::vector<std::vector<double>> results(samples.size());
+  if (values.empty()) return results;
+  ir::Builder builder = *values[0].builder;
+  for (const Scalar& value : values) builder.output("value", -1, -1, value.value);
+  const ir::Program program = passes::remove_dead_code(builder.finish("values"));
+  for (std::size_t i = 0; i < samples.size(); ++i) results[i] = ir::interpret(program, samples[i]);
+  return results;
+}
+
+double initial(Scalar value, const Samples& samples) { return evaluated({value}, {samples[0]})[0][0]; }
+
+bool agree(Scalar a, Scalar b, Scalar scale, const Samples& samples) {
+  for (const std::vector<double>& values : evaluated({a, b, scale}, samples))
+    if (std::fabs(values[0] - values[1]) > kAgreement * std::fabs(values[2])) return false;
+  return true;
+}
+
+}  // namespace jourdain::loops

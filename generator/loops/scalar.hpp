@@ -1,0 +1,64 @@
+// Formulas on values of a program under construction, written as they are on paper.
+#pragma once
+
+#include "ir/builder.hpp"
+
+namespace jourdain::loops {
+
+/// A value of the program that `builder` builds. Operands of one formula have the same builder.
+struct Scalar {
+  ir::Builder* builder = nullptr;
+  ir::Signed value;
+};
+
+inline Scalar operator-(Scalar a) { return {a.builder, -a.value}; }
+inline Scalar operator+(Scalar a, Scalar b) { return {a.builder, a.builder->add(a.value, b.value)}; }
+inline Scalar operator-(Scalar a, Scalar b) { return {a.builder, a.builder->subtract(a.value, b.value)}; }
+inline Scalar operator*(Scalar a, Scalar b) { return {a.builder, a.builder->multiply(a.value, b.value)}; }
+inline Scalar operator/(Scalar a, Scalar b) { return {a.builder, a.builder->divide(a.value, b.value)}; }
+inline Scalar operator*(double a, Scalar b) { return Scalar{b.builder, b.builder->literal(a)} * b; }
+inline Scalar operator-(Scalar a, double b) { return a - Scalar{a.builder, a.builder->literal(b)}; }
+inline Scalar operator+(Scalar a, double b) { return a - (-b); }
+inline Scalar square_root(Scalar a) { return {a.builder, a.builder->unary(ir::Op::kSqrt, a.value)}; }
+inline Scalar sine(Scalar a) { return {a.builder, a.builder->unary(ir::Op::kSin, a.value)}; }
+inline Scalar cosine(Scalar a) { return {a.builder, a.builder->unary(ir::Op::kCos, a.value)}; }
+
+/// The angle of (x, y), in (−π, π].
+inline Scalar angle_of(Scalar x, Scalar y) { return {x.builder, x.builder->atan2(y.value, x.value)}; }
+
+inline bool is_zero(Scalar a) { return a.builder->is_literal(a.value, 0); }
+
+/// A vector of the plane, or the complex number x + i y.
+struct Vector2 {
+  Scalar x, y;
+};
+
+inline Vector2 operator-(Vector2 a) { return {-a.x, -a.y}; }
+inline Vector2 operator+(Vector2 a, Vector2 b) { return {a.x + b.x, a.y + b.y}; }
+inline Vector2 operator-(Vector2 a, Vector2 b) { return a + -b; }
+inline Vector2 operator*(Scalar a, Vector2 b) { return {a * b.x, a * b.y}; }
+inline Vector2 operator/(Vector2 a, Scalar b) { return {a.x / b, a.y / b}; }
+inline Scalar dot(Vector2 a, Vector2 b) { return a.x * b.x + a.y * b.y; }
+inline Scalar cross(Vector2 a, Vector2 b) { return a.x * b.y - a.y * b.x; }
+
+/// Turned by a quarter, counterclockwise.
+inline Vector2 quarter(Vector2 a) { return {-a.y, a.x}; }
+
+/// a times the conjugate of b, as complex numbers: a turned back by the angle of b.
+inline Vector2 times_conjugate(Vector2 a, Vector2 b) { return {dot(a, b), cross(b, a)}; }
+
+/// Columns of a matrix of two rows.
+struct Matrix2 {
+  Vector2 first, second;
+};
+
+inline Vector2 operator*(const Matrix2& m, Vector2 v) { return v.x * m.first + v.y * m.second; }
+inline Matrix2 operator*(const Matrix2& m, const Matrix2& n) { return {m * n.first, m * n.second}; }
+inline Scalar determinant(const Matrix2& m) { return cross(m.first, m.second); }
+
+inline Matrix2 inverse(const Matrix2& m) {
+  const Scalar det = determinant(m);
+  return {Vector2{m.second.y, -m.first.y} / det, Vector2{-m.second.x, m.first.x} / det};
+}
+
+}  // namespace jourdain::loops
