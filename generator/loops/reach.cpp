@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 
 #include "loops/positivity.hpp"
@@ -26,11 +27,13 @@ constexpr double kLeastDivisor = 0;
 
 class Reach {
  public:
-  explicit Reach(const ReachRequest& request) : request_(request) {
+  explicit Reach(const ReachRequest& request)
+      : request_(request), names_(request.names), angular_(request.angular), range_(request.range) {
     ir::Builder builder = request.builder;
     for (const Requirement& requirement : request.requirements)
       builder.output("f", -1, -1, requirement.value);
-    program_ = passes::remove_dead_code(builder.finish("requirements"));
+    const Program program = without_clock(builder.finish("requirements"));
+    program_ = passes::remove_dead_code(program);
   }
 
   std::variant<double, std::string> run() {
@@ -38,8 +41,8 @@ class Reach {
     if (ir::count_operations(program_).atan2 > 0) return "its discriminant has an arctangent, which jumps";
     std::vector<Bound> bounds;
     for (const Requirement& requirement : request_.requirements)
-      bounds.push_back({requirement.value, requirement.is_margin ? kLeastMargin : kLeastDivisor});
-    const auto proof = prove_bounds(request_.builder, bounds, region_);
+      bounds.push_back({values_[bounds.size()], requirement.is_margin ? kLeastMargin : kLeastDivisor});
+    const auto proof = prove_bounds(builder_, bounds, region_);
     if (const auto* counterexample = std::get_if<Counterexample>(&proof)) return text(*counterexample);
     double smallest = 1;
     for (std::size_t j = 0; j < bounds.size(); ++j)
@@ -49,23 +52,53 @@ class Reach {
   }
 
  private:
+  /// Copies the requirements into `builder_`. Angles under sines and cosines that depend on time become positions of their own,
+  /// anywhere on the circle: what holds for them all holds at all times.
+  Program without_clock(const Program& program) {
+    std::vector<bool> timed(program.nodes.size(), false);
+    std::vector<ir::Signed> copy(program.nodes.size());
+    std::map<ir::ValueId, std::size_t> driven;
+    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+      const Node& node = program.nodes[i];
+      const int operands = ir::operand_count(node.op);
+      timed[i] = (node.op == Op::kLeaf && node.leaf == LeafKind::kTime) ||
+                 (operands >= 1 && timed[node.a.value]) || (operands == 2 && timed[node.b.value]);
+      ir::Signed a = copy[node.a.value];
+      if (timed[i] && (node.op == Op::kSin || node.op == Op::kCos)) {
+        const auto [it, is_new] = driven.try_emplace(node.a, names_.size());
+        if (is_new) {
+          names_.push_back("the driven angle");
+          angular_.push_back(true);
+          range_.emplace_back();
+        }
+        a = builder_.leaf(LeafKind::kPosition, it->second);
+        timed[i] = false;
+      }
+      copy[i] = builder_.apply(node, a, copy[node.b.value]);
+    }
+    for (const ir::Output& output : program.outputs) values_.push_back(copy[output.value.value]);
+    ir::Builder builder = builder_;
+    for (const ir::Signed value : values_) builder.output("f", -1, -1, value);
+    return builder.finish("requirements");
+  }
+
   /// Intervals of the leaves that matter. Otherwise which one has none.
   std::string lay_out() {
     for (const double value : request_.parameters)
       region_.leaves[LeafKind::kParameter].push_back(Interval::point(value));
-    region_.leaves[LeafKind::kPosition].resize(request_.names.size());
+    region_.leaves[LeafKind::kPosition].resize(names_.size());
     region_.leaves[LeafKind::kTime] = {Interval::line()};
     for (const Node& node : program_.nodes) {
       if (node.op != Op::kLeaf || node.leaf == LeafKind::kParameter) continue;
       if (node.leaf != LeafKind::kPosition) return "its discriminant depends on time";
       const std::size_t k = node.index;
       if (std::find(request_.dependents.begin(), request_.dependents.end(), k) != request_.dependents.end())
-        return fmt::format("its discriminant depends on the whole turns of {}", request_.names[k]);
-      if (!request_.range[k] && !(request_.angular[k] && is_periodic(k)))
-        return fmt::format("its discriminant depends on {}, which has no range", request_.names[k]);
+        return fmt::format("its discriminant depends on the whole turns of {}", names_[k]);
+      if (!range_[k] && !(angular_[k] && is_periodic(k)))
+        return fmt::format("its discriminant depends on {}, which has no range", names_[k]);
       region_.entries.push_back(k);
       region_.leaves[LeafKind::kPosition][k] =
-          request_.range[k] ? Interval{(*request_.range[k])[0], (*request_.range[k])[1]} : circle();
+          range_[k] ? Interval{(*range_[k])[0], (*range_[k])[1]} : circle();
     }
     std::sort(region_.entries.begin(), region_.entries.end());
     return "";
@@ -96,10 +129,10 @@ class Reach {
     for (std::size_t i = 0; i < region_.entries.size(); ++i) {
       const std::size_t k = region_.entries[i];
       const char* separator = i == 0 ? "" : ", ";
-      const auto& range = request_.range[k];
-      region += fmt::format("{}{} in {}", separator, request_.names[k],
+      const auto& range = range_[k];
+      region += fmt::format("{}{} in {}", separator, names_[k],
                             range ? fmt::format("[{}, {}]", (*range)[0], (*range)[1]) : "[-pi, pi]");
-      point += fmt::format("{}{} = {:.4g}", separator, request_.names[k], found.position[i]);
+      point += fmt::format("{}{} = {:.4g}", separator, names_[k], found.position[i]);
     }
     std::string message =
         fmt::format("{} of {} not proven positive", requirement.is_margin ? "discriminant" : "divisor",
@@ -111,7 +144,12 @@ class Reach {
   }
 
   const ReachRequest& request_;
-  Program program_;
+  std::vector<std::string> names_;  ///< of positions, driven angles after them; so are the next two
+  std::vector<bool> angular_;
+  std::vector<std::optional<std::array<double, 2>>> range_;
+  ir::Builder builder_;
+  std::vector<ir::Signed> values_;  ///< the requirements
+  Program program_;                 ///< of them
   Region region_;
 };
 

@@ -28,7 +28,8 @@ struct ReachRequest {
   const std::vector<std::size_t>& dependents;                      ///< entries of y
 };
 
-/// The least margin that is proven wherever the independent coordinates may be: within their range, an angle without one anywhere. 1
+/// The least margin that is proven wherever the independent coordinates may be: within their range, an angle without one or one
+/// that time drives anywhere. 1
 /// where there is none. Otherwise what is not proven, a phrase for the user.
 std::variant<double, std::string> smallest_margin(const ReachRequest& request);
 

@@ -1,8 +1,10 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <set>
 
+#include "agreement/compiled_batch.hpp"
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
 #include "emit/body.hpp"
@@ -70,10 +72,40 @@ TEST(Body, CallsTheArctangentWithBothItsOperands) {
   EXPECT_EQ(body.parts[0].lines, (std::vector<std::string>{"y1 * detail::arctangent2(y0 + y1, -y0)"}));
 }
 
-TEST(Templates, HaveTheArctangentForBothBuiltInTypesAndOthers) {
-  const std::string_view text = template_text("arctangent.in");
-  for (const char* call : {"::atan2(y, x)", "::atan2f(y, x)", "return atan2(y, x)"})
-    EXPECT_NE(text.find(call), std::string_view::npos) << call;
+/// The program with the first position reduced to one turn.
+ir::Program reduced(const ir::Program& program) {
+  ir::Builder b;
+  std::vector<ir::Signed> copy;
+  for (const ir::Node& node : program.nodes) {
+    const bool angle = node.op == ir::Op::kLeaf && node.leaf == ir::LeafKind::kPosition && node.index == 0;
+    const ir::Signed value = b.apply(node, copy.empty() ? ir::Signed{} : copy[node.a.value],
+                                     copy.empty() ? ir::Signed{} : copy[node.b.value]);
+    copy.push_back(angle ? b.atan2(b.unary(ir::Op::kSin, value), b.unary(ir::Op::kCos, value)) : value);
+  }
+  for (const ir::Output& output : program.outputs)
+    b.output(output.name, output.row, output.column, copy[output.value.value]);
+  return b.finish(program.name);
+}
+
+TEST(Arctangent, IsEmittedWithItsOverloadsWhereAProgramHasIt) {
+  tests::Derived derived = tests::derive(tests::read_model(tests::model_path("pendulum.toml")));
+  const tests::EmittedModel plain = tests::emit_model(derived, "plain");
+  for (ir::Program& function : derived.module.functions)
+    if (function.name == "potential_energy") function = reduced(function);
+  const tests::EmittedModel model = tests::emit_model(derived, "turned");
+  for (const char* text : {"arctangent2(double y, double x)", "detail::arctangent2(", "return atan2(y, x)"}) {
+    EXPECT_THAT(model.files[1].text, ::testing::HasSubstr(text));
+    EXPECT_THAT(plain.files[1].text, ::testing::Not(::testing::HasSubstr(text)));
+  }
+  EXPECT_THAT(model.files[0].text, ::testing::HasSubstr("sin and cos, 1 atan2."));
+  EXPECT_THAT(model.files[3].text, ::testing::HasSubstr("\"atan2\": 1"));
+  EXPECT_THAT(plain.files[3].text, ::testing::Not(::testing::HasSubstr("atan2")));
+  const tests::Sample sample = tests::random_sample(derived.mechanism, 1);
+  const double expected = tests::interpreted<double>(derived.module, "potential_energy", sample)[0];
+  for (const char* real : {"double", "float"}) {
+    const tests::CompiledBatch batch({model}, "g++", real, {"-O1", "-ffp-contract=off"});
+    EXPECT_NEAR(batch.evaluate(0, sample).potential, expected, real[0] == 'd' ? 0 : 1e-5);
+  }
 }
 
 TEST(Body, IsCutIntoPartsOfTheWantedLength) {

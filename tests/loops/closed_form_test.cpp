@@ -241,11 +241,23 @@ TEST(ClosedForm, NeedsARangeOfWhatIsNoAngle) {
   request.range[0] = {{1.1, 3.1}};
   EXPECT_THAT(why_not(closed_form(request)),
               HasSubstr("over slide in [1.1, 3.1]: it vanishes or is negative"));
-  Rows driven;
-  driven.rows(driven.bar(0.2, driven.time()) + driven.bar(1, driven.y(0)) -
-              Vector2{driven.y(1), driven.number(0)});
-  request = {driven.finish(), {{{0, 1}, {0, 1}}}, {0, 1.2}, {}, {true, false}, {{}, {}}, {}};
-  EXPECT_EQ(why_not(closed_form(request)), "its discriminant depends on time");
+}
+
+/// A slider-crank whose crank turns by 3 rad/s and whose rail sinks by `sinking` a second.
+ClosedFormRequest driven(double crank, double sinking) {
+  Rows rows;
+  rows.rows(rows.bar(crank, 3.0 * rows.time()) + rows.bar(1, rows.y(0)) -
+            Vector2{rows.y(1), sinking * rows.time()});
+  return {rows.finish(), {{{0, 1}, {0, 1}}}, {0, crank + 1}, {}, {true, false}, {{}, {}}, {}};
+}
+
+TEST(ClosedForm, HoldsAtAllTimesWhereAnAngleIsDriven) {
+  const auto result = closed_form(driven(0.2, 0));
+  ASSERT_EQ(why_not(result), "");
+  EXPECT_LE(std::get<ClosedForm>(result).smallest_margin, 0.96);
+  EXPECT_GE(std::get<ClosedForm>(result).smallest_margin, 0.48);
+  EXPECT_THAT(why_not(closed_form(driven(1.1, 0))), HasSubstr("over the driven angle in [-pi, pi]: it "));
+  EXPECT_EQ(why_not(closed_form(driven(0.2, 0.1))), "its discriminant depends on time");
 }
 
 /// Two cranks of length a that turn independently, rods of length b: the pivots 1 apart, if they do not slide.
