@@ -60,6 +60,22 @@ long operations_of(const CompiledModel& compiled, const std::string& function) {
   return 0;
 }
 
+/// The table's functions of a mechanism with loops; empty without.
+std::string loop_functions(const std::string& name, const CompiledModel& compiled) {
+  const char* correction = compiled.shape.correction();
+  if (!*correction) return "";
+  return fmt::format(
+      "\nvoid constraint_residual(const double* t, const double* y, const double* z, double* g, double* "
+      "g_rate) {{\n"
+      "  Real residual[Model::constraint_count], rate[Model::constraint_count];\n"
+      "  ::{0}::constraint_residual(model(), to_state(t, y, z), residual, rate);\n"
+      "  write(residual, g, Model::constraint_count);\n  write(rate, g_rate, "
+      "Model::constraint_count);\n}}\n\n"
+      "void correct(const double* t, double* y, double* z) {{\n  State state = to_state(t, y, z);\n"
+      "  ::{0}::{1}(model(), state);\n  from_state(state, y, z);\n}}\n",
+      name, correction);
+}
+
 /// Arrays of length zero are no members of the emitted structs.
 std::string shim(const std::string& name, const NumberText& number, const CompiledModel& compiled) {
   const auto copy = [](std::size_t count, const char* line) { return std::string(count > 0 ? line : ""); };
@@ -136,6 +152,13 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
        {"DERIVATIVES", derivatives},
        {"DERIVATIVES_POINTER", with_derivatives ? "derivatives" : "nullptr"},
        {"OUTPUTS", outputs},
+       {"LOOPS", loop_functions(name, compiled)},
+       {"LOOP_ENTRIES",
+        shape.constraints == 0
+            ? "0, nullptr, nullptr, nullptr"
+            : fmt::format("Model::constraint_count, ::{}::constraint_names, constraint_residual, "
+                          "correct",
+                          name)},
        {"METHODS", methods},
        {"OUTPUT_COUNT", with_outputs ? "sizeof(Model::Outputs) / sizeof(Real)" : "0"},
        {"UNIT_ROUNDOFF", number.unit_roundoff},
@@ -152,9 +175,9 @@ std::string compiler() {
 }  // namespace
 
 std::vector<std::string> loadable_functions(const std::vector<std::string>& steppers) {
-  std::vector<std::string> functions = {"initial_state",    "position_rate",  "forward_dynamics",
-                                        "inverse_dynamics", "kinetic_energy", "potential_energy",
-                                        "outputs"};
+  std::vector<std::string> functions = {
+      "initial_state",    "position_rate", "forward_dynamics", "inverse_dynamics", "kinetic_energy",
+      "potential_energy", "outputs",       "close_loops",      "project",          "constraint_residual"};
   for (const std::string& stepper : steppers) functions.push_back(stepper + "_step");
   return functions;
 }

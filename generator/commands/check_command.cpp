@@ -4,6 +4,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
+#include "loops/closed_system.hpp"
 
 namespace jourdain::commands {
 
@@ -17,10 +18,12 @@ int run(const ModelArguments& arguments) {
     print_refusal(compiled.verdict);
     return kInternal;
   }
-  fmt::print(
-      "ok: {}: {} bodies, {} degrees of freedom, {} inputs; backward error {:.1e}, cond(M) up to {:.1e}\n",
-      loaded->options.name, loaded->mechanism.bodies.size(), compiled.shape.velocities, compiled.shape.inputs,
-      compiled.verdict.backward_error, compiled.verdict.condition);
+  fmt::print("ok: {}: {} bodies, {}, {} inputs; backward error {:.1e}, cond(M) up to {:.1e}\n",
+             loaded->options.name, loaded->mechanism.bodies.size(), freedom_text(*loaded),
+             compiled.shape.inputs, compiled.verdict.backward_error, compiled.verdict.condition);
+  if (const loops::LoopPlan* plan = loaded->plan())
+    for (const std::string& sentence : loops::sentences(loaded->mechanism, *plan))
+      fmt::print("  loops: {}\n", sentence);
   return kSuccess;
 }
 

@@ -43,8 +43,7 @@ int run(const Arguments& arguments) {
     return kInternal;
   }
   support::write_files(arguments.folder, compiled.files);
-  const std::size_t freedom = compiled.shape.velocities;
-  fmt::print("{}: {} degree{} of freedom\n", loaded->options.name, freedom, freedom == 1 ? "" : "s");
+  fmt::print("{}: {}\n", loaded->options.name, freedom_text(*loaded));
   for (const emit::File& file : compiled.files)
     fmt::print("  wrote {}\n", (std::filesystem::path(arguments.folder) / file.name).generic_string());
   fmt::print("{}{}", operations_table(compiled.module), verdict_text(compiled.verdict));

@@ -5,6 +5,7 @@
 #include "compile.hpp"
 #include "dynamics/harmonics.hpp"
 #include "emit/names.hpp"
+#include "loops/plan.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::commands {
@@ -52,9 +53,9 @@ class EquationPrinter {
   }
 
   std::string output_name(const ir::Output& output) const {
-    const std::string base = output.name == "M" ? "M"
-                             : latex_           ? "\\bar " + output.name
-                                                : output.name + "_bar";
+    const bool barred = output.name == "k" || output.name == "q";
+    const std::string base = !barred ? output.name : latex_ ? "\\bar " + output.name : output.name + "_bar";
+    if (latex_ && base == "g_t") return fmt::format("g_{{t,{}}}", output.row);
     const std::string at = output.column < 0
                                ? fmt::format("{}", output.row)
                                : fmt::format("{}{}{}", output.row, latex_ ? "," : "][", output.column);
@@ -148,6 +149,19 @@ std::string block(const std::string& title, const std::string& lines, bool latex
   return fmt::format("{}\n{}\n", title, lines);
 }
 
+/// Rows of all loops.
+std::string constraints_text(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+                             bool latex) {
+  if (mechanism.loops.empty()) return "";
+  const loops::ConstraintPrograms programs = loops::constraint_programs(mechanism, equations);
+  const auto print = [&](const ir::Program& program) {
+    return EquationPrinter(program, mechanism, latex).print();
+  };
+  return block("constraints with named intermediates", print(programs.value), latex) +
+         block("their Jacobian with named intermediates, entries that are not zero", print(programs.jacobian),
+               latex);
+}
+
 std::string legend(const model::Mechanism& mechanism, bool latex) {
   std::string text;
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
@@ -160,6 +174,8 @@ std::string legend(const model::Mechanism& mechanism, bool latex) {
     text += fmt::format("{}  z{}: {}\n", mark, i, layout.velocity_names[i]);
   for (std::size_t k = 0; k < layout.input_count(); ++k)
     text += fmt::format("{}  u{}: {}\n", mark, k, layout.input_names[k]);
+  const std::vector<std::string> rows = loops::row_names(mechanism);
+  for (std::size_t r = 0; r < rows.size(); ++r) text += fmt::format("{}  g[{}]: {}\n", mark, r, rows[r]);
   return text;
 }
 
@@ -178,8 +194,11 @@ bool has_expanded_form(const model::Mechanism& mechanism) {
 
 std::string equations_text(const model::Mechanism& mechanism, bool latex) {
   const dynamics::Equations equations = dynamics::derive_equations(mechanism);
-  std::string text = fmt::format("{}{}: M zdot = k_bar - q_bar, dy/dt = {}\n", latex ? "% " : "",
-                                 mechanism.name, equations.ydot.empty() ? "z" : "Z z");
+  const bool closed = !mechanism.loops.empty();
+  std::string text =
+      fmt::format("{}{}: M zdot = k_bar - q_bar{}, dy/dt = {}{}\n", latex ? "% " : "", mechanism.name,
+                  closed ? " - G^T lambda" : "", equations.ydot.empty() ? "z" : "Z z",
+                  closed ? ", g(y, t) = 0, G z + g_t = 0; all coordinates of the tree" : "");
   text += legend(mechanism, latex);
   if (!latex) text += "\n";
   if (equations.zdot.size() <= kExpandedCoordinates && has_expanded_form(mechanism))
@@ -189,6 +208,7 @@ std::string equations_text(const model::Mechanism& mechanism, bool latex) {
            .functions)
     text += block(fmt::format("{} with named intermediates", program.name),
                   EquationPrinter(program, mechanism, latex).print(), latex);
+  text += constraints_text(mechanism, equations, latex);
   return text;
 }
 

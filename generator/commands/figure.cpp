@@ -17,6 +17,7 @@ class FigureMaker {
     figure_.mechanism.outputs.clear();
     for (std::size_t b = 0; b < figure_.mechanism.bodies.size(); ++b) add_body(b);
     for (std::size_t j = 0; j < figure_.mechanism.joints.size(); ++j) add_joint(j);
+    for (std::size_t k = 0; k < figure_.mechanism.loops.size(); ++k) add_loop(k);
     const std::size_t springs = figure_.mechanism.springs.size();
     for (std::size_t i = 0; i < springs; ++i) {
       const model::Spring& spring = figure_.mechanism.springs[i];
@@ -64,6 +65,22 @@ class FigureMaker {
     const std::size_t anchor = add_point(joint.parent, joint.placement);
     if (joint.parent) figure_.lines.push_back({LineKind::kBody, origins_[joint.parent->value], anchor});
     figure_.lines.push_back({LineKind::kSlide, anchor, child});
+  }
+
+  /// Each body reaches to its end of the loop; a rod joins the ends.
+  void add_loop(std::size_t index) {
+    const model::Loop loop = figure_.mechanism.loops[index];
+    if (loop.type == model::LoopType::kResidual) return;
+    const std::size_t from = add_end(loop.from), to = add_end(loop.to);
+    figure_.lines.push_back(
+        {loop.type == model::LoopType::kRod ? LineKind::kBody : LineKind::kSlide, from, to});
+  }
+
+  std::size_t add_end(model::FrameIndex index) {
+    const std::optional<model::BodyIndex> body = figure_.mechanism.frames[index.value].body;
+    const std::size_t point = add_output(index);
+    if (body) figure_.lines.push_back({LineKind::kBody, origins_[body->value], point});
+    return point;
   }
 
   std::vector<double> parameter_values() const {

@@ -7,6 +7,7 @@
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
 #include "commands/report_text.hpp"
+#include "loops/closed_system.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::commands {
@@ -66,6 +67,49 @@ std::string tree_text(const model::Mechanism& mechanism) {
   return text;
 }
 
+const char* type_name(model::LoopType type) {
+  switch (type) {
+    case model::LoopType::kBall:
+      return "ball";
+    case model::LoopType::kRevolute:
+      return "revolute";
+    case model::LoopType::kUniversal:
+      return "universal";
+    case model::LoopType::kPrismatic:
+      return "prismatic";
+    case model::LoopType::kCylindrical:
+      return "cylindrical";
+    case model::LoopType::kPlanarPin:
+      return "planar pin";
+    case model::LoopType::kPointInPlane:
+      return "point in plane";
+    case model::LoopType::kPointOnLine:
+      return "point on line";
+    case model::LoopType::kRod:
+      return "rod";
+    case model::LoopType::kResidual:
+      return "residual";
+  }
+  return "";
+}
+
+/// The joints that close loops, each with the frames that it joins.
+std::string loops_text(const model::Mechanism& mechanism) {
+  const auto end = [&mechanism](model::FrameIndex index) {
+    const model::Frame& frame = mechanism.frames[index.value];
+    return fmt::format("{} on {}", frame.name,
+                       frame.body ? mechanism.bodies[frame.body->value].name : std::string("world"));
+  };
+  std::string text;
+  for (const model::Loop& loop : mechanism.loops) {
+    text += fmt::format("  loop {} [{}]", loop.name, type_name(loop.type));
+    if (loop.type != model::LoopType::kResidual)
+      text += fmt::format(": {}, {}", end(loop.from), end(loop.to));
+    text += "\n";
+  }
+  return text;
+}
+
 /// How M ż = k̄ − q̄ is solved, with what the two pure ways would cost before any pass.
 std::string algorithm_text(const Articulation& articulation) {
   if (articulation.articulated == 0 || articulation.links.size() == 1) return "";
@@ -86,7 +130,10 @@ int run(const ModelArguments& arguments) {
   const CompiledModel compiled = compile(mechanism, loaded->options);
   fmt::print("{}{}{}\n{}", mechanism.name, mechanism.description.empty() ? "" : ": ", mechanism.description,
              tree_text(mechanism));
-  fmt::print("  {} bodies, {} degrees of freedom\n", mechanism.bodies.size(), compiled.shape.velocities);
+  fmt::print("{}  {} bodies, {}\n", loops_text(mechanism), mechanism.bodies.size(), freedom_text(*loaded));
+  if (const loops::LoopPlan* plan = loaded->plan())
+    for (const std::string& sentence : loops::sentences(mechanism, *plan))
+      fmt::print("  loops: {}\n", sentence);
   for (std::size_t i = 0; i < mechanism.actuators.size(); ++i) {
     const model::Actuator& actuator = mechanism.actuators[i];
     fmt::print("  input u[{}] {} acts on {}\n", i, actuator.name,

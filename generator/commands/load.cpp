@@ -89,6 +89,23 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   return loaded;
 }
 
+std::size_t LoadedMechanism::freedom() const { return plan() ? plan()->freedom : velocity_count(); }
+
+std::string freedom_text(const LoadedMechanism& loaded) {
+  return fmt::format("{} degree{} of freedom", loaded.freedom(), loaded.freedom() == 1 ? "" : "s");
+}
+
+std::vector<std::string> loop_sentences(const LoadedMechanism& loaded) {
+  if (!loaded.plan()) return {};
+  std::vector<std::string> list = loops::sentences(loaded.mechanism, *loaded.plan());
+  const std::vector<loops::Moved>& moved = loaded.plan()->moved;
+  for (const loops::Moved& m : moved)
+    list.push_back(fmt::format("the initial state closes with {}{} = {:.10g} instead of {:.10g}",
+                               m.coordinate, m.velocity ? "'s velocity" : "", m.to, m.from));
+  if (moved.empty()) list.push_back("the initial state of the description is closed as it is");
+  return list;
+}
+
 void print_refusal(const validate::Verdict& verdict) {
   constexpr std::size_t kShown = 10;
   for (std::size_t i = 0; i < std::min(kShown, verdict.failures.size()); ++i)

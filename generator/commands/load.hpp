@@ -27,8 +27,19 @@ struct ModelArguments {
 
 struct LoadedMechanism {
   model::Mechanism mechanism;
-  CompileOptions options;  ///< name, path and hash filled in
+  CompileOptions options;  ///< name, path, hash and the plan of the loops filled in
+
+  std::size_t freedom() const;  ///< degrees of freedom
+  /// Generalized velocities of the emitted State: the independent ones, with multipliers all.
+  std::size_t velocity_count() const { return shape_of(mechanism, plan()).velocities; }
+  const loops::LoopPlan* plan() const { return options.loops ? &*options.loops : nullptr; }
 };
+
+/// "1 degree of freedom".
+std::string freedom_text(const LoadedMechanism& loaded);
+
+/// How the loops are closed and what the assembly moved, in sentences; empty where there are no loops.
+std::vector<std::string> loop_sentences(const LoadedMechanism& loaded);
 
 /// Reads and checks the model and prints its diagnostics to stderr; nothing when it has errors. Throws EnvironmentError
 /// when the file cannot be read.

@@ -15,6 +15,7 @@
 #include "commands/progress.hpp"
 #include "commands/report_page.hpp"
 #include "commands/run_setup.hpp"
+#include "loops/closed_system.hpp"
 #include "model/coordinates.hpp"
 #include "studies/report.hpp"
 #include "studies/study.hpp"
@@ -54,7 +55,9 @@ studies::ReportHead head_of(const Arguments& arguments, const LoadedMechanism& l
           arguments.run.real,
           compiler_text(number_type(arguments.run.real)),
           fmt::format("Jourdain {}", emit::kVersion),
-          scenario};
+          scenario,
+          loop_sentences(loaded),
+          loaded.plan() ? loops::closing_text(*loaded.plan()) : ""};
 }
 
 /// The model in the number type under study and, where it is worth its cost, in 50 digits.
@@ -130,9 +133,8 @@ bool settle(Arguments& arguments) {
 }
 
 studies::Study make_study(const Arguments& arguments, const RunModel& model, const RunInputs& inputs,
-                          studies::Flow<double>& flow, const jourdain_model_table* long_table,
-                          ProgressBar& bar) {
-  flow.set_start(inputs.start);
+                          const model::Tangent& tangent, const studies::Flow<double>& flow,
+                          const jourdain_model_table* long_table, ProgressBar& bar) {
   std::optional<studies::Flow<LongReal>> long_flow;
   if (long_table) {
     long_flow.emplace(*long_table, *inputs.inputs);
@@ -140,8 +142,8 @@ studies::Study make_study(const Arguments& arguments, const RunModel& model, con
   }
   studies::StudyOptions options = arguments.study;
   options.conserves_energy = inputs.what.empty() && conserves_energy(model.loaded.mechanism);
-  return studies::run_study(model.loaded.mechanism, model.parameters, flow, long_flow ? &*long_flow : nullptr,
-                            *inputs.inputs, options,
+  return studies::run_study(model.loaded.mechanism, tangent, model.parameters, flow,
+                            long_flow ? &*long_flow : nullptr, options,
                             [&bar](const std::string& what, double done) { bar.show(what, done); });
 }
 
@@ -149,7 +151,7 @@ studies::Study make_study(const Arguments& arguments, const RunModel& model, con
 void write_report(const Arguments& arguments, const std::string& folder, const studies::ReportHead& head,
                   const studies::Flow<double>& flow, const studies::Study& study, const Figure& figure,
                   ProgressBar& bar) {
-  std::vector<support::FileText> files = studies::report_csv(flow.table(), study);
+  std::vector<support::FileText> files = studies::report_csv(head, flow.table(), study);
   files.push_back({"report.json", studies::report_json(head, flow.table(), study)});
   if (arguments.plots) {
     bar.show("drawing", 0.5);
@@ -172,7 +174,7 @@ int run(Arguments arguments) {
   const std::string folder = arguments.folder.empty() ? name + "_report" : arguments.folder;
   support::check_writable(folder);
   if (arguments.plots) check_plotter();
-  const std::size_t velocities = model::lay_out_coordinates(model->loaded.mechanism).velocity_count();
+  const std::size_t velocities = model->loaded.velocity_count();
   if (arguments.methods.empty()) arguments.methods = default_methods(terms_of(arguments), velocities);
   if (velocities == 0) {
     fmt::print(stderr, "error: '{}' has no degree of freedom: nothing is integrated\n", name);
@@ -197,7 +199,10 @@ int run(Arguments arguments) {
   const std::optional<RunInputs> inputs = read_inputs(arguments.run, *model, table, long_table, status);
   if (!inputs) return status;
   studies::Flow<double> flow(table, *inputs->inputs);
-  const studies::Study study = make_study(arguments, *model, *inputs, flow, long_table, bar);
+  flow.set_start(inputs->start);
+  if (!check_closed(*model, flow)) return kModelWrong;
+  const studies::Study study =
+      make_study(arguments, *model, *inputs, compiled.tangent, flow, long_table, bar);
   write_report(arguments, folder, head_of(arguments, model->loaded, inputs->what), flow, study, figure, bar);
   return kSuccess;
 }

@@ -296,6 +296,24 @@ std::string list(const std::vector<std::string>& sentences) {
 
 std::string drawing(const std::string& svg) { return "<figure>" + svg + "</figure>\n"; }
 
+std::string loops_section(const studies::ReportHead& head, const jourdain_model_table& table,
+                          const Study& study) {
+  std::string text =
+      list(head.loops) + fmt::format(
+                             "<p class=\"soft\">How far the loops open over the run, largest of all rows; "
+                             "each step ends with {}.</p>\n",
+                             escaped(head.closing));
+  text +=
+      "<div class=\"table\"><table><tr><th>method</th><th>h</th><th>steps</th><th>|g|, m</th>"
+      "<th>rate, m/s</th></tr>\n";
+  for (const std::vector<std::string>& row : studies::loop_rows(table, study)) {
+    text += "<tr>";
+    for (const std::string& entry : row) text += "<td>" + escaped(entry) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
 }  // namespace
 
 std::vector<support::FileText> report_pages(const studies::ReportHead& head,
@@ -324,6 +342,7 @@ std::vector<support::FileText> report_pages(const studies::ReportHead& head,
     for (std::size_t i = 0; i < of_stability.size(); ++i) text += drawing(svgs[next++]);
     sections += section("Stability", text);
   }
+  if (!head.loops.empty()) sections += section("Closed loops", loops_section(head, table, study));
   if (!study.extremes.empty()) sections += section("Extremes", extremes_table(study));
   if (has_energy) sections += section("Energy", drawing(svgs[next++]));
   if (has_forms) sections += section("Equations of the first kind", drawing(svgs[next++]));

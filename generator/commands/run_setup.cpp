@@ -62,6 +62,11 @@ std::optional<RunInputs> read_scenario_file(const std::string& path, const RunMo
   fmt::print(stderr, "{}", diagnostics.format());
   if (!scenario) return {};
   RunInputs run;
+  if (!scenario->follow.empty() && !model.loaded.mechanism.loops.empty()) {
+    fmt::print(stderr, "error: {}: [follow] works for trees; '{}' has closed loops\n", path,
+               model.loaded.mechanism.name);
+    return {};
+  }
   if (scenario->follow.empty()) {
     run.inputs = std::make_unique<studies::ExpressionInputs>(scenario->inputs, model.parameters);
     run.what = "inputs as functions of time";
@@ -131,6 +136,18 @@ std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunMod
   }
   if (run) status = kSuccess;
   return run;
+}
+
+bool check_closed(const RunModel& model, const studies::Flow<double>& flow) {
+  constexpr double kOpen = 1e7;  // units of rounding
+  const studies::Residuals open = flow.residuals(flow.start());
+  const double allowed = kOpen * flow.table().unit_roundoff;
+  if (open.position <= allowed && open.velocity <= allowed) return true;
+  fmt::print(stderr, "error: the loops of '{}' do not close {}: they are open by {:.2g} (rate {:.2g}/s)\n",
+             model.loaded.mechanism.name,
+             model.parameters.empty() ? "at the start" : "at these values of its parameters", open.position,
+             open.velocity);
+  return false;
 }
 
 NumberType number_type(const std::string& real) {

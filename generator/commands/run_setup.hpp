@@ -8,6 +8,7 @@
 
 #include "commands/build_model.hpp"
 #include "commands/load.hpp"
+#include "studies/flow.hpp"
 #include "studies/inputs.hpp"
 
 namespace jourdain::commands {
@@ -42,6 +43,9 @@ struct RunInputs {
 std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunModel& model,
                                      const jourdain_model_table& table,
                                      const jourdain_model_table* long_table, int& status);
+
+/// Whether the loops close at the start; false after a message.
+bool check_closed(const RunModel& model, const studies::Flow<double>& flow);
 
 NumberType number_type(const std::string& real);
 

@@ -52,7 +52,9 @@ struct Trajectory {
   Point<double> end;
   std::vector<Point<double>> points;  ///< every one that was written
   double first_energy = 0, largest_drift = 0;
-  double stepping_time = 0;  ///< s of wall time spent in steps
+  studies::Residuals open;        ///< largest, of the loops
+  std::vector<double> end_rates;  ///< of the positions
+  double stepping_time = 0;       ///< s of wall time spent in steps
   bool finite = true;
 };
 
@@ -83,6 +85,7 @@ class Simulation {
       state_.largest_drift = std::max(state_.largest_drift, std::fabs(energy - state_.first_energy));
       progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
     }
+    state_.end_rates = flow_.rates(state_.end.t, state_.end.x);
     return state_;
   }
 
@@ -98,6 +101,9 @@ class Simulation {
   /// Total energy, J.
   double row(std::string& csv) {
     const Point<double>& now = state_.end;
+    const studies::Residuals open = flow_.residuals(now);
+    state_.open.position = std::max(state_.open.position, open.position);
+    state_.open.velocity = std::max(state_.open.velocity, open.velocity);
     if (!arguments_.plot.empty()) state_.points.push_back(now);
     double kinetic = 0, potential = 0;
     const double* z = now.x.data() + table_.position_count;
@@ -125,13 +131,16 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Argumen
              arguments.step * 1e6 / microseconds);
   if (inputs.what.empty() && conserves_energy(model.loaded.mechanism))
     fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", result.first_energy, result.largest_drift);
+  if (table.correct)
+    fmt::print("  loops open by {:.1g} m (rate {:.1g} m/s) at most\n", result.open.position,
+               result.open.velocity);
   fmt::print("  at t = {:g} s:\n", result.end.t);
   const std::vector<double>& x = result.end.x;
   const int ny = table.position_count, nz = table.velocity_count;
-  if (ny == nz) {
+  if (ny == nz || table.correct) {
     for (int i = 0; i < ny; ++i)
       fmt::print("    {:<24} {:>12.6f}   rate {:>12.6f}\n", table.position_names[i],
-                 x[static_cast<std::size_t>(i)], x[static_cast<std::size_t>(ny + i)]);
+                 x[static_cast<std::size_t>(i)], result.end_rates[static_cast<std::size_t>(i)]);
     return;
   }
   for (int i = 0; i < ny; ++i)
@@ -186,6 +195,7 @@ int run(const Arguments& arguments) {
   if (!inputs) return status;
   Flow<double> flow(loaded.table(), *inputs->inputs);
   flow.set_start(inputs->start);
+  if (!check_closed(*model, flow)) return kModelWrong;
   const long steps = std::lround(exact_steps);
   std::string csv;
   const Trajectory result = Simulation(flow, arguments).run(steps, csv);

@@ -110,6 +110,18 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
   return list;
 }
 
+std::string closing_text(const LoopPlan& plan) {
+  switch (plan.treatment) {
+    case model::LoopTreatment::kExplicit:
+      return "dependent coordinates in closed form";
+    case model::LoopTreatment::kPartitioned:
+      return fmt::format("{} Newton iteration{}", plan.iterations, plan.iterations == 1 ? "" : "s");
+    case model::LoopTreatment::kMultipliers:
+      return "one projection of positions and velocities";
+  }
+  return "";
+}
+
 std::string assembly_text(const LoopPlan& plan) {
   std::string text;
   for (const Moved& moved : plan.moved)

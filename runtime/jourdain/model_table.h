@@ -45,7 +45,7 @@ typedef struct jourdain_model_table {
   const jourdain_method* methods;
   /* Values of all parameters from now on; not while another thread computes. */
   void (*set_parameters)(const double* values);
-  /* y and z that the description starts from, at t = 0. */
+  /* y and z that the description starts from, at t = 0; the loops are closed at the parameters' default values. */
   void (*initial_state)(double* y, double* z);
   /* dy/dt and dz/dt. */
   void (*rates)(const double* t, const double* y, const double* z, const double* u, double* ydot,
@@ -61,6 +61,13 @@ typedef struct jourdain_model_table {
   void (*potential_energy)(const double* t, const double* y, const double* z, double* energy);
   /* All outputs of the description, in its order, matrices row by row; null where there are none. */
   void (*outputs)(const double* t, const double* y, const double* z, const double* u, double* values);
+  /* Of a mechanism with closed loops; zero and null where there are none. */
+  int constraint_count;                /* rows of all loops */
+  const char* const* constraint_names; /* closed by a null pointer */
+  /* How far the loops are open, g (m; rows without a length: without unit), and its rate. */
+  void (*constraint_residual)(const double* t, const double* y, const double* z, double* g, double* g_rate);
+  /* What steps end with: moves y and z towards the closed loops. */
+  void (*correct)(const double* t, double* y, double* z);
 } jourdain_model_table;
 
 #endif

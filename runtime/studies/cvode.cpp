@@ -62,6 +62,11 @@ class Solver {
     return std::vector<double>(values, values + N_VGetLength(x_));
   }
 
+  void restart(const Point<double>& point) {
+    std::copy(point.x.begin(), point.x.end(), N_VGetArrayPointer(x_));
+    CVodeReInit(memory_, point.t, x_);
+  }
+
  private:
   SUNContext context_ = nullptr;
   N_Vector x_ = nullptr;
@@ -82,6 +87,10 @@ std::optional<std::vector<Point<double>>> solved_by_cvode(const Flow<double>& fl
     std::optional<std::vector<double>> x = solver.advance(t);
     if (!x) return {};
     points.push_back({t, std::move(*x)});
+    const Residuals open = flow.residuals(points.back());
+    if (std::max(open.position, open.velocity) <= tolerance) continue;
+    points.back() = flow.closed(points.back());
+    solver.restart(points.back());
   }
   return points;
 }

@@ -144,6 +144,7 @@ std::optional<std::vector<Point<LongReal>>> extrapolated(const Flow<LongReal>& f
     const auto expected = static_cast<double>(extrapolation.evaluations()) / share;
     if (share > kTold && expected > 1.5 * static_cast<double>(options.evaluation_limit)) return {};
     next.t = start.t + LongReal(double(k)) * length;
+    next = flow.closed(std::move(next));
     points.push_back(std::move(next));
   }
   return points;

@@ -10,6 +10,8 @@
 #include "model/coordinates.hpp"
 #include "studies/linearisation.hpp"
 #include "studies/loaded_model.hpp"
+#include "studies/sensitivity.hpp"
+#include "studies/tangent_space.hpp"
 
 namespace jourdain::studies {
 
@@ -36,10 +38,8 @@ std::vector<LongReal> difference(const std::vector<LongReal>& a, const std::vect
 
 class Comparison {
  public:
-  Comparison(const model::Mechanism& mechanism, const Flow<double>& flow, const Flow<LongReal>& long_flow)
-      : flow_(flow), long_flow_(long_flow) {
-    tangent_ = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
-  }
+  Comparison(const model::Tangent& tangent, const Flow<double>& flow, const Flow<LongReal>& long_flow)
+      : flow_(flow), long_flow_(long_flow), tangent_(tangent) {}
 
   /// Takes the errors at a state into `point`.
   void widen(ExtremePoint& point, double t, std::vector<double> x) const {
@@ -55,6 +55,10 @@ class Comparison {
                                 exact(rates.begin() + first, rates.end());
     const double unit = flow_.table().unit_roundoff;
     if (norm(exact) > 0) take(point.forward, norm(difference(zdot, exact)) / norm(exact) / unit);
+    if (keeps_all_coordinates(flow_, tangent_)) {
+      point.backward = NAN;
+      return;
+    }
     const Residual residual(long_flow_, t, exact_x);
     const VectorXd row_errors = as_vector(difference(residual.at(zdot), residual.at(exact))).cwiseAbs();
     const VectorXd scale = row_scales(residual.mass_matrix(), as_vector(exact), t, x);
@@ -105,6 +109,7 @@ class Comparison {
   /// Σ_j |M_ij| |ż_j| + Σ_k |∂r_i/∂x_k| |x_k|: what rounding the accelerations and the state once would change in a row; the time too.
   VectorXd row_scales(const MatrixXd& M, const VectorXd& zdot, double t, const std::vector<double>& x) const {
     const auto n = static_cast<Eigen::Index>(flow_.table().velocity_count);
+    if (flow_.has_loops()) return M.cwiseAbs() * zdot.cwiseAbs() + by_entries(M, t, x);
     const MatrixXd A = linearisation(flow_, {t, x}, tangent_);
     VectorXd sizes(2 * n);
     for (const model::Tangent::Scalar& s : tangent_.scalars)
@@ -114,6 +119,14 @@ class Comparison {
     for (Eigen::Index i = 0; i < n; ++i)
       sizes[n + i] = std::fabs(x[flow_.position_count() + static_cast<std::size_t>(i)]);
     return M.cwiseAbs() * zdot.cwiseAbs() + (M * A.bottomRows(n)).cwiseAbs() * sizes +
+           (M * by_time(t, x)).cwiseAbs();
+  }
+
+  /// The same of entries that depend on each other and are rounded each by itself, by differences.
+  VectorXd by_entries(const MatrixXd& M, double t, const std::vector<double>& x) const {
+    const auto size = static_cast<Eigen::Index>(x.size());
+    const MatrixXd J = jacobian(flow_, {t, x}, std::cbrt(2 * flow_.table().unit_roundoff));
+    return (M * J.bottomRows(M.rows())).cwiseAbs() * Eigen::Map<const VectorXd>(x.data(), size).cwiseAbs() +
            (M * by_time(t, x)).cwiseAbs();
   }
 
@@ -133,17 +146,25 @@ class Comparison {
 
   const Flow<double>& flow_;
   const Flow<LongReal>& long_flow_;
-  model::Tangent tangent_;
+  const model::Tangent& tangent_;
 };
+
+/// Closes the loops at the parameters that the table has now; false where that cannot be done.
+bool close(const Flow<double>& flow, double t, std::vector<double>& x) {
+  constexpr double kOpen = 1e7;  // units of rounding
+  const Point<double> point = flow.closed({t, x});
+  x = point.x;
+  return flow.residuals(point).position <= kOpen * flow.table().unit_roundoff;
+}
 
 }  // namespace
 
-std::vector<ExtremeSweep> study_extremes(const model::Mechanism& mechanism,
+std::vector<ExtremeSweep> study_extremes(const model::Mechanism& mechanism, const model::Tangent& tangent,
                                          const std::vector<double>& parameters, const Flow<double>& flow,
                                          const Flow<LongReal>& long_flow, const ReferenceSolution& reference,
                                          const Progress& progress) {
   if (!flow.table().derivatives) return {};
-  const Comparison comparison(mechanism, flow, long_flow);
+  const Comparison comparison(tangent, flow, long_flow);
   std::vector<Point<double>> states;
   const std::size_t count = reference.points.size();
   for (std::size_t k = 0; k < kStates; ++k)
@@ -159,6 +180,8 @@ std::vector<ExtremeSweep> study_extremes(const model::Mechanism& mechanism,
       for (const Point<double>& state : states) {
         std::vector<double> x = state.x;
         change(point.factor, x);
+        point.closes = point.closes && (!flow.has_loops() || close(flow, state.t, x));
+        if (!point.closes) break;
         comparison.widen(point, state.t, std::move(x));
       }
     }
@@ -168,7 +191,7 @@ std::vector<ExtremeSweep> study_extremes(const model::Mechanism& mechanism,
     for (std::size_t i = flow.position_count(); i < x.size(); ++i) x[i] *= factor;
   });
   const std::vector<bool> angular = model::angular_positions(mechanism);
-  if (std::find(angular.begin(), angular.end(), true) != angular.end())
+  if (!flow.has_loops() && std::find(angular.begin(), angular.end(), true) != angular.end())
     sweep("all angles", 0, kAngleDecades, [&](double added, std::vector<double>& x) {
       for (std::size_t i = 0; i < angular.size(); ++i)
         if (angular[i]) x[i] += added;

@@ -6,6 +6,7 @@
 
 #include "reference/descriptor.hpp"
 #include "reference/minimal.hpp"
+#include "studies/tangent_space.hpp"
 
 namespace jourdain::studies {
 
@@ -21,6 +22,36 @@ constexpr double kLost = 1e3;  ///< m; a run that is further off counts as faile
 VectorXd to_vector(const std::vector<double>& values) {
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
+
+/// y and z of the tree at a state of the flow, whose velocities may be the independent ones alone: the rates of the positions tell
+/// all of them.
+class TreeStates {
+ public:
+  TreeStates(const model::Mechanism& mechanism, const Flow<double>& flow)
+      : flow_(flow),
+        layout_(model::lay_out_coordinates(mechanism)),
+        tangent_(model::tangent_of(mechanism, layout_)) {}
+
+  VectorXd positions(const Point<double>& point) const {
+    return Eigen::Map<const VectorXd>(point.x.data(), Eigen::Index(flow_.position_count()));
+  }
+
+  VectorXd velocities(const Point<double>& point) const {
+    const std::vector<double> rates = flow_.rates(point.t, point.x);
+    VectorXd z(Eigen::Index(layout_.velocity_count()));
+    for (const model::Tangent::Scalar& s : tangent_.scalars) z[Eigen::Index(s.velocity)] = rates[s.position];
+    for (const model::Tangent::Scalar& s : tangent_.quaternions) {
+      const Eigen::Map<const Eigen::Vector4d> q(point.x.data() + s.position), turn(rates.data() + s.position);
+      z.segment<3>(Eigen::Index(s.velocity)) = 4 * turning(q).transpose() * turn;
+    }
+    return z;
+  }
+
+ private:
+  const Flow<double>& flow_;
+  model::CoordinateLayout layout_;
+  model::Tangent tangent_;
+};
 
 /// One classical Runge-Kutta step of x' = f(t, x).
 template <class Rates>
@@ -76,12 +107,9 @@ class MinimalForm : public Form {
 
 class DescriptorForm : public Form {
  public:
-  DescriptorForm(const Descriptor& model, const Inputs& inputs, const Point<double>& start, bool projecting)
-      : model_(model), inputs_(inputs), projecting_(projecting) {
-    const auto ny = static_cast<Eigen::Index>(model.layout().position_count());
-    const VectorXd x = to_vector(start.x);
-    state_ = model.absolute(start.t, x.head(ny), x.tail(x.size() - ny));
-  }
+  DescriptorForm(const Descriptor& model, const Inputs& inputs, reference::AbsoluteState<double> start,
+                 bool projecting)
+      : model_(model), inputs_(inputs), projecting_(projecting), state_(std::move(start)) {}
 
   void step(double t, double h) override {
     const auto rates = [this](double time, const VectorXd& x) { return derivative(time, x); };
@@ -154,14 +182,13 @@ void compare(const Bodies& bodies, const Bodies& exact, FormPoint& point) {
 }
 
 /// Bodies of the reference solution at the sampling times.
-std::vector<Bodies> exact_bodies(const Descriptor& absolute, const ReferenceSolution& reference,
-                                 double sampling) {
+std::vector<Bodies> exact_bodies(const Descriptor& absolute, const TreeStates& states,
+                                 const ReferenceSolution& reference, double sampling) {
   const auto stride = static_cast<std::size_t>(std::lround(sampling / reference.interval));
-  const auto ny = static_cast<Eigen::Index>(absolute.layout().position_count());
   std::vector<Bodies> result;
   for (std::size_t k = 0; k < reference.points.size(); k += stride) {
-    const VectorXd x = to_vector(reference.points[k].x);
-    result.push_back(absolute.absolute_state(reference.points[k].t, x.head(ny), x.tail(x.size() - ny)));
+    const Point<double>& point = reference.points[k];
+    result.push_back(absolute.absolute_state(point.t, states.positions(point), states.velocities(point)));
   }
   return result;
 }
@@ -191,25 +218,27 @@ FormPoint run(Form& form, double h, double sampling, const std::vector<Bodies>& 
 }  // namespace
 
 std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std::vector<double>& parameters,
-                                   const Inputs& inputs, const std::vector<double>& steps, double sampling,
-                                   const ReferenceSolution& reference, double seconds,
+                                   const Flow<double>& flow, const std::vector<double>& steps,
+                                   double sampling, const ReferenceSolution& reference, double seconds,
                                    const Progress& progress) {
   const reference::Reference<double> minimal(mechanism, std::span<const double>(parameters));
   const Descriptor absolute(mechanism, std::span<const double>(parameters));
+  const Inputs& inputs = flow.inputs();
+  const TreeStates states(mechanism, flow);
   const Point<double>& start = reference.points.front();
-  const std::vector<Bodies> exact = exact_bodies(absolute, reference, sampling);
-  const auto nz = static_cast<int>(minimal.coordinate_count());
+  const auto absolute_start = absolute.absolute(start.t, states.positions(start), states.velocities(start));
+  const std::vector<Bodies> exact = exact_bodies(absolute, states, reference, sampling);
+  const auto unknowns =
+      static_cast<int>(absolute.rates(absolute_start, to_vector(inputs.at(start.t))).unknowns);
   const auto nb = static_cast<int>(mechanism.bodies.size());
-  std::vector<FormCurve> curves = {
-      {"minimal coordinates", static_cast<int>(start.x.size()), nz, {}},
-      {"descriptor form", 13 * nb, 0, {}},
-      {"descriptor form, projected", 13 * nb, 0, {}},
-  };
-  const auto ny = static_cast<Eigen::Index>(minimal.position_count());
-  const VectorXd x = to_vector(start.x);
-  const auto first = absolute.rates(absolute.absolute(start.t, x.head(ny), x.tail(x.size() - ny)),
-                                    to_vector(inputs.at(start.t)));
-  curves[1].unknowns = curves[2].unknowns = static_cast<int>(first.unknowns);
+  std::vector<FormCurve> curves;
+  if (!flow.has_loops())
+    curves.push_back({"minimal coordinates",
+                      static_cast<int>(start.x.size()),
+                      static_cast<int>(minimal.coordinate_count()),
+                      {}});
+  curves.push_back({"descriptor form", 13 * nb, unknowns, {}});
+  curves.push_back({"descriptor form, projected", 13 * nb, unknowns, {}});
   for (std::size_t c = 0; c < curves.size(); ++c) {
     double spent = 0, step_time = 0;
     for (const double h : steps) {
@@ -220,10 +249,10 @@ std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std:
       progress("equations of the first kind",
                (double(c) + std::min(1.0, spent / seconds)) / double(curves.size()));
       std::unique_ptr<Form> form;
-      if (c == 0)
+      if (!flow.has_loops() && c == 0)
         form = std::make_unique<MinimalForm>(minimal, absolute, inputs, start);
       else
-        form = std::make_unique<DescriptorForm>(absolute, inputs, start, c == 2);
+        form = std::make_unique<DescriptorForm>(absolute, inputs, absolute_start, c + 1 == curves.size());
       const auto begin = Clock::now();
       curves[c].points.push_back(run(*form, h, sampling, exact));
       spent += std::chrono::duration<double>(Clock::now() - begin).count();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/mechanism.hpp"
-#include "studies/inputs.hpp"
+#include "studies/flow.hpp"
 #include "studies/reference_solution.hpp"
 
 namespace jourdain::studies {
@@ -30,10 +30,10 @@ struct FormCurve {
 };
 
 /// Curves over `steps` (s, descending, divisors of `sampling`), each as far as `seconds` of work allow. `parameters` in the
-/// mechanism's order; `reference` in minimal coordinates.
+/// mechanism's order; `reference` is of `flow`. With loops there are no plain minimal coordinates to compare with.
 std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std::vector<double>& parameters,
-                                   const Inputs& inputs, const std::vector<double>& steps, double sampling,
-                                   const ReferenceSolution& reference, double seconds,
+                                   const Flow<double>& flow, const std::vector<double>& steps,
+                                   double sampling, const ReferenceSolution& reference, double seconds,
                                    const Progress& progress);
 
 }  // namespace jourdain::studies

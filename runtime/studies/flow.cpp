@@ -1,6 +1,7 @@
 #include "studies/flow.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "support/check.hpp"
@@ -65,7 +66,7 @@ Point<Real> Flow<Real>::start() const {
   }
   Memory memory = fresh_memory(table_.methods[0]);
   step(table_.methods[0], point, 0, 1, memory);
-  return point;
+  return closed(std::move(point));
 }
 
 template <class Real>
@@ -119,6 +120,51 @@ double Flow<Real>::energy(const Point<Real>& point) const {
   table_.kinetic_energy(time.data(), state.data(), z, kinetic.data());
   table_.potential_energy(time.data(), state.data(), z, potential.data());
   return static_cast<double>(number_at<Real>(kinetic.data()) + number_at<Real>(potential.data()));
+}
+
+template <class Real>
+Point<Real> Flow<Real>::corrected(const Point<Real>& point) const {
+  if (!has_loops()) return point;
+  const std::vector<double> time = to_parts<Real>(std::span(&point.t, 1));
+  std::vector<double> state = to_parts<Real>(point.x);
+  table_.correct(time.data(), state.data(), state.data() + position_count() * kParts<Real>);
+  return {point.t, from_parts<Real>(state)};
+}
+
+template <class Real>
+Point<Real> Flow<Real>::closed(Point<Real> point) const {
+  constexpr int kMostCorrections = 60;
+  constexpr double kRoundings = 8;
+  bool changes = has_loops();
+  for (int i = 0; changes && i < kMostCorrections; ++i) {
+    Point<Real> next = corrected(point);
+    changes = false;
+    for (std::size_t k = 0; k < next.x.size(); ++k) {
+      const double change = std::fabs(static_cast<double>(next.x[k] - point.x[k]));
+      const double size = 1 + std::fabs(static_cast<double>(next.x[k]));
+      changes = changes || change > kRoundings * table_.unit_roundoff * size;
+    }
+    point = std::move(next);
+  }
+  return point;
+}
+
+template <class Real>
+Residuals Flow<Real>::residuals(const Point<Real>& point) const {
+  if (!has_loops()) return {};
+  const std::vector<double> time = to_parts<Real>(std::span(&point.t, 1)), state = to_parts<Real>(point.x);
+  std::vector<double> g(static_cast<std::size_t>(table_.constraint_count) * kParts<Real>), rate = g;
+  table_.constraint_residual(time.data(), state.data(), state.data() + position_count() * kParts<Real>,
+                             g.data(), rate.data());
+  const auto largest = [](const std::vector<double>& parts) {
+    double result = 0;
+    for (const Real& entry : from_parts<Real>(parts)) {
+      const double size = std::fabs(static_cast<double>(entry));
+      if (!(size <= result)) result = std::isnan(size) ? INFINITY : size;
+    }
+    return result;
+  };
+  return {largest(g), largest(rate)};
 }
 
 template <class Real>

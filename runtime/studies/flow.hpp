@@ -35,6 +35,11 @@ struct Point {
 /// What a method remembers, as jourdain_method describes it.
 using Memory = std::vector<double>;
 
+/// How far loops are open: m, and m/s (rows without a length: without unit, 1/s).
+struct Residuals {
+  double position = 0, velocity = 0;
+};
+
 /// Memory at the start of a trajectory.
 Memory fresh_memory(const jourdain_model_table& table, const jourdain_method& method);
 
@@ -50,8 +55,10 @@ class Flow {
   std::size_t position_count() const { return static_cast<std::size_t>(table_.position_count); }
   std::size_t size() const { return position_count() + static_cast<std::size_t>(table_.velocity_count); }
 
+  bool has_loops() const { return table_.correct != nullptr; }
+
   /// The state that the description starts from, or the one that was set, after a step of no length: its quaternions have
-  /// unit length in this number type.
+  /// unit length in this number type, and its loops are closed, if they can be from there.
   Point<Real> start() const;
   void set_start(const std::vector<double>& x) { start_ = x; }
   /// f(t, x).
@@ -65,6 +72,13 @@ class Flow {
   void step(const jourdain_method& method, Point<Real>& point, double h, long count, Memory& memory) const;
   /// Kinetic and potential energy together, J.
   double energy(const Point<Real>& point) const;
+
+  /// `point` after the correction that steps end with; itself where there are no loops.
+  Point<Real> corrected(const Point<Real>& point) const;
+  /// Corrected until nothing changes beyond rounding, or sixty times.
+  Point<Real> closed(Point<Real> point) const;
+  /// Largest |g| and |dg/dt| over all rows; zero where there are no loops.
+  Residuals residuals(const Point<Real>& point) const;
 
  private:
   const jourdain_model_table& table_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studies/sensitivity.hpp"
+#include "studies/tangent_space.hpp"
 
 namespace jourdain::studies {
 
@@ -40,16 +41,6 @@ MatrixXd extrapolated_jacobian(const Flow<double>& flow, const Point<double>& po
   return best;
 }
 
-/// ½ quat ⊗ (0, ·), 4 × 3.
-Eigen::Matrix<double, 4, 3> turning(const Eigen::Vector4d& q) {
-  Eigen::Matrix<double, 4, 3> m;
-  m << -q[1], -q[2], -q[3],  //
-      q[0], -q[3], q[2],     //
-      q[3], q[0], -q[1],     //
-      -q[2], q[1], q[0];
-  return m / 2;
-}
-
 /// What small rotations and the other positions do to y, ny × nz.
 MatrixXd position_tangents(const VectorXd& y, Index nz, const model::Tangent& tangent) {
   MatrixXd T = MatrixXd::Zero(y.size(), nz);
@@ -71,10 +62,39 @@ MatrixXd emitted_linearisation(const Flow<double>& flow, const Point<double>& po
   return A;
 }
 
+/// Of ż by displacements of the independent coordinates, the loops closed after each, by Richardson's extrapolation of
+/// central differences.
+MatrixXd by_closed_displacements(const Flow<double>& flow, const Point<double>& point,
+                                 const model::Tangent& tangent) {
+  const auto nz = static_cast<Index>(flow.table().velocity_count);
+  const auto slope = [&](std::size_t velocity, double delta) {
+    const auto zdot = [&](double change) {
+      const Point<double> at = flow.closed(moved_along(point, tangent, velocity, change));
+      const std::vector<double> rates = flow.rates(at.t, at.x);
+      return VectorXd(Eigen::Map<const VectorXd>(rates.data() + flow.position_count(), nz));
+    };
+    return VectorXd((zdot(delta) - zdot(-delta)) / (2 * delta));
+  };
+  const double delta = std::pow(2 * flow.table().unit_roundoff, 0.2);
+  MatrixXd result(nz, nz);
+  for (Index k = 0; k < nz; ++k) {
+    const auto velocity = static_cast<std::size_t>(k);
+    result.col(k) = (4 * slope(velocity, delta / 2) - slope(velocity, delta)) / 3;
+  }
+  return result;
+}
+
 }  // namespace
 
 MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point, const model::Tangent& tangent) {
   if (flow.table().derivatives) return emitted_linearisation(flow, point);
+  if (flow.has_loops() && !keeps_all_coordinates(flow, tangent)) {
+    const auto nz = static_cast<Index>(flow.table().velocity_count);
+    MatrixXd A(2 * nz, 2 * nz);
+    A << MatrixXd::Zero(nz, nz), MatrixXd::Identity(nz, nz), by_closed_displacements(flow, point, tangent),
+        extrapolated_jacobian(flow, point).bottomRightCorner(nz, nz);
+    return A;
+  }
   const MatrixXd J = extrapolated_jacobian(flow, point);
   if (tangent.quaternions.empty()) return J;
   const auto ny = static_cast<Index>(flow.position_count()), nz = J.cols() - ny;

@@ -17,9 +17,23 @@ using Eigen::VectorXd;
 constexpr std::size_t kPoints = 60;
 constexpr double kDampingScene = 1e-2;  ///< shrinking of volumes over the trajectory's own rate
 
-/// ln det M from inverse dynamics, whose differences in ż are its columns; 0 where there is none.
-double log_inertia(const Flow<double>& flow, const Point<double>& point) {
+/// The rows of the local coordinates, displacements and velocities.
+MatrixXd kept(const MatrixXd& rates, const LocalCoordinates& coordinates) {
+  const auto n = static_cast<Index>(coordinates.velocities.size()), nz = rates.rows() / 2;
+  MatrixXd result(2 * n, rates.cols());
+  for (Index i = 0; i < n; ++i) {
+    const auto entry = static_cast<Index>(coordinates.velocities[std::size_t(i)]);
+    result.row(i) = rates.row(entry);
+    result.row(n + i) = rates.row(nz + entry);
+  }
+  return result;
+}
+
+/// ln det Bᵀ M B, M from inverse dynamics, whose differences in ż are its columns, B the velocities by local coordinates; 0
+/// where there is none.
+double log_inertia(const Flow<double>& flow, const Local& local) {
   if (!flow.table().inverse_dynamics) return 0;
+  const Point<double>& point = *local.point;
   const auto split = point.x.begin() + static_cast<std::ptrdiff_t>(flow.position_count());
   const std::vector<double> y(point.x.begin(), split), z(split, point.x.end());
   const auto n = static_cast<Index>(z.size());
@@ -34,7 +48,9 @@ double log_inertia(const Flow<double>& flow, const Point<double>& point) {
     const std::vector<double> column = forces(unit);
     for (Index k = 0; k < n; ++k) M(k, i) = column[std::size_t(k)] - none[std::size_t(k)];
   }
-  return std::log(std::fabs(M.determinant()));
+  const MatrixXd B = local.coordinates.embedding.bottomRightCorner(
+      n, static_cast<Index>(local.coordinates.velocities.size()));
+  return std::log(std::fabs((B.transpose() * M * B).determinant()));
 }
 
 /// Mean rate (1/s) at which volumes in phase space shrink. In (y, z) a volume changes with det M too, which damps nothing.
@@ -45,7 +61,8 @@ double shrinking(const Flow<double>& flow, const std::vector<Local>& locals) {
     traces +=
         (locals[k].point->t - locals[k - 1].point->t) * (locals[k].A.trace() + locals[k - 1].A.trace()) / 2;
   const Point<double>&first = *locals.front().point, &last = *locals.back().point;
-  return -(traces + log_inertia(flow, last) - log_inertia(flow, first)) / (last.t - first.t);
+  return -(traces + log_inertia(flow, locals.back()) - log_inertia(flow, locals.front())) /
+         (last.t - first.t);
 }
 
 }  // namespace
@@ -60,9 +77,10 @@ std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& 
     progress("stability", 0.5 * double(k) / double(count));
     if (spent > seconds) break;
     const Point<double>& point = reference.points[k * last / count];
-    const MatrixXd A = linearisation(flow, point, tangent);
-    if (!A.allFinite()) continue;
-    locals.push_back({&point, A, modes_of(A)});
+    LocalCoordinates coordinates = local_coordinates(flow, point, tangent);
+    const MatrixXd A = kept(linearisation(flow, point, tangent) * coordinates.embedding, coordinates);
+    if (!A.allFinite() || A.size() == 0) continue;
+    locals.push_back({&point, std::move(coordinates), A, modes_of(A)});
   }
   return locals;
 }

@@ -6,13 +6,16 @@
 #include "model/coordinates.hpp"
 #include "studies/linearisation.hpp"
 #include "studies/reference_solution.hpp"
+#include "studies/tangent_space.hpp"
 
 namespace jourdain::studies {
 
-/// The linear system at one time. The reference that it comes from must outlive it.
+/// The linear system at one time, of the motions that keep the loops closed. The reference that it comes from must outlive
+/// it.
 struct Local {
   const Point<double>* point = nullptr;
-  Eigen::MatrixXd A;
+  LocalCoordinates coordinates;
+  Eigen::MatrixXd A;  ///< in those coordinates
   Modes modes;
 };
 

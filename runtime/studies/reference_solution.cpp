@@ -40,6 +40,18 @@ double difference(const std::vector<Point<Real>>& a, const std::vector<Point<Rea
   return largest;
 }
 
+/// Largest residuals of the loops.
+template <class Real>
+Residuals residuals(const Flow<Real>& flow, const std::vector<Point<Real>>& points) {
+  Residuals largest;
+  for (const Point<Real>& point : points) {
+    const Residuals open = flow.residuals(point);
+    largest.position = std::max(largest.position, open.position);
+    largest.velocity = std::max(largest.velocity, open.velocity);
+  }
+  return largest;
+}
+
 std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, double interval, long count,
                                                   int halvings, double seconds, bool required,
                                                   const Progress& progress) {
@@ -69,6 +81,7 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
     rounded.t = double(point.t);
     for (const LongReal& entry : point.x) rounded.x.push_back(double(entry));
   }
+  solution.open = residuals(flow, *exact);
   solution.exact = std::move(*exact);
   progress("reference in 50 digits", 1);
   return solution;
@@ -84,6 +97,7 @@ std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double inter
   solution.method = "CVODE (Adams) in double";
   solution.interval = interval;
   solution.error = difference(*points, *looser, 1);
+  solution.open = residuals(flow, *points);
   solution.points = std::move(*points);
   return solution;
 }

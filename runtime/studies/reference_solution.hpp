@@ -21,6 +21,7 @@ struct ReferenceSolution {
   double interval = 0;                 ///< s
   std::vector<Point<double>> points;   ///< rounded to double
   std::vector<Point<LongReal>> exact;  ///< in 50 digits; empty with CVODE
+  Residuals open;                      ///< of the loops, largest at the points
   double error =
       0;  ///< largest difference of an entry to the solution with the other, looser tolerance, over 1 + |x|
 };

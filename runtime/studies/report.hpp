@@ -12,20 +12,23 @@ namespace jourdain::studies {
 
 /// What a report says beside its numbers.
 struct ReportHead {
-  std::string name;          ///< of the model
-  std::string description;   ///< of the model
-  std::string path, sha256;  ///< of the description
-  std::string real;          ///< number type under study: "double" or "float"
-  std::string compiler;      ///< and options that decide speed
-  std::string generator;     ///< and version
-  std::string scenario;      ///< what drives the model, in words; empty without inputs
+  std::string name;                     ///< of the model
+  std::string description;              ///< of the model
+  std::string path, sha256;             ///< of the description
+  std::string real;                     ///< number type under study: "double" or "float"
+  std::string compiler;                 ///< and options that decide speed
+  std::string generator;                ///< and version
+  std::string scenario;                 ///< what drives the model, in words; empty without inputs
+  std::vector<std::string> loops = {};  ///< how loops are closed, in sentences; empty without loops
+  std::string closing = {};             ///< what brings a step's end back to the loops, "2 Newton iterations"
 };
 
 /// For a terminal, lines of 110 characters at most.
 std::string report_text(const ReportHead& head, const jourdain_model_table& table, const Study& study);
 
-/// work_precision.csv, error_sources.csv, stability.csv, extremes.csv, first_kind.csv: as far as the study has them.
-std::vector<support::FileText> report_csv(const jourdain_model_table& table, const Study& study);
+/// work_precision.csv, error_sources.csv, stability.csv, extremes.csv, first_kind.csv, loops.csv: as far as the study has them.
+std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain_model_table& table,
+                                          const Study& study);
 
 std::string report_json(const ReportHead& head, const jourdain_model_table& table, const Study& study);
 
@@ -48,6 +51,12 @@ std::string extremes_text(const std::vector<ExtremeSweep>& sweeps);
 std::vector<std::vector<std::string>> extremes_rows(const std::vector<ExtremeSweep>& sweeps);
 std::string extremes_csv(const std::vector<ExtremeSweep>& sweeps);
 
+/// How loops are closed and how far they open, for a terminal; empty without loops.
+std::string loops_text(const ReportHead& head, const jourdain_model_table& table, const Study& study);
+/// Run by run: method, step, number of steps, largest |g| and |dg/dt|.
+std::vector<std::vector<std::string>> loop_rows(const jourdain_model_table& table, const Study& study);
+std::string loops_csv(const ReportHead& head, const jourdain_model_table& table, const Study& study);
+
 /// That explicit methods are held to short steps by a damped mode and not by accuracy; empty where they are not.
 std::string stiff_text(const jourdain_model_table& table, const Study& study);
 
@@ -56,6 +65,9 @@ std::string limit_text(const MethodLimit& limit);
 std::string observed_text(const MethodLimit& limit);
 std::string mode_text(std::complex<double> mu);
 std::string judged_text(const MethodLimit& limit);
+
+/// A sentence in lines for a terminal, indented.
+std::string wrapped(const std::string& sentence);
 
 /// A time with a fitting unit: "250 us", "1 ms".
 std::string time_text(double seconds);

@@ -153,7 +153,8 @@ Json extremes_json(const Study& study) {
       points.push_back({{"factor", p.factor},
                         {"backward_u", number(p.backward)},
                         {"forward_u", number(p.forward)},
-                        {"finite", p.finite}});
+                        {"finite", p.finite},
+                        {"closes", p.closes}});
     sweeps.push_back({{"quantity", sweep.quantity}, {"points", points}});
   }
   return sweeps;
@@ -180,6 +181,18 @@ Json stability_json(const jourdain_model_table& table, const Study& study) {
       {"transient_growth", number(s.transient_growth)},
       {"points", points},
       {"remarks", stability_remarks(table, study)}};
+}
+
+Json loops_json(const ReportHead& head, const jourdain_model_table& table, const Study& study) {
+  Json runs = Json::array();
+  for (const LoopRun& run : study.loops)
+    runs.push_back({{"method", table.methods[run.method].name},
+                    {"step_s", run.h},
+                    {"steps", run.steps},
+                    {"finite", run.finite},
+                    {"largest_residual_m", number(run.open.position)},
+                    {"largest_rate_m_per_s", number(run.open.velocity)}});
+  return {{"closed", head.loops}, {"each_step_ends_with", head.closing}, {"runs", runs}};
 }
 
 Json forms_json(const Study& study) {
@@ -218,13 +231,15 @@ Json advice_json(const jourdain_model_table& table, const Study& study) {
 
 }  // namespace
 
-std::vector<support::FileText> report_csv(const jourdain_model_table& table, const Study& study) {
+std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain_model_table& table,
+                                          const Study& study) {
   std::vector<support::FileText> files = {{"work_precision.csv", work_precision_csv(table, study)}};
   if (!study.sources.empty()) files.push_back({"error_sources.csv", error_sources_csv(table, study)});
   if (!study.stability.points.empty())
     files.push_back({"stability.csv", stability_csv(table, study.stability)});
   if (!study.extremes.empty()) files.push_back({"extremes.csv", extremes_csv(study.extremes)});
   if (!study.forms.empty()) files.push_back({"first_kind.csv", first_kind_csv(study)});
+  if (!study.loops.empty()) files.push_back({"loops.csv", loops_csv(head, table, study)});
   return files;
 }
 
@@ -248,6 +263,7 @@ std::string report_json(const ReportHead& head, const jourdain_model_table& tabl
                        {"error_sources", sources_json(table, study)},
                        {"rounding", roundings_json(table, study)},
                        {"stability", stability_json(table, study)},
+                       {"loops", loops_json(head, table, study)},
                        {"extremes", extremes_json(study)},
                        {"first_kind", forms_json(study)},
                        {"recommendation", advice_json(table, study)}};

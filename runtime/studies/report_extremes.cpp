@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "studies/report.hpp"
 
 namespace jourdain::studies {
@@ -10,7 +12,9 @@ namespace {
 std::string worst(const ExtremeSweep& sweep, double ExtremePoint::*member) {
   const ExtremePoint* found = nullptr;
   for (const ExtremePoint& point : sweep.points)
-    if (point.finite && (!found || point.*member > found->*member)) found = &point;
+    if (point.finite && point.closes && !std::isnan(point.*member) &&
+        (!found || point.*member > found->*member))
+      found = &point;
   return found ? fmt::format("{:.2g} ({:g})", found->*member, found->factor) : "-";
 }
 
@@ -18,7 +22,12 @@ std::string breaks(const ExtremeSweep& sweep) {
   std::string text;
   for (const ExtremePoint& point : sweep.points)
     if (!point.finite) text += fmt::format("{}{:g}", text.empty() ? "" : ", ", point.factor);
-  return text.empty() ? "nowhere" : text;
+  if (text.empty()) text = "nowhere";
+  std::string open;
+  for (const ExtremePoint& point : sweep.points)
+    if (!point.closes)
+      open += fmt::format("{}{:g}", open.empty() ? "; loops do not close at " : ", ", point.factor);
+  return text + open;
 }
 
 }  // namespace
@@ -47,11 +56,11 @@ std::string extremes_text(const std::vector<ExtremeSweep>& sweeps) {
 }
 
 std::string extremes_csv(const std::vector<ExtremeSweep>& sweeps) {
-  std::string text = "quantity,factor,backward_error_u,forward_error_u,finite\n";
+  std::string text = "quantity,factor,backward_error_u,forward_error_u,finite,closes\n";
   for (const ExtremeSweep& sweep : sweeps)
     for (const ExtremePoint& p : sweep.points)
-      text += fmt::format("{},{:g},{},{},{}\n", sweep.quantity, p.factor, p.backward, p.forward,
-                          p.finite ? 1 : 0);
+      text += fmt::format("{},{:g},{},{},{},{}\n", sweep.quantity, p.factor, p.backward, p.forward,
+                          p.finite ? 1 : 0, p.closes ? 1 : 0);
   return text;
 }
 

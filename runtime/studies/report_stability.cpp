@@ -28,7 +28,17 @@ std::string kind_text(const MethodLimit& limit) {
   return "";
 }
 
-/// A sentence in lines for a terminal.
+std::string owners_text(const Stability& stability) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, stability.owners.size()); ++i)
+    text += fmt::format("{}{} {:.0f}\u00a0%", text.empty() ? "" : ", ", stability.owners[i].name,
+                        100 * stability.owners[i].share);
+  return text;
+}
+
+}  // namespace
+
 std::string wrapped(const std::string& sentence) {
   constexpr std::size_t kWidth = 106;
   std::string text;
@@ -40,17 +50,6 @@ std::string wrapped(const std::string& sentence) {
   }
   return text;
 }
-
-std::string owners_text(const Stability& stability) {
-  constexpr std::size_t kMost = 4;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, stability.owners.size()); ++i)
-    text += fmt::format("{}{} {:.0f}\u00a0%", text.empty() ? "" : ", ", stability.owners[i].name,
-                        100 * stability.owners[i].share);
-  return text;
-}
-
-}  // namespace
 
 std::string mode_text(std::complex<double> mu) {
   return mu.imag() == 0 ? fmt::format("{:.4g}", mu.real())

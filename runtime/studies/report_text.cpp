@@ -142,6 +142,11 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
   std::vector<std::string> list;
   list.push_back(fmt::format("reference: {}; its own error is {:.1e} (difference to a looser tolerance)",
                              study.reference.method, study.reference.error));
+  if (!study.loops.empty())
+    list.push_back(fmt::format(
+        "the reference moves all positions by their rates and closes the loops after each {}; there they are "
+        "open by {:.0e} m",
+        time_text(study.reference.interval), study.reference.open.position));
   const double growth = study.divergence.growth.back();
   const double followed = study.divergence.interval * static_cast<double>(study.divergence.growth.size() - 1);
   list.push_back(
@@ -183,10 +188,10 @@ std::string report_text(const ReportHead& head, const jourdain_model_table& tabl
   std::string text =
       fmt::format("{}: error against run time over {} in {}{}\n", head.name, time_text(study.judged),
                   head.real, head.scenario.empty() ? "" : ", " + head.scenario);
-  for (const std::string& remark : remarks(table, study)) text += "  " + remark + "\n";
+  for (const std::string& remark : remarks(table, study)) text += wrapped(remark);
   text += "\n" + methods_table(table, study) + errors_table(table, study) + sources_table(table, study) +
-          stability_text(table, study) + extremes_text(study.extremes) + forms_table(study) +
-          forms_ratio(table, study);
+          loops_text(head, table, study) + stability_text(table, study) + extremes_text(study.extremes) +
+          forms_table(study) + forms_ratio(table, study);
   const std::string advice = advice_text(table, study);
   if (!advice.empty()) text += "\n  " + advice + "\n";
   return text;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "studies/tangent_space.hpp"
+
 namespace jourdain::studies {
 
 namespace {
@@ -99,7 +101,10 @@ Divergence measure_divergence(const Flow<double>& flow, const jourdain_method& m
   const long steps = std::lround(interval / h);
   for (long k = 0; k < count; ++k) {
     std::vector<Point<double>> near;
-    for (const VectorXd& separation : separations) near.push_back(displaced(base, separation));
+    for (VectorXd& separation : separations) {
+      near.push_back(flow.closed(displaced(base, separation)));
+      if (flow.has_loops()) separation = as_vector(near.back().x) - as_vector(base.x);
+    }
     Memory memory = flow.fresh_memory(method);
     flow.step(method, base, h, steps, memory);
     double growth = 0;
@@ -129,7 +134,8 @@ std::vector<MatrixXd> transition_matrices(const Flow<double>& flow,
                                           const std::vector<Point<double>>& points) {
   std::vector<MatrixXd> result;
   for (std::size_t k = 1; k < points.size(); ++k)
-    result.push_back(transition(flow, points[k - 1], points[k].t - points[k - 1].t));
+    result.push_back(correction_jacobian(flow, points[k]) *
+                     transition(flow, points[k - 1], points[k].t - points[k - 1].t));
   return result;
 }
 

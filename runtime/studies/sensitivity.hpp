@@ -28,7 +28,8 @@ Divergence measure_divergence(const Flow<double>& flow, const jourdain_method& m
 long intervals_until(const Divergence& divergence, double factor);
 
 /// Transition matrices Φ(t_{k+1}, t_k), n × n, of the variational equation dX/dt = ∂f/∂x X along `points`, in double: Jacobians by
-/// central differences, the classical Runge-Kutta method from point to point with substeps that resolve the Jacobian.
+/// central differences, the classical Runge-Kutta method from point to point with substeps that resolve the Jacobian. With loops
+/// each is followed by the derivative of the correction that steps end with: what opens the loops does not travel on.
 std::vector<Eigen::MatrixXd> transition_matrices(const Flow<double>& flow,
                                                  const std::vector<Point<double>>& points);
 

@@ -38,10 +38,13 @@ void name_owners(const Flow<double>& flow, const std::vector<Local>& locals, Sta
         result.fastest = mu;
         result.fastest_time = local.point->t;
       }
-  const Modes& modes = local_at(locals, result.fastest_time).modes;
+  const Local& local = local_at(locals, result.fastest_time);
+  const Modes& modes = local.modes;
   const VectorXd shares = modes.participations.col(index_of(result.fastest, modes));
   for (Index i = 0; i < shares.size(); ++i)
-    if (shares[i] >= kShownShare) result.owners.push_back({flow.table().velocity_names[i], shares[i]});
+    if (shares[i] >= kShownShare)
+      result.owners.push_back(
+          {flow.table().velocity_names[local.coordinates.velocities[std::size_t(i)]], shares[i]});
   std::stable_sort(result.owners.begin(), result.owners.end(),
                    [](const CoordinateShare& a, const CoordinateShare& b) { return a.share > b.share; });
 }
@@ -92,8 +95,10 @@ double growth_beyond(const StabilityFunction& function, const MethodLimit& limit
 }
 
 /// Real velocities of an eigenvector, whose phase is arbitrary.
-VectorXd velocities_of(Complex mu, const Modes& modes) {
-  const Eigen::VectorXcd z = modes.right.col(index_of(mu, modes)).tail(modes.right.rows() / 2);
+VectorXd velocities_of(Complex mu, const Local& local) {
+  const Eigen::MatrixXd& embedding = local.coordinates.embedding;
+  const Eigen::VectorXcd x = embedding * local.modes.right.col(index_of(mu, local.modes));
+  const Eigen::VectorXcd z = x.tail(x.size() / 2);
   return z.real().norm() > z.imag().norm() ? VectorXd(z.real()) : VectorXd(z.imag());
 }
 
@@ -117,7 +122,7 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
     const StabilityFunction* function = stability_function(method.name);
     if (!function || !(limit.h > 0) || !std::isfinite(limit.h) || limit.kind == ModeKind::kGrowing) continue;
     const Local& local = local_at(locals, limit.time);
-    const VectorXd direction = velocities_of(limit.mode, local.modes);
+    const VectorXd direction = velocities_of(limit.mode, local);
     if (!(direction.norm() > 0)) continue;
     const LimitRuns runs{*local.point,
                          direction,

@@ -45,7 +45,7 @@ struct Stability {
 /// longer steps. Null where the scene is not stiff.
 const MethodLimit* stiff_limit(const Stability& stability);
 
-/// Along `reference`; `tangent` says which entries of y are quaternions. Takes about `seconds` at most.
+/// Along `reference`; `tangent` is that of the independent coordinates and says which entries of y are quaternions. Takes about `seconds` at most.
 Stability study_stability(const Flow<double>& flow, const ReferenceSolution& reference,
                           const model::Tangent& tangent, bool conserves_energy, double seconds,
                           const Progress& progress);

@@ -152,9 +152,9 @@ SourceSummary summarise(std::size_t method, const Study& study) {
 
 }  // namespace
 
-Study run_study(const model::Mechanism& mechanism, const std::vector<double>& parameters,
-                const Flow<double>& flow, const Flow<LongReal>* long_flow, const Inputs& inputs,
-                const StudyOptions& options, const Progress& progress) {
+Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent,
+                const std::vector<double>& parameters, const Flow<double>& flow,
+                const Flow<LongReal>* long_flow, const StudyOptions& options, const Progress& progress) {
   Study study;
   study.options = options;
   for (int i = 0; i <= options.halvings; ++i) study.steps.push_back(std::ldexp(options.longest_step, -i));
@@ -172,7 +172,7 @@ Study run_study(const model::Mechanism& mechanism, const std::vector<double>& pa
 
   study.reference = solve_reference(flow, long_flow, options.reference, sampling, count, options.halvings,
                                     options.seconds, progress);
-  const std::vector<double> held = inputs.at(0.0);
+  const std::vector<double> held = flow.inputs().at(0.0);
   study.work = study_work_precision(flow, study.steps, sampling, study.reference, options.conserves_energy,
                                     held, progress);
   if (!study.reference.exact.empty() && long_flow) {
@@ -181,18 +181,19 @@ Study run_study(const model::Mechanism& mechanism, const std::vector<double>& pa
     for (std::size_t m = 0; m < study.work.step_times.size(); ++m)
       study.summaries.push_back(summarise(m, study));
   }
-  study.stability = study_stability(flow, study.reference,
-                                    model::tangent_of(mechanism, model::lay_out_coordinates(mechanism)),
-                                    options.conserves_energy, options.seconds, progress);
+  study.stability =
+      study_stability(flow, study.reference, tangent, options.conserves_energy, options.seconds, progress);
   if (options.forms)
-    study.forms = study_forms(mechanism, parameters, inputs, study.steps, sampling, study.reference,
+    study.forms = study_forms(mechanism, parameters, flow, study.steps, sampling, study.reference,
                               options.seconds / 4, progress);
   if (long_flow)
-    study.extremes = study_extremes(mechanism, parameters, flow, *long_flow, study.reference, progress);
+    study.extremes =
+        study_extremes(mechanism, tangent, parameters, flow, *long_flow, study.reference, progress);
   if (options.question.tolerance || options.question.budget) {
     progress("recommendation", 0);
     study.advice = advise(options.question, study.work, flow, sampling, study.reference, held);
   }
+  study.loops = study_loops(flow, study.work, study.advice ? &*study.advice : nullptr, study.judged);
   progress("", 1);
   return study;
 }

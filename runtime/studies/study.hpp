@@ -10,6 +10,7 @@
 #include "studies/error_sources.hpp"
 #include "studies/extremes.hpp"
 #include "studies/first_kind.hpp"
+#include "studies/loop_residuals.hpp"
 #include "studies/sensitivity.hpp"
 #include "studies/stability.hpp"
 #include "studies/work_precision.hpp"
@@ -59,15 +60,16 @@ struct Study {
   Stability stability;
   std::vector<ExtremeSweep> extremes;  ///< empty without 50 digits
   std::optional<Advice> advice;
+  std::vector<LoopRun> loops;  ///< empty without loops
 };
 
 /// Separation of nearby trajectories beyond which errors are not judged.
 inline constexpr double kJudgedGrowth = 1e5;
 
-/// `long_flow` may be null: no 50 digits then. Inputs and starts of the flows are the same. `parameters` in the mechanism's
-/// order.
-Study run_study(const model::Mechanism& mechanism, const std::vector<double>& parameters,
-                const Flow<double>& flow, const Flow<LongReal>* long_flow, const Inputs& inputs,
-                const StudyOptions& options, const Progress& progress);
+/// `long_flow` may be null: no 50 digits then. Inputs and starts of the flows are the same. `tangent` is that of the emitted
+/// State, of the independent coordinates; `parameters` in the mechanism's order.
+Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent,
+                const std::vector<double>& parameters, const Flow<double>& flow,
+                const Flow<LongReal>* long_flow, const StudyOptions& options, const Progress& progress);
 
 }  // namespace jourdain::studies

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/coordinates.hpp"
 #include "model/mechanism.hpp"
 #include "studies/loaded_model.hpp"
 
@@ -11,6 +12,7 @@ namespace jourdain::tests {
 
 struct EmittedModel {
   model::Mechanism mechanism;
+  model::Tangent tangent;  ///< of the independent coordinates
   studies::LoadedModel loaded;
 
   const jourdain_model_table& table() const { return loaded.table(); }

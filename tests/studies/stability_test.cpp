@@ -199,7 +199,8 @@ TEST(Stability, ReportSaysThatTheGovernorIsStiff) {
   options.reference = ReferenceKind::kCvode;
   options.question.tolerance = 1e-5;
   options.forms = false;
-  const Study study = run_study(governor.mechanism, parameters, flow, nullptr, none, options, kSilent);
+  const Study study =
+      run_study(governor.mechanism, governor.tangent, parameters, flow, nullptr, options, kSilent);
   const auto says = testing::HasSubstr("stiff: explicit methods need h < ");
   EXPECT_THAT(advice_text(governor.table(), study), says);
   const ReportHead head{"flyball_governor", "", "", "", "double", "", "", ""};
@@ -207,7 +208,7 @@ TEST(Stability, ReportSaysThatTheGovernorIsStiff) {
   const auto report = nlohmann::json::parse(report_json(head, governor.table(), study));
   EXPECT_EQ(report["stability"]["limits"].size(), std::size_t(governor.table().method_count));
   EXPECT_EQ(report["stability"]["fastest_mode_belongs_to"][0]["coordinate"], "slider");
-  const auto files = report_csv(governor.table(), study);
+  const auto files = report_csv(head, governor.table(), study);
   EXPECT_TRUE(
       std::any_of(files.begin(), files.end(), [](const auto& f) { return f.name == "stability.csv"; }));
 }

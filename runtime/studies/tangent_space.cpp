@@ -1,0 +1,128 @@
+#include "studies/tangent_space.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace jourdain::studies {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Index velocity_count(const Flow<double>& flow) { return static_cast<Index>(flow.table().velocity_count); }
+
+Eigen::Vector4d quaternion_at(const Point<double>& point, std::size_t entry) {
+  return Eigen::Map<const Eigen::Vector4d>(point.x.data() + entry);
+}
+
+/// How a state with all coordinates differs from `from`, displacements and velocities.
+VectorXd difference(const Flow<double>& flow, const model::Tangent& tangent, const Point<double>& to,
+                    const Point<double>& from) {
+  const Index nz = velocity_count(flow);
+  VectorXd result(2 * nz);
+  for (const model::Tangent::Scalar& s : tangent.scalars)
+    result[Index(s.velocity)] = to.x[s.position] - from.x[s.position];
+  for (const model::Tangent::Scalar& s : tangent.quaternions) {
+    const Eigen::Vector4d q = quaternion_at(from, s.position);
+    result.segment<3>(Index(s.velocity)) = 4 * turning(q).transpose() * (quaternion_at(to, s.position) - q);
+  }
+  for (Index k = 0; k < nz; ++k) {
+    const std::size_t entry = flow.position_count() + static_cast<std::size_t>(k);
+    result[nz + k] = to.x[entry] - from.x[entry];
+  }
+  return result;
+}
+
+/// Derivative of closing the loops by displacements and velocities of all coordinates.
+MatrixXd closing_jacobian(const Flow<double>& flow, const Point<double>& point,
+                          const model::Tangent& tangent) {
+  const Index nz = velocity_count(flow);
+  const double delta = std::cbrt(2 * flow.table().unit_roundoff);
+  MatrixXd P(2 * nz, 2 * nz);
+  for (Index k = 0; k < 2 * nz; ++k) {
+    const auto side = [&](double change) {
+      if (k < nz) return flow.closed(moved_along(point, tangent, static_cast<std::size_t>(k), change));
+      Point<double> other = point;
+      other.x[flow.position_count() + static_cast<std::size_t>(k - nz)] += change;
+      return flow.closed(other);
+    };
+    P.col(k) = difference(flow, tangent, side(delta), side(-delta)) / (2 * delta);
+  }
+  return P;
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 4, 3> turning(const Eigen::Vector4d& q) {
+  Eigen::Matrix<double, 4, 3> m;
+  m << -q[1], -q[2], -q[3],  //
+      q[0], -q[3], q[2],     //
+      q[3], q[0], -q[1],     //
+      -q[2], q[1], q[0];
+  return m / 2;
+}
+
+bool keeps_all_coordinates(const Flow<double>& flow, const model::Tangent& tangent) {
+  return flow.has_loops() && tangent.scalars.size() + 4 * tangent.quaternions.size() == flow.position_count();
+}
+
+Point<double> moved_along(const Point<double>& point, const model::Tangent& tangent, std::size_t velocity,
+                          double delta) {
+  Point<double> result = point;
+  for (const model::Tangent::Scalar& s : tangent.scalars)
+    if (s.velocity == velocity) result.x[s.position] += delta;
+  for (const model::Tangent::Scalar& s : tangent.quaternions) {
+    if (velocity < s.velocity || velocity >= s.velocity + 3) continue;
+    const Eigen::Vector4d q = quaternion_at(point, s.position);
+    Eigen::Map<Eigen::Vector4d>(result.x.data() + s.position) =
+        (q + delta * turning(q).col(Index(velocity - s.velocity))).normalized();
+  }
+  return result;
+}
+
+LocalCoordinates local_coordinates(const Flow<double>& flow, const Point<double>& point,
+                                   const model::Tangent& tangent) {
+  const Index nz = velocity_count(flow);
+  LocalCoordinates result;
+  if (!keeps_all_coordinates(flow, tangent)) {
+    result.velocities.resize(static_cast<std::size_t>(nz));
+    std::iota(result.velocities.begin(), result.velocities.end(), std::size_t(0));
+    result.embedding = MatrixXd::Identity(2 * nz, 2 * nz);
+    return result;
+  }
+  const MatrixXd P = closing_jacobian(flow, point, tangent);
+  // A projection: its trace counts the directions that it keeps.
+  const auto freedom = static_cast<Index>(std::lround(P.topLeftCorner(nz, nz).trace()));
+  result.embedding = MatrixXd::Zero(2 * nz, 0);
+  if (!P.allFinite() || freedom < 1) return result;
+  const Eigen::ColPivHouseholderQR<MatrixXd> order(P.topLeftCorner(nz, nz).transpose());
+  MatrixXd kept = MatrixXd::Zero(2 * nz, 2 * freedom);
+  for (Index i = 0; i < freedom; ++i) {
+    const Index entry = order.colsPermutation().indices()[i];
+    result.velocities.push_back(static_cast<std::size_t>(entry));
+    kept(entry, i) = kept(nz + entry, freedom + i) = 1;
+  }
+  result.embedding = P * kept * (kept.transpose() * P * kept).inverse();
+  return result;
+}
+
+MatrixXd correction_jacobian(const Flow<double>& flow, const Point<double>& point) {
+  const auto n = static_cast<Index>(flow.size());
+  MatrixXd result = MatrixXd::Identity(n, n);
+  if (!flow.has_loops()) return result;
+  const double separation = std::cbrt(2 * flow.table().unit_roundoff);
+  for (Index i = 0; i < n; ++i) {
+    Point<double> above = point, below = point;
+    const double delta = separation * (1 + std::fabs(point.x[std::size_t(i)]));
+    above.x[std::size_t(i)] += delta;
+    below.x[std::size_t(i)] -= delta;
+    const std::vector<double> high = flow.corrected(above).x, low = flow.corrected(below).x;
+    result.col(i) = (Eigen::Map<const VectorXd>(high.data(), n) - Eigen::Map<const VectorXd>(low.data(), n)) /
+                    (2 * delta);
+  }
+  return result;
+}
+
+}  // namespace jourdain::studies

@@ -1,0 +1,38 @@
+// The small differences between states that keep the loops closed, in local coordinates.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+#include "model/coordinates.hpp"
+#include "studies/flow.hpp"
+
+namespace jourdain::studies {
+
+/// Whether every position counts in `tangent` though there are loops: multipliers hold them closed.
+bool keeps_all_coordinates(const Flow<double>& flow, const model::Tangent& tangent);
+
+/// `point` moved by `delta` along the tangent's velocity `velocity`; quaternions by a rotation, no loops closed.
+Point<double> moved_along(const Point<double>& point, const model::Tangent& tangent, std::size_t velocity,
+                          double delta);
+
+/// Local coordinates of the closed states near one: the displacements and velocities of some entries of z.
+struct LocalCoordinates {
+  std::vector<std::size_t> velocities;  ///< entries of z, n of them: one per degree of freedom
+  Eigen::MatrixXd embedding;  ///< 2nz × 2n: displacements and velocities of all entries by the coordinates
+};
+
+/// Of a scene with all coordinates: those entries whose rows of the correction's derivative, by differences, are most
+/// independent. Of others all entries.
+LocalCoordinates local_coordinates(const Flow<double>& flow, const Point<double>& point,
+                                   const model::Tangent& tangent);
+
+/// Derivative of the correction that steps end with by the entries of x, n × n, by central differences; the identity
+/// where there are no loops.
+Eigen::MatrixXd correction_jacobian(const Flow<double>& flow, const Point<double>& point);
+
+/// ½ quat ⊗ (0, ·), 4 × 3: what small rotations do to a quaternion.
+Eigen::Matrix<double, 4, 3> turning(const Eigen::Vector4d& quaternion);
+
+}  // namespace jourdain::studies

@@ -1,0 +1,98 @@
+// Commands on mechanisms with closed loops, as their users meet them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "support/files.hpp"
+#include "support/process.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+support::ProcessResult jourdain(std::vector<std::string> arguments) {
+  std::vector<std::string> command = {"env", "-C", JOURDAIN_SOURCE_DIR, JOURDAIN_BINARY};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return support::run_process(command);
+}
+
+void expect(const support::ProcessResult& result, int status, const std::string& part) {
+  EXPECT_EQ(result.status, status) << result.output;
+  EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
+}
+
+/// The slider-crank with a tunable throw of its crank (m), in a file of `folder`.
+std::string tunable_slider_crank(const std::string& folder) {
+  std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/slider_crank.toml");
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  replace("[parameters]\n", "[parameters]\nthrow = 0.045\n");
+  replace("position = [0.045, 0, 0]\ninitial", "position = [\"throw\", 0, 0]\ninitial");
+  replace("treatment = \"explicit\"", "treatment = \"partitioned\"");
+  const std::string path = folder + "/slider_crank.toml";
+  support::write_file(path, text);
+  return path;
+}
+
+/// Numbers of the first row below the header.
+std::vector<double> first_row(const std::string& csv) {
+  std::istringstream text(csv.substr(csv.find('\n') + 1));
+  std::vector<double> numbers;
+  std::string field;
+  std::string line;
+  std::getline(text, line);
+  std::istringstream fields(line);
+  while (std::getline(fields, field, ',')) numbers.push_back(std::stod(field));
+  return numbers;
+}
+
+TEST(LoopCommands, InfoTellsDegreesOfFreedomAndHowLoopsAreClosed) {
+  const support::ProcessResult multipliers = jourdain({"info", "models/n_four_bar.toml"});
+  for (const char* part : {"loop ", "[planar pin]: ", "5 bodies, 1 degree of freedom\n", "loops: multipliers",
+                           "one projection of positions and velocities"})
+    expect(multipliers, 0, part);
+  expect(jourdain({"info", "models/four_bar.toml"}), 0, "loops: independent: crank; the others");
+  expect(jourdain({"check", "models/spring_four_bar.toml"}), 0, "Newton iteration");
+}
+
+TEST(LoopCommands, EquationsShowConstraintsAndTheirJacobian) {
+  const support::ProcessResult text = jourdain({"equations", "models/four_bar.toml"});
+  for (const char* part :
+       {"M zdot = k_bar - q_bar - G^T lambda", "  g[0]: pin.", "  g[1] = ", "  G[0][0] = "})
+    expect(text, 0, part);
+  expect(jourdain({"equations", "models/four_bar.toml", "--latex"}), 0, "  G_{0,0} &= ");
+}
+
+TEST(LoopCommands, SimulationsTellHowFarLoopsOpen) {
+  const support::TemporaryFolder folder;
+  const std::string csv = folder.path() + "/four_bar.csv";
+  const support::ProcessResult result =
+      jourdain({"simulate", "models/four_bar.toml", "--duration", "1", "--output", csv});
+  expect(result, 0, "loops open by ");
+  expect(result, 0, "rocker");
+  const std::string text = support::read_file(csv);
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "time,crank,coupler,rocker,crank_velocity,kinetic_energy,potential_energy,total_energy");
+}
+
+TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {
+  const support::TemporaryFolder folder;
+  const std::string path = tunable_slider_crank(folder.path()), csv = folder.path() + "/run.csv";
+  constexpr double kThrow = 0.05, kRod = 0.145, kOffset = 0.006;
+  expect(jourdain({"simulate", path, "--set", "throw=0.05", "--duration", "0.01", "--step", "1e-5",
+                   "--output", csv}),
+         0, "loops open by ");
+  const std::vector<double> start = first_row(support::read_file(csv));
+  const double crank = start[1], piston = start[3];
+  const double along = kThrow * std::cos(crank), across = kThrow * std::sin(crank) - kOffset;
+  EXPECT_NEAR(piston, along + std::sqrt(kRod * kRod - across * across), 1e-12);
+  expect(jourdain({"simulate", path, "--set", "throw=0.5", "--duration", "0.01", "--output", csv}), 1,
+         "do not close at these values of its parameters");
+}
+
+}  // namespace
+}  // namespace jourdain::tests
