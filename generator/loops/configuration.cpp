@@ -100,7 +100,7 @@ Configuration NumericClosure::assembled(Configuration config, const std::vector<
   constexpr int kSteps = 200;
   constexpr long double kLongest = 0.3L;  // of one step, rad or m: further the linearisation says little
   Vector g = value(config);
-  for (int i = 0; i < kSteps && !(g.lpNorm<Eigen::Infinity>() <= kClosed / 100); ++i) {
+  for (int i = 0; i < kSteps && !(g.lpNorm<Eigen::Infinity>() <= kClosed / 1e5L); ++i) {
     Vector step = least_norm(columns_of(jacobian(config), moving), -g);
     if (!step.allFinite()) break;
     if (step.lpNorm<Eigen::Infinity>() > kLongest) step *= kLongest / step.lpNorm<Eigen::Infinity>();
@@ -126,16 +126,17 @@ Vector NumericClosure::consistent(const Configuration& config, const Vector& z,
 
 std::size_t rank_of(const Matrix& A) {
   if (A.size() == 0) return 0;
-  Eigen::JacobiSVD<Matrix> svd(A);
-  svd.setThreshold(kRankTolerance);
-  return static_cast<std::size_t>(svd.rank());
+  Eigen::ColPivHouseholderQR<Matrix> qr(A);
+  qr.setThreshold(kRankTolerance);
+  return static_cast<std::size_t>(qr.rank());
 }
 
 Vector least_norm(const Matrix& A, const Vector& b) {
   if (A.size() == 0) return Vector::Zero(A.cols());
-  Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(kRankTolerance);
-  return svd.solve(b);
+  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition;
+  decomposition.setThreshold(kRankTolerance);
+  decomposition.compute(A);
+  return decomposition.solve(b);
 }
 
 namespace {

@@ -59,7 +59,7 @@ class NumericClosure {
   std::size_t rows_ = 0, velocities_ = 0;
 };
 
-/// Singular values below this share of the largest count as zero.
+/// Pivots below this share of the largest count as zero.
 inline constexpr long double kRankTolerance = 1e-9L;
 
 std::size_t rank_of(const Matrix& A);

@@ -89,20 +89,19 @@ Groups velocity_groups(const model::Mechanism& mechanism) {
 
 std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians) {
   std::vector<std::size_t> rows;
-  std::vector<std::size_t> ranks(jacobians.size(), 0);
+  std::vector<std::vector<Vector>> bases(jacobians.size());  // orthonormal, of the rows so far
   for (Eigen::Index r = 0; r < jacobians.front().rows(); ++r) {
-    std::vector<std::size_t> more;
     bool grows = false;
     for (std::size_t k = 0; k < jacobians.size(); ++k) {
-      Matrix upper(at(rows.size() + 1), jacobians[k].cols());
-      for (std::size_t i = 0; i < rows.size(); ++i) upper.row(at(i)) = jacobians[k].row(at(rows[i]));
-      upper.row(at(rows.size())) = jacobians[k].row(r);
-      more.push_back(rank_of(upper));
-      grows = grows || more[k] > ranks[k];
+      const Vector row = jacobians[k].row(r);
+      Vector rest = row;
+      for (int pass = 0; pass < 2; ++pass)  // the second makes good what cancels in the first
+        for (const Vector& direction : bases[k]) rest -= direction.dot(rest) * direction;
+      if (!(rest.norm() > kRankTolerance * row.norm())) continue;
+      bases[k].push_back(rest.normalized());
+      grows = true;
     }
-    if (!grows) continue;
-    rows.push_back(static_cast<std::size_t>(r));
-    ranks = more;
+    if (grows) rows.push_back(static_cast<std::size_t>(r));
   }
   return rows;
 }

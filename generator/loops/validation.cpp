@@ -6,6 +6,7 @@
 #include <random>
 
 #include "dynamics/closure_motion.hpp"
+#include "loops/derivative_check.hpp"
 #include "kinematics/numbers.hpp"
 #include "model/checks.hpp"
 
@@ -20,12 +21,15 @@ namespace {
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
+/// Of derivatives against differences, which lose digits near singular configurations.
+constexpr double kDerivativeTolerance = 1e-8;
 constexpr std::size_t kStates = 8, kLarge = 24;  ///< velocities from which on two states must do
 
 /// A state of motion with all coordinates of the tree.
 struct ClosedSample {
   Configuration configuration;
   std::vector<double> y, z, u, zdot;  ///< of the independent velocities; with multipliers of all
+  Ray ray;                            ///< its direction; the rest is filled in where it is used
 };
 
 /// Random numbers that are the same on every platform.
@@ -53,11 +57,12 @@ struct Expected {
 class Comparison {
  public:
   Comparison(const model::Mechanism& mechanism, const dynamics::Equations& equations,
-             const dynamics::Equations& closures, const ir::Module& module, const LoopPlan& plan,
-             const ClosedSample& sample, Verdict& verdict)
+             const dynamics::Equations& closures, const NumericClosure& closure, const ir::Module& module,
+             const LoopPlan& plan, const ClosedSample& sample, Verdict& verdict)
       : mechanism_(mechanism),
         equations_(equations),
         closures_(closures),
+        closure_(closure),
         module_(module),
         plan_(plan),
         sample_(sample),
@@ -211,7 +216,15 @@ class Comparison {
       if (plan_.is_reduced())
         entry(e_.B.transpose() * (e_.M * (e_.B * zdot) - force), load * (1 + zdot.lpNorm<1>()));
     }
-    if (name == "close_loops" || name == "project") compare_correction(program, v);
+    if (name == "close_loops" || name == "project") return compare_correction(program, v);
+    Ray ray = sample_.ray;
+    ray.configuration = sample_.configuration;
+    ray.z = sample_.z;
+    ray.u = sample_.u;
+    ray.zdot = sample_.zdot;
+    const double error = derivative_error(closure_, plan_, module_, parameters_, ray, program, values);
+    if (!(error <= kDerivativeTolerance))
+      verdict_.failures.push_back(fmt::format("{} is off by {:.2g} of its terms", name, error));
   }
 
   void compare_mass_matrix(const ir::Program& program, const Vector& v) {
@@ -283,6 +296,7 @@ class Comparison {
 
   const model::Mechanism& mechanism_;
   const dynamics::Equations &equations_, &closures_;
+  const NumericClosure& closure_;
   const ir::Module& module_;
   const LoopPlan& plan_;
   const ClosedSample& sample_;
@@ -312,7 +326,7 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   Uniform uniform;
   verdict.states = 0;
   for (const Configuration& configuration : walk(closure, start, mechanism, states)) {
-    ClosedSample sample{configuration, {}, {}, {}, {}};
+    ClosedSample sample{configuration, {}, {}, {}, {}, {}};
     for (const long double y : configuration.y) sample.y.push_back(static_cast<double>(y));
     Vector z(at(layout.velocity_count()));
     for (long double& entry : z) entry = uniform(-2, 2);
@@ -325,7 +339,13 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
       sample.zdot.push_back(uniform(-5, 5));
     }
     for (std::size_t k = 0; k < layout.input_count(); ++k) sample.u.push_back(uniform(-5, 5));
-    Comparison(mechanism, equations, closures, module, plan, sample, verdict).run();
+    for (std::size_t k = 0; k < sample.z.size(); ++k) {
+      sample.ray.displacement.push_back(uniform(-1, 1));
+      sample.ray.velocity.push_back(uniform(-1, 1));
+    }
+    for (std::size_t k = 0; k < layout.input_count(); ++k) sample.ray.input.push_back(uniform(-1, 1));
+    if (layout.rheonomic) sample.ray.time = uniform(-1, 1);
+    Comparison(mechanism, equations, closures, closure, module, plan, sample, verdict).run();
     ++verdict.states;
   }
   return verdict;

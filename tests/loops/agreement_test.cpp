@@ -1,0 +1,151 @@
+// Accelerations and constraint forces of the emitted programs against the descriptor form: every model with loops and more than a
+// hundred random mechanisms.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "agreement/shared_data.hpp"
+#include "loops/closed_programs.hpp"
+#include "properties/consistent_state.hpp"
+#include "properties/effort.hpp"
+#include "properties/random_loops.hpp"
+#include "reference/descriptor.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+using Long = long double;
+using VectorL = reference::VectorX<Long>;
+using MatrixL = reference::MatrixX<Long>;
+
+constexpr std::uint64_t kMechanisms = cases(160);
+constexpr std::size_t kStates = 3;
+// Normwise, times the condition number: accelerations are solved with G M⁻¹ Gᵀ in double, with multipliers of regularised.
+constexpr double kTolerance = 1e-9;
+
+struct Tally {
+  std::size_t mechanisms = 0, states = 0, left_out = 0, redundant = 0;
+  std::size_t treatments[3] = {0, 0, 0};
+  double accelerations = 0, forces = 0, multipliers = 0;  ///< worst errors over condition numbers
+};
+
+VectorL inputs(std::size_t count) { return VectorL::LinSpaced(Eigen::Index(count), -2, 3); }
+
+double relative(const VectorL& a, const VectorL& b, Long scale) {
+  return static_cast<double>((a - b).norm() / std::max(scale, b.norm()));
+}
+
+/// Singular values of G M⁻¹ Gᵀ with rows as long as the plan has them.
+VectorL schur_values(const MatrixL& G, const MatrixL& M, const loops::LoopPlan& plan) {
+  MatrixL scaled = G;
+  for (Eigen::Index r = 0; r < G.rows(); ++r)
+    scaled.row(r) *= Long(plan.row_length[static_cast<std::size_t>(r)]);
+  const MatrixL S = scaled * M.ldlt().solve(scaled.transpose());
+  return Eigen::JacobiSVD<MatrixL>(S).singularValues();
+}
+
+/// The λ of least norm with lengths as the plan has them: of all with these generalized forces.
+VectorL least_norm_multipliers(const MatrixL& G, const VectorL& forces, const loops::LoopPlan& plan) {
+  VectorL length(G.rows());
+  for (Eigen::Index r = 0; r < G.rows(); ++r) length[r] = Long(plan.row_length[static_cast<std::size_t>(r)]);
+  const MatrixL scaled = length.asDiagonal() * G;
+  return length.asDiagonal() * loops::least_norm(scaled.transpose(), forces);
+}
+
+void compare(const model::Mechanism& mechanism, const ClosedPrograms& programs, const LoopState& state,
+             Tally& tally) {
+  const loops::LoopPlan& plan = programs.plan();
+  const VectorL u = inputs(programs.layout().input_count());
+  const reference::DescriptorReference<Long> descriptor(mechanism);
+  const auto expected = descriptor.solve(state.t, state.y, state.z, u);
+  const MatrixL& G = expected.loops.G;
+  const auto terms = reference::Reference<Long>(mechanism).evaluate(state, u);
+  const VectorL sigma = schur_values(G, terms.M, plan);
+  Long smallest = sigma[0];
+  for (const Long s : sigma)
+    if (s > 1e-12L * sigma[0]) smallest = std::min(smallest, s);
+  if (!plan.is_reduced() && smallest < 20 * Long(plan.regularisation)) {
+    ++tally.left_out;
+    return;
+  }
+  ++tally.states;
+  const Long condition = sigma[0] / smallest;
+  const VectorL zdot = programs.accelerations(state, u);
+  const Long scale = expected.zdot.norm() + terms.M.ldlt().solve(expected.loop_forces).norm();
+  VectorL reduced = expected.zdot;
+  if (plan.is_reduced()) {
+    reduced.resize(Eigen::Index(plan.independent.size()));
+    for (std::size_t j = 0; j < plan.independent.size(); ++j)
+      reduced[Eigen::Index(j)] = expected.zdot[Eigen::Index(plan.independent[j])];
+  }
+  const double acceleration = relative(zdot, reduced, scale) / static_cast<double>(condition);
+  const VectorL lambda = programs.multipliers(state, u);
+  const Long load = expected.loop_forces.norm() + terms.k_bar.norm() + terms.q_bar.norm();
+  const double force = relative(G.transpose() * lambda, expected.loop_forces, load) / static_cast<double>(condition);
+  EXPECT_LE(acceleration, kTolerance) << "zdot, condition " << static_cast<double>(condition);
+  EXPECT_LE(force, kTolerance) << "G^T lambda, condition " << static_cast<double>(condition);
+  tally.accelerations = std::max(tally.accelerations, acceleration);
+  tally.forces = std::max(tally.forces, force);
+  const bool full = static_cast<std::size_t>(expected.loop_rank) == plan.row_length.size();
+  tally.redundant += !full;
+  if (plan.is_reduced() && !full) return;  // zero for rows that are not used
+  const VectorL least = full ? expected.loop_lambda : least_norm_multipliers(G, expected.loop_forces, plan);
+  const Long lambda_scale = least.norm() + load / std::sqrt(sigma[0]);
+  const double multiplier = relative(lambda, least, lambda_scale) / static_cast<double>(condition);
+  EXPECT_LE(multiplier, kTolerance) << "lambda, condition " << static_cast<double>(condition);
+  tally.multipliers = std::max(tally.multipliers, multiplier);
+}
+
+void compare(const model::Mechanism& given, std::optional<model::LoopTreatment> treatment,
+             const std::vector<LoopState>& states, Tally& tally) {
+  model::Mechanism mechanism = given;
+  if (treatment) mechanism.loop_options = {};
+  if (treatment) mechanism.loop_options.treatment = treatment;
+  const ClosedPrograms programs(mechanism);
+  ++tally.mechanisms;
+  ++tally.treatments[static_cast<std::size_t>(programs.plan().treatment)];
+  for (const LoopState& state : states) compare(mechanism, programs, state, tally);
+}
+
+void print(const char* what, const Tally& tally) {
+  fmt::print("{}: {} programs ({} explicit, {} partitioned, {} multipliers) at {} states, {} with redundant rows, {} "
+             "near singular configurations left out; errors over condition: accelerations {:.1e}, G^T lambda {:.1e}, "
+             "lambda {:.1e}\n",
+             what, tally.mechanisms, tally.treatments[0], tally.treatments[1], tally.treatments[2], tally.states,
+             tally.redundant, tally.left_out, tally.accelerations, tally.forces, tally.multipliers);
+}
+
+TEST(Loops, RandomMechanismsAccelerateAndLoadAsTheDescriptorFormSays) {
+  Tally chosen, multipliers;
+  for (std::uint64_t seed = 0; seed < kMechanisms; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    const model::Mechanism mechanism = random_loops(seed);
+    const auto states = consistent_states(mechanism, seed, kStates);
+    ASSERT_TRUE(states);
+    compare(mechanism, {}, *states, chosen);
+    compare(mechanism, model::LoopTreatment::kMultipliers, *states, multipliers);
+  }
+  print("chosen", chosen);
+  print("multipliers", multipliers);
+  EXPECT_GE(chosen.states + multipliers.states, 5 * kMechanisms);
+  EXPECT_GT(multipliers.redundant, kMechanisms / 10);
+}
+
+TEST(Loops, EveryModelAcceleratesAndLoadsAsTheDescriptorFormSays) {
+  Tally chosen, multipliers;
+  for (const std::string& name : models_with_loops()) {
+    SCOPED_TRACE(name);
+    const model::Mechanism mechanism = read_model(model_path(name + ".toml"));
+    const auto states = consistent_states(mechanism, 1, 5);
+    ASSERT_TRUE(states);
+    compare(mechanism, {}, *states, chosen);
+    compare(mechanism, model::LoopTreatment::kMultipliers, *states, multipliers);
+  }
+  print("models, chosen", chosen);
+  print("models, multipliers", multipliers);
+  EXPECT_GE(chosen.mechanisms, 7u);
+}
+
+}  // namespace
+}  // namespace jourdain::tests

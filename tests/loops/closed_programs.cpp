@@ -1,0 +1,106 @@
+#include "loops/closed_programs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "agreement/shared_data.hpp"
+#include "model/checks.hpp"
+
+namespace jourdain::tests {
+
+using ir::LeafKind;
+
+namespace {
+
+loops::LoopPlan planned(const model::Mechanism& mechanism) {
+  support::Diagnostics diagnostics("model", "");
+  const auto plan = loops::plan_loops(mechanism, diagnostics);
+  JD_CHECK(plan, "{}", diagnostics.format());
+  return *plan;
+}
+
+}  // namespace
+
+ClosedPrograms::ClosedPrograms(const model::Mechanism& mechanism, bool with_linearization)
+    : mechanism_(mechanism), layout_(model::lay_out_coordinates(mechanism)), plan_(planned(mechanism)) {
+  const loops::ClosedSystem closed(mechanism_, {}, plan_);
+  std::vector<std::string> functions = {"forward_dynamics", "constraint_forces", "constraint_residual",
+                                        "kinetic_energy",   "potential_energy",  "position_rate"};
+  functions.push_back(plan_.is_reduced() ? "close_loops" : "project");
+  ir::Module module;
+  for (const std::string& function : functions)
+    module.functions.push_back(loops::loop_program(closed.system(), function));
+  if (with_linearization)
+    for (ir::Program& program :
+         derivative_programs(loops::derivative_sources(closed.system()),
+                             emit::with_needed({"linearize"}, shape_of(mechanism, &plan_)), DerivativeTerms::kAll))
+      module.functions.push_back(std::move(program));
+  module_ = passes::optimise(std::move(module)).module;
+}
+
+std::size_t ClosedPrograms::operations(const std::string& function) const {
+  return ir::count_operations(*ir::find_program(module_, function)).arithmetic();
+}
+
+std::map<std::string, double> ClosedPrograms::values(const std::string& function, double t,
+                                                     const std::vector<double>& y, const std::vector<double>& z,
+                                                     const std::vector<double>& u) const {
+  ir::LeafValues<double> leaves;
+  leaves[LeafKind::kParameter] = model::default_values(mechanism_);
+  leaves[LeafKind::kConstant] = ir::interpret(module_.constants, leaves);
+  leaves[LeafKind::kPosition] = y;
+  leaves[LeafKind::kVelocity] = z;
+  leaves[LeafKind::kInput] = u;
+  leaves[LeafKind::kTime] = {t};
+  const ir::Program* program = ir::find_program(module_, function);
+  JD_CHECK(program, "no program '{}'", function);
+  const std::vector<double> values = ir::interpret(*program, leaves);
+  std::map<std::string, double> named;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const ir::Output& output = program->outputs[k];
+    std::string name = output.name;
+    if (output.row >= 0) name += fmt::format("[{}]", output.row);
+    if (output.column >= 0) name += fmt::format("[{}]", output.column);
+    named[name] = values[k];
+  }
+  return named;
+}
+
+reference::VectorX<long double> ClosedPrograms::vector(const std::string& function, const LoopState& state,
+                                                       const reference::VectorX<long double>& u) const {
+  std::vector<double> z;
+  for (std::size_t k = 0; k < layout_.velocity_count(); ++k)
+    if (!plan_.is_reduced() ||
+        std::find(plan_.independent.begin(), plan_.independent.end(), k) != plan_.independent.end())
+      z.push_back(static_cast<double>(state.z[Eigen::Index(k)]));
+  const auto named = values(function, static_cast<double>(state.t), {state.y.begin(), state.y.end()}, z,
+                            {u.begin(), u.end()});
+  reference::VectorX<long double> result(Eigen::Index(named.size()));
+  const char* name = function == "forward_dynamics" ? "zdot" : "lambda";
+  for (std::size_t i = 0; i < named.size(); ++i)
+    result[Eigen::Index(i)] = named.at(fmt::format("{}[{}]", name, i));
+  return result;
+}
+
+reference::VectorX<long double> ClosedPrograms::accelerations(const LoopState& state,
+                                                              const reference::VectorX<long double>& u) const {
+  return vector("forward_dynamics", state, u);
+}
+
+reference::VectorX<long double> ClosedPrograms::multipliers(const LoopState& state,
+                                                            const reference::VectorX<long double>& u) const {
+  return vector("constraint_forces", state, u);
+}
+
+std::vector<std::string> models_with_loops() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(model_path("")))
+    if (entry.path().extension() == ".toml" && !read_model(entry.path()).loops.empty())
+      names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace jourdain::tests
