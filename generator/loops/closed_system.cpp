@@ -79,17 +79,18 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
   for (const std::size_t k : plan.independent) independent.push_back(layout.velocity_names[k]);
   switch (plan.treatment) {
     case model::LoopTreatment::kExplicit:
-      list.push_back(
-          fmt::format("independent: {}; the others in closed form, on the branch of the initial state. At the "
-                      "parameters' defaults it exists everywhere in the declared ranges: every discriminant is proven "
-                      "to be {:.2g} or more (the square of the sine of the angle from a dead position)",
-                      fmt::join(independent, ", "), plan.closed_form->smallest_margin));
+      list.push_back(fmt::format(
+          "independent: {}; the others in closed form, on the branch of the initial state. At the "
+          "parameters' defaults it exists everywhere in the declared ranges: every discriminant is proven "
+          "to be {:.2g} or more (the square of the sine of the angle from a dead position)",
+          fmt::join(independent, ", "), plan.closed_form->smallest_margin));
       break;
     case model::LoopTreatment::kPartitioned:
       list.push_back(fmt::format(
-          "independent: {}; the others by {} Newton iteration{} at the end of a step. Smallest over largest "
-          "singular "
-          "value of what is solved for them: {:.2g} or more at the configurations seen",
+          "independent: {}; the others by {} Newton iteration{} at the end of a step. What is solved for "
+          "them has a "
+          "smallest singular value of {:.2g} of the constraints' largest, or more, at the configurations "
+          "seen",
           fmt::join(independent, ", "), plan.iterations, plan.iterations == 1 ? "" : "s", plan.conditioning));
       break;
     case model::LoopTreatment::kMultipliers:
