@@ -187,8 +187,8 @@ ir::Module lower_tree(const model::Mechanism& mechanism, const CompileOptions& o
                       const Equations& equations, const std::vector<emit::FunctionInfo>& functions) {
   ir::Module lowered = lower_functions(equations, functions);
   if (!any_derivatives(functions)) return lowered;
-  for (ir::Program& program : derivative_programs(tree_sources(mechanism, options.derivation), functions,
-                                                  options.derivative_terms))
+  for (ir::Program& program :
+       derivative_programs(tree_sources(mechanism, options.derivation), functions, options.derivative_terms))
     lowered.functions.push_back(std::move(program));
   return lowered;
 }

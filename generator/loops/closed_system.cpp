@@ -79,11 +79,11 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
   for (const std::size_t k : plan.independent) independent.push_back(layout.velocity_names[k]);
   switch (plan.treatment) {
     case model::LoopTreatment::kExplicit:
-      list.push_back(
-          fmt::format("independent: {}; the others in closed form, on the branch of the initial state. At the "
-                      "parameters' defaults it exists everywhere in the declared ranges: every discriminant is proven "
-                      "to be {:.2g} or more (the square of the sine of the angle from a dead position)",
-                      fmt::join(independent, ", "), plan.closed_form->smallest_margin));
+      list.push_back(fmt::format(
+          "independent: {}; the others in closed form, on the branch of the initial state. At the "
+          "parameters' defaults it exists everywhere in the declared ranges: every discriminant is proven "
+          "to be {:.2g} or more (the square of the sine of the angle from a dead position)",
+          fmt::join(independent, ", "), plan.closed_form->smallest_margin));
       break;
     case model::LoopTreatment::kPartitioned:
       list.push_back(fmt::format(

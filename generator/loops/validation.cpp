@@ -6,8 +6,8 @@
 #include <random>
 
 #include "dynamics/closure_motion.hpp"
-#include "loops/derivative_check.hpp"
 #include "kinematics/numbers.hpp"
+#include "loops/derivative_check.hpp"
 #include "model/checks.hpp"
 
 namespace jourdain::loops {
