@@ -94,5 +94,14 @@ TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {
          "do not close at these values of its parameters");
 }
 
+TEST(LoopCommands, AMotionCannotBeFollowed) {
+  const support::TemporaryFolder folder;
+  const std::string scenario = folder.path() + "/follow.toml";
+  support::write_file(scenario, "[follow]\ncrank = \"t\"\n");
+  expect(jourdain({"simulate", "models/four_bar.toml", "--inputs", scenario, "--output",
+                   folder.path() + "/x.csv"}),
+         1, "closed loops cannot follow a motion");
+}
+
 }  // namespace
 }  // namespace jourdain::tests
