@@ -73,6 +73,7 @@ std::vector<emit::OutputDeclaration> output_texts(
 void describe_loops(const model::Mechanism& mechanism, const loops::LoopPlan& plan, emit::ModelText& text) {
   text.constraints = loops::row_names(mechanism);
   text.dependents = loops::dependent_positions(plan, text.tangent);
+  text.closings = plan.closings();
   text.loops = loops::sentences(mechanism, plan);
   if (!plan.is_reduced()) return;
   text.tangent = loops::independent_tangent(plan, text.tangent);
@@ -160,6 +161,7 @@ emit::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPl
   if (!plan) return shape;
   shape.constraints = plan->row_length.size();
   shape.has_dependents = plan->is_reduced();
+  shape.closings = plan->closings();
   if (plan->is_reduced()) shape.velocities = plan->independent.size();
   return shape;
 }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dynamics/equations.hpp"
-#include "emit/functions.hpp"
 #include "elimination.hpp"
+#include "emit/functions.hpp"
 #include "ir/program.hpp"
 #include "model/mechanism.hpp"
 
@@ -20,10 +20,10 @@ enum class DerivativeTerms {
 
 /// What is differentiated: the equations M ż = k̄ − q̄ as programs over their own coordinates.
 struct DerivativeSources {
-  ir::Program residual;               ///< r = M ż − k̄ + q̄, with ż as leaves
-  ir::Program load;                   ///< of q̄ all but gravity; kApplied
-  ir::Program zdot;                   ///< M⁻¹ (k̄ − q̄)
-  ir::Program outputs;                ///< numbers of all outputs, with ż as leaves
+  ir::Program residual;                ///< r = M ż − k̄ + q̄, with ż as leaves
+  ir::Program load;                    ///< of q̄ all but gravity; kApplied
+  ir::Program zdot;                    ///< M⁻¹ (k̄ − q̄)
+  ir::Program outputs;                 ///< numbers of all outputs, with ż as leaves
   std::vector<ir::Program> mass_rows;  ///< the entries of one row of M each
   model::Tangent tangent;
   std::size_t velocities = 0, inputs = 0;

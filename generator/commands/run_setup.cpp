@@ -62,11 +62,6 @@ std::optional<RunInputs> read_scenario_file(const std::string& path, const RunMo
   fmt::print(stderr, "{}", diagnostics.format());
   if (!scenario) return {};
   RunInputs run;
-  if (!scenario->follow.empty() && !model.loaded.mechanism.loops.empty()) {
-    fmt::print(stderr, "error: {}: [follow] works for trees; '{}' has closed loops\n", path,
-               model.loaded.mechanism.name);
-    return {};
-  }
   if (scenario->follow.empty()) {
     run.inputs = std::make_unique<studies::ExpressionInputs>(scenario->inputs, model.parameters);
     run.what = "inputs as functions of time";

@@ -28,7 +28,8 @@ SceneShape shape_of(const ModelText& model) {
       numbers += static_cast<std::size_t>(member.rows) * static_cast<std::size_t>(member.columns);
   return {model.positions.size(), model.velocities.size(),  model.tangent.quaternions.size(),
           model.outputs.size(),   model.inputs.size(),      numbers,
-          model.rheonomic,        model.constraints.size(), !model.dependents.empty()};
+          model.rheonomic,        model.constraints.size(), !model.dependents.empty(),
+          model.closings};
 }
 
 class Emitter {

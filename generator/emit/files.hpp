@@ -47,6 +47,7 @@ struct ModelText {
   std::vector<ParameterText> parameters;
   std::vector<std::string> constraints;  ///< names of the rows of all loops
   std::vector<std::size_t> dependents;   ///< entries of y that follow from the others
+  int closings = 1;                      ///< see SceneShape
   std::vector<std::string> loops;        ///< sentences on how loops are closed
   std::vector<std::string> assumptions;  ///< sentences
   std::vector<std::string> left_out;     ///< sentences

@@ -59,6 +59,8 @@ struct SceneShape {
   bool rheonomic = false;
   std::size_t constraints = 0;  ///< rows of all loops
   bool has_dependents = false;  ///< some positions follow from others
+  int closings =
+      1;  ///< calls of close_loops where dependent positions were not integrated along: more for Newton\'s method
 
   /// dy/dt is not z.
   bool has_rate() const { return quaternions > 0 || has_dependents; }

@@ -226,9 +226,6 @@ std::string plus(const std::string& base, const std::string& terms) {
 
 std::string or_zero(const std::string& terms) { return terms.empty() ? "Real(0.0)" : terms; }
 
-/// From one stage to the next dependent positions move by more than Newton's method makes good in the iterations of one call.
-constexpr int kClosings = 2;
-
 std::string stage_text(const StepScene& scene, const Rosenbrock& method, std::size_t i) {
   const std::vector<double>&A = method.A[i], &C = method.C[i];
   const auto line = [](const std::string& target, const std::string& value) {
@@ -247,7 +244,7 @@ std::string stage_text(const StepScene& scene, const Rosenbrock& method, std::si
       text += fmt::format("  stage.state.t = state.t + {}h;\n",
                           method.nodes[i] == 1 ? "" : literal_text(method.nodes[i]) + " * ");
     text += "  detail::displace(state, stage.y, stage.state);\n";
-    for (int k = 0; k < kClosings && scene.shape.has_dependents; ++k)
+    for (int k = 0; k < scene.shape.closings && scene.shape.has_dependents; ++k)
       text += "  close_loops(model, stage.state);\n";
   }
   text += fmt::format("  detail::solve_stage(model, step, stage, input, {}u{});\n",
@@ -339,7 +336,7 @@ std::string rosenbrock_body(const StepScene& scene, const Rosenbrock& method) {
 }
 
 long closings_of(const StepScene& scene, const Rosenbrock& method) {
-  return scene.shape.has_dependents ? kClosings * static_cast<long>(method.m.size() - 1) : 0;
+  return scene.shape.has_dependents ? scene.shape.closings * static_cast<long>(method.m.size()) - 1 : 0;
 }
 
 long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, const ir::Program& derivatives) {

@@ -17,7 +17,7 @@ std::string implicit_support(const StepScene& scene, const std::vector<FunctionI
 /// The struct of what linearly implicit methods remember; empty where none is emitted.
 std::string accelerations_struct(const StepScene& scene, const std::vector<FunctionInfo>& functions);
 
-/// Calls of close_loops by the stages of one step, where positions depend on others.
+/// Calls of close_loops by one step beside one at its end, where positions depend on others.
 long closings_of(const StepScene& scene, const Rosenbrock& method);
 
 std::string rosenbrock_body(const StepScene& scene, const Rosenbrock& method);

@@ -45,8 +45,11 @@ std::string body(const StepScene& scene, const FunctionInfo& function) {
   if (scene.shape.velocities == 0) return "  state.t = state.t + h;\n";
   const std::string correction = scene.shape.correction();
   const std::string corrected = correction.empty() ? "" : fmt::format("  {}(model, state);\n", correction);
-  if (const Rosenbrock* method = find_rosenbrock(function.stepper->name))
-    return rosenbrock_body(scene, *method) + corrected;
+  if (const Rosenbrock* method = find_rosenbrock(function.stepper->name)) {
+    std::string text = rosenbrock_body(scene, *method) + corrected;
+    for (int k = 1; k < scene.shape.closings && scene.shape.has_dependents; ++k) text += corrected;
+    return text;
+  }
   std::string text(template_text(function.name + ".in"));
   for (const model::Tangent::Scalar& quaternion : scene.tangent.quaternions)
     text += fmt::format("  detail::normalise(state.y + {});\n", quaternion.position);

@@ -80,7 +80,8 @@ double derivative_error(const NumericClosure& closure, const LoopPlan& plan, con
       const ir::Output& output = program.outputs[k];
       const long row = output.row - static_cast<long>(first);
       if (std::find(arrays.begin(), arrays.end(), output.name) == arrays.end() || row < 0) continue;
-      const long double term = static_cast<long double>(values[k]) * component(ray, output.name, output.column);
+      const long double term =
+          static_cast<long double>(values[k]) * component(ray, output.name, output.column);
       sum[row] += term;
       terms[row] += std::abs(term);
     }

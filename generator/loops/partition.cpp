@@ -120,7 +120,8 @@ std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians) {
       Vector rest = row;
       for (int pass = 0; pass < 2; ++pass)  // the second makes good what cancels in the first
         for (const Vector& direction : bases[k]) rest -= direction.dot(rest) * direction;
-      if (!(rest.norm() > kRankTolerance * row.norm())) continue;
+      // Rows that rounding of the model's numbers alone keeps off zero determine nothing.
+      if (!(rest.norm() > kRankTolerance * jacobians[k].rowwise().norm().maxCoeff())) continue;
       bases[k].push_back(rest.normalized());
       grows = true;
     }

@@ -193,7 +193,7 @@ class Planner {
       if (is_length[r]) largest = std::max(largest, S[at(r)]);
     if (!(largest > 0)) largest = S.maxCoeff();
     for (std::size_t r = 0; r < names_.size(); ++r) {
-      const bool scaled = !is_length[r] && S[at(r)] > 0;
+      const bool scaled = !is_length[r] && S[at(r)] > kRankTolerance * largest;
       plan_.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / S[at(r)])) : 1);
     }
     plan_.regularisation = kRegularisation * static_cast<double>(largest);

@@ -42,6 +42,8 @@ struct LoopPlan {
   int iterations = 2;
   double stabilisation = 0;  ///< 1/s
 
+  /// Calls of close_loops where dependent positions were not integrated along.
+  int closings() const { return treatment == model::LoopTreatment::kPartitioned ? 2 : 1; }
   bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
 };
 

@@ -122,12 +122,13 @@ class Comparison {
            (M * by_time(t, x)).cwiseAbs();
   }
 
-  /// The same of entries that depend on each other and are rounded each by itself, by differences.
+  /// The same where positions depend on each other, by differences: through the loops each has the rounding of the largest.
   VectorXd by_entries(const MatrixXd& M, double t, const std::vector<double>& x) const {
-    const auto size = static_cast<Eigen::Index>(x.size());
+    const auto ny = static_cast<Eigen::Index>(flow_.position_count());
     const MatrixXd J = jacobian(flow_, {t, x}, std::cbrt(2 * flow_.table().unit_roundoff));
-    return (M * J.bottomRows(M.rows())).cwiseAbs() * Eigen::Map<const VectorXd>(x.data(), size).cwiseAbs() +
-           (M * by_time(t, x)).cwiseAbs();
+    VectorXd sizes = Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())).cwiseAbs();
+    sizes.head(ny).setConstant(sizes.head(ny).maxCoeff());
+    return (M * J.bottomRows(M.rows())).cwiseAbs() * sizes + (M * by_time(t, x)).cwiseAbs();
   }
 
   /// t ∂ż/∂t by a difference.

@@ -17,7 +17,7 @@ struct ExtremePoint {
   double factor = 1;  ///< of the quantity; of angles: what is added, rad
   /// Worst row of M δż, δż the error of ż, over what rounding ż and the state once would change in it:
   /// Σ_j |M_ij| |ż_j| + Σ_k |∂r_i/∂x_k| |x_k| with r = M ż − k̄ + q̄. Not a number with multipliers, whose
-  /// rounding these terms do not cover.
+  /// rounding these terms do not cover; with other loops every position counts as large as the largest, whose rounding it has.
   double backward = 0;
   double forward = 0;  ///< ‖δż‖ / ‖ż‖
   bool finite = true;  ///< accelerations are finite in the working precision; else the errors say nothing

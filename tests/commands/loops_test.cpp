@@ -22,7 +22,7 @@ void expect(const support::ProcessResult& result, int status, const std::string&
   EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
 }
 
-/// The slider-crank with a tunable throw of its crank (m), in a file of `folder`.
+/// The slider-crank with a tunable radius of its crank (m), in a file of `folder`.
 std::string tunable_slider_crank(const std::string& folder) {
   std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/slider_crank.toml");
   const auto replace = [&text](const std::string& from, const std::string& to) {
@@ -30,8 +30,8 @@ std::string tunable_slider_crank(const std::string& folder) {
     ASSERT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);
   };
-  replace("[parameters]\n", "[parameters]\nthrow = 0.045\n");
-  replace("position = [0.045, 0, 0]\ninitial", "position = [\"throw\", 0, 0]\ninitial");
+  replace("[parameters]\n", "[parameters]\nradius = 0.045\n");
+  replace("position = [0.045, 0, 0]\ninitial", "position = [\"radius\", 0, 0]\ninitial");
   replace("treatment = \"explicit\"", "treatment = \"partitioned\"");
   const std::string path = folder + "/slider_crank.toml";
   support::write_file(path, text);
@@ -82,16 +82,25 @@ TEST(LoopCommands, SimulationsTellHowFarLoopsOpen) {
 TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {
   const support::TemporaryFolder folder;
   const std::string path = tunable_slider_crank(folder.path()), csv = folder.path() + "/run.csv";
-  constexpr double kThrow = 0.05, kRod = 0.145, kOffset = 0.006;
-  expect(jourdain({"simulate", path, "--set", "throw=0.05", "--duration", "0.01", "--step", "1e-5",
+  constexpr double kRadius = 0.05, kRod = 0.145, kOffset = 0.006;
+  expect(jourdain({"simulate", path, "--set", "radius=0.05", "--duration", "0.01", "--step", "1e-5",
                    "--output", csv}),
          0, "loops open by ");
   const std::vector<double> start = first_row(support::read_file(csv));
   const double crank = start[1], piston = start[3];
-  const double along = kThrow * std::cos(crank), across = kThrow * std::sin(crank) - kOffset;
+  const double along = kRadius * std::cos(crank), across = kRadius * std::sin(crank) - kOffset;
   EXPECT_NEAR(piston, along + std::sqrt(kRod * kRod - across * across), 1e-12);
-  expect(jourdain({"simulate", path, "--set", "throw=0.5", "--duration", "0.01", "--output", csv}), 1,
+  expect(jourdain({"simulate", path, "--set", "radius=0.5", "--duration", "0.01", "--output", csv}), 1,
          "do not close at these values of its parameters");
+}
+
+TEST(LoopCommands, AMotionCannotBeFollowed) {
+  const support::TemporaryFolder folder;
+  const std::string scenario = folder.path() + "/follow.toml";
+  support::write_file(scenario, "[follow]\ncrank = \"t\"\n");
+  expect(jourdain({"simulate", "models/four_bar.toml", "--inputs", scenario, "--output",
+                   folder.path() + "/x.csv"}),
+         1, "closed loops cannot follow a motion");
 }
 
 }  // namespace

@@ -102,7 +102,8 @@ TEST(ChainOfWindows, CostsInProportionToItsLength) {
   fmt::print("  N   forward_dynamics   project   rk4_step\n");
   for (const int count : {2, 5, 10, 20, 40}) {
     const ClosedPrograms programs(windows(count));
-    const std::size_t dynamics = programs.operations("forward_dynamics"), project = programs.operations("project");
+    const std::size_t dynamics = programs.operations("forward_dynamics"),
+                      project = programs.operations("project");
     cost[count] = 4 * dynamics + project;
     fmt::print("{:3}   {:16}   {:7}   {:8}\n", count, dynamics, project, cost[count]);
   }

@@ -12,9 +12,9 @@ namespace jourdain::tests {
 namespace {
 
 using ir::LeafKind;
-using loops::PositionBlock;
 using loops::ClosedForm;
 using loops::ClosedFormRequest;
+using loops::PositionBlock;
 using loops::Scalar;
 using loops::Vector2;
 using ::testing::HasSubstr;

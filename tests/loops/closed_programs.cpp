@@ -33,9 +33,9 @@ ClosedPrograms::ClosedPrograms(const model::Mechanism& mechanism, bool with_line
   for (const std::string& function : functions)
     module.functions.push_back(loops::loop_program(closed.system(), function));
   if (with_linearization)
-    for (ir::Program& program :
-         derivative_programs(loops::derivative_sources(closed.system()),
-                             emit::with_needed({"linearize"}, shape_of(mechanism, &plan_)), DerivativeTerms::kAll))
+    for (ir::Program& program : derivative_programs(
+             loops::derivative_sources(closed.system()),
+             emit::with_needed({"linearize"}, shape_of(mechanism, &plan_)), DerivativeTerms::kAll))
       module.functions.push_back(std::move(program));
   module_ = passes::optimise(std::move(module)).module;
 }
@@ -45,7 +45,8 @@ std::size_t ClosedPrograms::operations(const std::string& function) const {
 }
 
 std::map<std::string, double> ClosedPrograms::values(const std::string& function, double t,
-                                                     const std::vector<double>& y, const std::vector<double>& z,
+                                                     const std::vector<double>& y,
+                                                     const std::vector<double>& z,
                                                      const std::vector<double>& u) const {
   ir::LeafValues<double> leaves;
   leaves[LeafKind::kParameter] = model::default_values(mechanism_);
@@ -84,8 +85,8 @@ reference::VectorX<long double> ClosedPrograms::vector(const std::string& functi
   return result;
 }
 
-reference::VectorX<long double> ClosedPrograms::accelerations(const LoopState& state,
-                                                              const reference::VectorX<long double>& u) const {
+reference::VectorX<long double> ClosedPrograms::accelerations(
+    const LoopState& state, const reference::VectorX<long double>& u) const {
   return vector("forward_dynamics", state, u);
 }
 

@@ -60,7 +60,8 @@ TEST(Squeezer, ReachesTheRecomputedPositionsWithRk4) {
     for (int i = 0; i < model.position_count; ++i)
       error = std::max(error, std::fabs(state.y[i] - expected.at(squeezer::position_names[i])));
     residual = opening(model, state);
-    fmt::print("  {:.1e}   {:.2e}      {:.1e}       {:.2f}\n", 0.03 / steps, error, residual, 1e6 * time / steps);
+    fmt::print("  {:.1e}   {:.2e}      {:.1e}       {:.2f}\n", 0.03 / steps, error, residual,
+               1e6 * time / steps);
     EXPECT_LT(residual, 1e-15);
     const bool above_rounding = previous > 1e-12;
     EXPECT_TRUE(!above_rounding || error < previous / 10) << "order 4 or better";
@@ -86,8 +87,7 @@ TEST(Squeezer, HasTheRecomputedVelocitiesAccelerationsAndMultipliers) {
     EXPECT_NEAR(rates[i], rate, 1e-9 * std::fabs(rate) + 1e-8) << squeezer::position_names[i];
   }
   EXPECT_NEAR(zdot[0], expected.at("ddbeta"), 1e-8 * std::fabs(expected.at("ddbeta")));
-  for (int r = 0; r < 6; ++r)
-    EXPECT_NEAR(lambda[r], expected.at(fmt::format("lambda{}", r + 1)), 1e-6) << r;
+  for (int r = 0; r < 6; ++r) EXPECT_NEAR(lambda[r], expected.at(fmt::format("lambda{}", r + 1)), 1e-6) << r;
 }
 
 TEST(NFourBar, PassesItsSingularPositions) {
