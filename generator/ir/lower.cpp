@@ -135,8 +135,8 @@ class Lowering {
   }
 
   Key sum_key(const Ex& e) {
-    const std::vector<Operand> terms = sorted_operands(e);
-    Key sum{"(", terms[0].key.negative};
+    const auto [terms, negative] = sorted_terms(e);
+    Key sum{"(", negative};
     for (const Operand& term : terms)
       sum.text += (term.key.negative == sum.negative ? "+" : "-") + term.key.text;
     sum.text += ")";
@@ -162,6 +162,27 @@ class Lowering {
     return operands;
   }
 
+  struct Terms {
+    std::vector<Operand> operands;
+    bool negative = false;  ///< the sign that is pulled out of the sum
+  };
+
+  /// Different names may stand for one value and its negative. Such terms have one key; the sign is that of the first ones that do
+  /// not cancel, and terms with it come first.
+  Terms sorted_terms(const Ex& e) {
+    Terms terms{sorted_operands(e)};
+    int surplus = 0;
+    for (std::size_t i = 0; i < terms.operands.size() && surplus == 0; ++i)
+      for (const Operand& term : terms.operands)
+        if (term.key.text == terms.operands[i].key.text) surplus += term.key.negative ? -1 : 1;
+    terms.negative = surplus < 0;
+    std::stable_sort(terms.operands.begin(), terms.operands.end(), [&](const Operand& a, const Operand& b) {
+      if (a.key.text != b.key.text) return a.key < b.key;
+      return a.key.negative == terms.negative && b.key.negative != terms.negative;
+    });
+    return terms;
+  }
+
   Signed lower(const Ex& e) {
     if (is_a<GiNaC::numeric>(e)) return builder_.literal(to_double(e));
     if (is_a<GiNaC::symbol>(e)) return symbol(ex_to<GiNaC::symbol>(e));
@@ -175,7 +196,7 @@ class Lowering {
   }
 
   Signed sum(const Ex& e) {
-    const std::vector<Operand> terms = sorted_operands(e);
+    const std::vector<Operand> terms = sorted_terms(e).operands;
     Signed total = lower(terms[0].value);
     for (std::size_t i = 1; i < terms.size(); ++i) total = builder_.add(total, lower(terms[i].value));
     return total;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "kinematics/numbers.hpp"
 
@@ -34,6 +35,21 @@ TEST(Lower, DoesNotDependOnTheSignPulledOutOfASum) {
   Symbols s, t;
   EXPECT_EQ(lowered(s, s.c * (s.a - s.b) + s.a * (s.b - s.c)),
             lowered(t, t.a * (t.b - t.c) - t.c * (t.b - t.a)));
+}
+
+TEST(Lower, DoesNotDependOnTheOrderOfTermsThatStandForAValueAndItsNegative) {
+  std::set<std::string> texts;
+  for (int run = 0; run < 40; ++run) {  // GiNaC's order of terms changes with the symbols
+    Symbols s;
+    std::vector<Ex> names(3);
+    for (std::size_t k = 0; k < 3; ++k)
+      names[(static_cast<std::size_t>(run) + k) % 3] =
+          s.statements.bind("n", k == 1 ? -s.a * s.b : s.a * s.b);
+    const Ex sum = names[0] + names[1] + names[2] - s.c;
+    texts.insert(lowered(s, s.a * sum));
+    texts.insert(lowered(s, -s.a * (-names[0] - names[1] - names[2] + s.c)));
+  }
+  EXPECT_EQ(texts.size(), 1u);
 }
 
 TEST(Lower, LeavesOutStatementsThatNobodyNeeds) {
