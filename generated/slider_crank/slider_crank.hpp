@@ -25,8 +25,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 1.9e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 9.7e-18; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 8.9e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 4.6e-17; symbolic equations against the numeric reference
 //   0.0e+00; cond(M) up to 1.6e+02
 #pragma once
 
@@ -77,8 +77,7 @@ struct Model {
 
   explicit Model(const Parameters& = {}) noexcept;
 
-  Real c0;
-  Real expression;
+  Real crankshaft_S_xx;
 };
 
 // Names in order, closed by a null pointer.
@@ -101,7 +100,7 @@ template <class Real>
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[3]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 45 operations (24 mul, 20 add and sub, 1 div), 4 sin and cos.
+/// 41 operations (24 mul, 16 add and sub, 1 div), 4 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
@@ -118,20 +117,20 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 97 operations (56 mul, 39 add and sub, 2 div), 4 sin and cos.
+/// 93 operations (56 mul, 35 add and sub, 2 div), 4 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 90 operations (51 mul, 38 add and sub, 1 div), 4 sin and cos.
+/// 86 operations (51 mul, 34 add and sub, 1 div), 4 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 51 operations (30 mul, 20 add and sub, 1 div), 4 sin and cos.
+/// 47 operations (30 mul, 16 add and sub, 1 div), 4 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -161,14 +160,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 117 operations (66 mul, 49 add and sub, 2 div), 4 sin and cos.
+/// 113 operations (66 mul, 45 add and sub, 2 div), 4 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 544 operations. For inputs sampled at the stages include slider_crank_kernels.hpp and pass a function of
+/// 528 operations. For inputs sampled at the stages include slider_crank_kernels.hpp and pass a function of
 /// the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -65,8 +65,9 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& inp
 
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
-  expression = parameters.flywheel * Real(0.5);
-  c0 = Real(0.5) * expression;
+  const Real expression = parameters.flywheel * Real(0.5);
+  const Real t10 = Real(0.5) * expression;
+  crankshaft_S_xx = t10 + (expression - t10);
 }
 
 template <class Real>
@@ -117,8 +118,8 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
+      Real(0.00111375);
   const Real v1P_x = t21 * h1b_y;
   const Real v1P_y = t21 * h1b_x;
   const Real v1L_z = t21 * Real(0.00311375);
@@ -210,8 +211,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
+      Real(0.00111375);
   const Real rQp0 = h0_y * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
@@ -260,8 +261,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
+      Real(0.00111375);
   const Real aQp0 = h0_y * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
   const Real aW0w22 = state.z[0] * state.z[0];
@@ -297,8 +298,8 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
+      Real(0.00111375);
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
@@ -413,8 +414,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
+      Real(0.00111375);
   const Real rQp0 = h0_y * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
@@ -431,14 +432,14 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real v1L_z = t21 * Real(0.00311375);
   const Real T2 = (Real(0.48) * (t24 * t24) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y
       * v1P_x));
-  const Real t118 = (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x - (r1_x * rdf1_y - (rQp0 +
+  const Real t113 = (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x - (r1_x * rdf1_y - (rQp0 +
       rdn1_z)))))) * (Real(1.0) / (T2 * Real(2.0)));
-  const Real ra1o_x_2 = ra1o_x + r1_y * t118;
-  const Real ra1o_y_2 = ra1o_y + r1_x * t118;
-  const Real rdf2t_z_2 = Real(0.48) * (t42 + t24 * t118);
+  const Real ra1o_x_2 = ra1o_x + r1_y * t113;
+  const Real ra1o_y_2 = ra1o_y + r1_x * t113;
+  const Real rdf2t_z_2 = Real(0.48) * (t42 + t24 * t113);
   const Real tau_2_0_2 = rdf2t_z_2 - (input.u[0] - Real(4.7088));
   lambda[0] = tau_2_0_2;
-  lambda[1] = -(t20 * (Real(0.00311375) * (t118 + (t38 + t21 * t118)) + (piston_pinbx_y * tau_2_0_2 - (h1b_x *
+  lambda[1] = -(t20 * (Real(0.00311375) * (t113 + (t38 + t21 * t113)) + (piston_pinbx_y * tau_2_0_2 - (h1b_x *
       ra1o_y_2 - h1b_y * ra1o_x_2))));
 }
 
