@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "loops/closed_system.hpp"
+#include "loops/outputs.hpp"
 #include "loops/validation.hpp"
 #include "lowering.hpp"
 #include "model/coordinates.hpp"
@@ -55,14 +56,14 @@ std::string describe(const model::Mechanism& mechanism, const model::Output& out
   return "";
 }
 
-std::vector<emit::OutputDeclaration> output_texts(const model::Mechanism& mechanism,
-                                                  const Equations& equations) {
+std::vector<emit::OutputDeclaration> output_texts(
+    const model::Mechanism& mechanism, const std::vector<std::vector<dynamics::OutputValues>>& outputs) {
   std::vector<emit::OutputDeclaration> texts;
   for (std::size_t k = 0; k < mechanism.outputs.size(); ++k) {
     emit::OutputDeclaration& text = texts.emplace_back();
     text.name = mechanism.outputs[k].name;
     text.comment = describe(mechanism, mechanism.outputs[k]);
-    for (const dynamics::OutputValues& member : equations.outputs[k])
+    for (const dynamics::OutputValues& member : outputs[k])
       text.members.push_back({member.member, member.rows, member.columns, member.is_matrix});
   }
   return texts;
@@ -264,7 +265,9 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   result.assumptions = assumptions(mechanism, options, result.verdict);
   if (!result.verdict.accepted()) return;
   emit::ModelText text = model_text(mechanism, options);
-  text.outputs = output_texts(mechanism, equations);
+  text.outputs = output_texts(
+      mechanism, options.loops ? loops::resized_outputs(mechanism, *options.loops, equations.outputs)
+                               : equations.outputs);
   text.assumptions = result.assumptions;
   for (const Omission& omission : result.omissions)
     text.left_out.push_back(omission.saved == 0 ? omission.name + ": " + omission.what

@@ -76,6 +76,7 @@ class EquationPrinter {
         return "t";
       case ir::LeafKind::kConstant:
       case ir::LeafKind::kAcceleration:
+      case ir::LeafKind::kMultiplier:
         break;
     }
     JD_CHECK(false, "leaf {}", ir::leaf_name(node.leaf));

@@ -59,7 +59,7 @@ class Closure {
 
   LoopClosure close(const Loop& loop) {
     if (loop.type == LoopType::kResidual)
-      return {{general_value(scene_, loop.name, loop.residual, Inputs::kZero)}, {}};
+      return {{general_value(scene_, loop.name, loop.residual, Inputs::kZero)}, {}, {}};
     const model::Frame &from = scene_.mechanism.frames[loop.from.value],
                        &to = scene_.mechanism.frames[loop.to.value];
     const std::size_t ancestor = common_ancestor(scene_.tree, link_of(from.body), link_of(to.body));
@@ -67,55 +67,71 @@ class Closure {
     const Vector3 difference = scene_.statements.bind(loop.name + "d", b.position() - a.position());
     const std::optional<model::BodyIndex> carrier = model::carrier(scene_.mechanism, from.body, to.body);
     std::vector<Ex> g, senses;
-    const auto across = [&](const Axes& axes, const SeenFrame& frame, const Vector3& v) {
-      for (const Vector3& axis : axes) g.push_back(dot(frame.direction(axis), v));
+    std::vector<RowGradient> gradients;
+    const auto apart = [&](const Vector3& along) {  // a direction fixed in `from`
+      g.push_back(dot(along, difference));
+      gradients.push_back({.place = along, .turn_from = kinematics::cross(along, difference)});
     };
-    const auto coincide = [&] {
+    const auto apart_in_carrier = [&](const std::vector<Vector3>& axes) {
       const Vector3 seen = in_carrier(carrier, difference, loop.name);
-      for (std::size_t k = 0; k < 3; ++k) g.push_back(seen[k]);
+      for (const Vector3& axis : axes) {
+        const Vector3 along = from_carrier(carrier, axis, loop.name);
+        g.push_back(dot(axis, seen));
+        gradients.push_back({.place = along, .turn_carrier = kinematics::cross(along, difference)});
+      }
     };
+    const auto across = [&](const Vector3& fixed_in_from, const Vector3& fixed_in_to) {
+      const Vector3 turn = kinematics::cross(fixed_in_from, fixed_in_to);
+      g.push_back(dot(fixed_in_from, fixed_in_to));
+      gradients.push_back({.turn_from = turn, .turn_to = Ex(-1) * turn});
+    };
+    const auto coincide = [&] { apart_in_carrier({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); };
     const Axes from_axes = plane_axes(loop.axis), to_axes = plane_axes(loop.to_axis);
     const auto n = [&] { return a.direction(kinematics::unit_vector(loop.axis)); };
     const auto w = [&] { return b.direction(kinematics::unit_vector(loop.to_axis)); };
+    const auto points_apart = [&] {
+      for (const Vector3& axis : from_axes) apart(a.direction(axis));
+    };
+    const auto parallel = [&] {
+      for (const Vector3& axis : from_axes) across(a.direction(axis), w());
+      senses = {dot(n(), w())};
+    };
     switch (loop.type) {
       case LoopType::kBall:
         coincide();
         break;
       case LoopType::kRevolute:
         coincide();
-        across(from_axes, a, w());
-        senses = {dot(n(), w())};
+        parallel();
         break;
       case LoopType::kUniversal:
         coincide();
-        g.push_back(dot(n(), w()));
+        across(n(), w());
         break;
       case LoopType::kPrismatic:
-        across(from_axes, a, difference);
-        across(from_axes, a, w());
-        g.push_back(dot(a.direction(from_axes[0]), b.direction(to_axes[1])));
-        senses = {dot(n(), w()), dot(a.direction(from_axes[0]), b.direction(to_axes[0]))};
+        points_apart();
+        parallel();
+        across(a.direction(from_axes[0]), b.direction(to_axes[1]));
+        senses.push_back(dot(a.direction(from_axes[0]), b.direction(to_axes[0])));
         break;
       case LoopType::kCylindrical:
-        across(from_axes, a, difference);
-        across(from_axes, a, w());
-        senses = {dot(n(), w())};
+        points_apart();
+        parallel();
         break;
-      case LoopType::kPlanarPin: {
-        const Vector3 seen = in_carrier(carrier, difference, loop.name);
-        for (const Vector3& axis : from_axes) g.push_back(dot(axis, seen));
+      case LoopType::kPlanarPin:
+        apart_in_carrier({from_axes[0], from_axes[1]});
         break;
-      }
       case LoopType::kPointInPlane:
-        g.push_back(dot(n(), difference));
+        apart(n());
         break;
       case LoopType::kPointOnLine:
-        across(from_axes, a, difference);
+        points_apart();
         break;
       case LoopType::kRod: {
         const Ex length = general_value(scene_, loop.name + "l", loop.length, Inputs::kZero);
         const Ex square = scene_.statements.bind(loop.name + "ll", dot(difference, difference));
         g.push_back((square - length * length) / (2 * length));
+        gradients.push_back({.place = Ex(1 / length) * difference});
         break;
       }
       case LoopType::kResidual:
@@ -123,7 +139,7 @@ class Closure {
     }
     for (Ex& row : g) row = scene_.statements.bind("g_" + loop.name, kinematics::settled(row));
     for (Ex& sense : senses) sense = scene_.statements.bind("sense_" + loop.name, kinematics::settled(sense));
-    return {g, senses};
+    return {g, senses, gradients};
   }
 
  private:
@@ -137,6 +153,13 @@ class Closure {
     const kinematics::BodyPose& pose = scene_.tree.bodies[carrier->value];
     const Vector3 v_L = scene_.frames.to_link(pose.link, v, name + "c");
     return scene_.statements.bind(name + "c", transpose(pose.R_LB) * v_L);
+  }
+
+  /// The way back.
+  Vector3 from_carrier(std::optional<model::BodyIndex> carrier, const Vector3& v, const std::string& name) {
+    if (!carrier) return v;
+    const kinematics::BodyPose& pose = scene_.tree.bodies[carrier->value];
+    return scene_.frames.to_working(pose.link, scene_.statements.bind(name + "e", pose.R_LB * v), name + "e");
   }
 
   Scene& scene_;

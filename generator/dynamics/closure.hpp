@@ -7,12 +7,21 @@
 
 namespace jourdain::dynamics {
 
+/// Gradient of a row that belongs to two frames, in W of the link of their carrier: by displacement of the origin of `to` (minus
+/// it by that of `from`), and by rotation of the bodies, each about its frame's origin; of the carrier about any point.
+struct RowGradient {
+  Vector3 place = kinematics::zero_vector();
+  Vector3 turn_from = kinematics::zero_vector(), turn_to = kinematics::zero_vector(),
+          turn_carrier = kinematics::zero_vector();
+};
+
 /// Of one loop.
 struct LoopClosure {
   std::vector<Ex>
       rows;  ///< g: zero where the loop is closed. Lengths in m, products of unit vectors without unit
   std::vector<Ex>
       senses;  ///< products of unit vectors that are 1 where it is closed, and −1 where it is closed the wrong way
+  std::vector<RowGradient> gradients;  ///< by row; none of a residual
 };
 
 /// By loop.

@@ -5,6 +5,7 @@
 #include "dynamics/accelerations.hpp"
 #include "dynamics/applied_forces.hpp"
 #include "dynamics/energy.hpp"
+#include "dynamics/loop_forces.hpp"
 #include "dynamics/outputs.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/solver.hpp"
@@ -57,9 +58,13 @@ class Derivation {
     equations.potential_energy = derive_potential_energy(scene_);
     set_initial_state(equations);
     for (const model::Output& output : mechanism_.outputs) equations.output_names.push_back(output.name);
-    equations.outputs = derive_outputs(
-        scene_, equations, options_.for_derivatives ? scene_.leaves.zdot : equations.zdot, applied);
     equations.closures = derive_closure(scene_);
+    equations.outputs_take_leaves = options_.for_derivatives;
+    if (options_.for_derivatives)
+      equations.outputs = derive_outputs(scene_, equations, scene_.leaves.zdot,
+                                         with_loop_forces(scene_, applied, equations.closures));
+    else
+      equations.outputs = derive_outputs(scene_, equations, equations.zdot, applied);
     equations.statements = std::move(scene_.statements);
     return equations;
   }

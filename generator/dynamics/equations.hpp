@@ -19,7 +19,7 @@ struct DerivationOptions {
   std::vector<bool> articulated;    ///< see ArticulatedLinks; empty: none but free links
   bool accelerations_only = false;  ///< nothing but zdot
   bool closures_only = false;       ///< nothing but the closures of loops
-  bool for_derivatives = false;     ///< fills in residual and load; outputs take ż as a leaf
+  bool for_derivatives = false;     ///< fills in residual and load; outputs take ż and λ as leaves
 };
 
 /// One requested output; entries are numbered row by row.
@@ -49,6 +49,7 @@ struct Equations {
   std::vector<Ex> initial_velocity;
   std::vector<std::string> output_names;
   std::vector<std::vector<OutputValues>> outputs;  ///< for each output of the mechanism its members
+  bool outputs_take_leaves = false;  ///< ż and λ of the outputs are leaves; otherwise ż is `zdot`
 };
 
 Equations derive_equations(const model::Mechanism& mechanism, const DerivationOptions& options = {});

@@ -218,23 +218,8 @@ class Emitter {
   long operations_of(const Stepper& stepper) const { return step_operations(step_scene(), stepper, module_); }
 
   std::string leaf(LeafKind kind, std::size_t index) const {
-    switch (kind) {
-      case LeafKind::kParameter:
-        return "parameters." + model_.parameters[index].name;
-      case LeafKind::kConstant:
-        return "model." + constants_[index];
-      case LeafKind::kPosition:
-        return fmt::format("state.y[{}]", index);
-      case LeafKind::kVelocity:
-        return fmt::format("state.z[{}]", index);
-      case LeafKind::kAcceleration:
-        return fmt::format("zdot[{}]", index);
-      case LeafKind::kInput:
-        return fmt::format("input.u[{}]", index);
-      case LeafKind::kTime:
-        return "state.t";
-    }
-    return "";
+    if (kind == LeafKind::kParameter) return "parameters." + model_.parameters[index].name;
+    return kind == LeafKind::kConstant ? "model." + constants_[index] : argument_entry(kind, index);
   }
 
   static std::string joined(const Part& part) {

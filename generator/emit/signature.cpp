@@ -17,6 +17,27 @@ std::string bounds_of(const ArrayResult& array, const SceneShape& scene) {
   return bounds;
 }
 
+std::string argument_entry(ir::LeafKind kind, std::size_t index) {
+  switch (kind) {
+    case ir::LeafKind::kPosition:
+      return fmt::format("state.y[{}]", index);
+    case ir::LeafKind::kVelocity:
+      return fmt::format("state.z[{}]", index);
+    case ir::LeafKind::kAcceleration:
+      return fmt::format("zdot[{}]", index);
+    case ir::LeafKind::kInput:
+      return fmt::format("input.u[{}]", index);
+    case ir::LeafKind::kTime:
+      return "state.t";
+    case ir::LeafKind::kParameter:
+    case ir::LeafKind::kConstant:
+    case ir::LeafKind::kMultiplier:
+      break;
+  }
+  JD_CHECK(false, "a {} is no argument", ir::leaf_name(kind));
+  return "";
+}
+
 std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real,
                                 const SceneShape& scene) {
   const std::size_t nz = scene.velocities;

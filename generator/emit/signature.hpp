@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emit/functions.hpp"
+#include "ir/program.hpp"
 
 namespace jourdain::emit {
 
@@ -17,6 +18,9 @@ struct Argument {
 
 /// Bounds of an array of a scene, as "[7][7]".
 std::string bounds_of(const ArrayResult& array, const SceneShape& scene);
+
+/// What an entry of y, z, ż, u or t is called where those arguments are.
+std::string argument_entry(ir::LeafKind kind, std::size_t index);
 
 /// For number type `real`.
 std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real,

@@ -30,6 +30,8 @@ LeafKind leaf_kind(kinematics::LeafKind kind) {
       return LeafKind::kVelocity;
     case kinematics::LeafKind::kAcceleration:
       return LeafKind::kAcceleration;
+    case kinematics::LeafKind::kMultiplier:
+      return LeafKind::kMultiplier;
     case kinematics::LeafKind::kInput:
       return LeafKind::kInput;
     case kinematics::LeafKind::kTime:

@@ -66,6 +66,8 @@ const char* leaf_name(LeafKind kind) {
       return "z";
     case LeafKind::kAcceleration:
       return "zdot";
+    case LeafKind::kMultiplier:
+      return "lambda";
     case LeafKind::kInput:
       return "u";
     case LeafKind::kTime:

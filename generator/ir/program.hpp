@@ -28,16 +28,18 @@ enum class Op : std::uint8_t {
 };
 
 /// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed once.
+/// kMultiplier: of a loop's row; none is left in an emitted function.
 enum class LeafKind : std::uint8_t {
   kParameter,
   kConstant,
   kPosition,
   kVelocity,
   kAcceleration,
+  kMultiplier,
   kInput,
   kTime
 };
-inline constexpr std::size_t kLeafKinds = 7;
+inline constexpr std::size_t kLeafKinds = 8;
 
 struct Node {
   Op op = Op::kLiteral;

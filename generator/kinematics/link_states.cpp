@@ -22,6 +22,9 @@ Leaves::Leaves(const model::Mechanism& mechanism, const model::CoordinateLayout&
   y = declare(LeafKind::kPosition, "y", layout.position_count(), statements);
   z = declare(LeafKind::kVelocity, "z", layout.velocity_count(), statements);
   zdot = declare(LeafKind::kAcceleration, "zdot", layout.velocity_count(), statements);
+  std::size_t rows = 0;
+  for (const model::Loop& loop : mechanism.loops) rows += model::row_count(loop.type);
+  lambda = declare(LeafKind::kMultiplier, "lambda", rows, statements);
   u = declare(LeafKind::kInput, "u", layout.input_count(), statements);
   t = statements.leaf(LeafKind::kTime, 0, "t");
 }

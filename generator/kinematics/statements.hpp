@@ -12,11 +12,11 @@
 namespace jourdain::kinematics {
 
 /// What a free symbol of the statements stands for.
-enum class LeafKind { kParameter, kPosition, kVelocity, kAcceleration, kInput, kTime };
+enum class LeafKind { kParameter, kPosition, kVelocity, kAcceleration, kMultiplier, kInput, kTime };
 
 struct Leaf {
   LeafKind kind = LeafKind::kParameter;
-  std::size_t index = 0;  ///< entry of the parameter list, y, z, ż or u; 0 for t
+  std::size_t index = 0;  ///< entry of the parameter list, y, z, ż, λ or u; 0 for t
   GiNaC::symbol symbol;
 };
 

@@ -87,9 +87,10 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
       break;
     case model::LoopTreatment::kPartitioned:
       list.push_back(fmt::format(
-          "independent: {}; the others by {} Newton iteration{} at the end of a step. Smallest over largest "
-          "singular "
-          "value of what is solved for them: {:.2g} or more at the configurations seen",
+          "independent: {}; the others by {} Newton iteration{} at the end of a step. What is solved for "
+          "them has a "
+          "smallest singular value of {:.2g} of the constraints' largest, or more, at the configurations "
+          "seen",
           fmt::join(independent, ", "), plan.iterations, plan.iterations == 1 ? "" : "s", plan.conditioning));
       break;
     case model::LoopTreatment::kMultipliers:

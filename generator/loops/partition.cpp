@@ -23,16 +23,39 @@ std::vector<std::size_t> others(std::size_t count, const std::vector<std::size_t
   return rest;
 }
 
-/// Smallest over largest singular value of the dependent columns, the worst of all.
+/// Columns, then rows, divided by the largest entry that they have anywhere: units no longer matter.
+std::vector<Matrix> equilibrated(std::vector<Matrix> jacobians) {
+  const Matrix& first = jacobians.front();
+  Matrix largest = Matrix::Zero(first.rows(), first.cols());
+  for (const Matrix& G : jacobians) largest = largest.cwiseMax(G.cwiseAbs());
+  for (Eigen::Index k = 0; k < first.cols(); ++k) {
+    const long double size = largest.col(k).size() == 0 ? 0 : largest.col(k).maxCoeff();
+    if (!(size > 0)) continue;
+    for (Matrix& G : jacobians) G.col(k) /= size;
+    largest.col(k) /= size;
+  }
+  for (Eigen::Index r = 0; r < largest.rows(); ++r)
+    for (Matrix& G : jacobians) G.row(r) /= largest.row(r).maxCoeff();
+  return jacobians;
+}
+
+/// Smallest singular value of the dependent columns over the largest of all columns, the worst of all; G equilibrated. All columns
+/// count: otherwise a single dependent coordinate would never be conditioned badly. 0 where the determinant changes its sign: between
+/// such configurations the block is singular.
 double conditioning(const std::vector<Matrix>& jacobians, const std::vector<std::size_t>& dependents,
                     double enough = 0) {
   double worst = 1;
+  std::optional<bool> sign;
   for (const Matrix& G : jacobians) {
     Matrix block(G.rows(), at(dependents.size()));
     for (std::size_t k = 0; k < dependents.size(); ++k) block.col(at(k)) = G.col(at(dependents[k]));
     if (block.size() == 0) continue;
-    const Vector values = Eigen::JacobiSVD<Matrix>(block).singularValues();
-    const double ratio = values[0] > 0 ? static_cast<double>(values.tail(1)[0] / values[0]) : 0;
+    const long double smallest = Eigen::JacobiSVD<Matrix>(block).singularValues().tail(1)[0],
+                      largest = Eigen::JacobiSVD<Matrix>(G).singularValues()[0];
+    const double ratio = largest > 0 ? static_cast<double>(smallest / largest) : 0;
+    const bool positive = block.partialPivLu().determinant() > 0;
+    if (!sign) sign = positive;
+    if (*sign != positive) return 0;
     worst = std::min(worst, ratio);
     if (worst < enough) return worst;
   }
@@ -155,7 +178,7 @@ std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
   const std::vector<std::size_t> dependents = others(static_cast<std::size_t>(G.cols()), independent);
   if (at(dependents.size()) != G.rows()) return {};
   Partition partition{independent, triangular_blocks(jacobians, dependents),
-                      conditioning(jacobians, dependents)};
+                      conditioning(equilibrated(jacobians), dependents)};
   std::sort(partition.independent.begin(), partition.independent.end());
   if (partition.blocks.empty() && !dependents.empty()) partition.conditioning = 0;
   return partition;
@@ -165,6 +188,7 @@ std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, 
                                           const std::vector<bool>& preferred) {
   const auto columns = static_cast<std::size_t>(jacobians.front().cols());
   const auto freedom = columns - static_cast<std::size_t>(jacobians.front().rows());
+  const std::vector<Matrix> scaled = equilibrated(jacobians);
   std::vector<std::size_t> best, chosen;
   double best_score = 0, best_conditioning = 0;
   std::size_t tried = 0;
@@ -174,7 +198,7 @@ std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, 
       std::size_t liked = 0;
       for (const std::size_t k : chosen) liked += preferred[k];
       const double weight = liked == freedom ? kPreference : 1;
-      const double found = conditioning(jacobians, others(columns, chosen), best_score / weight);
+      const double found = conditioning(scaled, others(columns, chosen), best_score / weight);
       if (!(found * weight > best_score)) return;
       best = chosen;
       best_score = found * weight;

@@ -1,6 +1,7 @@
 #include "loops/plan.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -13,6 +14,7 @@ namespace jourdain::loops {
 
 using model::LoopTreatment;
 using model::LoopType;
+using support::shown;
 
 namespace {
 
@@ -124,17 +126,22 @@ class Planner {
       return false;
     }
     for (const std::size_t loop : closure_.reversed(start_))
-      diagnostics_.error(
-          mechanism_.loops[loop].where,
-          fmt::format("loop '{}' closes with its axes against each other", mechanism_.loops[loop].name),
-          "turn 'to_axis' round, or start nearer to the configuration that is meant");
+      diagnostics_.error(mechanism_.loops[loop].where,
+                         fmt::format("loop '{}' closes with its axes against each other",
+                                     shown(mechanism_.loops[loop].name)),
+                         "turn 'to_axis' round, or start nearer to the configuration that is meant");
     if (!closure_.reversed(start_).empty()) return false;
     const Vector z = closure_.consistent(start_, initial.z, moving());
     const Vector rate = closure_.jacobian(start_) * z + closure_.time_rate(start_);
-    if (!(rate.lpNorm<Eigen::Infinity>() <= 1e-10L * (1 + z.lpNorm<Eigen::Infinity>()))) {
+    const long double opening = rate.cwiseAbs().maxCoeff(&worst);
+    if (!(opening <= 1e-10L * (1 + z.lpNorm<Eigen::Infinity>()))) {
+      const std::size_t row = static_cast<std::size_t>(worst);
+      const model::Loop& loop = loop_of(row);
       diagnostics_.error(
-          mechanism_.loops.front().where, "no velocities agree with the loops at the start",
-          fmt::format("they open at {:.3g} m/s", static_cast<double>(rate.lpNorm<Eigen::Infinity>())));
+          loop.where, fmt::format("no velocities agree with loop '{}' at the start", shown(loop.name)),
+          fmt::format(
+              "the best ones found open constraint {} at {:.3g}/s{}: start from another configuration",
+              names_[row], static_cast<double>(opening), held()));
       return false;
     }
     record(initial.y, start_.y, layout_.position_names, false, plan_.y);
@@ -142,14 +149,26 @@ class Planner {
     return true;
   }
 
-  void report_open(std::size_t row, double residual) {
+  const model::Loop& loop_of(std::size_t row) const {
     std::size_t loop = 0, first = 0;
     while (row >= first + model::row_count(mechanism_.loops[loop].type))
       first += model::row_count(mechanism_.loops[loop++].type);
-    diagnostics_.error(
-        mechanism_.loops[loop].where,
-        fmt::format("loop '{}' cannot be closed from the initial values", mechanism_.loops[loop].name),
-        fmt::format("the nearest configuration found leaves {} open by {:.3g}", names_[row], residual));
+    return mechanism_.loops[loop];
+  }
+
+  /// What the assembly may not move, as the end of a phrase.
+  std::string held() const {
+    std::vector<std::string> names;
+    for (const std::size_t k : named_independent()) names.push_back(shown(layout_.velocity_names[k]));
+    return names.empty() ? "" : fmt::format(" with {} as given", fmt::join(names, ", "));
+  }
+
+  void report_open(std::size_t row, double residual) {
+    const model::Loop& loop = loop_of(row);
+    diagnostics_.error(loop.where,
+                       fmt::format("loop '{}' cannot be closed from the initial values", shown(loop.name)),
+                       fmt::format("the nearest configuration found leaves constraint {} open by {:.3g}{}",
+                                   names_[row], residual, held()));
   }
 
   void record(const Vector& before, const Vector& after, const std::vector<std::string>& names, bool velocity,
@@ -219,7 +238,7 @@ class Planner {
       plan_.reason =
           partition ? fmt::format("no choice of independent coordinates stays regular (conditioning {:.1g})",
                                   partition->conditioning)
-                    : "no coordinates can be independent as a whole";
+                    : "no choice of independent coordinates stays regular";
       return true;
     }
     plan_.independent = partition->independent;
@@ -274,17 +293,29 @@ class Planner {
 
   bool report_bad(const std::optional<Partition>& partition) {
     const support::SourceRange where = mechanism_.loop_options.where;
-    if (!partition)
+    const std::size_t named = mechanism_.loop_options.independent.size();
+    if (named != 0 && named != plan_.freedom)
       diagnostics_.error(
-          where, fmt::format("the mechanism has {} degree{} of freedom: so many independent coordinates are "
-                             "needed, each with all of its velocities",
-                             plan_.freedom, plan_.freedom == 1 ? "" : "s"));
+          where,
+          fmt::format("[loops] names {} independent coordinate{}, the mechanism has {} degree{} of "
+                      "freedom",
+                      named, named == 1 ? "" : "s", plan_.freedom, plan_.freedom == 1 ? "" : "s"),
+          "name as many, or leave 'independent' out");
+    else if (!partition)
+      diagnostics_.error(where, "no choice of independent coordinates stays regular",
+                         "declare the range of coordinates, or use treatment = \"multipliers\"");
+    else if (partition->blocks.empty())
+      diagnostics_.error(where, "the other coordinates do not follow from the independent ones",
+                         "name others, or leave 'independent' out");
     else
       diagnostics_.error(
           where, "the dependent coordinates do not follow from the independent ones everywhere",
-          fmt::format("the dependent block's smallest singular value falls to {:.1g} of its largest; "
-                      "declare the range of coordinates, or use treatment = \"multipliers\"",
-                      partition->conditioning));
+          (partition->conditioning > 0
+               ? fmt::format(
+                     "what is solved for them has a singular value of {:.1g} of the constraints' largest: ",
+                     partition->conditioning)
+               : std::string("they pass configurations where nothing can be solved for them: ")) +
+              "declare the range of coordinates, or use treatment = \"multipliers\"");
     return false;
   }
 

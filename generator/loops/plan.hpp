@@ -33,8 +33,9 @@ struct LoopPlan {
   std::vector<std::size_t> rows;         ///< the others
   std::vector<std::size_t> independent;  ///< velocities; empty with multipliers
   std::vector<Block> blocks;  ///< of the dependent ones, in the order of solution; empty with multipliers
-  double conditioning =
-      0;  ///< smallest over largest singular value of the dependent block, worst at the configurations seen
+  /// Smallest singular value of the dependent block over the largest of G, rows and columns scaled; the worst at the configurations
+  /// seen. 0 is singular.
+  double conditioning = 0;
   std::vector<double> row_length;  ///< m by row: what its multiplier is divided by to be a force
   double regularisation = 0;       ///< added to G M⁻¹ Gᵀ of rows with lengths, 1/kg; see multipliers
   std::optional<ClosedForm> closed_form;  ///< of the dependent positions; kExplicit

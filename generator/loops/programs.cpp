@@ -6,6 +6,7 @@
 #include "loops/closed_system.hpp"
 #include "loops/dependence.hpp"
 #include "loops/multipliers.hpp"
+#include "loops/outputs.hpp"
 #include "passes/rewrite.hpp"
 #include "support/check.hpp"
 
@@ -37,12 +38,11 @@ class LoopProgram {
       return write("tau", dependence_.projected(
                               vector("inverse_dynamics", dependence_.accelerations(acceleration_leaves()))));
     if (name == "forward_dynamics") return write("zdot", zdot());
-    if (name == "outputs") return write_outputs(dependence_.accelerations(zdot()));
-    if (name == "outputs at accelerations")
-      return write_outputs(dependence_.accelerations(acceleration_leaves()));
+    if (name == "outputs") return write_outputs(zdot());
+    if (name == "outputs at accelerations") return write_outputs(acceleration_leaves());
     if (name == "initial_state") return write_initial_state();
     if (name == "constraint_residual") return write_constraint_residual();
-    if (name == "constraint_forces") return write("lambda", constraint_forces());
+    if (name == "constraint_forces") return write("lambda", constraint_forces(zdot()));
     if (name == "project") return write_projection();
     JD_CHECK(name == "kinetic_energy" || name == "potential_energy", "no function '{}'", name);
     const Program tree = system_.tree(name);
@@ -63,11 +63,12 @@ class LoopProgram {
     for (std::size_t i = 0; i < values.size(); ++i) builder_.output(name, static_cast<int>(i), -1, values[i]);
   }
 
-  /// A program of the tree with the velocities of this state, and the accelerations `a` of the tree.
-  Column insert(const Program& tree, const Column& a) {
+  /// A program of the tree with the velocities of this state, the accelerations `a` of the tree and multipliers.
+  Column insert(const Program& tree, const Column& a, const Column& lambda = {}) {
     return ir::insert(builder_, tree, [&](LeafKind kind, std::size_t i) -> std::optional<Signed> {
       if (kind == LeafKind::kVelocity) return dependence_.z()[i];
       if (kind == LeafKind::kAcceleration && !a.empty()) return a[i];
+      if (kind == LeafKind::kMultiplier) return lambda[i];
       return {};
     });
   }
@@ -187,9 +188,10 @@ class LoopProgram {
     return {solver.accelerations(pushed, lambda), lambda};
   }
 
-  Column constraint_forces() {
+  /// With reduced treatments what the dependent coordinates lack at the accelerations given; otherwise those of the state.
+  Column constraint_forces(const Column& zdot) {
     if (!system_.plan.is_reduced()) return constrained_motion().lambda;
-    Column missing = vector("residual", dependence_.accelerations(zdot()));
+    Column missing = vector("residual", dependence_.accelerations(zdot));
     for (Signed& entry : missing) entry = -entry;
     return dependence_.multipliers(missing);
   }
@@ -244,11 +246,11 @@ class LoopProgram {
         builder_.output("z", static_cast<int>(k), -1, builder_.literal(system_.plan.z[k]));
   }
 
-  void write_outputs(const Column& a) {
+  void write_outputs(const Column& zdot) {
     const Program tree = system_.tree("outputs");
-    const Column values = insert(tree, a);
-    for (std::size_t k = 0; k < values.size(); ++k)
-      builder_.output(tree.outputs[k].name, tree.outputs[k].row, tree.outputs[k].column, values[k]);
+    const Column values = insert(tree, dependence_.accelerations(zdot),
+                                 takes_multipliers(tree) ? constraint_forces(zdot) : Column());
+    loops::write_outputs(builder_, system_, dependence_, tree, values);
   }
 
   const LoopSystem& system_;

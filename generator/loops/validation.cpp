@@ -8,6 +8,7 @@
 #include "dynamics/closure_motion.hpp"
 #include "kinematics/numbers.hpp"
 #include "loops/derivative_check.hpp"
+#include "loops/expected.hpp"
 #include "model/checks.hpp"
 
 namespace jourdain::loops {
@@ -93,6 +94,7 @@ class Comparison {
       case kinematics::LeafKind::kVelocity:
         return static_cast<double>(z[at(i)]);
       case kinematics::LeafKind::kAcceleration:
+      case kinematics::LeafKind::kMultiplier:
         return 0;
       case kinematics::LeafKind::kInput:
         return sample_.u[i];
@@ -217,6 +219,7 @@ class Comparison {
         entry(e_.B.transpose() * (e_.M * (e_.B * zdot) - force), load * (1 + zdot.lpNorm<1>()));
     }
     if (name == "close_loops" || name == "project") return compare_correction(program, v);
+    if (name == "outputs") return compare_outputs(v);
     Ray ray = sample_.ray;
     ray.configuration = sample_.configuration;
     ray.z = sample_.z;
@@ -225,6 +228,32 @@ class Comparison {
     const double error = derivative_error(closure_, plan_, module_, parameters_, ray, program, values);
     if (!(error <= kDerivativeTolerance))
       verdict_.failures.push_back(fmt::format("{} is off by {:.2g} of its terms", name, error));
+  }
+
+  void compare_outputs(const Vector& v) {
+    const Spread spread = spread_of(plan_, e_.G, e_.M);
+    if (!plan_.is_reduced() && spread.is_singular) return;
+    Vector b = e_.z;
+    for (std::size_t j = 0; plan_.is_reduced() && j < plan_.independent.size(); ++j)
+      b -= e_.B.col(at(j)) * sample_.z[j];
+    const TreeMotion motion =
+        tree_motion(plan_, e_.M, e_.G, e_.k - e_.q, e_.gamma, {e_.B, b, e_.beta, {}, {}});
+    const std::vector<Vector> expected =
+        expected_outputs(mechanism_, equations_, plan_, motion,
+                         [&](kinematics::LeafKind kind, std::size_t i) { return leaf(kind, i, e_.z); });
+    // What rounding does to accelerations and multipliers passes on.
+    const Vector pivots = Eigen::SelfAdjointEigenSolver<Matrix>(e_.M).eigenvalues();
+    const long double sensitivity = e_.condition * pivots.tail(1)[0] / pivots[0] +
+                                    (plan_.is_reduced() ? 0 : spread.lost_share / validate::kTolerance);
+    Eigen::Index next = 0;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      const long double scale = 1 + expected[k].lpNorm<Eigen::Infinity>() +
+                                motion.zdot.lpNorm<Eigen::Infinity>() +
+                                motion.lambda.lpNorm<Eigen::Infinity>() + e_.load.maxCoeff();
+      record(fmt::format("output {}", equations_.output_names[k]), v.segment(next, expected[k].size()),
+             expected[k], scale * sensitivity, verdict_.entry_error);
+      next += expected[k].size();
+    }
   }
 
   void compare_mass_matrix(const ir::Program& program, const Vector& v) {
@@ -255,30 +284,17 @@ class Comparison {
     const long double scale = e_.load.maxCoeff() + (e_.M.cwiseAbs() * zdot.cwiseAbs()).maxCoeff();
     record("M zdot + G^T lambda = k_bar - q_bar with the program's zdot", missing, e_.G.transpose() * lambda,
            scale, verdict_.backward_error);
+    const Spread spread = spread_of(plan_, e_.G, e_.M);
+    if (spread.is_singular) return;
     const Matrix S = e_.G * e_.M.ldlt().solve(e_.G.transpose());
-    Vector sigma = Eigen::JacobiSVD<Matrix>(scaled(S)).singularValues();
-    long double smallest = sigma[0];
-    for (const long double s : sigma)
-      if (s > kRankTolerance * sigma[0]) smallest = std::min(smallest, s);
-    if (smallest < 1e3L * plan_.regularisation) return;  // too near a singular configuration to judge
     const long double s = plan_.stabilisation;
     const Vector opening = e_.G * zdot + e_.gamma + 2 * s * e_.rate + s * s * e_.g;
     const long double terms = (e_.G.cwiseAbs() * zdot.cwiseAbs() + e_.gamma.cwiseAbs()).maxCoeff() +
                               2 * s * (e_.G.cwiseAbs() * e_.z.cwiseAbs()).maxCoeff();
-    const long double share = std::pow(plan_.regularisation / smallest, 3);
     record("G zdot + gamma = 0 with the program's zdot", opening, Vector::Zero(opening.size()),
            (terms + S.cwiseAbs().maxCoeff() * lambda.lpNorm<Eigen::Infinity>() *
-                        (share / validate::kTolerance + sigma[0] / smallest)),
+                        (spread.lost_share / validate::kTolerance + spread.largest / spread.smallest)),
            verdict_.backward_error);
-  }
-
-  Matrix scaled(const Matrix& S) const {
-    Matrix result = S;
-    for (Eigen::Index i = 0; i < S.rows(); ++i)
-      for (Eigen::Index j = 0; j < S.cols(); ++j)
-        result(i, j) *=
-            plan_.row_length[static_cast<std::size_t>(i)] * plan_.row_length[static_cast<std::size_t>(j)];
-    return result;
   }
 
   /// A closed state stays where it is.

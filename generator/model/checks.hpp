@@ -17,7 +17,7 @@ void check_numbers(const Mechanism& mechanism, support::Diagnostics& diagnostics
 bool check_graph(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 
 /// Each loop joint constrains something: a coordinate that is not prescribed moves its ends against each other, or moves what its
-/// residual depends on. The joints must have passed `check_graph`.
+/// residual depends on. No reaction or drive is asked for beside a residual. The joints must have passed `check_graph`.
 void check_loops(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 
 /// Inertia about the centre of mass positive semidefinite for each body, triangle inequality of the principal

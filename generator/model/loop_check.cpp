@@ -1,4 +1,4 @@
-// Does each loop joint constrain something?
+// Does each loop joint constrain something, and is it known what its force acts on where that is asked for?
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,10 @@ class LoopCheck {
   }
 
   void run() {
-    for (const Loop& loop : mechanism_.loops) loop.type == LoopType::kResidual ? residual(loop) : ends(loop);
+    for (const Loop& loop : mechanism_.loops) {
+      loop.type == LoopType::kResidual ? residual(loop) : ends(loop);
+      if (loop.type == LoopType::kResidual) outputs_beside(loop);
+    }
   }
 
  private:
@@ -80,6 +83,17 @@ class LoopCheck {
     diagnostics_.error(loop.where,
                        fmt::format("the residual of loop '{}' depends on no coordinate", shown(loop.name)),
                        "it is kept at zero by coordinates that are not prescribed");
+  }
+
+  /// A residual's force pushes coordinates; what transmits it to which bodies is not known.
+  void outputs_beside(const Loop& loop) {
+    for (const Output& output : mechanism_.outputs)
+      if (output.kind == OutputKind::kReaction || output.kind == OutputKind::kDrive)
+        diagnostics_.error(
+            output.where,
+            fmt::format("output '{}' is a {} in a mechanism with the residual '{}'", shown(output.name),
+                        output.kind == OutputKind::kReaction ? "reaction" : "drive", shown(loop.name)),
+            "a residual does not say on which bodies its force acts: use a joint as the loop");
   }
 
   const Mechanism& mechanism_;

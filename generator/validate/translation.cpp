@@ -50,9 +50,11 @@ class Comparison {
     terms_.k_scale *= turns;
     terms_.q_scale *= turns;
     if (mechanism.outputs.empty()) return;
-    const Vector zdot = reference::forward_dynamics<long double>(terms_);
+    const bool given = equations.outputs_take_leaves;
+    const Vector zdot = given ? to_vector(sample.zdot) : reference::forward_dynamics<long double>(terms_);
     const Vector load = terms_.M_scale * zdot.cwiseAbs() + terms_.k_scale + terms_.q_scale;
-    const Vector scale = zdot.cwiseAbs() + terms_.M.inverse().cwiseAbs() * load;
+    Vector scale = zdot.cwiseAbs();
+    if (!given) scale += terms_.M.inverse().cwiseAbs() * load;
     outputs_ = reference_.outputs(state(), to_vector(sample.u), zdot, scale);
     for (reference::OutputValue<long double>& output : outputs_)
       for (long double& entry : output.scales) entry *= turns;
@@ -78,6 +80,8 @@ class Comparison {
         return sample_.z[i];
       case kinematics::LeafKind::kAcceleration:
         return sample_.zdot[i];
+      case kinematics::LeafKind::kMultiplier:
+        return 0;  // as if the loops were open
       case kinematics::LeafKind::kInput:
         return sample_.u[i];
       case kinematics::LeafKind::kTime:

@@ -1,4 +1,4 @@
-// Accelerations, joint reactions and drives of every model of the repository against the descriptor form.
+// Accelerations, joint reactions and drives of every model of the repository against the descriptor form, loops left open.
 #include "reference/descriptor.hpp"
 
 #include <fmt/format.h>
@@ -18,9 +18,10 @@ using Vector = reference::VectorX<long double>;
 constexpr double kTolerance = 1e-10;
 constexpr std::uint64_t kStates = 20;
 
-/// The model with a reaction output for each joint and a drive for each prescribed coordinate, and nothing else.
+/// The model's tree with a reaction output for each joint and a drive for each prescribed coordinate, and nothing else.
 model::Mechanism with_all_reactions(model::Mechanism mechanism) {
   mechanism.outputs.clear();
+  mechanism.loops.clear();
   const auto add = [&](model::OutputKind kind, std::size_t joint, std::size_t coordinate) {
     model::Output output;
     output.name = fmt::format("out{}", mechanism.outputs.size());

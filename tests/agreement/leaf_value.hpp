@@ -15,6 +15,8 @@ inline double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::s
       return sample.z[i];
     case kinematics::LeafKind::kAcceleration:
       return sample.zdot[i];
+    case kinematics::LeafKind::kMultiplier:
+      return 0;
     case kinematics::LeafKind::kInput:
       return sample.u[i];
     case kinematics::LeafKind::kTime:

@@ -1,0 +1,22 @@
+// The outputs of a mechanism with loops: those of its tree, in terms of the independent velocities.
+#pragma once
+
+#include "dynamics/equations.hpp"
+#include "loops/dependence.hpp"
+
+namespace jourdain::loops {
+
+/// Do the tree's outputs depend on the loops' constraint forces?
+bool takes_multipliers(const ir::Program& tree);
+
+/// Declares the outputs of the program `tree`, whose values are given, in their order. Jacobians J of the tree become J B, and
+/// v̄ + J b, ā + J β stand for their v̄, ā; ω̄ and ζ̄ alike.
+void write_outputs(ir::Builder& builder, const LoopSystem& system, const Dependence& dependence,
+                   const ir::Program& tree, const Column& values);
+
+/// `outputs` of the tree with the sizes that they have then; their values stay the tree's.
+std::vector<std::vector<dynamics::OutputValues>> resized_outputs(
+    const model::Mechanism& mechanism, const LoopPlan& plan,
+    std::vector<std::vector<dynamics::OutputValues>> outputs);
+
+}  // namespace jourdain::loops
