@@ -117,12 +117,12 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.c0 - (model.expression + (model.c0 + (model.c0 - (D1 + D1 - Real(0.00311375) +
+      model.c0 - model.expression)))) - Real(0.00111375);
   const Real v1P_x = t21 * h1b_y;
   const Real v1P_y = t21 * h1b_x;
   const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
+  const Real T2 = (t24 * t24 * Real(0.48) - (J0 - t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
       v1P_x));
   M[0][0] = T2 * Real(2.0);
 }
@@ -210,8 +210,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.c0 - (model.expression + (model.c0 + (model.c0 - (D1 + D1 - Real(0.00311375) +
+      model.c0 - model.expression)))) - Real(0.00111375);
   const Real rQp0 = h0_y * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
@@ -226,7 +226,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real v1P_x = t21 * h1b_y;
   const Real v1P_y = t21 * h1b_x;
   const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = (Real(0.48) * (t24 * t24) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y
+  const Real T2 = (Real(0.48) * (t24 * t24) - (J0 - t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y
       * v1P_x));
   zdot[0] = -((t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x - (r1_x * rdf1_y - (rQp0 +
       rdn1_z)))))) * (Real(1.0) / (T2 * Real(2.0))));
@@ -260,8 +260,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.c0 - (model.expression + (model.c0 + (model.c0 - (D1 + D1 - Real(0.00311375) +
+      model.c0 - model.expression)))) - Real(0.00111375);
   const Real aQp0 = h0_y * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
   const Real aW0w22 = state.z[0] * state.z[0];
@@ -275,7 +275,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       * Real(0.48);
   const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.00311375) - h1b_x * aa1o_y));
   const Real aQ2_0 = adf2t_z + Real(4.7088);
-  tau[0] = -(t24 * aQ2_0 + (t21 * aQ1_0 + (r1_y * adf1_x - (r1_x * adf1_y + (adn0_z - (aQp0 + adn1_z))))));
+  tau[0] = -(t24 * aQ2_0 + (t21 * aQ1_0 + (r1_y * adf1_x - (r1_x * adf1_y - (adn0_z + (aQp0 + adn1_z))))));
 }
 
 template <class Real>
@@ -297,15 +297,15 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.c0 - (model.expression + (model.c0 + (model.c0 - (D1 + D1 - Real(0.00311375) +
+      model.c0 - model.expression)))) - Real(0.00111375);
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
   const Real v1P_x = t26 * h1b_y;
   const Real v1P_y = t26 * h1b_x;
   const Real v1L_z = t26 * Real(0.00311375);
-  const Real T2 = (t27 * t27 * Real(0.48) + (state.z[0] * v0L_z + t26 * v1L_z)) * Real(0.5) - (v1o_y * v1P_y -
+  const Real T2 = (t27 * t27 * Real(0.48) - (state.z[0] * v0L_z - t26 * v1L_z)) * Real(0.5) - (v1o_y * v1P_y -
       (state.z[0] * v1L_z + v1o_x * v1P_x));
   return T2;
 }
@@ -413,8 +413,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
-  const Real J0 = model.c0 + (model.expression - (model.c0 + (model.c0 + (D1 + D1 - Real(0.00311375) -
-      model.c0 - model.expression)))) + Real(0.00111375);
+  const Real J0 = model.c0 - (model.expression + (model.c0 + (model.c0 - (D1 + D1 - Real(0.00311375) +
+      model.c0 - model.expression)))) - Real(0.00111375);
   const Real rQp0 = h0_y * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
@@ -429,7 +429,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real v1P_x = t21 * h1b_y;
   const Real v1P_y = t21 * h1b_x;
   const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = (Real(0.48) * (t24 * t24) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y
+  const Real T2 = (Real(0.48) * (t24 * t24) - (J0 - t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y
       * v1P_x));
   const Real t118 = (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x - (r1_x * rdf1_y - (rQp0 +
       rdn1_z)))))) * (Real(1.0) / (T2 * Real(2.0)));
