@@ -8,7 +8,7 @@
 // Equations of motion: M(y, t) zdot = k_bar(y, z, t) - q_bar(y, z, t, u), dy/dt = Z(y) z.
 //
 // Loops
-// - 1 degree of freedom: 5 coordinates of the tree, 4 independent of 4 constraints
+// - 1 degree of freedom: 5 coordinates of the tree, 4 of 4 constraints are independent
 // - independent: lower; the others by 2 Newton iterations at the end of a step. What is solved for them has a
 //   smallest singular value of 0.4 of the constraints' largest, or more, at the configurations seen
 // - why so: no closed form: a rotation in space depends on other coordinates

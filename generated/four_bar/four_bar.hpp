@@ -8,7 +8,7 @@
 // Equations of motion: M(y) zdot = k_bar(y, z) - q_bar(y, z, u), dy/dt = Z(y) z.
 //
 // Loops
-// - 1 degree of freedom: 3 coordinates of the tree, 2 independent of 2 constraints
+// - 1 degree of freedom: 3 coordinates of the tree, 2 of 2 constraints are independent
 // - independent: crank; the others in closed form, on the branch of the initial state. At the parameters'
 //   defaults it exists everywhere in the declared ranges: every discriminant is proven to be 0.19 or more
 //   (the square of the sine of the angle from a dead position)

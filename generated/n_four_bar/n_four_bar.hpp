@@ -8,7 +8,7 @@
 // Equations of motion: M(y) zdot = k_bar(y, z) - q_bar(y, z, u), dy/dt = z.
 //
 // Loops
-// - 1 degree of freedom: 5 coordinates of the tree, 4 independent of 4 constraints
+// - 1 degree of freedom: 5 coordinates of the tree, 4 of 4 constraints are independent
 // - multipliers, stabilised with 5/s; one projection of positions and velocities at the end of a step
 // - G M^-1 G^T is regularised by 3.8e-07/kg: multipliers and accelerations lose a share (d/(s + d))^3, d that
 //   and s the singular value of G M^-1 G^T, near singular configurations and where constraints are redundant

@@ -8,7 +8,7 @@
 // Equations of motion: M(y) zdot = k_bar(y, z) - q_bar(y, z, u), dy/dt = Z(y) z.
 //
 // Loops
-// - 1 degree of freedom: 3 coordinates of the tree, 2 independent of 2 constraints
+// - 1 degree of freedom: 3 coordinates of the tree, 2 of 2 constraints are independent
 // - independent: crank; the others by 2 Newton iterations at the end of a step. What is solved for them has a
 //   smallest singular value of 0.22 of the constraints' largest, or more, at the configurations seen
 //

@@ -70,9 +70,10 @@ std::vector<std::size_t> dependent_positions(const LoopPlan& plan, const model::
 std::vector<std::string> sentences(const model::Mechanism& mechanism, const LoopPlan& plan) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   std::vector<std::string> list;
-  list.push_back(fmt::format(
-      "{} degree{} of freedom: {} coordinates of the tree, {} independent of {} constraints", plan.freedom,
-      plan.freedom == 1 ? "" : "s", layout.velocity_count(), plan.rows.size(), plan.row_length.size()));
+  list.push_back(
+      fmt::format("{} degree{} of freedom: {} coordinates of the tree, {} of {} constraints are independent",
+                  plan.freedom, plan.freedom == 1 ? "" : "s", layout.velocity_count(), plan.rows.size(),
+                  plan.row_length.size()));
   if (!plan.redundant.empty())
     list.push_back(fmt::format("redundant constraints: {}", fmt::join(plan.redundant, ", ")));
   std::vector<std::string> independent;

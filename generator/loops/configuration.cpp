@@ -1,7 +1,8 @@
 #include "loops/configuration.hpp"
 
 #include <cmath>
-#include <random>
+
+#include "support/uniform.hpp"
 
 namespace jourdain::loops {
 
@@ -141,17 +142,6 @@ Vector least_norm(const Matrix& A, const Vector& b) {
 
 namespace {
 
-/// Uniform numbers that are the same on every platform.
-class Uniform {
- public:
-  double operator()(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-
- private:
-  std::mt19937_64 engine_{6007};
-};
-
 bool in_range(const Configuration& config, const model::Mechanism& mechanism,
               const model::CoordinateLayout& layout) {
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
@@ -169,7 +159,7 @@ bool in_range(const Configuration& config, const model::Mechanism& mechanism,
 std::vector<Configuration> walk(const NumericClosure& closure, const Configuration& start,
                                 const model::Mechanism& mechanism, std::size_t count) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  Uniform uniform;
+  support::Uniform uniform(6007);
   std::vector<Configuration> found = {start};
   for (std::size_t tries = 0; tries < 10 * count && found.size() < count; ++tries) {
     const Configuration& from = found[tries % found.size()];

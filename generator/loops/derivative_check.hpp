@@ -1,4 +1,4 @@
-// Emitted derivatives of a mechanism with loops against differences of the emitted functions along the constraints.
+// States at which a mechanism with loops is validated, and its emitted derivatives there against differences of the emitted functions along the constraints.
 #pragma once
 
 #include <string>
@@ -17,6 +17,10 @@ struct Ray {
   std::vector<double> displacement, velocity, input;
   double time = 0;
 };
+
+/// Rays from closed configurations of a seeded walk, with random velocities that the loops allow.
+std::vector<Ray> draw_rays(const NumericClosure& closure, const LoopPlan& plan,
+                           const model::Mechanism& mechanism, std::size_t count);
 
 /// How far a program of derivatives is from central differences of order 6, in long double, of forward_dynamics, residual and outputs
 /// along the ray, norm over norm of its terms. `values` are the program's, in double. Zero for programs without derivatives, and of

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <random>
 
 #include "dynamics/closure_motion.hpp"
 #include "kinematics/numbers.hpp"
@@ -26,24 +25,6 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 constexpr double kDerivativeTolerance = 1e-8;
 constexpr std::size_t kStates = 8, kLarge = 24;  ///< velocities from which on two states must do
 
-/// A state of motion with all coordinates of the tree.
-struct ClosedSample {
-  Configuration configuration;
-  std::vector<double> y, z, u, zdot;  ///< of the independent velocities; with multipliers of all
-  Ray ray;                            ///< its direction; the rest is filled in where it is used
-};
-
-/// Random numbers that are the same on every platform.
-class Uniform {
- public:
-  double operator()(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-
- private:
-  std::mt19937_64 engine_{17};
-};
-
 /// What the programs should compute at one state.
 struct Expected {
   Matrix M, B;  ///< of the tree; of the independent velocities
@@ -59,14 +40,15 @@ class Comparison {
  public:
   Comparison(const model::Mechanism& mechanism, const dynamics::Equations& equations,
              const dynamics::Equations& closures, const NumericClosure& closure, const ir::Module& module,
-             const LoopPlan& plan, const ClosedSample& sample, Verdict& verdict)
+             const LoopPlan& plan, const Ray& ray, Verdict& verdict)
       : mechanism_(mechanism),
         equations_(equations),
         closures_(closures),
         closure_(closure),
         module_(module),
         plan_(plan),
-        sample_(sample),
+        ray_(ray),
+        y_(ray.configuration.y.begin(), ray.configuration.y.end()),
         verdict_(verdict),
         layout_(model::lay_out_coordinates(mechanism)),
         parameters_(model::default_values(mechanism)) {}
@@ -76,11 +58,11 @@ class Comparison {
     ir::LeafValues<double> leaves;
     leaves[LeafKind::kParameter] = parameters_;
     leaves[LeafKind::kConstant] = ir::interpret(module_.constants, leaves);
-    leaves[LeafKind::kPosition] = sample_.y;
-    leaves[LeafKind::kVelocity] = sample_.z;
-    leaves[LeafKind::kAcceleration] = sample_.zdot;
-    leaves[LeafKind::kInput] = sample_.u;
-    leaves[LeafKind::kTime] = {static_cast<double>(sample_.configuration.t)};
+    leaves[LeafKind::kPosition] = y_;
+    leaves[LeafKind::kVelocity] = ray_.z;
+    leaves[LeafKind::kAcceleration] = ray_.zdot;
+    leaves[LeafKind::kInput] = ray_.u;
+    leaves[LeafKind::kTime] = {static_cast<double>(ray_.configuration.t)};
     for (const ir::Program& program : module_.functions) compare(program, ir::interpret(program, leaves));
   }
 
@@ -90,16 +72,16 @@ class Comparison {
       case kinematics::LeafKind::kParameter:
         return parameters_[i];
       case kinematics::LeafKind::kPosition:
-        return sample_.y[i];
+        return y_[i];
       case kinematics::LeafKind::kVelocity:
         return static_cast<double>(z[at(i)]);
       case kinematics::LeafKind::kAcceleration:
       case kinematics::LeafKind::kMultiplier:
         return 0;
       case kinematics::LeafKind::kInput:
-        return sample_.u[i];
+        return ray_.u[i];
       case kinematics::LeafKind::kTime:
-        return static_cast<double>(sample_.configuration.t);
+        return static_cast<double>(ray_.configuration.t);
     }
     return 0;
   }
@@ -118,7 +100,7 @@ class Comparison {
     if (plan_.is_reduced())
       reduce();
     else
-      for (std::size_t k = 0; k < n; ++k) e_.z[at(k)] = sample_.z[k];
+      for (std::size_t k = 0; k < n; ++k) e_.z[at(k)] = ray_.z[k];
     const dynamics::ClosureMotion motion = closures_at(e_.z);
     const std::size_t rows = motion.g.size();
     const auto vector = [](const std::vector<double>& v) {
@@ -179,7 +161,7 @@ class Comparison {
     e_.z = dependents(-g_t, Vector::Zero(at(n)));
     for (std::size_t j = 0; j < plan_.independent.size(); ++j) {
       e_.B.col(at(j)) = dependents(Vector::Zero(g_t.size()), Vector::Unit(at(n), at(plan_.independent[j])));
-      e_.z += e_.B.col(at(j)) * sample_.z[j];
+      e_.z += e_.B.col(at(j)) * ray_.z[j];
     }
     e_.condition = 1 / static_cast<long double>(plan_.conditioning);
   }
@@ -212,32 +194,72 @@ class Comparison {
       expected << e_.g, e_.rate;
       return entry(expected, 1 + e_.z.cwiseAbs().maxCoeff() * e_.G.cwiseAbs().maxCoeff());
     }
-    if (name == "residual") {
-      const Vector zdot =
-          Eigen::Map<const Eigen::VectorXd>(sample_.zdot.data(), at(sample_.zdot.size())).cast<long double>();
-      if (plan_.is_reduced())
-        entry(e_.B.transpose() * (e_.M * (e_.B * zdot) - force), load * (1 + zdot.lpNorm<1>()));
-    }
+    const Vector zdot =
+        Eigen::Map<const Eigen::VectorXd>(ray_.zdot.data(), at(ray_.zdot.size())).cast<long double>();
+    if (name == "residual" && plan_.is_reduced())
+      return entry(e_.B.transpose() * (e_.M * (e_.B * zdot) - force), load * (1 + zdot.lpNorm<1>()));
+    if (name == "inverse_dynamics")
+      return entry(e_.B.transpose() * inverse_dynamics(e_.B * zdot + e_.beta), load * (1 + zdot.lpNorm<1>()));
+    if (name == "position_rate") return entry(position_rate(), 1 + e_.z.lpNorm<Eigen::Infinity>());
+    if (name == "constraint_forces") return compare_constraint_forces(v);
     if (name == "close_loops" || name == "project") return compare_correction(program, v);
     if (name == "outputs") return compare_outputs(v);
-    Ray ray = sample_.ray;
-    ray.configuration = sample_.configuration;
-    ray.z = sample_.z;
-    ray.u = sample_.u;
-    ray.zdot = sample_.zdot;
-    const double error = derivative_error(closure_, plan_, module_, parameters_, ray, program, values);
+    const double error = derivative_error(closure_, plan_, module_, parameters_, ray_, program, values);
     if (!(error <= kDerivativeTolerance))
       verdict_.failures.push_back(fmt::format("{} is off by {:.2g} of its terms", name, error));
+  }
+
+  /// τ of the tree at these accelerations.
+  Vector inverse_dynamics(const Vector& a) const {
+    const HighPrecision exact(equations_.statements, [&](kinematics::LeafKind kind, std::size_t i) {
+      return kind == kinematics::LeafKind::kAcceleration ? static_cast<double>(a[at(i)])
+                                                         : leaf(kind, i, e_.z);
+    });
+    Vector tau(a.size());
+    for (Eigen::Index i = 0; i < a.size(); ++i)
+      tau[i] = to_double(exact.value(equations_.tau[static_cast<std::size_t>(i)]));
+    return tau;
+  }
+
+  Vector position_rate() const {
+    const model::Tangent tangent = model::tangent_of(mechanism_, layout_);
+    Vector rate = Vector::Zero(at(layout_.position_count()));
+    for (const model::Tangent::Scalar& s : tangent.scalars) rate[at(s.position)] = e_.z[at(s.velocity)];
+    for (const model::Tangent::Scalar& s : tangent.quaternions) {
+      const auto q = [&](std::size_t k) { return static_cast<long double>(y_[s.position + k]); };
+      const Eigen::Quaternion<long double> orientation(q(0), q(1), q(2), q(3)),
+          spin(0, e_.z[at(s.velocity)], e_.z[at(s.velocity + 1)], e_.z[at(s.velocity + 2)]);
+      const auto turned = orientation * spin;
+      rate.segment<4>(at(s.position)) << turned.w() / 2, turned.x() / 2, turned.y() / 2, turned.z() / 2;
+    }
+    return rate;
+  }
+
+  TreeMotion motion_of_tree() const {
+    Vector b = e_.z;
+    for (std::size_t j = 0; plan_.is_reduced() && j < plan_.independent.size(); ++j)
+      b -= e_.B.col(at(j)) * ray_.z[j];
+    return tree_motion(plan_, e_.M, e_.G, e_.k - e_.q, e_.gamma, {e_.B, b, e_.beta, {}, {}});
+  }
+
+  /// Gᵀ λ: λ itself is not unique where rows are redundant.
+  void compare_constraint_forces(const Vector& lambda) {
+    const Spread spread = spread_of(plan_, e_.G, e_.M);
+    if (!plan_.is_reduced() && spread.is_singular) return;
+    const TreeMotion motion = motion_of_tree();
+    const long double scale = e_.load.maxCoeff() + (e_.M.cwiseAbs() * motion.zdot.cwiseAbs()).maxCoeff() +
+                              e_.G.cwiseAbs().maxCoeff() * motion.lambda.lpNorm<Eigen::Infinity>();
+    const long double sensitivity =
+        plan_.is_reduced() ? e_.condition
+                           : spread.largest / spread.smallest + spread.lost_share / validate::kTolerance;
+    record("constraint_forces", e_.G.transpose() * lambda, e_.G.transpose() * motion.lambda,
+           scale * sensitivity, verdict_.entry_error);
   }
 
   void compare_outputs(const Vector& v) {
     const Spread spread = spread_of(plan_, e_.G, e_.M);
     if (!plan_.is_reduced() && spread.is_singular) return;
-    Vector b = e_.z;
-    for (std::size_t j = 0; plan_.is_reduced() && j < plan_.independent.size(); ++j)
-      b -= e_.B.col(at(j)) * sample_.z[j];
-    const TreeMotion motion =
-        tree_motion(plan_, e_.M, e_.G, e_.k - e_.q, e_.gamma, {e_.B, b, e_.beta, {}, {}});
+    const TreeMotion motion = motion_of_tree();
     const std::vector<Vector> expected =
         expected_outputs(mechanism_, equations_, plan_, motion,
                          [&](kinematics::LeafKind kind, std::size_t i) { return leaf(kind, i, e_.z); });
@@ -303,7 +325,7 @@ class Comparison {
     for (Eigen::Index k = 0; k < v.size(); ++k) {
       const ir::Output& output = program.outputs[static_cast<std::size_t>(k)];
       const auto i = static_cast<std::size_t>(output.row);
-      expected[k] = output.name == "y" ? sample_.y[i] : sample_.z[i];
+      expected[k] = output.name == "y" ? y_[i] : ray_.z[i];
     }
     // A state is closed to kClosed, no better.
     record(program.name, v, expected, 1e3L * (1 + expected.lpNorm<Eigen::Infinity>()) * e_.condition,
@@ -315,7 +337,8 @@ class Comparison {
   const NumericClosure& closure_;
   const ir::Module& module_;
   const LoopPlan& plan_;
-  const ClosedSample& sample_;
+  const Ray& ray_;
+  std::vector<double> y_;
   Verdict& verdict_;
   model::CoordinateLayout layout_;
   std::vector<double> parameters_;
@@ -328,8 +351,7 @@ class Comparison {
 
 Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                         const ir::Module& module, const LoopPlan& plan) {
-  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  const std::size_t states = layout.velocity_count() >= kLarge ? 2 : kStates;
+  const std::size_t states = plan.z.size() >= kLarge ? 2 : kStates;
   ir::Module nothing;
   Verdict verdict = validate::validate_translation(mechanism, equations, nothing, states);
   dynamics::DerivationOptions options;
@@ -337,31 +359,9 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   const dynamics::Equations closures = dynamics::derive_equations(mechanism, options);
   const ConstraintPrograms programs = constraint_programs(mechanism, closures);
   const NumericClosure closure(mechanism, programs, model::default_values(mechanism));
-  Configuration start;
-  start.y = Eigen::Map<const Eigen::VectorXd>(plan.y.data(), at(plan.y.size())).cast<long double>();
-  Uniform uniform;
   verdict.states = 0;
-  for (const Configuration& configuration : walk(closure, start, mechanism, states)) {
-    ClosedSample sample{configuration, {}, {}, {}, {}, {}};
-    for (const long double y : configuration.y) sample.y.push_back(static_cast<double>(y));
-    Vector z(at(layout.velocity_count()));
-    for (long double& entry : z) entry = uniform(-2, 2);
-    z = closure.consistent(configuration, z, {});
-    for (std::size_t k = 0; k < plan.z.size(); ++k) {
-      const bool kept = !plan.is_reduced() || std::find(plan.independent.begin(), plan.independent.end(),
-                                                        k) != plan.independent.end();
-      if (!kept) continue;
-      sample.z.push_back(static_cast<double>(z[at(k)]));
-      sample.zdot.push_back(uniform(-5, 5));
-    }
-    for (std::size_t k = 0; k < layout.input_count(); ++k) sample.u.push_back(uniform(-5, 5));
-    for (std::size_t k = 0; k < sample.z.size(); ++k) {
-      sample.ray.displacement.push_back(uniform(-1, 1));
-      sample.ray.velocity.push_back(uniform(-1, 1));
-    }
-    for (std::size_t k = 0; k < layout.input_count(); ++k) sample.ray.input.push_back(uniform(-1, 1));
-    if (layout.rheonomic) sample.ray.time = uniform(-1, 1);
-    Comparison(mechanism, equations, closures, closure, module, plan, sample, verdict).run();
+  for (const Ray& ray : draw_rays(closure, plan, mechanism, states)) {
+    Comparison(mechanism, equations, closures, closure, module, plan, ray, verdict).run();
     ++verdict.states;
   }
   return verdict;

@@ -2,27 +2,19 @@
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 
 #include "model/angles.hpp"
 #include "model/coordinates.hpp"
+#include "support/uniform.hpp"
 
 namespace jourdain::validate {
 
 using Reference = reference::Reference<long double>;
+using support::Uniform;
 
 namespace {
 
-/// Uniform numbers that are the same on every platform (std::uniform_real_distribution is not).
-class Uniform {
- public:
-  double operator()(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-
- private:
-  std::mt19937_64 engine_{20061};
-};
+constexpr std::uint64_t kSeed = 20061;
 
 /// Steps towards the initial state where a random state has no values.
 constexpr int kTries = 40;
@@ -80,7 +72,7 @@ reference::VectorX<long double> to_vector(const std::vector<double>& values) {
 }
 
 std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t count) {
-  Uniform uniform, directions;
+  Uniform uniform(kSeed), directions(kSeed);
   std::vector<Sample> samples;
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   const std::vector<bool> angular = model::angular_positions(mechanism);

@@ -1,0 +1,16 @@
+// What the emitted header says about where it comes from.
+#pragma once
+
+#include <string>
+
+#include "emit/files.hpp"
+
+namespace jourdain::emit {
+
+/// The comment at the top: source, equations, loops, assumptions, what was left out, what was checked.
+std::string provenance(const ModelText& model, bool has_rate);
+
+/// What a State's positions are where some depend on others; empty otherwise.
+std::string state_note(const ModelText& model);
+
+}  // namespace jourdain::emit
