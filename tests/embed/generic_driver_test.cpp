@@ -25,6 +25,8 @@ void check(const char* name) {
   Results<Model> r;
   visit_functions(model, state, input, r, [](const char*, auto&& call) { call(); });
   EXPECT_TRUE(std::isfinite(r.kinetic) && r.kinetic >= 0 && std::isfinite(r.potential)) << name;
+  if constexpr (requires { project(model, state); })
+    return;  // with multipliers G^T lambda is missing: tests/loops
   for (int i = 0; i < Model::velocity_count; ++i) {
     double residual = r.q[i] - r.k[i], scale = std::fabs(r.q[i]) + std::fabs(r.k[i]);
     for (int j = 0; j < Model::velocity_count; ++j) {
