@@ -9,6 +9,7 @@
 #include "elimination.hpp"
 #include "ir/compose.hpp"
 #include "ir/lower.hpp"
+#include "ir/symmetric_factors.hpp"
 #include "model/coordinates.hpp"
 #include "passes/rewrite.hpp"
 
@@ -34,7 +35,7 @@ struct Columns {
   std::size_t time_column() const { return 2 * velocities + inputs; }
 };
 
-using Column = std::vector<Signed>;
+using ir::Column;
 using Matrix = std::vector<Column>;  // by row
 
 /// One program under construction.
@@ -158,45 +159,17 @@ class Assembly {
     }
   }
 
-  /// M = Lᵀ D L from the last row; visits ancestors only, as the solver of forward_dynamics does.
-  void factorise() {
-    Matrix H = mass_matrix();
-    const std::size_t n = H.size();
-    L_.assign(n, Column(n, builder_.literal(0)));
-    inverse_D_.resize(n);
-    for (std::size_t k = n; k-- > 0;) {
-      inverse_D_[k] = builder_.divide(builder_.literal(1), H[k][k]);
-      for (std::size_t i = k; i-- > 0;) {
-        if (is_zero(H[k][i])) continue;
-        L_[k][i] = builder_.multiply(H[k][i], inverse_D_[k]);
-        for (std::size_t j = i + 1; j-- > 0;)
-          H[i][j] = builder_.subtract(H[i][j], builder_.multiply(L_[k][i], H[k][j]));
-      }
-    }
-  }
-
-  Column solved(Column b) {
-    const std::size_t n = b.size();
-    for (std::size_t k = n; k-- > 0;)
-      for (std::size_t i = k; i-- > 0;) b[i] = builder_.subtract(b[i], builder_.multiply(L_[k][i], b[k]));
-    for (std::size_t k = 0; k < n; ++k) {
-      b[k] = builder_.multiply(inverse_D_[k], b[k]);
-      for (std::size_t i = 0; i < k; ++i) b[k] = builder_.subtract(b[k], builder_.multiply(L_[k][i], b[i]));
-    }
-    return b;
-  }
-
   /// ∂ż by all columns.
   JacobianEntries acceleration_derivatives() {
     zdot_ = insert(sources_.zdot);
     const JacobianEntries r = differentiated(sources_.residual);
-    factorise();
+    const ir::SymmetricFactors M(builder_, mass_matrix());
     JacobianEntries J;
     for (std::size_t c = 0; c <= columns_.time_column(); ++c) {
       Column b(columns_.velocities, builder_.literal(0));
       for (std::size_t i = 0; i < b.size(); ++i)
         if (const auto entry = r.find({i, c}); entry != r.end()) b[i] = -entry->second;
-      const Column x = solved(b);
+      const Column x = M.solved(b);
       for (std::size_t i = 0; i < x.size(); ++i)
         if (!is_zero(x[i])) J[{i, c}] = x[i];
     }
@@ -253,8 +226,6 @@ class Assembly {
   Columns columns_;
   Builder builder_;
   Column zdot_;
-  Matrix L_;
-  Column inverse_D_;
 };
 
 std::vector<ir::Target> targets(const char* name, const std::vector<dynamics::Ex>& values) {

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "ir/builder.hpp"
+#include "ir/symmetric_factors.hpp"
 
 namespace jourdain::loops {
 
-using Column = std::vector<ir::Signed>;
+using ir::Column;
 
 /// Solves A x = b and Aᵀ x = b: up to three unknowns by cofactors, more by orthogonalisation (modified Gram-Schmidt). Elimination in
 /// a fixed order would divide by pivots that vanish where A is regular.

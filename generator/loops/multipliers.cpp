@@ -34,8 +34,7 @@ std::vector<std::size_t> least_degree(std::vector<std::set<std::size_t>> neighbo
 
 MultiplierSolver::MultiplierSolver(ir::Builder& builder, const LoopSystem& system,
                                    const std::vector<Column>& M, const ConstraintValues& constraints)
-    : builder_(builder), system_(system) {
-  factorise_mass(M);
+    : builder_(builder), mass_(builder, M) {
   for (std::size_t r = 0; r < system.constraints.value.outputs.size(); ++r) {
     Column row;
     for (std::size_t k = 0; k < M.size(); ++k) row.push_back(constraints.G(r, k));
@@ -46,35 +45,13 @@ MultiplierSolver::MultiplierSolver(ir::Builder& builder, const LoopSystem& syste
   factorise_schur();
 }
 
-/// From the last row; visits ancestors only.
-void MultiplierSolver::factorise_mass(std::vector<Column> M) {
-  const std::size_t n = M.size();
-  L_.assign(n, Column(n, builder_.literal(0)));
-  inverse_D_.resize(n);
-  for (std::size_t k = n; k-- > 0;) {
-    inverse_D_[k] = builder_.divide(builder_.literal(1), M[k][k]);
-    for (std::size_t i = k; i-- > 0;) {
-      if (builder_.is_literal(M[k][i], 0)) continue;
-      L_[k][i] = builder_.multiply(M[k][i], inverse_D_[k]);
-      for (std::size_t j = i + 1; j-- > 0;)
-        M[i][j] = builder_.subtract(M[i][j], builder_.multiply(L_[k][i], M[k][j]));
-    }
-  }
-}
-
-Column MultiplierSolver::lowered(Column x) const {
-  for (std::size_t k = x.size(); k-- > 0;)
-    for (std::size_t i = k; i-- > 0;) x[i] = builder_.subtract(x[i], builder_.multiply(L_[k][i], x[k]));
-  return x;
-}
-
 void MultiplierSolver::factorise_schur() {
-  const std::size_t m = V_.size(), n = inverse_D_.size();
+  const std::size_t m = V_.size(), n = mass_.inverse_D().size();
   std::vector<Column> S(m, Column(m, builder_.literal(0)));
   std::vector<std::set<std::size_t>> neighbours(m);
   for (std::size_t r = 0; r < m; ++r) {
     Column scaled;
-    for (std::size_t k = 0; k < n; ++k) scaled.push_back(builder_.multiply(V_[r][k], inverse_D_[k]));
+    for (std::size_t k = 0; k < n; ++k) scaled.push_back(builder_.multiply(V_[r][k], mass_.inverse_D()[k]));
     for (std::size_t s = 0; s <= r; ++s) {
       for (std::size_t k = 0; k < n; ++k)
         S[r][s] = builder_.add(S[r][s], builder_.multiply(scaled[k], V_[s][k]));
@@ -133,7 +110,7 @@ Column MultiplierSolver::multipliers(const Column& c) const {
 Column MultiplierSolver::constrained(const Column& lowered) const {
   Column scaled, result;
   for (std::size_t k = 0; k < lowered.size(); ++k)
-    scaled.push_back(builder_.multiply(inverse_D_[k], lowered[k]));
+    scaled.push_back(builder_.multiply(mass_.inverse_D()[k], lowered[k]));
   for (const Column& v : V_) {
     Signed sum = builder_.literal(0);
     for (std::size_t k = 0; k < v.size(); ++k) sum = builder_.add(sum, builder_.multiply(v[k], scaled[k]));
@@ -144,13 +121,10 @@ Column MultiplierSolver::constrained(const Column& lowered) const {
 
 Column MultiplierSolver::accelerations(const Column& lowered, const Column& lambda) const {
   Column x = lowered;
-  for (std::size_t k = 0; k < x.size(); ++k) {
+  for (std::size_t k = 0; k < x.size(); ++k)
     for (std::size_t r = 0; r < V_.size(); ++r)
       x[k] = builder_.subtract(x[k], builder_.multiply(V_[r][k], lambda[r]));
-    x[k] = builder_.multiply(inverse_D_[k], x[k]);
-    for (std::size_t i = 0; i < k; ++i) x[k] = builder_.subtract(x[k], builder_.multiply(L_[k][i], x[i]));
-  }
-  return x;
+  return mass_.raised(x);
 }
 
 }  // namespace jourdain::loops

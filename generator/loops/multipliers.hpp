@@ -16,7 +16,7 @@ class MultiplierSolver {
                    const ConstraintValues& constraints);
 
   /// L⁻ᵀ x for M = Lᵀ D L.
-  Column lowered(Column x) const;
+  Column lowered(const Column& x) const { return mass_.lowered(x); }
   /// λ with S λ = c.
   Column multipliers(const Column& c) const;
   /// G M⁻¹ x, with `lowered` = L⁻ᵀ x.
@@ -25,14 +25,11 @@ class MultiplierSolver {
   Column accelerations(const Column& lowered, const Column& lambda) const;
 
  private:
-  void factorise_mass(std::vector<Column> M);
   void factorise_schur();
   Column schur_solved(Column c) const;
 
   ir::Builder& builder_;
-  const LoopSystem& system_;
-  std::vector<Column> L_;
-  Column inverse_D_;
+  ir::SymmetricFactors mass_;
   std::vector<Column> V_;  ///< L⁻ᵀ Gᵀ, by row of G
   std::vector<std::size_t> order_;
   std::vector<Column> S_;  ///< factors of S + Δ in that order: unit lower triangle

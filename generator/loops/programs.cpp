@@ -51,7 +51,7 @@ class LoopProgram {
 
   Column zdot() {
     if (!system_.plan.is_reduced()) return constrained_motion().zdot;
-    return solved(mass_matrix(), forces());
+    return ir::SymmetricFactors(builder_, mass_matrix()).solved(forces());
   }
 
  private:
@@ -149,27 +149,6 @@ class LoopProgram {
       for (std::size_t row = 0; row < lambda.size(); ++row)
         r[k] = builder_.add(r[k], builder_.multiply(constraints.G(row, k), lambda[row]));
     return r;
-  }
-
-  /// Solution of a symmetric positive definite system, M = Lᵀ D L.
-  Column solved(std::vector<Column> M, Column b) {
-    const std::size_t n = b.size();
-    Column inverse(n);
-    std::vector<Column> L(n, Column(n, builder_.literal(0)));
-    for (std::size_t k = n; k-- > 0;) {
-      inverse[k] = builder_.divide(builder_.literal(1), M[k][k]);
-      for (std::size_t i = k; i-- > 0;) {
-        L[k][i] = builder_.multiply(M[k][i], inverse[k]);
-        for (std::size_t j = 0; j <= i; ++j)
-          M[i][j] = builder_.subtract(M[i][j], builder_.multiply(L[k][i], M[k][j]));
-        b[i] = builder_.subtract(b[i], builder_.multiply(L[k][i], b[k]));
-      }
-    }
-    for (std::size_t k = 0; k < n; ++k) {
-      b[k] = builder_.multiply(inverse[k], b[k]);
-      for (std::size_t i = 0; i < k; ++i) b[k] = builder_.subtract(b[k], builder_.multiply(L[k][i], b[i]));
-    }
-    return b;
   }
 
   Motion constrained_motion() {

@@ -64,6 +64,10 @@ TEST(Operations, StayAtTheBestThatWasReached) {
   EXPECT_EQ(counts["panda"]["mass_matrix"].arithmetic(), 319u);
   EXPECT_EQ(counts["puma560"]["forward_dynamics"].arithmetic(), 532u);
   EXPECT_EQ(counts["pendulum"]["forward_dynamics"].arithmetic(), 1u);
+  EXPECT_EQ(counts["four_bar"]["forward_dynamics"].arithmetic(), 118u);
+  EXPECT_EQ(counts["slider_crank"]["forward_dynamics"].arithmetic(), 93u);
+  EXPECT_EQ(counts["squeezer"]["forward_dynamics"].arithmetic(), 362u);
+  EXPECT_EQ(counts["n_four_bar"]["forward_dynamics"].arithmetic(), 401u);
 }
 
 TEST(Operations, UseOneSineAndCosineAJointAtMost) {
