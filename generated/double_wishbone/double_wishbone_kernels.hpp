@@ -1738,13 +1738,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t1206 = t1186 - t443 * t1202;
   const Real t1210 = t390 * t1206 - (t1170 - t427 * t1202);
   const Real t1214 = t350 * t1210 - (t374 * t1206 - (t1154 + t412 * t1202));
-  const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
   const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
   const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
+  const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
+  const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
+  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - (q1r1_x * Real(0.0768) + q1r2_x *
+      Real(1.3056)));
+  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
+      Real(0.544)));
+  const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
@@ -1814,21 +1821,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rQ1_1 = ren1_y + (w1p_z * rK1_x + (Real(3.84) * ra1_x - w1p_x * rK1_z));
   const Real rQ1_2 = ren1_z + (w1p_y * rK1_x + (Real(1.6) * ra1_x - w1p_x * rK1_y));
   const Real rQ2_0 = rQp2 + rdn2_z;
-  const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
-  const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - (q1r1_x * Real(0.0768) + q1r2_x *
-      Real(1.3056)));
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
-      Real(0.544)));
-  zdot[0] = -((t512 * rQ2_0 - (t516 * rQ1_2 - (t520 * rQ1_1 - (t524 * rQ1_0 + (Real(0.34) * rf1p_y -
-      (Real(0.02) * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x + (rQp0 - (strutbx_x *
-      strutf_z - strutbx_y * strutf_y))))))))))) * (Real(1.0) / (t516 * (p_3_1n_z + (t516 * Real(0.98) +
-      (p_3_1n_z - t520 * Real(0.192)))) + (t520 * (p_2_1n_z - (t516 * Real(0.192) - (p_2_1n_z + t520 *
-      Real(1.7608)))) + (t524 * (p_1_1n_z + (p_1_1n_z + t524 * Real(1.4408))) + (Real(0.0505) * (t512 * t512)
-      - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) -
-      (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) -
-      Real(3.8987000000000007)))) + Real(0.017799999999999996)))))))));
+  zdot[0] = -(Real(1.0) / (t516 * (p_3_1n_z + (t516 * Real(0.98) + (p_3_1n_z - t520 * Real(0.192)))) + (t520 *
+      (p_2_1n_z - (t516 * Real(0.192) - (p_2_1n_z + t520 * Real(1.7608)))) + (t524 * (p_1_1n_z + (p_1_1n_z +
+      t524 * Real(1.4408))) + (t512 * t512 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z +
+      (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z +
+      (q1r1_x * q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) - Real(3.8987000000000007)))) +
+      Real(0.017799999999999996))))))) * (t512 * rQ2_0 - (t516 * rQ1_2 - (t520 * rQ1_1 - (t524 * rQ1_0 +
+      (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x +
+      (rQp0 - (strutbx_x * strutf_z - strutbx_y * strutf_y))))))))))));
 }
 
 template <class Real>
@@ -3894,13 +3894,20 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t1206 = t1186 - t443 * t1202;
   const Real t1210 = t390 * t1206 - (t1170 - t427 * t1202);
   const Real t1214 = t350 * t1210 - (t374 * t1206 - (t1154 + t412 * t1202));
-  const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
   const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
   const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
+  const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
+  const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
+  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - (q1r1_x * Real(0.0768) + q1r2_x *
+      Real(1.3056)));
+  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
+      Real(0.544)));
+  const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
@@ -3948,12 +3955,12 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real t1370 = w1p_y * rK1_z;
-  const Real t1371 = w1p_z * rK1_y;
-  const Real t1373 = w1p_x * rK1_z;
-  const Real t1374 = w1p_z * rK1_x;
-  const Real t1376 = w1p_x * rK1_y;
-  const Real t1377 = w1p_y * rK1_x;
+  const Real t1437 = w1p_y * rK1_z;
+  const Real t1438 = w1p_z * rK1_y;
+  const Real t1440 = w1p_x * rK1_z;
+  const Real t1441 = w1p_z * rK1_x;
+  const Real t1443 = w1p_x * rK1_y;
+  const Real t1444 = w1p_y * rK1_x;
   const Real ru1_x = t589 + Real(2.0) * w1p_x;
   const Real ru1_y = t590 + Real(2.0) * w1p_y;
   const Real ru1_z = t591 + Real(2.0) * w1p_z;
@@ -3962,41 +3969,34 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
   const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
   const Real ruw1 = t591 * ru1_z + (t589 * ru1_x + t590 * ru1_y);
-  const Real t1410 = t590 * rSu1_z;
-  const Real t1411 = t591 * rSu1_y;
-  const Real t1415 = t589 * rSu1_z;
-  const Real t1416 = t591 * rSu1_x;
-  const Real t1420 = t589 * rSu1_y;
-  const Real t1421 = t590 * rSu1_x;
+  const Real t1476 = t590 * rSu1_z;
+  const Real t1477 = t591 * rSu1_y;
+  const Real t1480 = t589 * rSu1_z;
+  const Real t1481 = t591 * rSu1_x;
+  const Real t1484 = t589 * rSu1_y;
+  const Real t1485 = t590 * rSu1_x;
   const Real rQp2 = h2b_x * Real(9.786103333048876);
   const Real rdn2_z = t1202 * Real(0.0505);
   const Real ref1_x = t589 * ruh1 - (t1210 * Real(3.84) - (tyre_forcef1_x + t1206 * Real(1.6)));
   const Real ref1_y = t590 * ruh1 + (t1214 * Real(3.84) + (tyre_forcef1_y - Real(1.6) * ruw1));
   const Real ref1_z = t591 * ruh1 - (Real(3.84) * ruw1 + (tyre_forcef1_z + t1214 * Real(1.6)));
-  const Real ren1_x = t1411 - (t1410 + (tyre_forcem_x + t1214 * Real(1.4408)));
-  const Real ren1_y = t1416 - (t1415 - (t1210 * Real(1.7608) - (tyre_forcem_y + t1206 * Real(0.192))));
-  const Real ren1_z = t1421 - (t1420 + (t1206 * Real(0.98) - (tyre_forcem_z + t1210 * Real(0.192))));
+  const Real ren1_x = t1477 - (t1476 + (tyre_forcem_x + t1214 * Real(1.4408)));
+  const Real ren1_y = t1481 - (t1480 - (t1210 * Real(1.7608) - (tyre_forcem_y + t1206 * Real(0.192))));
+  const Real ren1_z = t1485 - (t1484 + (t1206 * Real(0.98) - (tyre_forcem_z + t1210 * Real(0.192))));
   const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x + q1r1_y * ref1_y);
   const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real rQ1_0 = ren1_x + (t1371 - (t1370 - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
-  const Real rQ1_1 = ren1_y + (t1374 + (Real(3.84) * ra1_x - t1373));
-  const Real rQ1_2 = ren1_z + (t1377 + (Real(1.6) * ra1_x - t1376));
+  const Real rQ1_0 = ren1_x + (t1438 - (t1437 - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
+  const Real rQ1_1 = ren1_y + (t1441 + (Real(3.84) * ra1_x - t1440));
+  const Real rQ1_2 = ren1_z + (t1444 + (Real(1.6) * ra1_x - t1443));
   const Real rQ2_0 = rQp2 + rdn2_z;
-  const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
-  const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - (q1r1_x * Real(0.0768) + q1r2_x *
-      Real(1.3056)));
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
-      Real(0.544)));
-  const Real t1550 = (t512 * rQ2_0 - (t516 * rQ1_2 - (t520 * rQ1_1 - (t524 * rQ1_0 + (Real(0.34) * rf1p_y -
-      (Real(0.02) * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x + (rQp0 - (strutbx_x *
-      strutf_z - strutbx_y * strutf_y))))))))))) * (Real(1.0) / (t516 * (p_3_1n_z + (t516 * Real(0.98) +
-      (p_3_1n_z - t520 * Real(0.192)))) + (t520 * (p_2_1n_z - (t516 * Real(0.192) - (p_2_1n_z + t520 *
-      Real(1.7608)))) + (t524 * (p_1_1n_z + (p_1_1n_z + t524 * Real(1.4408))) + (Real(0.0505) * (t512 * t512)
-      - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) -
-      (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) -
-      Real(3.8987000000000007)))) + Real(0.017799999999999996))))))));
+  const Real t1550 = Real(1.0) / (t516 * (p_3_1n_z + (t516 * Real(0.98) + (p_3_1n_z - t520 * Real(0.192)))) +
+      (t520 * (p_2_1n_z - (t516 * Real(0.192) - (p_2_1n_z + t520 * Real(1.7608)))) + (t524 * (p_1_1n_z +
+      (p_1_1n_z + t524 * Real(1.4408))) + (t512 * t512 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z *
+      S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z *
+      S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) - Real(3.8987000000000007)))) +
+      Real(0.017799999999999996))))))) * (t512 * rQ2_0 - (t516 * rQ1_2 - (t520 * rQ1_1 - (t524 * rQ1_0 +
+      (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x +
+      (rQp0 - (strutbx_x * strutf_z - strutbx_y * strutf_y)))))))))));
   const Real ral1_x = q1r0_x * t1550;
   const Real ral1_y = q1r0_y * t1550;
   const Real ral1_z = q1r0_z * t1550;
@@ -4006,14 +4006,14 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
   const Real rdn2_z_2 = Real(0.0505) * (t1202 - t512 * t1550);
-  const Real rQ1_0_2 = Real(1.4408) * (t1214 - t524 * t1550 - ral1_x) + (t1410 - (t1411 - (tyre_forcem_x -
-      (Real(3.84) * ra1_y_2 + (Real(1.6) * ra1_z_2 - (t1370 - t1371))))));
+  const Real rQ1_0_2 = Real(1.4408) * (t1214 - t524 * t1550 - ral1_x) + (t1476 - (t1477 - (tyre_forcem_x -
+      (Real(3.84) * ra1_y_2 + (Real(1.6) * ra1_z_2 - (t1437 - t1438))))));
   const Real t1590 = t1206 - t516 * t1550 - ral1_z;
   const Real t1592 = t1210 - t520 * t1550 - ral1_y;
-  const Real t1601 = Real(0.192) * t1590 - (Real(1.7608) * t1592 + (t350 * rQ1_0_2 - (t1415 - (t1416 -
-      (tyre_forcem_y - (Real(3.84) * ra1_x_2 - (t1373 - t1374)))))));
-  const Real t1614 = Real(0.192) * t1592 - (Real(0.98) * t1590 - (t390 * t1601 + (t374 * rQ1_0_2 - (t1420 -
-      (t1421 + (tyre_forcem_z + (Real(1.6) * ra1_x_2 - (t1376 - t1377))))))));
+  const Real t1601 = Real(0.192) * t1590 - (Real(1.7608) * t1592 + (t350 * rQ1_0_2 - (t1480 - (t1481 -
+      (tyre_forcem_y - (Real(3.84) * ra1_x_2 - (t1440 - t1441)))))));
+  const Real t1614 = Real(0.192) * t1592 - (Real(0.98) * t1590 - (t390 * t1601 + (t374 * rQ1_0_2 - (t1484 -
+      (t1485 + (tyre_forcem_z + (Real(1.6) * ra1_x_2 - (t1443 - t1444))))))));
   const Real t1622 = t342 * rQ1_0_2;
   const Real t1627 = t366 * t1601;
   const Real t1632 = t406 * t1614;

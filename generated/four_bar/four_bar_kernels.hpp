@@ -244,9 +244,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
+  const Real J0 = D1 + D1 - Real(0.031103999999999996) - Real(0.011519999999999999);
+  const Real v1P_x = t34 * h1b_y;
+  const Real v1P_y = t34 * h1b_x;
+  const Real v1L_z = t34 * Real(0.031103999999999996);
+  const Real T2 = (t38 * t38 * Real(0.009215999999999998) - (J0 - t34 * v1L_z)) * Real(0.5) + (r1_x * v1P_y -
+      (v1L_z + r1_y * v1P_x));
   const Real h0b_x = c0 * Real(0.10079999999999999);
   const Real h0_x = h1b_x - h0b_x;
-  const Real J0 = D1 + D1 - Real(0.031103999999999996) - Real(0.011519999999999999);
   const Real push2_0 = t41 * model.bearing;
   const Real rQp0 = h0_x * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
@@ -260,13 +265,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rdn2_z = t30 * (pinbx_x * t56 + pinbx_y * t63) * Real(0.009215999999999998);
   const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
   const Real tau_2_0 = rdn2_z + (push2_0 + rQp2);
-  const Real v1P_x = t34 * h1b_y;
-  const Real v1P_y = t34 * h1b_x;
-  const Real v1L_z = t34 * Real(0.031103999999999996);
-  const Real T2 = (Real(0.009215999999999998) * (t38 * t38) - (J0 - t34 * v1L_z)) * Real(0.5) + (r1_x * v1P_y
-      - (v1L_z + r1_y * v1P_x));
-  zdot[0] = -((t38 * tau_2_0 + (t34 * rQ1_0 - (input.u[0] + (r1_y * rdf1_x - (r1_x * rdf1_y - (rQp0 +
-      rdn1_z)))))) * (Real(1.0) / (T2 * Real(2.0))));
+  zdot[0] = -(Real(1.0) / (T2 * Real(2.0)) * (t38 * tau_2_0 + (t34 * rQ1_0 - (input.u[0] + (r1_y * rdf1_x -
+      (r1_x * rdf1_y - (rQp0 + rdn1_z)))))));
 }
 
 template <class Real>
@@ -503,9 +503,14 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
+  const Real J0 = D1 + D1 - Real(0.031103999999999996) - Real(0.011519999999999999);
+  const Real v1P_x = t34 * h1b_y;
+  const Real v1P_y = t34 * h1b_x;
+  const Real v1L_z = t34 * Real(0.031103999999999996);
+  const Real T2 = (t38 * t38 * Real(0.009215999999999998) - (J0 - t34 * v1L_z)) * Real(0.5) + (r1_x * v1P_y -
+      (v1L_z + r1_y * v1P_x));
   const Real h0b_x = c0 * Real(0.10079999999999999);
   const Real h0_x = h1b_x - h0b_x;
-  const Real J0 = D1 + D1 - Real(0.031103999999999996) - Real(0.011519999999999999);
   const Real push2_0 = t41 * model.bearing;
   const Real rQp0 = h0_x * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
@@ -518,21 +523,16 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rQp2 = c2 * Real(0.565056);
   const Real rdn2_z = t71 * Real(0.009215999999999998);
   const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real t114 = push2_0 + rQp2;
-  const Real tau_2_0 = rdn2_z + t114;
-  const Real v1P_x = t34 * h1b_y;
-  const Real v1P_y = t34 * h1b_x;
-  const Real v1L_z = t34 * Real(0.031103999999999996);
-  const Real T2 = (Real(0.009215999999999998) * (t38 * t38) - (J0 - t34 * v1L_z)) * Real(0.5) + (r1_x * v1P_y
-      - (v1L_z + r1_y * v1P_x));
-  const Real t142 = (t38 * tau_2_0 + (t34 * rQ1_0 - (input.u[0] + (r1_y * rdf1_x - (r1_x * rdf1_y - (rQp0 +
-      rdn1_z)))))) * (Real(1.0) / (T2 * Real(2.0)));
+  const Real t132 = push2_0 + rQp2;
+  const Real tau_2_0 = rdn2_z + t132;
+  const Real t142 = Real(1.0) / (T2 * Real(2.0)) * (t38 * tau_2_0 + (t34 * rQ1_0 - (input.u[0] + (r1_y *
+      rdf1_x - (r1_x * rdf1_y - (rQp0 + rdn1_z))))));
   const Real ra1o_x_2 = ra1o_x - r1_y * t142;
   const Real ra1o_y_2 = ra1o_y - r1_x * t142;
   const Real rdn2_z_2 = Real(0.009215999999999998) * (t71 - t38 * t142);
   const Real rQ1_0_2 = Real(0.031103999999999996) * (t142 + (t67 - t34 * t142)) + (h1b_x * ra1o_y_2 - h1b_y *
       ra1o_x_2);
-  const Real tau_2_0_2 = t114 + rdn2_z_2;
+  const Real tau_2_0_2 = t132 + rdn2_z_2;
   lambda[0] = -(t30 * (pinax_x * rQ1_0_2 + pinbx_x * tau_2_0_2));
   lambda[1] = -(t30 * (pinax_y * rQ1_0_2 - pinbx_y * tau_2_0_2));
 }

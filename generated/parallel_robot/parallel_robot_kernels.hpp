@@ -876,6 +876,27 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(0.0012656249999999998);
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
+  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
+  const Real t671 = t355 * J1 - t351 * E2;
+  const Real t674 = t355 * E2 - t351 * model.S2b_zz;
+  const Real t676 = E4 - t347 * Real(0.0050625);
+  const Real t677 = t343 * Real(0.0050625);
+  const Real t689 = t422 * J1 - t418 * E2;
+  const Real t692 = t422 * E2 - t418 * model.S2b_zz;
+  const Real t694 = t414 * Real(0.0050625);
+  const Real t696 = E6 - t410 * Real(0.0050625);
+  const Real t705 = t276 * t696 - (t280 * t694 - (t284 * t692 - (t288 * t689 + (t422 * E1 + t418 *
+      p_2_1n_z))));
+  const Real t713 = t343 * t696 - (t347 * t694 - (t351 * t692 + (t414 * E4 - t355 * t689)));
+  const Real t728 = Real(1.0) / (t410 * (E6 + t696) - (t414 * t694 - (t418 * t692 - (t422 * t689 + (D6 + E6 +
+      Real(0.021937500000000002) + Real(0.002))))));
+  const Real t729 = t713 * t728;
+  const Real t747 = t705 * t729 + (t276 * t677 - (t280 * t676 + (t284 * t674 - (t288 * t671 + (t355 * E1 +
+      t351 * p_2_1n_z)))));
+  const Real t748 = t705 * t728;
+  const Real t750 = Real(1.0) / (t347 * (E4 + t676) - (t713 * t729 + (t343 * t677 - (t351 * t674 - (t355 *
+      t671 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
+  const Real t751 = t747 * t750;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
@@ -912,41 +933,19 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz + h2b_x * ra2o_y));
   const Real rQ4_0 = rdn4_z + (h4b_x * ra4o_y - h4b_y * ra4o_x);
   const Real rQ6_0 = rdn6_z + (h6b_x * ra6o_y + h6b_y * ra6o_x);
-  const Real t761 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
+  const Real t884 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
       rdf6_y - (push5_0 - rdn6_z))))));
-  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t782 = t355 * J1 - t351 * E2;
-  const Real t785 = t355 * E2 - t351 * model.S2b_zz;
-  const Real t787 = E4 - t347 * Real(0.0050625);
-  const Real t788 = t343 * Real(0.0050625);
-  const Real t800 = t422 * J1 - t418 * E2;
-  const Real t803 = t422 * E2 - t418 * model.S2b_zz;
-  const Real t805 = t414 * Real(0.0050625);
-  const Real t807 = E6 - t410 * Real(0.0050625);
-  const Real t816 = t276 * t807 - (t280 * t805 - (t284 * t803 - (t288 * t800 + (t422 * E1 + t418 *
-      p_2_1n_z))));
-  const Real t824 = t343 * t807 - (t347 * t805 - (t351 * t803 + (t414 * E4 - t355 * t800)));
-  const Real t839 = Real(1.0) / (t410 * (E6 + t807) - (t414 * t805 - (t418 * t803 - (t422 * t800 + (D6 + E6 +
-      Real(0.021937500000000002) + Real(0.002))))));
-  const Real t840 = t824 * t839;
-  const Real t847 = t816 * t840 + (t276 * t788 - (t280 * t787 + (t284 * t785 - (t288 * t782 + (t355 * E1 +
-      t351 * p_2_1n_z)))));
-  const Real t867 = t761 * t840 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
+  const Real t893 = t729 * t884 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
       rdf4_x + (r4_x * rdf4_y + (push3_0 + rdn4_z)))))));
-  const Real t868 = t816 * t839;
-  const Real t871 = Real(1.0) / (t347 * (E4 + t787) - (t824 * t840 + (t343 * t788 - (t351 * t785 - (t355 *
-      t782 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
-  const Real t872 = t847 * t871;
-  const Real t905 = (t867 * t872 + (t761 * t868 - (t276 * rQ6_0 + (t280 * rQ4_0 + (t284 * rQ2_0 + (t288 *
-      rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y - (push0_0 - rn2c_z))))))))) * (Real(1.0) / (t284 * (p_2_1n_z +
-      (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 * (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t847
-      * t872 + (t816 * t868 + (Real(0.0050625) * (t276 * t276) + (Real(0.0050625) * (t280 * t280) +
-      (Real(0.002) - (D1 - E1 - model.S_xx_2 - Real(0.005062500000000001) - model.S_yy_2 -
-      Real(0.0016875))))))))));
-  const Real t908 = t867 * t871 - t872 * t905;
+  const Real t905 = Real(1.0) / (t284 * (p_2_1n_z + (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 *
+      (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t747 * t751 + (t705 * t748 + (Real(0.0050625) * (t276 * t276) +
+      (Real(0.0050625) * (t280 * t280) + (Real(0.002) - (D1 - E1 - model.S_xx_2 - Real(0.005062500000000001) -
+      model.S_yy_2 - Real(0.0016875))))))))) * (t751 * t893 + (t748 * t884 - (t276 * rQ6_0 + (t280 * rQ4_0 +
+      (t284 * rQ2_0 + (t288 * rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y - (push0_0 - rn2c_z)))))))));
+  const Real t908 = t750 * t893 - t751 * t905;
   zdot[0] = t905;
   zdot[1] = -t908;
-  zdot[2] = -(t840 * t908 + (t761 * t839 - t868 * t905));
+  zdot[2] = -(t729 * t908 + (t728 * t884 - t748 * t905));
 }
 
 template <class Real>
@@ -2171,6 +2170,27 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
       Real(0.0012656249999999998);
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
+  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
+  const Real t671 = t355 * J1 - t351 * E2;
+  const Real t674 = t355 * E2 - t351 * model.S2b_zz;
+  const Real t676 = E4 - t347 * Real(0.0050625);
+  const Real t677 = t343 * Real(0.0050625);
+  const Real t689 = t422 * J1 - t418 * E2;
+  const Real t692 = t422 * E2 - t418 * model.S2b_zz;
+  const Real t694 = t414 * Real(0.0050625);
+  const Real t696 = E6 - t410 * Real(0.0050625);
+  const Real t705 = t276 * t696 - (t280 * t694 - (t284 * t692 - (t288 * t689 + (t422 * E1 + t418 *
+      p_2_1n_z))));
+  const Real t713 = t343 * t696 - (t347 * t694 - (t351 * t692 + (t414 * E4 - t355 * t689)));
+  const Real t728 = Real(1.0) / (t410 * (E6 + t696) - (t414 * t694 - (t418 * t692 - (t422 * t689 + (D6 + E6 +
+      Real(0.021937500000000002) + Real(0.002))))));
+  const Real t729 = t713 * t728;
+  const Real t747 = t705 * t729 + (t276 * t677 - (t280 * t676 + (t284 * t674 - (t288 * t671 + (t355 * E1 +
+      t351 * p_2_1n_z)))));
+  const Real t748 = t705 * t728;
+  const Real t750 = Real(1.0) / (t347 * (E4 + t676) - (t713 * t729 + (t343 * t677 - (t351 * t674 - (t355 *
+      t671 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
+  const Real t751 = t747 * t750;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
@@ -2180,15 +2200,15 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real zw_1 = t426 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
   const Real rW1w22 = w1_z * w1_z;
-  const Real t671 = r2_x * rW1w22;
-  const Real ra2o_x = r2_y * ral1o_z + (ra1o_x - t671);
-  const Real t676 = r2_y * rW1w22;
-  const Real ra2o_y = t676 + (ra1o_y + r2_x * ral1o_z);
+  const Real t794 = r2_x * rW1w22;
+  const Real ra2o_x = r2_y * ral1o_z + (ra1o_x - t794);
+  const Real t799 = r2_y * rW1w22;
+  const Real ra2o_y = t799 + (ra1o_y + r2_x * ral1o_z);
   const Real zw_2 = t429 * (w1_z + w2_z);
-  const Real t685 = h2b_x * zw_2;
-  const Real rdf2_x = t590 * h2b_y - t685;
-  const Real t688 = h2b_y * zw_2;
-  const Real rdf2_y = t590 * h2b_x + t688;
+  const Real t808 = h2b_x * zw_2;
+  const Real rdf2_x = t590 * h2b_y - t808;
+  const Real t811 = h2b_y * zw_2;
+  const Real rdf2_y = t590 * h2b_x + t811;
   const Real rdn2_z = t590 * model.S2b_zz;
   const Real rW3w22 = state.z[1] * state.z[1];
   const Real ra4o_x = r4_x * rW3w22;
@@ -2211,47 +2231,25 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz + h2b_x * ra2o_y));
   const Real rQ4_0 = rdn4_z + (h4b_x * ra4o_y - h4b_y * ra4o_x);
   const Real rQ6_0 = rdn6_z + (h6b_x * ra6o_y + h6b_y * ra6o_x);
-  const Real t761 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
+  const Real t884 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
       rdf6_y - (push5_0 - rdn6_z))))));
-  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t782 = t355 * J1 - t351 * E2;
-  const Real t785 = t355 * E2 - t351 * model.S2b_zz;
-  const Real t787 = E4 - t347 * Real(0.0050625);
-  const Real t788 = t343 * Real(0.0050625);
-  const Real t800 = t422 * J1 - t418 * E2;
-  const Real t803 = t422 * E2 - t418 * model.S2b_zz;
-  const Real t805 = t414 * Real(0.0050625);
-  const Real t807 = E6 - t410 * Real(0.0050625);
-  const Real t816 = t276 * t807 - (t280 * t805 - (t284 * t803 - (t288 * t800 + (t422 * E1 + t418 *
-      p_2_1n_z))));
-  const Real t824 = t343 * t807 - (t347 * t805 - (t351 * t803 + (t414 * E4 - t355 * t800)));
-  const Real t839 = Real(1.0) / (t410 * (E6 + t807) - (t414 * t805 - (t418 * t803 - (t422 * t800 + (D6 + E6 +
-      Real(0.021937500000000002) + Real(0.002))))));
-  const Real t840 = t824 * t839;
-  const Real t847 = t816 * t840 + (t276 * t788 - (t280 * t787 + (t284 * t785 - (t288 * t782 + (t355 * E1 +
-      t351 * p_2_1n_z)))));
-  const Real t867 = t761 * t840 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
+  const Real t893 = t729 * t884 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
       rdf4_x + (r4_x * rdf4_y + (push3_0 + rdn4_z)))))));
-  const Real t868 = t816 * t839;
-  const Real t871 = Real(1.0) / (t347 * (E4 + t787) - (t824 * t840 + (t343 * t788 - (t351 * t785 - (t355 *
-      t782 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
-  const Real t872 = t847 * t871;
-  const Real t905 = (t867 * t872 + (t761 * t868 - (t276 * rQ6_0 + (t280 * rQ4_0 + (t284 * rQ2_0 + (t288 *
-      rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y - (push0_0 - rn2c_z))))))))) * (Real(1.0) / (t284 * (p_2_1n_z +
-      (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 * (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t847
-      * t872 + (t816 * t868 + (Real(0.0050625) * (t276 * t276) + (Real(0.0050625) * (t280 * t280) +
-      (Real(0.002) - (D1 - E1 - model.S_xx_2 - Real(0.005062500000000001) - model.S_yy_2 -
-      Real(0.0016875))))))))));
-  const Real t908 = t867 * t871 - t872 * t905;
-  const Real t913 = t840 * t908 + (t761 * t839 - t868 * t905);
+  const Real t905 = Real(1.0) / (t284 * (p_2_1n_z + (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 *
+      (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t747 * t751 + (t705 * t748 + (Real(0.0050625) * (t276 * t276) +
+      (Real(0.0050625) * (t280 * t280) + (Real(0.002) - (D1 - E1 - model.S_xx_2 - Real(0.005062500000000001) -
+      model.S_yy_2 - Real(0.0016875))))))))) * (t751 * t893 + (t748 * t884 - (t276 * rQ6_0 + (t280 * rQ4_0 +
+      (t284 * rQ2_0 + (t288 * rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y - (push0_0 - rn2c_z)))))))));
+  const Real t908 = t750 * t893 - t751 * t905;
+  const Real t913 = t729 * t908 + (t728 * t884 - t748 * t905);
   const Real t929 = t418 * t913 - (t351 * t908 - (t590 + t284 * t905));
   const Real ra1o_x_2 = ra1o_x + r1_y * t905;
   const Real ra1o_y_2 = ra1o_y - r1_x * t905;
   const Real ral1o_z_2 = t905 + (t422 * t913 - (t355 * t908 - (ral1o_z + t288 * t905)));
-  const Real ra2o_x_2 = r2_y * ral1o_z_2 - (t671 - ra1o_x_2);
-  const Real ra2o_y_2 = r2_x * ral1o_z_2 + (t676 + ra1o_y_2);
-  const Real rdf2_x_2 = t685 - h2b_y * t929;
-  const Real rdf2_y_2 = t688 + h2b_x * t929;
+  const Real ra2o_x_2 = r2_y * ral1o_z_2 - (t794 - ra1o_x_2);
+  const Real ra2o_y_2 = r2_x * ral1o_z_2 + (t799 + ra1o_y_2);
+  const Real rdf2_x_2 = t808 - h2b_y * t929;
+  const Real rdf2_y_2 = t811 + h2b_x * t929;
   const Real rdn2_z_2 = model.S2b_zz * t929;
   const Real ra4o_x_2 = ra4o_x - r4_y * t908;
   const Real ra4o_y_2 = ra4o_y + r4_x * t908;

@@ -209,10 +209,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real h0b_y = s0 * Real(0.02475);
-  const Real h0_y = h1b_y + h0b_y;
   const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
       Real(0.00111375);
+  const Real v1P_x = t21 * h1b_y;
+  const Real v1P_y = t21 * h1b_x;
+  const Real v1L_z = t21 * Real(0.00311375);
+  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
+      v1P_x));
+  const Real h0b_y = s0 * Real(0.02475);
+  const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
@@ -224,13 +229,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rdf2t_z = (w1_z * (c1 * t30) - (c0 * state.z[0] * t31 - piston_pinbx_y * t38)) * Real(0.48);
   const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
   const Real tau_2_0 = input.u[0] - (rdf2t_z + Real(4.7088));
-  const Real v1P_x = t21 * h1b_y;
-  const Real v1P_y = t21 * h1b_x;
-  const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = (Real(0.48) * (t24 * t24) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y
-      * v1P_x));
-  zdot[0] = -((t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x - (r1_x * rdf1_y - (rQp0 +
-      rdn1_z)))))) * (Real(1.0) / (T2 * Real(2.0))));
+  zdot[0] = -(Real(1.0) / (T2 * Real(2.0)) * (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x -
+      (r1_x * rdf1_y - (rQp0 + rdn1_z)))))));
 }
 
 template <class Real>
@@ -412,10 +412,15 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real h0b_y = s0 * Real(0.02475);
-  const Real h0_y = h1b_y + h0b_y;
   const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
       Real(0.00111375);
+  const Real v1P_x = t21 * h1b_y;
+  const Real v1P_y = t21 * h1b_x;
+  const Real v1L_z = t21 * Real(0.00311375);
+  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
+      v1P_x));
+  const Real h0b_y = s0 * Real(0.02475);
+  const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
@@ -427,13 +432,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rdf2t_z = t42 * Real(0.48);
   const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
   const Real tau_2_0 = input.u[0] - (rdf2t_z + Real(4.7088));
-  const Real v1P_x = t21 * h1b_y;
-  const Real v1P_y = t21 * h1b_x;
-  const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = (Real(0.48) * (t24 * t24) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y
-      * v1P_x));
-  const Real t113 = (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x - (r1_x * rdf1_y - (rQp0 +
-      rdn1_z)))))) * (Real(1.0) / (T2 * Real(2.0)));
+  const Real t113 = Real(1.0) / (T2 * Real(2.0)) * (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y *
+      rdf1_x - (r1_x * rdf1_y - (rQp0 + rdn1_z))))));
   const Real ra1o_x_2 = ra1o_x + r1_y * t113;
   const Real ra1o_y_2 = ra1o_y + r1_x * t113;
   const Real rdf2t_z_2 = Real(0.48) * (t42 + t24 * t113);

@@ -215,11 +215,17 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t72 = t16 * t62 + (ballbx3_x * t67 + (t31 * (ballbx_y * t32 + c2 * t46) + t30 * (s2 * t38 +
       ballbx_x * t33)));
   const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real S3b_xy = c3 * S3b_t;
   const Real h3b_x = c3 * Real(0.075);
   const Real h3b_y = s3 * Real(0.075);
   const Real S2b_zz = s3 * S3b_t - Real(0.01505) - Real(0.0002);
   const Real h2b_x = s2 * h3b_x;
+  const Real v2P_y = t25 * h2b_x;
+  const Real v2L_z = t25 * S2b_zz;
+  const Real v3p_y = c2 * t28;
+  const Real v3P_x = t22 * h3b_y;
+  const Real T3 = (t28 * t28 * Real(2.5) - (t25 * v2L_z - t22 * t22 * Real(0.01525))) * Real(0.5) + (v3p_y *
+      v3P_x - (t28 * v2P_y - Real(5e-05)));
+  const Real S3b_xy = c3 * S3b_t;
   const Real h2b_y = c2 * h3b_x;
   const Real rdf1t_z = t72 * Real(2.5);
   const Real zw_2 = t30 * t30;
@@ -236,13 +242,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real rf1_z = s2 * rdf3_z + (c2 * rdf3_x + (h2b_y * zw_2 - (rdf1t_z - t67 * h2b_x)));
   const Real rQ2_0 = rdn3_y - (rdn2_z - (h2b_y * Real(9.81) - t72 * h2b_x));
   const Real rQ3_0 = rdn3_z + (t30 * rKx3 - h3b_y * rL2a_y);
-  const Real v2P_y = t25 * h2b_x;
-  const Real v2L_z = t25 * S2b_zz;
-  const Real v3p_y = c2 * t28;
-  const Real v3P_x = t22 * h3b_y;
-  const Real T3 = (Real(2.5) * (t28 * t28) - (t25 * v2L_z - Real(0.01525) * (t22 * t22))) * Real(0.5) + (v3p_y
-      * v3P_x - (t28 * v2P_y - Real(5e-05)));
-  zdot[0] = -((t22 * rQ3_0 + (t28 * rf1_z - t25 * rQ2_0)) * (Real(1.0) / (Real(2.0) * T3)));
+  zdot[0] = -(Real(1.0) / (T3 * Real(2.0)) * (t22 * rQ3_0 + (t28 * rf1_z - t25 * rQ2_0)));
 }
 
 template <class Real>
@@ -464,52 +464,52 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real t72 = t16 * t62 + (ballbx3_x * t67 + (t31 * (ballbx_y * t32 + c2 * t46) + t30 * (s2 * t38 +
       ballbx_x * t33)));
   const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real S3b_xy = c3 * S3b_t;
   const Real h3b_x = c3 * Real(0.075);
   const Real h3b_y = s3 * Real(0.075);
   const Real S2b_zz = s3 * S3b_t - Real(0.01505) - Real(0.0002);
   const Real h2b_x = s2 * h3b_x;
-  const Real h2b_y = c2 * h3b_x;
-  const Real rdf1t_z = t72 * Real(2.5);
-  const Real t89 = h2b_y * Real(9.81);
-  const Real zw_2 = t30 * t30;
-  const Real t93 = h2b_y * zw_2;
-  const Real rdn2_z = t67 * S2b_zz;
-  const Real t95 = s2 * Real(9.81);
-  const Real rL2a_y = t95 + c2 * t72;
-  const Real rKx3 = t30 * S3b_xy;
-  const Real t99 = t30 * rKx3;
-  const Real z2_3 = t31 * Real(2.0);
-  const Real zw_3 = t31 * t31;
-  const Real rax3 = t30 * h3b_y;
-  const Real t106 = h3b_x * zw_3;
-  const Real rdf3_x = t62 * h3b_y + t106;
-  const Real rdf3_z = z2_3 * rax3;
-  const Real rdn3_y = rKx3 * z2_3;
-  const Real rdn3_z = t62 * Real(0.01525);
-  const Real t113 = s2 * rdf3_z;
-  const Real rf1_z = t113 + (c2 * rdf3_x + (t93 - (rdf1t_z - t67 * h2b_x)));
-  const Real rQ2_0 = rdn3_y - (rdn2_z - (t89 - t72 * h2b_x));
-  const Real rQ3_0 = rdn3_z + (t99 - h3b_y * rL2a_y);
   const Real v2P_y = t25 * h2b_x;
   const Real v2L_z = t25 * S2b_zz;
   const Real v3p_y = c2 * t28;
   const Real v3P_x = t22 * h3b_y;
-  const Real T3 = (Real(2.5) * (t28 * t28) - (t25 * v2L_z - Real(0.01525) * (t22 * t22))) * Real(0.5) + (v3p_y
-      * v3P_x - (t28 * v2P_y - Real(5e-05)));
-  const Real t149 = (t22 * rQ3_0 + (t28 * rf1_z - t25 * rQ2_0)) * (Real(1.0) / (Real(2.0) * T3));
+  const Real T3 = (t28 * t28 * Real(2.5) - (t25 * v2L_z - t22 * t22 * Real(0.01525))) * Real(0.5) + (v3p_y *
+      v3P_x - (t28 * v2P_y - Real(5e-05)));
+  const Real S3b_xy = c3 * S3b_t;
+  const Real h2b_y = c2 * h3b_x;
+  const Real rdf1t_z = t72 * Real(2.5);
+  const Real t112 = h2b_y * Real(9.81);
+  const Real zw_2 = t30 * t30;
+  const Real t116 = h2b_y * zw_2;
+  const Real rdn2_z = t67 * S2b_zz;
+  const Real t118 = s2 * Real(9.81);
+  const Real rL2a_y = t118 + c2 * t72;
+  const Real rKx3 = t30 * S3b_xy;
+  const Real t122 = t30 * rKx3;
+  const Real z2_3 = t31 * Real(2.0);
+  const Real zw_3 = t31 * t31;
+  const Real rax3 = t30 * h3b_y;
+  const Real t128 = h3b_x * zw_3;
+  const Real rdf3_x = t62 * h3b_y + t128;
+  const Real rdf3_z = z2_3 * rax3;
+  const Real rdn3_y = rKx3 * z2_3;
+  const Real rdn3_z = t62 * Real(0.01525);
+  const Real t134 = s2 * rdf3_z;
+  const Real rf1_z = t134 + (c2 * rdf3_x + (t116 - (rdf1t_z - t67 * h2b_x)));
+  const Real rQ2_0 = rdn3_y - (rdn2_z - (t112 - t72 * h2b_x));
+  const Real rQ3_0 = rdn3_z + (t122 - h3b_y * rL2a_y);
+  const Real t149 = Real(1.0) / (T3 * Real(2.0)) * (t22 * rQ3_0 + (t28 * rf1_z - t25 * rQ2_0));
   const Real t151 = t72 + t28 * t149;
   const Real t153 = t67 + t25 * t149;
   const Real t155 = t62 - t22 * t149;
   const Real rdf1t_z_2 = Real(2.5) * t151;
   const Real rdn2_z_2 = S2b_zz * t153;
-  const Real rL2a_y_2 = t95 + c2 * t151;
-  const Real rdf3_x_2 = t106 + h3b_y * t155;
+  const Real rL2a_y_2 = t118 + c2 * t151;
+  const Real rdf3_x_2 = t128 + h3b_y * t155;
   const Real rdn3_z_2 = Real(0.01525) * t155;
-  const Real rf1_z_2 = c2 * rdf3_x_2 + (t113 + (h2b_x * t153 + (t93 - rdf1t_z_2)));
-  const Real t177 = t20 * (ballbx3_x * rf1_z_2 + (rdn2_z_2 - (rdn3_y + (t89 - h2b_x * t151))));
+  const Real rf1_z_2 = c2 * rdf3_x_2 + (t134 + (h2b_x * t153 + (t116 - rdf1t_z_2)));
+  const Real t177 = t20 * (ballbx3_x * rf1_z_2 + (rdn2_z_2 - (rdn3_y + (t112 - h2b_x * t151))));
   lambda[0] = -rf1_z_2;
-  lambda[1] = -(t19 * (t17 * t177 + (t16 * rf1_z_2 - (rdn3_z_2 + (t99 - h3b_y * rL2a_y_2)))));
+  lambda[1] = -(t19 * (t17 * t177 + (t16 * rf1_z_2 - (rdn3_z_2 + (t122 - h3b_y * rL2a_y_2)))));
   lambda[2] = t177;
 }
 

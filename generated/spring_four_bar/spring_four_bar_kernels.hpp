@@ -201,9 +201,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
+  const Real J0 = D1 + D1 - Real(0.3333333333333333) - Real(1.3333333333333333);
+  const Real v1P_x = t24 * h1b_y;
+  const Real v1P_y = t24 * h1b_x;
+  const Real v1L_z = t24 * Real(0.3333333333333333);
+  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t20 * t20) - (J0 - t24 * v1L_z)) + (c0 * v1P_y -
+      (v1L_z + s0 * v1P_x));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
-  const Real J0 = D1 + D1 - Real(0.3333333333333333) - Real(1.3333333333333333);
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
@@ -224,13 +229,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rdn2_z = t43 * Real(0.3333333333333333);
   const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
   const Real tau_2_0 = rdn2_z - (rQp2 + (c2 * diagonalf_y - s2 * diagonalf_x));
-  const Real v1P_x = t24 * h1b_y;
-  const Real v1P_y = t24 * h1b_x;
-  const Real v1L_z = t24 * Real(0.3333333333333333);
-  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t20 * t20) - (J0 - t24 * v1L_z)) + (c0 * v1P_y -
-      (v1L_z + s0 * v1P_x));
-  zdot[0] = (t20 * tau_2_0 + (t24 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y + (rQp0 - rdn1_z))))) * (Real(1.0) /
-      (T2 * Real(2.0)));
+  zdot[0] = Real(1.0) / (T2 * Real(2.0)) * (t20 * tau_2_0 + (t24 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y + (rQp0
+      - rdn1_z)))));
 }
 
 template <class Real>
@@ -443,9 +443,14 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
+  const Real J0 = D1 + D1 - Real(0.3333333333333333) - Real(1.3333333333333333);
+  const Real v1P_x = t24 * h1b_y;
+  const Real v1P_y = t24 * h1b_x;
+  const Real v1L_z = t24 * Real(0.3333333333333333);
+  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t20 * t20) - (J0 - t24 * v1L_z)) + (c0 * v1P_y -
+      (v1L_z + s0 * v1P_x));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
-  const Real J0 = D1 + D1 - Real(0.3333333333333333) - Real(1.3333333333333333);
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
@@ -466,22 +471,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rQp2 = c2 * Real(4.905);
   const Real rdn2_z = t43 * Real(0.3333333333333333);
   const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real t110 = push2_0 + rQp2;
-  const Real tau_2_0 = rdn2_z - t110;
-  const Real v1P_x = t24 * h1b_y;
-  const Real v1P_y = t24 * h1b_x;
-  const Real v1L_z = t24 * Real(0.3333333333333333);
-  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t20 * t20) - (J0 - t24 * v1L_z)) + (c0 * v1P_y -
-      (v1L_z + s0 * v1P_x));
-  const Real t136 = (t20 * tau_2_0 + (t24 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y + (rQp0 - rdn1_z))))) *
-      (Real(1.0) / (T2 * Real(2.0)));
+  const Real t127 = push2_0 + rQp2;
+  const Real tau_2_0 = rdn2_z - t127;
+  const Real t136 = Real(1.0) / (T2 * Real(2.0)) * (t20 * tau_2_0 + (t24 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y
+      + (rQp0 - rdn1_z)))));
   const Real ra1o_x_2 = ra1o_x + s0 * t136;
   const Real ra1o_y_2 = ra1o_y + c0 * t136;
   const Real rdn2_z_2 = Real(0.3333333333333333) * (t43 - t20 * t136);
   const Real rQ1_0_2 = Real(0.3333333333333333) * (t136 + (t48 - t24 * t136)) - (h1b_x * ra1o_y_2 - h1b_y *
       ra1o_x_2);
   const Real t152 = t19 * rQ1_0_2;
-  lambda[0] = t18 * (c2 * t152 - (t110 - rdn2_z_2));
+  lambda[0] = t18 * (c2 * t152 - (t127 - rdn2_z_2));
   lambda[1] = t152;
 }
 

@@ -475,6 +475,24 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h1b_y = s1 * Real(4.1975e-05);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real J0 = D1 + D1 + Real(9.237125e-07) + Real(2.4094568e-06);
+  const Real v1P_x = t80 * h1b_y;
+  const Real v1P_y = t80 * h1b_x;
+  const Real v1L_z = t80 * Real(9.237125e-07);
+  const Real v3L_z = t92 * J3;
+  const Real v4o_x = r4_y * t92;
+  const Real v4o_y = r4_x * t92;
+  const Real v4P_x = t96 * h4b_y;
+  const Real v4P_y = t96 * h4b_x;
+  const Real v4L_z = t96 * Real(8.03380146e-07);
+  const Real v5L_z = t100 * J5;
+  const Real v6o_x = r6_y * t100;
+  const Real v6o_y = r6_x * t100;
+  const Real v6P_x = t104 * h6b_y;
+  const Real v6P_y = t104 * h6b_x;
+  const Real v6L_z = t104 * Real(8.03380146e-07);
+  const Real T6 = (t100 * v5L_z - (t92 * v3L_z + (t84 * t84 * Real(1.6170147425e-05) + (J0 + (t80 * v1L_z +
+      (t96 * v4L_z + t104 * v6L_z)))))) * Real(0.5) + (v6o_y * v6P_y + (v6o_x * v6P_x - (t100 * v6L_z - (v4o_y
+      * v4P_y + (v4o_x * v4P_x + (t92 * v4L_z - (r1_x * v1P_y + (v1L_z - r1_y * v1P_x))))))));
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
   const Real spring1d_x = spring1bx_x - Real(0.03635) - Real(0.014);
@@ -515,26 +533,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rQ4_0 = rdn4_z - (h4b_y * ra4o_x + (t182 * Real(8.03380146e-07) + h4b_x * ra4o_y));
   const Real rQ6_0 = rdn6_z - (h6b_y * ra6o_x - (t198 * Real(8.03380146e-07) - h6b_x * ra6o_y));
   const Real tau_2_0 = rdn2_z - (spring1bx_x * spring1f_y - spring1bx_y * spring1f_x);
-  const Real v1P_x = t80 * h1b_y;
-  const Real v1P_y = t80 * h1b_x;
-  const Real v1L_z = t80 * Real(9.237125e-07);
-  const Real v3L_z = t92 * J3;
-  const Real v4o_x = r4_y * t92;
-  const Real v4o_y = r4_x * t92;
-  const Real v4P_x = t96 * h4b_y;
-  const Real v4P_y = t96 * h4b_x;
-  const Real v4L_z = t96 * Real(8.03380146e-07);
-  const Real v5L_z = t100 * J5;
-  const Real v6o_x = r6_y * t100;
-  const Real v6o_y = r6_x * t100;
-  const Real v6P_x = t104 * h6b_y;
-  const Real v6P_y = t104 * h6b_x;
-  const Real v6L_z = t104 * Real(8.03380146e-07);
-  const Real T6 = (t100 * v5L_z - (t92 * v3L_z + (Real(1.6170147425e-05) * (t84 * t84) + (J0 + (t80 * v1L_z +
-      (t96 * v4L_z + t104 * v6L_z)))))) * Real(0.5) + (v6o_y * v6P_y + (v6o_x * v6P_x - (t100 * v6L_z - (v4o_y
-      * v4P_y + (v4o_x * v4P_x + (t92 * v4L_z - (r1_x * v1P_y + (v1L_z - r1_y * v1P_x))))))));
-  zdot[0] = -((t104 * rQ6_0 - (t100 * rn6c_z - (t96 * rQ4_0 - (t92 * rn4c_z + (t84 * tau_2_0 + (t80 * rQ1_0 -
-      (r1_y * rdf1_x - (rdn1_z + r1_x * rdf1_y) + model.drive))))))) * (Real(1.0) / (T6 * Real(2.0))));
+  zdot[0] = -(Real(1.0) / (T6 * Real(2.0)) * (t104 * rQ6_0 - (t100 * rn6c_z - (t96 * rQ4_0 - (t92 * rn4c_z +
+      (t84 * tau_2_0 + (t80 * rQ1_0 - (r1_y * rdf1_x - (rdn1_z + r1_x * rdf1_y) + model.drive))))))));
 }
 
 template <class Real>
@@ -1059,6 +1059,24 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h1b_y = s1 * Real(4.1975e-05);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real J0 = D1 + D1 + Real(9.237125e-07) + Real(2.4094568e-06);
+  const Real v1P_x = t80 * h1b_y;
+  const Real v1P_y = t80 * h1b_x;
+  const Real v1L_z = t80 * Real(9.237125e-07);
+  const Real v3L_z = t92 * J3;
+  const Real v4o_x = r4_y * t92;
+  const Real v4o_y = r4_x * t92;
+  const Real v4P_x = t96 * h4b_y;
+  const Real v4P_y = t96 * h4b_x;
+  const Real v4L_z = t96 * Real(8.03380146e-07);
+  const Real v5L_z = t100 * J5;
+  const Real v6o_x = r6_y * t100;
+  const Real v6o_y = r6_x * t100;
+  const Real v6P_x = t104 * h6b_y;
+  const Real v6P_y = t104 * h6b_x;
+  const Real v6L_z = t104 * Real(8.03380146e-07);
+  const Real T6 = (t100 * v5L_z - (t92 * v3L_z + (t84 * t84 * Real(1.6170147425e-05) + (J0 + (t80 * v1L_z +
+      (t96 * v4L_z + t104 * v6L_z)))))) * Real(0.5) + (v6o_y * v6P_y + (v6o_x * v6P_x - (t100 * v6L_z - (v4o_y
+      * v4P_y + (v4o_x * v4P_x + (t92 * v4L_z - (r1_x * v1P_y + (v1L_z - r1_y * v1P_x))))))));
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
   const Real spring1d_x = spring1bx_x - Real(0.03635) - Real(0.014);
@@ -1080,27 +1098,27 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rdn2_z = t168 * Real(1.6170147425e-05);
   const Real rdn3_z = t182 * J3;
   const Real rW3w22 = t108 * t108;
-  const Real t284 = r4_x * rW3w22;
-  const Real ra4o_x = r4_y * t182 - t284;
-  const Real t287 = r4_y * rW3w22;
-  const Real ra4o_y = r4_x * t182 + t287;
+  const Real t334 = r4_x * rW3w22;
+  const Real ra4o_x = r4_y * t182 - t334;
+  const Real t337 = r4_y * rW3w22;
+  const Real ra4o_y = r4_x * t182 + t337;
   const Real zw_4 = t109 * (t108 + w4_z);
-  const Real t295 = h4b_x * zw_4;
-  const Real rdf4_x = t186 * h4b_y - t295;
-  const Real t298 = h4b_y * zw_4;
-  const Real rdf4_y = t186 * h4b_x + t298;
+  const Real t345 = h4b_x * zw_4;
+  const Real rdf4_x = t186 * h4b_y - t345;
+  const Real t348 = h4b_y * zw_4;
+  const Real rdf4_y = t186 * h4b_x + t348;
   const Real rdn4_z = t186 * Real(8.03380146e-07);
   const Real rdn5_z = t198 * J5;
   const Real rW5w22 = t110 * t110;
-  const Real t304 = r6_x * rW5w22;
-  const Real ra6o_x = r6_y * t198 - t304;
-  const Real t307 = r6_y * rW5w22;
-  const Real ra6o_y = r6_x * t198 + t307;
+  const Real t354 = r6_x * rW5w22;
+  const Real ra6o_x = r6_y * t198 - t354;
+  const Real t357 = r6_y * rW5w22;
+  const Real ra6o_y = r6_x * t198 + t357;
   const Real zw_6 = t111 * (t110 + w6_z);
-  const Real t315 = h6b_x * zw_6;
-  const Real rdf6_x = t202 * h6b_y - t315;
-  const Real t318 = h6b_y * zw_6;
-  const Real rdf6_y = t202 * h6b_x + t318;
+  const Real t365 = h6b_x * zw_6;
+  const Real rdf6_x = t202 * h6b_y - t365;
+  const Real t368 = h6b_y * zw_6;
+  const Real rdf6_y = t202 * h6b_x + t368;
   const Real rdn6_z = t202 * Real(8.03380146e-07);
   const Real rn6c_z = r6_y * rdf6_x + (r6_x * rdf6_y + (rdn5_z - rdn6_z));
   const Real rn4c_z = r4_y * rdf4_x + (r4_x * rdf4_y - (rdn3_z - rdn4_z));
@@ -1108,26 +1126,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rQ4_0 = rdn4_z - (h4b_y * ra4o_x + (t182 * Real(8.03380146e-07) + h4b_x * ra4o_y));
   const Real rQ6_0 = rdn6_z - (h6b_y * ra6o_x - (t198 * Real(8.03380146e-07) - h6b_x * ra6o_y));
   const Real tau_2_0 = push2_0 - rdn2_z;
-  const Real v1P_x = t80 * h1b_y;
-  const Real v1P_y = t80 * h1b_x;
-  const Real v1L_z = t80 * Real(9.237125e-07);
-  const Real v3L_z = t92 * J3;
-  const Real v4o_x = r4_y * t92;
-  const Real v4o_y = r4_x * t92;
-  const Real v4P_x = t96 * h4b_y;
-  const Real v4P_y = t96 * h4b_x;
-  const Real v4L_z = t96 * Real(8.03380146e-07);
-  const Real v5L_z = t100 * J5;
-  const Real v6o_x = r6_y * t100;
-  const Real v6o_y = r6_x * t100;
-  const Real v6P_x = t104 * h6b_y;
-  const Real v6P_y = t104 * h6b_x;
-  const Real v6L_z = t104 * Real(8.03380146e-07);
-  const Real T6 = (t100 * v5L_z - (t92 * v3L_z + (Real(1.6170147425e-05) * (t84 * t84) + (J0 + (t80 * v1L_z +
-      (t96 * v4L_z + t104 * v6L_z)))))) * Real(0.5) + (v6o_y * v6P_y + (v6o_x * v6P_x - (t100 * v6L_z - (v4o_y
-      * v4P_y + (v4o_x * v4P_x + (t92 * v4L_z - (r1_x * v1P_y + (v1L_z - r1_y * v1P_x))))))));
-  const Real t408 = (t104 * rQ6_0 - (t100 * rn6c_z - (t96 * rQ4_0 - (t92 * rn4c_z - (t84 * tau_2_0 - (t80 *
-      rQ1_0 - (r1_y * rdf1_x - (rdn1_z + r1_x * rdf1_y) + model.drive))))))) * (Real(1.0) / (T6 * Real(2.0)));
+  const Real t408 = Real(1.0) / (T6 * Real(2.0)) * (t104 * rQ6_0 - (t100 * rn6c_z - (t96 * rQ4_0 - (t92 *
+      rn4c_z - (t84 * tau_2_0 - (t80 * rQ1_0 - (r1_y * rdf1_x - (rdn1_z + r1_x * rdf1_y) + model.drive)))))));
   const Real t414 = t182 + t92 * t408;
   const Real t416 = t186 + t96 * t408;
   const Real t418 = t198 + t100 * t408;
@@ -1136,16 +1136,16 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real ra1o_y_2 = ra1o_y + r1_x * t408;
   const Real rdn2_z_2 = Real(1.6170147425e-05) * (t168 - t84 * t408);
   const Real rdn3_z_2 = J3 * t414;
-  const Real ra4o_x_2 = t284 - r4_y * t414;
-  const Real ra4o_y_2 = t287 + r4_x * t414;
-  const Real rdf4_x_2 = t295 - h4b_y * t416;
-  const Real rdf4_y_2 = t298 + h4b_x * t416;
+  const Real ra4o_x_2 = t334 - r4_y * t414;
+  const Real ra4o_y_2 = t337 + r4_x * t414;
+  const Real rdf4_x_2 = t345 - h4b_y * t416;
+  const Real rdf4_y_2 = t348 + h4b_x * t416;
   const Real rdn4_z_2 = Real(8.03380146e-07) * t416;
   const Real rdn5_z_2 = J5 * t418;
-  const Real ra6o_x_2 = t304 - r6_y * t418;
-  const Real ra6o_y_2 = t307 + r6_x * t418;
-  const Real rdf6_x_2 = t315 - h6b_y * t420;
-  const Real rdf6_y_2 = t318 + h6b_x * t420;
+  const Real ra6o_x_2 = t354 - r6_y * t418;
+  const Real ra6o_y_2 = t357 + r6_x * t418;
+  const Real rdf6_x_2 = t365 - h6b_y * t420;
+  const Real rdf6_y_2 = t368 + h6b_x * t420;
   const Real rdn6_z_2 = Real(8.03380146e-07) * t420;
   const Real rn6c_z_2 = r6_y * rdf6_x_2 - (r6_x * rdf6_y_2 + (rdn5_z_2 - rdn6_z_2));
   const Real rn4c_z_2 = r4_y * rdf4_x_2 - (r4_x * rdf4_y_2 - (rdn3_z_2 - rdn4_z_2));
