@@ -5,7 +5,7 @@
 // Numbers from: IFToMM multibody benchmark library, problem A02, N = 2
 // This file belongs to whoever ran the compiler; no licence of the generator applies to it.
 //
-// Equations of motion: M(y) zdot = k_bar(y, z) - q_bar(y, z, u), dy/dt = z.
+// Equations of motion: M(y) zdot = k_bar(y, z) - q_bar(y, z, u) - G(y)^T lambda, dy/dt = z.
 //
 // Loops
 // - 1 degree of freedom: 5 coordinates of the tree, 4 of 4 constraints are independent
@@ -112,6 +112,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
+/// The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.
 /// 401 operations (229 mul, 166 add and sub, 6 div), 10 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
@@ -119,6 +120,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
+/// The loops' forces -G^T lambda count as missing.
 /// 99 operations (56 mul, 43 add and sub, 0 div), 9 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[5], Real

@@ -114,6 +114,7 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
+/// Dependent positions move as the loops make them.
 /// 404 operations (232 mul, 168 add and sub, 4 div), 14 sin and cos.
 template <class Real>
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[7]) noexcept;

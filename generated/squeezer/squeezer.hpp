@@ -104,6 +104,7 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
+/// Dependent positions move as the loops make them.
 /// 84 operations (58 mul, 23 add and sub, 3 div), 14 sin and cos.
 template <class Real>
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[7]) noexcept;

@@ -103,8 +103,9 @@ class Emitter {
       instantiations += fmt::format("template struct Model<{}>;\n", real);
     bodies += constructor(parts);
     for (const FunctionInfo& function : functions_) {
-      declarations += function.stepper ? step_comment(function)
-                                       : prefixed("/// ", function.comment) + operations_comment(function);
+      declarations += function.stepper
+                          ? step_comment(function)
+                          : prefixed("/// ", comment_of(function, scene_)) + operations_comment(function);
       declarations +=
           "template <class Real>\n" + wrapped(signature(function, "Real", scene_) + ";", 0) + "\n";
       bodies += function.stepper ? step_definitions(step_scene(), function) : program_body(function, parts);

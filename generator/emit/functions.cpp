@@ -220,6 +220,26 @@ std::vector<std::string> default_functions() {
   return names;
 }
 
+std::string comment_of(const FunctionInfo& function, const SceneShape& shape) {
+  struct Remark {
+    const char* function;
+    bool has_dependents;
+    const char* text;
+  };
+  static const Remark remarks[] = {
+      {"position_rate", true, "Dependent positions move as the loops make them."},
+      {"forward_dynamics", false,
+       "The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces."},
+      {"inverse_dynamics", false, "The loops' forces -G^T lambda count as missing."},
+      {"residual", false, "The loops' forces are added: M zdot - k_bar + q_bar + G^T lambda."}};
+  std::string comment = function.comment;
+  for (const Remark& remark : remarks)
+    if (shape.constraints > 0 && function.name == remark.function &&
+        shape.has_dependents == remark.has_dependents)
+      comment += std::string("\n") + remark.text;
+  return comment;
+}
+
 bool has_function(const FunctionInfo& function, const SceneShape& shape) {
   switch (function.shape) {
     case Shape::kState:

@@ -77,6 +77,9 @@ struct SceneShape {
 /// positions where it is z, outputs where there are none.
 bool has_function(const FunctionInfo& function, const SceneShape& shape);
 
+/// The function's comment, with what is different where loops are closed.
+std::string comment_of(const FunctionInfo& function, const SceneShape& shape);
+
 /// In the order of emission.
 const std::vector<FunctionInfo>& all_functions();
 

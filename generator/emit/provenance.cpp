@@ -16,8 +16,9 @@ std::string provenance(const ModelText& model, bool has_rate) {
   line("This file belongs to whoever ran the compiler; no licence of the generator applies to it.");
   text += "//\n";
   const char* t = model.rheonomic ? ", t" : "";
-  line(fmt::format("Equations of motion: M(y{0}) zdot = k_bar(y, z{0}) - q_bar(y, z{0}, u), dy/dt = {1}.", t,
-                   has_rate ? "Z(y) z" : "z"));
+  const bool has_multipliers = !model.constraints.empty() && model.dependents.empty();
+  line(fmt::format("Equations of motion: M(y{0}) zdot = k_bar(y, z{0}) - q_bar(y, z{0}, u){2}, dy/dt = {1}.",
+                   t, has_rate ? "Z(y) z" : "z", has_multipliers ? " - G(y)^T lambda" : ""));
   if (!model.loops.empty()) text += "//\n// Loops\n";
   for (const std::string& sentence : model.loops) line("- " + comment_text(sentence));
   text += "//\n// Assumptions\n";
