@@ -1,6 +1,7 @@
 #include "loops/partition.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "support/check.hpp"
@@ -11,8 +12,6 @@ namespace {
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-/// Partitions beyond this number are not tried one by one.
-constexpr std::size_t kMostPartitions = 4000;
 /// A preferred partition may be conditioned this much worse.
 constexpr double kPreference = 4;
 
@@ -39,27 +38,58 @@ std::vector<Matrix> equilibrated(std::vector<Matrix> jacobians) {
   return jacobians;
 }
 
-/// Smallest singular value of the dependent columns over the largest of all columns, the worst of all; G equilibrated. All columns
-/// count: otherwise a single dependent coordinate would never be conditioned badly. 0 where the determinant changes its sign: between
-/// such configurations the block is singular.
-double conditioning(const std::vector<Matrix>& jacobians, const std::vector<std::size_t>& dependents,
-                    double enough = 0) {
-  double worst = 1;
-  std::optional<bool> sign;
-  for (const Matrix& G : jacobians) {
-    Matrix block(G.rows(), at(dependents.size()));
-    for (std::size_t k = 0; k < dependents.size(); ++k) block.col(at(k)) = G.col(at(dependents[k]));
-    if (block.size() == 0) continue;
-    const long double smallest = Eigen::JacobiSVD<Matrix>(block).singularValues().tail(1)[0],
-                      largest = Eigen::JacobiSVD<Matrix>(G).singularValues()[0];
-    const double ratio = largest > 0 ? static_cast<double>(smallest / largest) : 0;
-    const bool positive = block.partialPivLu().determinant() > 0;
-    if (!sign) sign = positive;
-    if (*sign != positive) return 0;
-    worst = std::min(worst, ratio);
-    if (worst < enough) return worst;
+/// How well dependent velocities follow from the others at given configurations.
+class Conditioning {
+ public:
+  explicit Conditioning(const std::vector<Matrix>& jacobians) {
+    for (const Matrix& G : equilibrated(jacobians)) {
+      jacobians_.push_back(G.cast<double>());
+      largest_.push_back(G.size() == 0 ? 0 : Singular(jacobians_.back()).singularValues()[0]);
+    }
   }
-  return worst;
+
+  /// Smallest singular value of the dependent columns over the largest of all columns, the worst of all; G equilibrated. All columns
+  /// count: otherwise a single dependent coordinate would never be conditioned badly. 0 where the determinant changes its sign: between
+  /// such configurations the block is singular. Stops below `enough`.
+  double operator()(const std::vector<std::size_t>& dependents, double enough = 0) {
+    double worst = 1;
+    std::optional<bool> sign;
+    for (std::size_t k = 0; k < jacobians_.size(); ++k) {
+      const Dense block = jacobians_[k](Eigen::all, dependents);
+      if (block.size() == 0) continue;
+      work_ += std::pow(static_cast<double>(block.rows()), 3);
+      const bool positive = block.partialPivLu().determinant() > 0;
+      if (!sign) sign = positive;
+      if (*sign != positive) return 0;
+      const double smallest = Singular(block).singularValues().tail(1)[0];
+      worst = std::min(worst, largest_[k] > 0 ? smallest / largest_[k] : 0);
+      if (worst < enough) return worst;
+    }
+    return worst;
+  }
+
+  /// Has a search taken all the effort that it may? Counted in operations, so that the result is the same everywhere.
+  bool is_exhausted() const { return work_ > kMostWork; }
+
+ private:
+  using Dense = Eigen::MatrixXd;
+  using Singular = Eigen::JacobiSVD<Dense>;
+  static constexpr double kMostWork = 2e8;
+
+  std::vector<Dense> jacobians_;
+  std::vector<double> largest_;
+  double work_ = 0;
+};
+
+/// The columns that pivoting takes at the first configuration: where there are many choices one that is not bad.
+std::vector<std::size_t> pivots(const Matrix& G) {
+  if (G.rows() == 0) return {};
+  const Eigen::ColPivHouseholderQR<Matrix> qr(G);
+  std::vector<std::size_t> columns;
+  for (Eigen::Index k = 0; k < G.rows(); ++k)
+    columns.push_back(static_cast<std::size_t>(qr.colsPermutation().indices()[k]));
+  std::sort(columns.begin(), columns.end());
+  return columns;
 }
 
 /// Strongly connected components of a directed graph (Tarjan), in an order in which edges lead to earlier ones.
@@ -178,34 +208,51 @@ std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
   const std::vector<std::size_t> dependents = others(static_cast<std::size_t>(G.cols()), independent);
   if (at(dependents.size()) != G.rows()) return {};
   Partition partition{independent, triangular_blocks(jacobians, dependents),
-                      conditioning(equilibrated(jacobians), dependents)};
+                      Conditioning(jacobians)(dependents)};
   std::sort(partition.independent.begin(), partition.independent.end());
   if (partition.blocks.empty() && !dependents.empty()) partition.conditioning = 0;
   return partition;
 }
 
+namespace {
+
+/// Does the choice take all velocities of a group or none?
+bool is_whole(const std::vector<std::size_t>& chosen, const Groups& groups) {
+  return std::all_of(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& group) {
+    const auto count = std::count_if(group.begin(), group.end(), [&](std::size_t k) {
+      return std::find(chosen.begin(), chosen.end(), k) != chosen.end();
+    });
+    return count == 0 || count == static_cast<std::ptrdiff_t>(group.size());
+  });
+}
+
+}  // namespace
+
 std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, const Groups& groups,
                                           const std::vector<bool>& preferred) {
   const auto columns = static_cast<std::size_t>(jacobians.front().cols());
   const auto freedom = columns - static_cast<std::size_t>(jacobians.front().rows());
-  const std::vector<Matrix> scaled = equilibrated(jacobians);
+  Conditioning conditioning(jacobians);
   std::vector<std::size_t> best, chosen;
   double best_score = 0, best_conditioning = 0;
-  std::size_t tried = 0;
+  const auto consider = [&](const std::vector<std::size_t>& independent) {
+    std::size_t liked = 0;
+    for (const std::size_t k : independent) liked += preferred[k];
+    const double weight = liked == freedom ? kPreference : 1;
+    const double found = conditioning(others(columns, independent), best_score / weight);
+    if (!(found * weight > best_score)) return;
+    best = independent;
+    best_score = found * weight;
+    best_conditioning = found;
+  };
+  const std::vector<std::size_t> pivoted = others(columns, pivots(equilibrated(jacobians).front()));
+  if (is_whole(pivoted, groups)) consider(pivoted);
   const std::function<void(std::size_t)> choose = [&](std::size_t group) {
-    if (chosen.size() == freedom) {
-      if (++tried > kMostPartitions) return;
-      std::size_t liked = 0;
-      for (const std::size_t k : chosen) liked += preferred[k];
-      const double weight = liked == freedom ? kPreference : 1;
-      const double found = conditioning(scaled, others(columns, chosen), best_score / weight);
-      if (!(found * weight > best_score)) return;
-      best = chosen;
-      best_score = found * weight;
-      best_conditioning = found;
-      return;
-    }
-    if (group == groups.size() || tried > kMostPartitions) return;
+    if (conditioning.is_exhausted()) return;
+    if (chosen.size() == freedom) return consider(chosen);
+    const bool too_few =
+        group == groups.size() || chosen.size() + (columns - groups[group].front()) < freedom;
+    if (too_few) return;
     if (chosen.size() + groups[group].size() <= freedom) {
       chosen.insert(chosen.end(), groups[group].begin(), groups[group].end());
       choose(group + 1);
