@@ -211,6 +211,8 @@ Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& jo
   for (Scalar& scale : scales) scale = scale > 0 ? 1 / scale : Scalar(1);
   const Matrix seen = scales.asDiagonal() * loop_rows * motions.rightCols(freedom);
   if (seen.size() == 0) return Matrix(0, loop_rows.rows());
+  // A state that has run away has no rank: its accelerations are no numbers either way.
+  if (!seen.allFinite()) return Matrix::Identity(loop_rows.rows(), loop_rows.rows());
   Eigen::JacobiSVD<Matrix> svd(seen, Eigen::ComputeThinU);
   svd.setThreshold(Scalar(kDependent));
   return svd.matrixU().leftCols(svd.rank()).transpose() * scales.asDiagonal();

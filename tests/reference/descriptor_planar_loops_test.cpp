@@ -246,5 +246,14 @@ TEST(PlanarLoops, AGearIsAResidual) {
   EXPECT_EQ(solution.loops.G, (MatrixL(1, 2) << 1, -2).finished());
 }
 
+TEST(PlanarLoops, HaveNoAccelerationsWhereTheStateHasRunAway) {
+  const Linkage linkage = four_bar(FourBar{}, LoopType::kPlanarPin);
+  const DescriptorReference<double> descriptor(linkage.mechanism);
+  const Eigen::VectorXd y = Eigen::VectorXd::Constant(3, NAN), z = Eigen::VectorXd::Zero(3),
+                        u = Eigen::VectorXd::Zero(1);
+  const auto rates = descriptor.rates(descriptor.absolute(0, y, z), u);
+  EXPECT_FALSE(rates.xdot.allFinite());
+}
+
 }  // namespace
 }  // namespace jourdain::reference
