@@ -107,8 +107,7 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
                       plan.regularisation));
       break;
   }
-  if (!plan.reason.empty() && plan.reason != "asked for")
-    list.push_back(fmt::format("why so: {}", plan.reason));
+  if (!plan.reason.empty()) list.push_back(fmt::format("why so: {}", plan.reason));
   return list;
 }
 

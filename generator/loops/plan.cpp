@@ -219,7 +219,6 @@ class Planner {
     const model::LoopOptions& options = mechanism_.loop_options;
     if (options.treatment == LoopTreatment::kMultipliers) {
       plan_.treatment = LoopTreatment::kMultipliers;
-      plan_.reason = "asked for";
       return true;
     }
     std::vector<Matrix> regular;

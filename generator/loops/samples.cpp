@@ -1,9 +1,9 @@
 #include "loops/samples.hpp"
 
 #include <cmath>
-#include <random>
 
 #include "passes/rewrite.hpp"
+#include "support/uniform.hpp"
 
 namespace jourdain::loops {
 
@@ -19,9 +19,9 @@ constexpr double kAgreement = 1e-9;
 
 Samples samples_near(const std::vector<double>& initial_y, const std::vector<bool>& varied,
                      const std::vector<double>& parameters, std::size_t count) {
-  std::mt19937_64 bits(1);
+  support::Uniform uniform(1);
   double radius = kFarthest;
-  const auto offset = [&] { return radius * (2 * std::ldexp(static_cast<double>(bits() >> 11), -53) - 1); };
+  const auto offset = [&] { return uniform(-radius, radius); };
   Samples samples(count);
   for (std::size_t i = 0; i < count; ++i) {
     samples[i][LeafKind::kPosition] = initial_y;

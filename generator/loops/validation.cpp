@@ -31,7 +31,6 @@ struct Expected {
   Vector k, q, z, beta;
   Matrix G;
   Vector g, rate, gamma;
-  Matrix M_terms;
   Vector load;  ///< |M| |β| + |k̄| + |q̄|
   long double condition = 1;
 };

@@ -112,6 +112,20 @@ TEST(NFourBar, PassesItsSingularPositions) {
   }
 }
 
+TEST(FourBar, DoesWhatTheReadmeShows) {
+  const four_bar::Model<> model;
+  auto state = initial_state(model);
+  state.y[0] = 0.5;
+  close_loops(model, state);
+  EXPECT_LT(opening(model, state), 1e-15);
+  for (int i = 0; i < 1000; ++i) rk4_step(model, state, {}, 1e-3);
+  EXPECT_LT(opening(model, state), 1e-15);
+  double lambda[2];
+  constraint_forces(model, state, {}, lambda);
+  EXPECT_NEAR(lambda[0], -0.98, 0.005);
+  EXPECT_NEAR(lambda[1], -5.5, 0.05);
+}
+
 TEST(SpringFourBar, HasThePublishedEquilibrium) {
   const spring_four_bar::Model<> model;
   spring_four_bar::State<> state = initial_state(model);
