@@ -9,6 +9,7 @@
 #include "commands/report_text.hpp"
 #include "loops/closed_system.hpp"
 #include "model/coordinates.hpp"
+#include "model/loop_kinds.hpp"
 
 namespace jourdain::commands {
 
@@ -67,32 +68,6 @@ std::string tree_text(const model::Mechanism& mechanism) {
   return text;
 }
 
-const char* type_name(model::LoopType type) {
-  switch (type) {
-    case model::LoopType::kBall:
-      return "ball";
-    case model::LoopType::kRevolute:
-      return "revolute";
-    case model::LoopType::kUniversal:
-      return "universal";
-    case model::LoopType::kPrismatic:
-      return "prismatic";
-    case model::LoopType::kCylindrical:
-      return "cylindrical";
-    case model::LoopType::kPlanarPin:
-      return "planar pin";
-    case model::LoopType::kPointInPlane:
-      return "point in plane";
-    case model::LoopType::kPointOnLine:
-      return "point on line";
-    case model::LoopType::kRod:
-      return "rod";
-    case model::LoopType::kResidual:
-      return "residual";
-  }
-  return "";
-}
-
 /// The joints that close loops, each with the frames that it joins.
 std::string loops_text(const model::Mechanism& mechanism) {
   const auto end = [&mechanism](model::FrameIndex index) {
@@ -102,7 +77,9 @@ std::string loops_text(const model::Mechanism& mechanism) {
   };
   std::string text;
   for (const model::Loop& loop : mechanism.loops) {
-    text += fmt::format("  loop {} [{}]", loop.name, type_name(loop.type));
+    std::string type(model::loop_kind(loop.type).name);
+    std::replace(type.begin(), type.end(), '_', ' ');
+    text += fmt::format("  loop {} [{}]", loop.name, type);
     if (loop.type != model::LoopType::kResidual)
       text += fmt::format(": {}, {}", end(loop.from), end(loop.to));
     text += "\n";

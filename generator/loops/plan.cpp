@@ -8,12 +8,12 @@
 #include "loops/partition.hpp"
 #include "model/angles.hpp"
 #include "model/checks.hpp"
+#include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
 
 namespace jourdain::loops {
 
 using model::LoopTreatment;
-using model::LoopType;
 using support::shown;
 
 namespace {
@@ -26,47 +26,6 @@ constexpr double kWorstConditioning = 2e-3;
 constexpr double kRegularisation = 1e-7;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-const std::vector<std::string>& parts_of(LoopType type) {
-  static const std::vector<std::string> ball = {"x", "y", "z"}, revolute = {"x", "y", "z", "a1_w", "a2_w"},
-                                        universal = {"x", "y", "z", "n_w"},
-                                        prismatic = {"a1_d", "a2_d", "a1_w", "a2_w", "a1_b2"},
-                                        cylindrical = {"a1_d", "a2_d", "a1_w", "a2_w"},
-                                        pin = {"c1_d", "c2_d"}, plane = {"n_d"}, line = {"a1_d", "a2_d"},
-                                        rod = {"length"}, residual = {"residual"};
-  switch (type) {
-    case LoopType::kBall:
-      return ball;
-    case LoopType::kRevolute:
-      return revolute;
-    case LoopType::kUniversal:
-      return universal;
-    case LoopType::kPrismatic:
-      return prismatic;
-    case LoopType::kCylindrical:
-      return cylindrical;
-    case LoopType::kPlanarPin:
-      return pin;
-    case LoopType::kPointInPlane:
-      return plane;
-    case LoopType::kPointOnLine:
-      return line;
-    case LoopType::kRod:
-      return rod;
-    case LoopType::kResidual:
-      return residual;
-  }
-  return residual;
-}
-
-/// By row: is it a length (m)? Otherwise it is a product of unit vectors, or whatever a residual is.
-std::vector<bool> lengths(const model::Mechanism& mechanism) {
-  std::vector<bool> list;
-  for (const model::Loop& loop : mechanism.loops)
-    for (const std::string& part : parts_of(loop.type))
-      list.push_back(part != "residual" && !part.ends_with("_w") && !part.ends_with("_b2"));
-  return list;
-}
 
 class Planner {
  public:
@@ -187,7 +146,9 @@ class Planner {
                            .evaluate(state, Vector::Zero(at(layout_.input_count())));
     const Matrix& G = jacobians_.front();
     const Vector S = (G * terms.M.ldlt().solve(G.transpose())).diagonal();
-    const std::vector<bool> is_length = lengths(mechanism_);
+    std::vector<bool> is_length;
+    for (const model::Loop& loop : mechanism_.loops)
+      for (const model::LoopRow& row : model::loop_kind(loop.type).rows) is_length.push_back(row.is_length);
     long double largest = 0;
     for (std::size_t r = 0; r < names_.size(); ++r)
       if (is_length[r]) largest = std::max(largest, S[at(r)]);
@@ -334,7 +295,8 @@ class Planner {
 std::vector<std::string> row_names(const model::Mechanism& mechanism) {
   std::vector<std::string> names;
   for (const model::Loop& loop : mechanism.loops)
-    for (const std::string& part : parts_of(loop.type)) names.push_back(loop.name + "." + part);
+    for (const model::LoopRow& row : model::loop_kind(loop.type).rows)
+      names.push_back(fmt::format("{}.{}", loop.name, row.name));
   return names;
 }
 

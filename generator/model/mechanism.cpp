@@ -21,27 +21,6 @@ std::vector<BodyIndex> inward(const Mechanism& mechanism, std::optional<BodyInde
 
 }  // namespace
 
-std::size_t row_count(LoopType type) {
-  switch (type) {
-    case LoopType::kBall:
-      return 3;
-    case LoopType::kRevolute:
-    case LoopType::kPrismatic:
-      return 5;
-    case LoopType::kUniversal:
-    case LoopType::kCylindrical:
-      return 4;
-    case LoopType::kPlanarPin:
-    case LoopType::kPointOnLine:
-      return 2;
-    case LoopType::kPointInPlane:
-    case LoopType::kRod:
-    case LoopType::kResidual:
-      return 1;
-  }
-  return 0;
-}
-
 std::optional<BodyIndex> carrier(const Mechanism& mechanism, std::optional<BodyIndex> a,
                                  std::optional<BodyIndex> b) {
   const std::vector<BodyIndex> carries_b = inward(mechanism, b);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/loop_kinds.hpp"
 #include "model/toml_frame.hpp"
 #include "model/toml_names.hpp"
 #include "model/toml_sections.hpp"
@@ -14,9 +15,6 @@ namespace {
 
 using support::shown;
 
-const std::vector<std::string> kTypes{"ball",        "revolute",   "universal",      "prismatic",
-                                      "cylindrical", "planar_pin", "point_in_plane", "point_on_line",
-                                      "rod",         "residual"};
 const std::vector<std::string> kTreatments{"explicit", "partitioned", "multipliers"};
 const std::vector<std::string> kCommonKeys{"name", "type"};
 const std::vector<std::string> kOwnKeys{"from", "to", "axis", "to_axis", "length", "residual"};
@@ -55,8 +53,9 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
 
 /// Those of a loop whose type can be read, or of a ball.
 std::vector<std::string> shown_keys(const toml::table& table) {
-  const auto type = std::find(kTypes.begin(), kTypes.end(), table["type"].value_or(std::string()));
-  const auto index = type == kTypes.end() ? 0 : type - kTypes.begin();
+  const auto type =
+      std::find(loop_type_names().begin(), loop_type_names().end(), table["type"].value_or(std::string()));
+  const auto index = type == loop_type_names().end() ? 0 : type - loop_type_names().begin();
   return joined(kCommonKeys, keys_of(static_cast<LoopType>(index)));
 }
 
@@ -110,14 +109,16 @@ class LoopReader {
 
  private:
   bool read_type(Loop& loop) {
-    if (!table_.has("type")) table_.missing("type", fmt::format("one of {}", fmt::join(kTypes, ", ")));
-    const auto type = table_.choice("type", kTypes);
+    if (!table_.has("type"))
+      table_.missing("type", fmt::format("one of {}", fmt::join(loop_type_names(), ", ")));
+    const auto type = table_.choice("type", loop_type_names());
     if (!type || !table_.has("type")) return false;
     loop.type = static_cast<LoopType>(*type);
     const std::vector<std::string> own = keys_of(loop.type);
     for (const std::string& key : kOwnKeys)
       if (table_.has(key) && !contains(own, key))
-        table_.error(key, fmt::format("{} is a {} and has no '{}'", table_.what(), kTypes[*type], key));
+        table_.error(key,
+                     fmt::format("{} is a {} and has no '{}'", table_.what(), loop_type_names()[*type], key));
     return true;
   }
 
