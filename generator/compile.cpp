@@ -75,6 +75,8 @@ void describe_loops(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   text.dependents = loops::dependent_positions(plan, text.tangent);
   text.closings = plan.closings();
   text.loops = loops::sentences(mechanism, plan);
+  text.least_regularity = plan.least_regularity();
+  text.greatest_opening = plan.greatest_opening();
   if (!plan.is_reduced()) return;
   text.tangent = loops::independent_tangent(plan, text.tangent);
   const std::vector<std::string> all = std::move(text.velocities);

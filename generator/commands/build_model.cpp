@@ -72,7 +72,9 @@ std::string loop_functions(const std::string& name, const CompiledModel& compile
       "  write(residual, g, Model::constraint_count);\n  write(rate, g_rate, "
       "Model::constraint_count);\n}}\n\n"
       "void correct(const double* t, double* y, double* z) {{\n  State state = to_state(t, y, z);\n"
-      "  ::{0}::{1}(model(), state);\n  from_state(state, y, z);\n}}\n",
+      "  ::{0}::{1}(model(), state);\n  from_state(state, y, z);\n}}\n\n"
+      "void closing(double* regularity, double* opening) {{\n  *regularity = worst.regularity;\n"
+      "  *opening = worst.opening;\n}}\n",
       name, correction);
 }
 
@@ -155,9 +157,9 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
        {"LOOPS", loop_functions(name, compiled)},
        {"LOOP_ENTRIES",
         shape.constraints == 0
-            ? "0, nullptr, nullptr, nullptr"
+            ? "0, nullptr, nullptr, nullptr, 0, 0, nullptr"
             : fmt::format("Model::constraint_count, ::{}::constraint_names, constraint_residual, "
-                          "correct",
+                          "correct, Model::least_regularity, Model::greatest_opening, closing",
                           name)},
        {"METHODS", methods},
        {"OUTPUT_COUNT", with_outputs ? "sizeof(Model::Outputs) / sizeof(Real)" : "0"},

@@ -9,6 +9,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/energy.hpp"
+#include "commands/loop_guard.hpp"
 #include "commands/method_names.hpp"
 #include "commands/plot.hpp"
 #include "commands/progress.hpp"
@@ -56,12 +57,14 @@ struct Trajectory {
   std::vector<double> end_rates;  ///< of the positions
   double stepping_time = 0;       ///< s of wall time spent in steps
   bool finite = true;
+  std::string problem;  ///< with the loops, that ended the run; or empty
 };
 
 class Simulation {
  public:
-  Simulation(const Flow<double>& flow, const Arguments& arguments)
-      : flow_(flow), table_(flow.table()), arguments_(arguments) {}
+  /// `guard` may be null.
+  Simulation(const Flow<double>& flow, const Arguments& arguments, const LoopGuard* guard)
+      : flow_(flow), table_(flow.table()), arguments_(arguments), guard_(guard) {}
 
   /// Steps from the initial state, appending a CSV row every so many steps.
   Trajectory run(long steps, std::string& csv) {
@@ -75,11 +78,17 @@ class Simulation {
     ProgressBar progress;
     for (long done = 0; done < steps && state_.finite;) {
       const long block = std::min(arguments_.every, steps - done);
+      const Point<double> before = state_.end;
+      const studies::Memory remembered = memory;
       const auto begin = Clock::now();
       flow_.step(method, state_.end, arguments_.step, block, memory);
       state_.stepping_time += seconds_since(begin);
       done += block;
       state_.end.t = static_cast<double>(done) * arguments_.step;
+      if (guard_ && !guard_->problem(state_.end).empty()) {
+        state_.problem = first_problem(method, before, remembered, block);
+        return state_;
+      }
       const double energy = row(csv);
       state_.finite = std::isfinite(energy);
       state_.largest_drift = std::max(state_.largest_drift, std::fabs(energy - state_.first_energy));
@@ -90,6 +99,17 @@ class Simulation {
   }
 
  private:
+  /// What the guard says first in a block of steps; the state is then the one before.
+  std::string first_problem(const jourdain_method& method, Point<double> point, studies::Memory memory,
+                            long block) {
+    for (long i = 0; i < block; ++i) {
+      state_.end = point;
+      flow_.step(method, point, arguments_.step, 1, memory);
+      if (const std::string problem = guard_->problem(point); !problem.empty()) return problem;
+    }
+    return guard_->problem(point);
+  }
+
   void header(std::string& csv) const {
     csv += "time";
     for (int i = 0; i < table_.position_count; ++i) csv += "," + field(table_.position_names[i]);
@@ -118,6 +138,7 @@ class Simulation {
   const Flow<double>& flow_;
   const jourdain_model_table& table_;
   const Arguments& arguments_;
+  const LoopGuard* guard_;
   Trajectory state_;
 };
 
@@ -198,7 +219,14 @@ int run(const Arguments& arguments) {
   if (!check_closed(*model, flow)) return kModelWrong;
   const long steps = std::lround(exact_steps);
   std::string csv;
-  const Trajectory result = Simulation(flow, arguments).run(steps, csv);
+  const std::optional<LoopGuard> guard =
+      model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
+                           : std::nullopt;
+  const Trajectory result = Simulation(flow, arguments, guard ? &*guard : nullptr).run(steps, csv);
+  if (!result.problem.empty()) {
+    fmt::print(stderr, "error: {}\n", result.problem);
+    return kModelWrong;
+  }
   if (!result.finite) {
     fmt::print(stderr, "error: the state is not finite at t = {:g} s; a step of {:g} s may be too long\n",
                result.end.t, arguments.step);

@@ -82,7 +82,10 @@ class Emitter {
         {"STATE_NOTE", state_note(model_)},
         {"NG", scene_.constraints == 0
                    ? ""
-                   : fmt::format("  static constexpr int constraint_count = {};\n", scene_.constraints)},
+                   : fmt::format("  static constexpr int constraint_count = {};\n"
+                                 "  static constexpr double least_regularity = {};  ///< see State\n"
+                                 "  static constexpr double greatest_opening = {};  ///< see State\n",
+                                 scene_.constraints, model_.least_regularity, model_.greatest_opening)},
         {"OUTPUTS", output_struct(model_)},
         {"OUTPUTS_ALIAS",
          scene_.outputs == 0 ? "" : fmt::format("  using Outputs = {}::Outputs<Real>;\n", model_.name)},
@@ -284,9 +287,9 @@ class Emitter {
                                  const std::string& value) {
     switch (function.shape) {
       case Shape::kState:
-        return fmt::format("initial.{}[{}] = {};", output.name, output.row, value);
+        return fmt::format("initial.{}{} = {};", output.name, subscripts(output), value);
       case Shape::kCorrection:
-        return fmt::format("closed.{}[{}] = {};", output.name, output.row, value);
+        return fmt::format("closed.{}{} = {};", output.name, subscripts(output), value);
       case Shape::kScalar:
         return fmt::format("return {};", value);
       case Shape::kVector:
@@ -340,7 +343,7 @@ class Emitter {
     std::string text;
     if (scene_.positions > 0) text += fmt::format("  Real y[{}];\n", scene_.positions);
     if (scene_.velocities > 0) text += fmt::format("  Real z[{}];\n", scene_.velocities);
-    return text;
+    return text + guard_members(scene_);
   }
 
   StepScene step_scene() const { return {scene_, model_.tangent, model_.all_derivatives, model_.dependents}; }

@@ -49,6 +49,8 @@ struct ModelText {
   std::vector<std::size_t> dependents;   ///< entries of y that follow from the others
   int closings = 1;                      ///< see SceneShape
   std::vector<std::string> loops;        ///< sentences on how loops are closed
+  double least_regularity = 0,
+         greatest_opening = 0;           ///< limits of State's members of these names; with loops
   std::vector<std::string> assumptions;  ///< sentences
   std::vector<std::string> left_out;     ///< sentences
   std::string validation;                ///< a sentence

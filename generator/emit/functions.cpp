@@ -131,11 +131,10 @@ std::vector<FunctionInfo> loop_functions() {
       correction("close_loops",
                  "Sets the dependent positions to those that close the loops at state.t and the independent "
                  "positions, near\nwhere they are. Call it after changing a state; steps end with it."),
-      correction(
-          "project",
-          "Moves positions and velocities to the nearest ones (weighted by mass) that the loops allow, "
-          "to first order.\nCall it after changing a state, several times where that was far; steps end "
-          "with it."),
+      correction("project",
+                 "Moves positions and velocities to the nearest ones that the loops allow, to first "
+                 "order.\nCall it after changing a state, several times where that was far; steps end "
+                 "with it."),
       array_function("constraint_residual", false,
                      {{"g", {Extent::kConstraints}}, {"g_rate", {Extent::kConstraints}}},
                      "How far the loops are open: g(y, t), zero where they are closed, in m (rows without a "

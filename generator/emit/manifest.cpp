@@ -55,6 +55,8 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
     for (const std::size_t entry : model.dependents) dependents.push_back(model.positions[entry]);
     field("constraints", string_array(model.constraints));
     field("dependent_positions", string_array(dependents));
+    field("least_regularity", fmt::format("{}", model.least_regularity));
+    field("greatest_opening", fmt::format("{}", model.greatest_opening));
   }
   field("inputs", string_array(model.inputs));
   std::vector<std::string> outputs;

@@ -34,6 +34,17 @@ std::string output_struct(const ModelText& model) {
   return text + "};\n\n";
 }
 
+std::string guard_members(const SceneShape& scene) {
+  if (scene.constraints == 0) return "";
+  return "  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, "
+         "negative beyond.\n"
+         "  /// Below Model::least_regularity do not trust what follows.\n"
+         "  Real regularity = Real(1.0);\n"
+         "  /// Square of the distance that the last closing moved the positions, rad or m. Beyond\n"
+         "  /// Model::greatest_opening loops may be left open: the step was too long.\n"
+         "  Real opening = Real(0.0);\n";
+}
+
 bool linearizes(const std::vector<FunctionInfo>& functions) {
   return std::any_of(functions.begin(), functions.end(),
                      [](const FunctionInfo& f) { return f.shape == Shape::kLinearization; });

@@ -11,6 +11,9 @@ namespace jourdain::emit {
 /// Empty where the model asks for no outputs.
 std::string output_struct(const ModelText& model);
 
+/// Members of State that tell how its loops were closed; none without loops.
+std::string guard_members(const SceneShape& scene);
+
 bool linearizes(const std::vector<FunctionInfo>& functions);
 
 /// Empty where no function fills one.

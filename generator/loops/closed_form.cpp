@@ -45,10 +45,7 @@ class Closing {
       if (block.dependents.size() > 2) return fmt::format("block of {} unknowns", block.dependents.size());
       if (const std::string failure = solve_block(block); !failure.empty()) return failure;
     }
-    ir::Builder closing = builder_;
-    for (const std::size_t k : dependents_)
-      closing.output("y", static_cast<int>(k), -1, roles_.known.at(k).value.value);
-    ClosedForm result{passes::remove_dead_code(closing.finish("close_loops")), 1};
+    ClosedForm result{closing_program(), 1};
     if (const std::string failure = check(result.close); !failure.empty()) return failure;
     const auto margin = smallest_margin({builder_, conditions_, request_.parameters, request_.angular,
                                          request_.range, roles_.names, dependents_});
@@ -58,6 +55,22 @@ class Closing {
   }
 
  private:
+  ir::Program closing_program() const {
+    ir::Builder closing = builder_;
+    ir::Signed regularity = closing.literal(1), opening = closing.literal(0);
+    for (const std::size_t k : dependents_) {
+      const ir::Signed found = roles_.known.at(k).value.value;
+      closing.output("y", static_cast<int>(k), -1, found);
+      const ir::Signed change = closing.subtract(found, closing.leaf(LeafKind::kPosition, k));
+      opening = closing.add(opening, closing.multiply(change, change));
+    }
+    for (const Requirement& condition : conditions_)
+      if (condition.is_margin) regularity = closing.multiply(regularity, condition.value);
+    closing.output("regularity", -1, -1, regularity);
+    closing.output("opening", -1, -1, opening);
+    return passes::remove_dead_code(closing.finish("close_loops"));
+  }
+
   std::string names_of(const std::vector<std::size_t>& entries) const {
     std::string text;
     for (const std::size_t k : entries)

@@ -30,7 +30,8 @@ struct ClosedFormRequest {
 
 struct ClosedForm {
   /// Outputs ("y", k) for each dependent k, block by block. An angle is the solution nearest to the y[k] that is given, so that whole
-  /// turns are kept; of other dependents the given value has no influence.
+  /// turns are kept; of other dependents the given value has no influence. "regularity" is the product of the discriminants, each as
+  /// sin² of the angle from a dead position, "opening" the square of the change from the values given.
   ir::Program close;
   /// Over the declared range, with the parameters' default values: of every discriminant, as sin² of the angle from a dead
   /// position, a lower bound that interval arithmetic proves. 1 where no root is taken.

@@ -88,22 +88,18 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
       break;
     case model::LoopTreatment::kPartitioned:
       list.push_back(fmt::format(
-          "independent: {}; the others by {} Newton iteration{} at the end of a step. What is solved for "
-          "them has a "
-          "smallest singular value of {:.2g} of the constraints' largest, or more, at the configurations "
-          "seen",
+          "independent: {}; the others by {} Newton iteration{} at the end of a step. Not proven: what is "
+          "solved for them has a smallest singular value of {:.2g} of the constraints' largest at the "
+          "configurations seen",
           fmt::join(independent, ", "), plan.iterations, plan.iterations == 1 ? "" : "s", plan.conditioning));
       break;
     case model::LoopTreatment::kMultipliers:
+      list.push_back(fmt::format(
+          "multipliers{}; one projection of positions and velocities at the end of a step",
+          plan.stabilisation == 0 ? "" : fmt::format(", stabilised with {:g}/s", plan.stabilisation)));
       list.push_back(
-          fmt::format("multipliers, stabilised with {:g}/s; one projection of positions and velocities at "
-                      "the end of a step",
-                      plan.stabilisation));
-      list.push_back(
-          fmt::format("G M^-1 G^T is regularised by {:.2g}/kg: multipliers and accelerations lose a share "
-                      "(d/(s + d))^3, d that and s "
-                      "the singular value of G M^-1 G^T, near singular configurations and where constraints "
-                      "are redundant",
+          fmt::format("G M^-1 G^T is regularised by d = {:.2g}/kg: near singular configurations multipliers "
+                      "and accelerations lose a share (d/(s + d))^2, s its smallest singular value",
                       plan.regularisation));
       break;
   }

@@ -31,6 +31,7 @@ class NumericClosure {
 
   std::size_t row_count() const { return rows_; }
   std::size_t velocity_count() const { return velocities_; }
+  const model::Tangent& tangent() const { return tangent_; }
 
   Vector value(const Configuration& at) const;      ///< g
   Matrix jacobian(const Configuration& at) const;   ///< G, rows × nz

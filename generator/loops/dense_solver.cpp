@@ -4,12 +4,6 @@ namespace jourdain::loops {
 
 using ir::Signed;
 
-namespace {
-
-constexpr std::size_t kLargestByCofactors = 3;
-
-}  // namespace
-
 DenseSolver::DenseSolver(ir::Builder& builder, std::vector<Column> A) : builder_(builder), A_(std::move(A)) {
   A_.size() <= kLargestByCofactors ? invert() : orthogonalise();
 }
@@ -42,7 +36,8 @@ void DenseSolver::invert() {
   cofactors_.assign(n, Column(n));
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) cofactors_[i][j] = minor(i, j);
-  inverse_determinant_ = builder_.divide(builder_.literal(1), product(A_[0], cofactors_[0]));
+  determinant_ = product(A_[0], cofactors_[0]);
+  inverse_determinant_ = builder_.divide(builder_.literal(1), determinant_);
 }
 
 void DenseSolver::orthogonalise() {
@@ -58,6 +53,13 @@ void DenseSolver::orthogonalise() {
     inverse_squares_.push_back(builder_.divide(builder_.literal(1), product(v, v)));
     Q_.push_back(std::move(v));
   }
+}
+
+Signed DenseSolver::determinant() const {
+  if (A_.size() <= kLargestByCofactors) return determinant_;
+  Signed inverse = builder_.literal(1);
+  for (const Signed& square : inverse_squares_) inverse = builder_.multiply(inverse, square);
+  return builder_.divide(builder_.literal(1), inverse);
 }
 
 Column DenseSolver::solve(Column b) const {

@@ -13,11 +13,15 @@ using ir::Column;
 /// a fixed order would divide by pivots that vanish where A is regular.
 class DenseSolver {
  public:
+  static constexpr std::size_t kLargestByCofactors = 3;
+
   /// `A` by row.
   DenseSolver(ir::Builder& builder, std::vector<Column> A);
 
   Column solve(Column b) const;
   Column solve_transposed(const Column& b) const;
+  /// det A; beyond three unknowns its square.
+  ir::Signed determinant() const;
 
  private:
   ir::Signed minor(std::size_t row, std::size_t column) const;
@@ -29,7 +33,7 @@ class DenseSolver {
   ir::Builder& builder_;
   std::vector<Column> A_;
   std::vector<Column> cofactors_;  ///< by row; up to three unknowns
-  ir::Signed inverse_determinant_;
+  ir::Signed determinant_, inverse_determinant_;
   std::vector<Column> Q_, R_;  ///< orthogonal columns, not normalised; unit upper triangle by row
   Column inverse_squares_;     ///< of the columns of Q
 };

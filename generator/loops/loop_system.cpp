@@ -44,6 +44,18 @@ ConstraintRates constraint_rates(Builder& builder, const LoopSystem& system, con
   return rates;
 }
 
+std::vector<Column> tree_mass_matrix(Builder& builder, const LoopSystem& system) {
+  const std::size_t n = system.layout.velocity_count();
+  std::vector<Column> M(n, Column(n, builder.literal(0)));
+  const ir::Program tree = system.tree("mass_matrix");
+  const Column values = ir::insert(builder, tree);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::size_t i = subscript(tree.outputs[k].row), j = subscript(tree.outputs[k].column);
+    M[i][j] = M[j][i] = values[k];
+  }
+  return M;
+}
+
 Column position_leaves(Builder& builder, const LoopSystem& system) {
   Column y;
   for (std::size_t i = 0; i < system.layout.position_count(); ++i)

@@ -51,6 +51,9 @@ Column position_rates(ir::Builder& builder, const LoopSystem& system, const Colu
 /// y of the tree moved by a small displacement; quaternions come back to unit length.
 Column displaced(ir::Builder& builder, const LoopSystem& system, const Column& y, const Column& displacement);
 
+/// M of the tree, full, by row.
+std::vector<Column> tree_mass_matrix(ir::Builder& builder, const LoopSystem& system);
+
 /// The leaves y.
 Column position_leaves(ir::Builder& builder, const LoopSystem& system);
 

@@ -2,38 +2,41 @@
 #pragma once
 
 #include "loops/loop_system.hpp"
+#include "loops/schur_factors.hpp"
 
 namespace jourdain::loops {
 
-/// Factors of M and of S + Δ, S = G M⁻¹ Gᵀ, at one configuration. Δ is regularisation/row_length²; two corrections
-/// λ ← λ + (S + Δ)⁻¹ (c − S λ) (proximal iterations) leave a share (δ/(σ + δ))³ of λ along a singular value σ of S: nothing where
-/// the constraints are regular, all of it where they are not, so that redundant rows get the λ of least norm and singular
-/// configurations a bounded one. S is banded where loops form a chain; it is factored in an order of least degree.
+/// Factors of M and of S + Δ, S = G M⁻¹ Gᵀ, at one configuration, over some of the rows. Δ is regularisation/row_length²; where the rows
+/// hold redundant ones it is larger: rounding is divided by it.
 class MultiplierSolver {
  public:
   /// `M` full, by row.
   MultiplierSolver(ir::Builder& builder, const LoopSystem& system, const std::vector<Column>& M,
-                   const ConstraintValues& constraints);
+                   const ConstraintValues& constraints, const std::vector<std::size_t>& rows);
 
   /// L⁻ᵀ x for M = Lᵀ D L.
   Column lowered(const Column& x) const { return mass_.lowered(x); }
-  /// λ with S λ = c.
-  Column multipliers(const Column& c) const;
+  /// λ of the rows with S λ = c.
+  Column multipliers(const Column& c) const { return schur_.corrected(c, corrections_); }
+  /// That to first order in Δ, for a c that is nearly zero.
+  Column corrections(const Column& c) const { return schur_.solved(c); }
+  /// det(S + Δ).
+  ir::Signed determinant() const { return schur_.determinant(); }
   /// G M⁻¹ x, with `lowered` = L⁻ᵀ x.
   Column constrained(const Column& lowered) const;
   /// M⁻¹ (x − Gᵀ λ), with `lowered` = L⁻ᵀ x.
   Column accelerations(const Column& lowered, const Column& lambda) const;
 
  private:
-  void factorise_schur();
-  Column schur_solved(Column c) const;
+  std::vector<Column> lowered_rows(const ConstraintValues& constraints,
+                                   const std::vector<std::size_t>& rows) const;
+  std::vector<Column> products() const;
 
   ir::Builder& builder_;
+  int corrections_;
   ir::SymmetricFactors mass_;
   std::vector<Column> V_;  ///< L⁻ᵀ Gᵀ, by row of G
-  std::vector<std::size_t> order_;
-  std::vector<Column> S_;  ///< factors of S + Δ in that order: unit lower triangle
-  Column inverse_pivots_, delta_;
+  SchurFactors schur_;
 };
 
 }  // namespace jourdain::loops

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "loops/partition.hpp"
+#include "loops/scales.hpp"
 #include "model/angles.hpp"
 #include "model/checks.hpp"
 #include "model/loop_kinds.hpp"
@@ -20,10 +22,6 @@ namespace {
 
 /// Configurations at which rows, freedom and conditioning are judged.
 constexpr std::size_t kConfigurations = 48;
-/// A dependent block that is conditioned worse at any of them goes to multipliers.
-constexpr double kWorstConditioning = 2e-3;
-/// Regularisation as a share of the largest entry of G M⁻¹ Gᵀ at the start, of rows with lengths.
-constexpr double kRegularisation = 1e-7;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -42,8 +40,8 @@ class Planner {
     plan_.iterations = mechanism_.loop_options.iterations;
     plan_.stabilisation = mechanism_.loop_options.stabilisation;
     if (!assemble()) return {};
-    for (const Configuration& c : walk(closure_, start_, mechanism_, kConfigurations))
-      jacobians_.push_back(closure_.jacobian(c));
+    configurations_ = walk(closure_, start_, mechanism_, kConfigurations);
+    for (const Configuration& c : configurations_) jacobians_.push_back(closure_.jacobian(c));
     plan_.rows = regular_rows(jacobians_);
     for (std::size_t r = 0; r < names_.size(); ++r)
       if (std::find(plan_.rows.begin(), plan_.rows.end(), r) == plan_.rows.end())
@@ -55,8 +53,9 @@ class Planner {
                                      plan_.rows.size()));
       return {};
     }
-    set_lengths();
+    set_scales(mechanism_, start_, jacobians_.front(), plan_);
     if (!treat()) return {};
+    set_determinant(mechanism_, configurations_, jacobians_, plan_);
     return plan_;
   }
 
@@ -140,26 +139,6 @@ class Planner {
     }
   }
 
-  void set_lengths() {
-    reference::State<long double> state{0, start_.y, Vector::Zero(at(layout_.velocity_count()))};
-    const auto terms = reference::Reference<long double>(mechanism_)
-                           .evaluate(state, Vector::Zero(at(layout_.input_count())));
-    const Matrix& G = jacobians_.front();
-    const Vector S = (G * terms.M.ldlt().solve(G.transpose())).diagonal();
-    std::vector<bool> is_length;
-    for (const model::Loop& loop : mechanism_.loops)
-      for (const model::LoopRow& row : model::loop_kind(loop.type).rows) is_length.push_back(row.is_length);
-    long double largest = 0;
-    for (std::size_t r = 0; r < names_.size(); ++r)
-      if (is_length[r]) largest = std::max(largest, S[at(r)]);
-    if (!(largest > 0)) largest = S.maxCoeff();
-    for (std::size_t r = 0; r < names_.size(); ++r) {
-      const bool scaled = !is_length[r] && S[at(r)] > kRankTolerance * largest;
-      plan_.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / S[at(r)])) : 1);
-    }
-    plan_.regularisation = kRegularisation * static_cast<double>(largest);
-  }
-
   /// Coordinates that are driven, or that the description starts with a velocity.
   std::vector<bool> preferred() const {
     std::vector<bool> list(layout_.velocity_count(), false);
@@ -178,39 +157,57 @@ class Planner {
 
   bool treat() {
     const model::LoopOptions& options = mechanism_.loop_options;
-    if (options.treatment == LoopTreatment::kMultipliers) {
-      plan_.treatment = LoopTreatment::kMultipliers;
-      return true;
-    }
+    const std::vector<std::size_t> named = named_independent();
+    plan_.is_named = options.treatment || !named.empty();
+    if (options.treatment == LoopTreatment::kMultipliers) return true;
     std::vector<Matrix> regular;
     for (const Matrix& G : jacobians_) {
       Matrix part(at(plan_.rows.size()), G.cols());
       for (std::size_t k = 0; k < plan_.rows.size(); ++k) part.row(at(k)) = G.row(at(plan_.rows[k]));
       regular.push_back(part);
     }
-    const std::vector<std::size_t> named = named_independent();
     const std::optional<Partition> partition =
         named.empty() ? choose_partition(regular, velocity_groups(mechanism_), preferred())
                       : given_partition(regular, named);
-    const bool good = partition && partition->conditioning >= kWorstConditioning;
-    if (!good && (options.treatment || !named.empty())) return report_bad(partition);
-    if (!good) {
-      plan_.reason =
-          partition ? fmt::format("no choice of independent coordinates stays regular (conditioning {:.1g})",
-                                  partition->conditioning)
-                    : "no choice of independent coordinates stays regular";
-      return true;
+    if (!partition || (partition->blocks.empty() && !plan_.rows.empty())) {
+      plan_.reason = "no choice of independent coordinates is regular at the configurations seen";
+      return plan_.is_named ? report_bad(partition) : true;
     }
-    plan_.independent = partition->independent;
-    plan_.blocks = partition->blocks;
-    plan_.conditioning = partition->conditioning;
+    take(*partition);
+    if (options.treatment == LoopTreatment::kPartitioned) return close_by_newton();
+    return close_explicitly() || (options.treatment != LoopTreatment::kExplicit && close_by_newton());
+  }
+
+  /// With these velocities independent.
+  void take(const Partition& partition) {
+    plan_.independent = partition.independent;
+    plan_.blocks = partition.blocks;
+    plan_.conditioning = partition.conditioning;
     for (Block& block : plan_.blocks)
       for (std::size_t& row : block.rows) row = plan_.rows[row];
     plan_.treatment = LoopTreatment::kPartitioned;
-    return options.treatment == LoopTreatment::kPartitioned || close_explicitly();
   }
 
-  /// Takes closed forms where there are some.
+  /// A choice that is not proven is taken only where it is asked for.
+  bool close_by_newton() {
+    if (plan_.is_named)
+      diagnostics_.warning(mechanism_.loop_options.where,
+                           "it is not proven that the other coordinates follow from the independent ones "
+                           "wherever the mechanism goes",
+                           "watch 'regularity' of State, or use treatment = \"multipliers\"");
+    else
+      keep_all();
+    return true;
+  }
+
+  void keep_all() {
+    plan_.treatment = LoopTreatment::kMultipliers;
+    plan_.independent.clear();
+    plan_.blocks.clear();
+    plan_.conditioning = 0;
+  }
+
+  /// False where there is no closed form; an error where one was asked for.
   bool close_explicitly() {
     std::variant<ClosedForm, std::string> found = solve_positions();
     if (ClosedForm* form = std::get_if<ClosedForm>(&found)) {
@@ -218,10 +215,10 @@ class Planner {
       plan_.closed_form = std::move(*form);
       return true;
     }
-    plan_.reason = "no closed form: " + std::get<std::string>(found);
-    if (mechanism_.loop_options.treatment != LoopTreatment::kExplicit) return true;
-    diagnostics_.error(mechanism_.loop_options.where, "the loops cannot be closed explicitly",
-                       std::get<std::string>(found));
+    const std::string& why = std::get<std::string>(found);
+    plan_.reason = "no closed form: " + why;
+    if (mechanism_.loop_options.treatment == LoopTreatment::kExplicit)
+      diagnostics_.error(mechanism_.loop_options.where, "the loops cannot be closed explicitly", why);
     return false;
   }
 
@@ -264,18 +261,9 @@ class Planner {
     else if (!partition)
       diagnostics_.error(where, "no choice of independent coordinates stays regular",
                          "declare the range of coordinates, or use treatment = \"multipliers\"");
-    else if (partition->blocks.empty())
+    else
       diagnostics_.error(where, "the other coordinates do not follow from the independent ones",
                          "name others, or leave 'independent' out");
-    else
-      diagnostics_.error(
-          where, "the dependent coordinates do not follow from the independent ones everywhere",
-          (partition->conditioning > 0
-               ? fmt::format(
-                     "what is solved for them has a singular value of {:.1g} of the constraints' largest: ",
-                     partition->conditioning)
-               : std::string("they pass configurations where nothing can be solved for them: ")) +
-              "declare the range of coordinates, or use treatment = \"multipliers\"");
     return false;
   }
 
@@ -286,11 +274,39 @@ class Planner {
   NumericClosure closure_;
   std::vector<std::string> names_;
   Configuration start_;
-  std::vector<Matrix> jacobians_;
+  std::vector<Configuration> configurations_;  ///< closed ones; the first is the start
+  std::vector<Matrix> jacobians_;              ///< there
   LoopPlan plan_;
 };
 
 }  // namespace
+
+double LoopPlan::least_regularity() const {
+  switch (treatment) {
+    case LoopTreatment::kExplicit:
+      return 1e-6;
+    case LoopTreatment::kPartitioned:
+      return 1e-3;
+    case LoopTreatment::kMultipliers:
+      return is_named
+                 ? 0
+                 : 1e-9;  // ten times the regularisation: a hundredth of the constraint force is left out
+  }
+  return 0;
+}
+
+double LoopPlan::greatest_opening() const {
+  constexpr double kLeftOpen = 1e-10;
+  switch (treatment) {
+    case LoopTreatment::kExplicit:
+      return 1e-2;  // closed in any case, but dependent positions were integrated badly
+    case LoopTreatment::kPartitioned:
+      return std::pow(kLeftOpen, std::ldexp(2.0, -iterations));  // each iteration squares the distance
+    case LoopTreatment::kMultipliers:
+      return kLeftOpen;  // one step
+  }
+  return 0;
+}
 
 std::vector<std::string> row_names(const model::Mechanism& mechanism) {
   std::vector<std::string> names;

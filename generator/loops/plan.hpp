@@ -25,12 +25,13 @@ struct Moved {
 
 struct LoopPlan {
   model::LoopTreatment treatment = model::LoopTreatment::kMultipliers;
-  std::string reason;                    ///< why not a treatment that comes before it; a phrase
-  std::vector<double> y, z;              ///< where the mechanism starts, all coordinates of the tree
-  std::vector<Moved> moved;              ///< what the assembly changed
-  std::size_t freedom = 0;               ///< degrees of freedom
-  std::vector<std::string> redundant;    ///< rows that follow from others, by name
-  std::vector<std::size_t> rows;         ///< the others
+  bool is_named = false;               ///< the description asks for it, or names the independent coordinates
+  std::string reason;                  ///< why not a treatment that comes before it; a phrase
+  std::vector<double> y, z;            ///< where the mechanism starts, all coordinates of the tree
+  std::vector<Moved> moved;            ///< what the assembly changed
+  std::size_t freedom = 0;             ///< degrees of freedom
+  std::vector<std::string> redundant;  ///< rows that follow from others, by name
+  std::vector<std::size_t> rows;       ///< the others
   std::vector<std::size_t> independent;  ///< velocities; empty with multipliers
   std::vector<Block> blocks;  ///< of the dependent ones, in the order of solution; empty with multipliers
   /// Smallest singular value of the dependent block over the largest of G, rows and columns scaled; the worst at the configurations
@@ -38,6 +39,10 @@ struct LoopPlan {
   double conditioning = 0;
   std::vector<double> row_length;  ///< m by row: what its multiplier is divided by to be a force
   double regularisation = 0;       ///< added to G M⁻¹ Gᵀ of rows with lengths, 1/kg; see multipliers
+  std::vector<double>
+      metric;  ///< W of `project` by velocity: powers of 4 that make columns of G alike in size
+  std::vector<double> closing_regularisation;  ///< by row: added to the diagonal of G W Gᵀ in `project`
+  double determinant = 1;  ///< of what closing solves for, its largest at the configurations seen
   std::optional<ClosedForm> closed_form;  ///< of the dependent positions; kExplicit
   int iterations = 2;
   double stabilisation = 0;  ///< 1/s
@@ -45,6 +50,11 @@ struct LoopPlan {
   /// Calls of close_loops where dependent positions were not integrated along.
   int closings() const { return treatment == model::LoopTreatment::kPartitioned ? 2 : 1; }
   bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
+  /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that were asked for pass
+  /// singular configurations straight on: 0.
+  double least_regularity() const;
+  /// Beyond it a state's `opening` says that closing may have left loops open by more than 1e-10 of the scene's length.
+  double greatest_opening() const;
 };
 
 /// Decides on the loops of `mechanism`. Nothing after diagnostics (loops that cannot be assembled, no freedom left, a treatment

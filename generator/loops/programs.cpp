@@ -1,12 +1,14 @@
 #include "loops/programs.hpp"
 
 #include <map>
+#include <numeric>
 
 #include "ir/compose.hpp"
 #include "loops/closed_system.hpp"
 #include "loops/dependence.hpp"
 #include "loops/multipliers.hpp"
 #include "loops/outputs.hpp"
+#include "loops/projection.hpp"
 #include "passes/rewrite.hpp"
 #include "support/check.hpp"
 
@@ -43,14 +45,13 @@ class LoopProgram {
     if (name == "initial_state") return write_initial_state();
     if (name == "constraint_residual") return write_constraint_residual();
     if (name == "constraint_forces") return write("lambda", constraint_forces(zdot()));
-    if (name == "project") return write_projection();
     JD_CHECK(name == "kinetic_energy" || name == "potential_energy", "no function '{}'", name);
     const Program tree = system_.tree(name);
     builder_.output(tree.outputs[0].name, -1, -1, insert(tree, {})[0]);
   }
 
   Column zdot() {
-    if (!system_.plan.is_reduced()) return constrained_motion().zdot;
+    if (!system_.plan.is_reduced()) return constrained_motion(system_.plan.rows).zdot;
     return ir::SymmetricFactors(builder_, mass_matrix()).solved(forces());
   }
 
@@ -84,19 +85,6 @@ class LoopProgram {
     return leaves;
   }
 
-  /// M of the tree, full.
-  std::vector<Column> tree_mass_matrix() {
-    const std::size_t n = system_.layout.velocity_count();
-    std::vector<Column> M(n, Column(n, builder_.literal(0)));
-    const Program tree = system_.tree("mass_matrix");
-    const Column values = insert(tree, {});
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const std::size_t i = subscript(tree.outputs[k].row), j = subscript(tree.outputs[k].column);
-      M[i][j] = M[j][i] = values[k];
-    }
-    return M;
-  }
-
   Column times(const std::vector<Column>& M, const Column& x) {
     Column y;
     for (const Column& row : M) {
@@ -117,7 +105,7 @@ class LoopProgram {
           })[0];
       return {{builder_.multiply(builder_.literal(2), T)}};
     }
-    const std::vector<Column> M = tree_mass_matrix();
+    const std::vector<Column> M = tree_mass_matrix(builder_, system_);
     if (!system_.plan.is_reduced()) return M;
     std::vector<Column> reduced;
     for (const Column& column : B) reduced.push_back(dependence_.projected(times(M, column)));
@@ -134,7 +122,7 @@ class LoopProgram {
   Column k_bar() {
     const Column tree = vector("k_bar");
     if (!system_.plan.is_reduced()) return tree;
-    const Column bias = times(tree_mass_matrix(), dependence_.beta());
+    const Column bias = times(tree_mass_matrix(builder_, system_), dependence_.beta());
     Column rows;
     for (std::size_t k = 0; k < tree.size(); ++k) rows.push_back(builder_.subtract(tree[k], bias[k]));
     return dependence_.projected(rows);
@@ -143,33 +131,42 @@ class LoopProgram {
   Column residual(const Column& zdot) {
     Column r = dependence_.projected(vector("residual", dependence_.accelerations(zdot)));
     if (system_.plan.is_reduced()) return r;
-    const Column lambda = constrained_motion().lambda;
+    const std::vector<std::size_t>& rows = system_.plan.rows;
+    const Column lambda = constrained_motion(rows).lambda;
     const ConstraintValues constraints(builder_, system_);
     for (std::size_t k = 0; k < r.size(); ++k)
-      for (std::size_t row = 0; row < lambda.size(); ++row)
-        r[k] = builder_.add(r[k], builder_.multiply(constraints.G(row, k), lambda[row]));
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        r[k] = builder_.add(r[k], builder_.multiply(constraints.G(rows[i], k), lambda[i]));
     return r;
   }
 
-  Motion constrained_motion() {
+  Motion constrained_motion(const std::vector<std::size_t>& rows) {
     const ConstraintValues constraints(builder_, system_);
-    const MultiplierSolver solver(builder_, system_, tree_mass_matrix(), constraints);
+    const MultiplierSolver solver(builder_, system_, tree_mass_matrix(builder_, system_), constraints, rows);
     const ConstraintRates rates = constraint_rates(builder_, system_, dependence_.z());
     const Column pushed = solver.lowered(forces());
     Column c = solver.constrained(pushed);
     const double s = system_.plan.stabilisation;
-    for (std::size_t r = 0; r < c.size(); ++r) {
-      c[r] = builder_.add(c[r], rates.gamma[r]);
-      c[r] = builder_.add(c[r], builder_.multiply(builder_.literal(2 * s), rates.rate[r]));
-      c[r] = builder_.add(c[r], builder_.multiply(builder_.literal(s * s), constraints.g(r)));
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const std::size_t r = rows[k];
+      c[k] = builder_.add(c[k], rates.gamma[r]);
+      c[k] = builder_.add(c[k], builder_.multiply(builder_.literal(2 * s), rates.rate[r]));
+      c[k] = builder_.add(c[k], builder_.multiply(builder_.literal(s * s), constraints.g(r)));
     }
     const Column lambda = solver.multipliers(c);
     return {solver.accelerations(pushed, lambda), lambda};
   }
 
-  /// With reduced treatments what the dependent coordinates lack at the accelerations given; otherwise those of the state.
+  std::vector<std::size_t> all_rows() const {
+    std::vector<std::size_t> rows(system_.constraints.value.outputs.size());
+    std::iota(rows.begin(), rows.end(), 0);
+    return rows;
+  }
+
+  /// With reduced treatments what the dependent coordinates lack at the accelerations given; otherwise those of the state, over all
+  /// rows: of redundant ones those of least norm.
   Column constraint_forces(const Column& zdot) {
-    if (!system_.plan.is_reduced()) return constrained_motion().lambda;
+    if (!system_.plan.is_reduced()) return constrained_motion(all_rows()).lambda;
     Column missing = vector("residual", dependence_.accelerations(zdot));
     for (Signed& entry : missing) entry = -entry;
     return dependence_.multipliers(missing);
@@ -188,29 +185,6 @@ class LoopProgram {
     for (std::size_t r = 0; r < rate.size(); ++r)
       builder_.output("g", static_cast<int>(r), -1, constraints.g(r));
     write("g_rate", rate);
-  }
-
-  void write_projection() {
-    const std::vector<Column> M = tree_mass_matrix();
-    const ConstraintValues here(builder_, system_);
-    Column g, opening;
-    for (std::size_t r = 0; r < system_.constraints.value.outputs.size(); ++r) g.push_back(here.g(r));
-    const Column nothing(M.size(), builder_.literal(0));
-    const MultiplierSolver solver(builder_, system_, M, here);
-    const Column y = displaced(builder_, system_, position_leaves(builder_, system_),
-                               solver.accelerations(nothing, solver.multipliers(g)));
-    const ConstraintValues there(builder_, system_, y);
-    for (std::size_t r = 0; r < g.size(); ++r) {
-      Signed sum = there.g_t(r);
-      for (std::size_t k = 0; k < M.size(); ++k)
-        sum = builder_.add(sum, builder_.multiply(there.G(r, k), dependence_.z()[k]));
-      opening.push_back(sum);
-    }
-    const MultiplierSolver again(builder_, system_, M, there);
-    const Column change = again.accelerations(nothing, again.multipliers(opening));
-    write("y", y);
-    for (std::size_t k = 0; k < M.size(); ++k)
-      builder_.output("z", static_cast<int>(k), -1, builder_.add(dependence_.z()[k], change[k]));
   }
 
   void write_initial_state() {
@@ -237,11 +211,13 @@ class LoopProgram {
   Dependence dependence_;
 };
 
-/// Newton iterations block by block: each block is closed before the next one starts.
+/// Newton iterations block by block: each block is closed before the next one starts. Beside the dependent positions "regularity", the
+/// determinants of the last iteration over LoopPlan::determinant, and "opening", the square of what the first one changed.
 Program closing_program(const LoopSystem& system) {
   Builder builder;
   Column y = position_leaves(builder, system);
   std::vector<bool> dependent(system.layout.velocity_count(), false);
+  Signed determinant = builder.literal(1 / system.plan.determinant), opening = builder.literal(0);
   for (const Block& block : system.plan.blocks) {
     for (const std::size_t k : block.dependents) dependent[k] = true;
     for (int i = 0; i < system.plan.iterations; ++i) {
@@ -253,12 +229,18 @@ Program closing_program(const LoopSystem& system) {
         for (const std::size_t k : block.dependents) A.back().push_back(values.G(r, k));
         open.push_back(-values.g(r));
       }
-      const Column change = DenseSolver(builder, std::move(A)).solve(open);
+      const DenseSolver solver(builder, std::move(A));
+      const Column change = solver.solve(open);
       Column displacement(dependent.size(), builder.literal(0));
       for (std::size_t k = 0; k < change.size(); ++k) displacement[block.dependents[k]] = change[k];
       y = displaced(builder, system, y, displacement);
+      for (const Signed& entry : change)
+        if (i == 0) opening = builder.add(opening, builder.multiply(entry, entry));
+      if (i + 1 == system.plan.iterations) determinant = builder.multiply(determinant, solver.determinant());
     }
   }
+  builder.output("regularity", -1, -1, determinant);
+  builder.output("opening", -1, -1, opening);
   const auto write = [&](std::size_t entry) { builder.output("y", static_cast<int>(entry), -1, y[entry]); };
   for (const model::Tangent::Scalar& s : system.tangent.scalars)
     if (dependent[s.velocity]) write(s.position);
@@ -270,6 +252,7 @@ Program closing_program(const LoopSystem& system) {
 }  // namespace
 
 Program loop_program(const LoopSystem& system, const std::string& function) {
+  if (function == "project") return projection_program(system);
   if (function == "close_loops")
     return system.plan.closed_form ? system.plan.closed_form->close : closing_program(system);
   LoopProgram program(system);

@@ -6,6 +6,7 @@
 
 #include "dynamics/closure_motion.hpp"
 #include "kinematics/numbers.hpp"
+#include "loops/closing_check.hpp"
 #include "loops/derivative_check.hpp"
 #include "loops/expected.hpp"
 #include "model/checks.hpp"
@@ -162,7 +163,17 @@ class Comparison {
       e_.B.col(at(j)) = dependents(Vector::Zero(g_t.size()), Vector::Unit(at(n), at(plan_.independent[j])));
       e_.z += e_.B.col(at(j)) * ray_.z[j];
     }
-    e_.condition = 1 / static_cast<long double>(plan_.conditioning);
+    e_.condition = dependent_condition();
+  }
+
+  /// Largest singular value of the rows used over the smallest of the dependent block.
+  long double dependent_condition() const {
+    if (plan_.rows.empty()) return 1;
+    Matrix G(at(plan_.rows.size()), e_.G.cols());
+    for (std::size_t r = 0; r < plan_.rows.size(); ++r) G.row(at(r)) = e_.G.row(at(plan_.rows[r]));
+    const Matrix D = G(Eigen::all, dependent_);
+    return Eigen::JacobiSVD<Matrix>(G).singularValues()[0] /
+           Eigen::JacobiSVD<Matrix>(D).singularValues().tail(1)[0];
   }
 
   void record(const std::string& what, const Vector& value, const Vector& expected, long double scale,
@@ -318,13 +329,20 @@ class Comparison {
            verdict_.backward_error);
   }
 
-  /// A closed state stays where it is.
+  /// Off the loops, and on them: a closed state stays where it is.
   void compare_correction(const ir::Program& program, const Vector& v) {
-    Vector expected(v.size());
+    const double off = closing_error(mechanism_, closure_, plan_, module_, parameters_, ray_, program);
+    if (!(off <= validate::kTolerance))
+      verdict_.failures.push_back(
+          fmt::format("{} is off by {:.2g} where the loops are open", program.name, off));
+    verdict_.entry_error = std::max(verdict_.entry_error, off);
+    Vector expected = v;
     for (Eigen::Index k = 0; k < v.size(); ++k) {
       const ir::Output& output = program.outputs[static_cast<std::size_t>(k)];
       const auto i = static_cast<std::size_t>(output.row);
-      expected[k] = output.name == "y" ? y_[i] : ray_.z[i];
+      if (output.name == "y") expected[k] = y_[i];
+      if (output.name == "z") expected[k] = ray_.z[i];
+      if (output.name == "opening") expected[k] = 0;
     }
     // A state is closed to kClosed, no better.
     record(program.name, v, expected, 1e3L * (1 + expected.lpNorm<Eigen::Infinity>()) * e_.condition,

@@ -248,7 +248,7 @@ struct LoopOptions {
   };
   std::vector<CoordinateName> independent;
   int iterations = 2;        ///< Newton iterations that close the loops at the end of a step
-  double stabilisation = 5;  ///< 1/s: multipliers meet g̈ + 2 s ġ + s² g = 0
+  double stabilisation = 0;  ///< 1/s: multipliers meet g̈ + 2 s ġ + s² g = 0
   SourceRange where = {};
 };
 

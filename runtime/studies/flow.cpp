@@ -150,6 +150,13 @@ Point<Real> Flow<Real>::closed(Point<Real> point) const {
 }
 
 template <class Real>
+Closing Flow<Real>::last_closing() const {
+  Closing closing;
+  if (has_loops()) table_.closing(&closing.regularity, &closing.opening);
+  return closing;
+}
+
+template <class Real>
 Residuals Flow<Real>::residuals(const Point<Real>& point) const {
   if (!has_loops()) return {};
   const std::vector<double> time = to_parts<Real>(std::span(&point.t, 1)), state = to_parts<Real>(point.x);

@@ -1,7 +1,7 @@
 // How far the loops of a mechanism open while it moves.
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "studies/advice.hpp"
@@ -18,6 +18,10 @@ struct LoopRun {
   Residuals open;
   bool finite = true;  ///< false: up to the step that was not
 };
+
+/// When the first step ended, of `h` (s) over `duration` (s) by the table's first method, whose closing was not regular; none where all
+/// were, and without loops.
+std::optional<double> first_singular(const Flow<double>& flow, double h, double duration);
 
 /// Runs over `duration` (s) with the recommended step, and with ten times that step. Without a recommendation the cheapest
 /// point of the study within 1e-6 (rad, m) takes its place, or the most accurate one. Empty where there are no loops.

@@ -18,8 +18,8 @@ struct StepTime {
 /// One method and step size.
 struct WorkPoint {
   std::size_t method = 0;
-  double h = 0;  ///< s
-  bool finite = true;
+  double h = 0;                               ///< s
+  bool finite = true;                         ///< and the loops' closing was regular at every step
   ErrorNorms end;                             ///< at the end: rad, m; rad/s, m/s
   ErrorNorms largest;                         ///< along the way
   ErrorNorms relative_end, relative_largest;  ///< over the largest entry of the reference along the way

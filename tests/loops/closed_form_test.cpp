@@ -41,7 +41,8 @@ ir::LeafValues<double> leaves_of(const ClosedFormRequest& request) {
 void close(const ir::Program& program, ir::LeafValues<double>& leaves) {
   const std::vector<double> found = ir::interpret(program, leaves);
   for (std::size_t k = 0; k < found.size(); ++k)
-    leaves[LeafKind::kPosition][std::size_t(program.outputs[k].row)] = found[k];
+    if (program.outputs[k].row >= 0)
+      leaves[LeafKind::kPosition][std::size_t(program.outputs[k].row)] = found[k];
 }
 
 /// Moves the first coordinate from its initial value to `end` and checks g and continuity; the positions there.

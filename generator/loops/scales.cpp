@@ -1,0 +1,79 @@
+#include "loops/scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "loops/dense_solver.hpp"
+#include "model/loop_kinds.hpp"
+#include "reference/minimal.hpp"
+
+namespace jourdain::loops {
+
+namespace {
+
+/// Regularisation as a share of the largest entry of G M⁻¹ Gᵀ at the start, of rows with lengths.
+constexpr double kRegularisation = 1e-10;
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+Matrix rows_of(const Matrix& G, const std::vector<std::size_t>& rows) {
+  Matrix part(at(rows.size()), G.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k) part.row(at(k)) = G.row(at(rows[k]));
+  return part;
+}
+
+void set_row_lengths(const model::Mechanism& mechanism, const Vector& S, LoopPlan& plan) {
+  std::vector<bool> is_length;
+  for (const model::Loop& loop : mechanism.loops)
+    for (const model::LoopRow& row : model::loop_kind(loop.type).rows) is_length.push_back(row.is_length);
+  long double largest = 0;
+  for (std::size_t r = 0; r < is_length.size(); ++r)
+    if (is_length[r]) largest = std::max(largest, S[at(r)]);
+  if (!(largest > 0)) largest = S.maxCoeff();
+  for (std::size_t r = 0; r < is_length.size(); ++r) {
+    const bool scaled = !is_length[r] && S[at(r)] > kRankTolerance * largest;
+    plan.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / S[at(r)])) : 1);
+  }
+  plan.regularisation = kRegularisation * static_cast<double>(largest);
+}
+
+}  // namespace
+
+Matrix schur_matrix(const model::Mechanism& mechanism, const Configuration& at_state, const Matrix& G) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  reference::State<long double> state{at_state.t, at_state.y, Vector::Zero(at(layout.velocity_count()))};
+  const auto terms =
+      reference::Reference<long double>(mechanism).evaluate(state, Vector::Zero(at(layout.input_count())));
+  return G * terms.M.ldlt().solve(G.transpose());
+}
+
+void set_scales(const model::Mechanism& mechanism, const Configuration& start, const Matrix& G,
+                LoopPlan& plan) {
+  set_row_lengths(mechanism, schur_matrix(mechanism, start, G).diagonal(), plan);
+}
+
+void set_determinant(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
+                     const std::vector<Matrix>& jacobians, LoopPlan& plan) {
+  long double largest = 0;
+  for (std::size_t k = 0; k < jacobians.size(); ++k) {
+    const long double determinant =
+        plan.is_reduced()
+            ? block_determinant(plan, jacobians[k])
+            : schur_matrix(mechanism, configurations[k], rows_of(jacobians[k], plan.rows)).determinant();
+    largest = std::max(largest, std::abs(determinant));
+  }
+  const bool negative = plan.is_reduced() && block_determinant(plan, jacobians.front()) < 0;
+  plan.determinant = static_cast<double>(negative ? -largest : largest);
+}
+
+long double block_determinant(const LoopPlan& plan, const Matrix& G) {
+  long double product = 1;
+  for (const Block& block : plan.blocks) {
+    const Matrix D = rows_of(G, block.rows)(Eigen::all, block.dependents);
+    const long double determinant = D.determinant();
+    product *= block.rows.size() <= DenseSolver::kLargestByCofactors ? determinant : determinant * determinant;
+  }
+  return product;
+}
+
+}  // namespace jourdain::loops

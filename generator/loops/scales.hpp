@@ -1,0 +1,25 @@
+// Sizes of a mechanism's constraints: what makes rows of different units alike, and what is small beside them.
+#pragma once
+
+#include <vector>
+
+#include "loops/configuration.hpp"
+#include "loops/plan.hpp"
+
+namespace jourdain::loops {
+
+/// G M⁻¹ Gᵀ at a configuration, M of the tree.
+Matrix schur_matrix(const model::Mechanism& mechanism, const Configuration& configuration, const Matrix& G);
+
+/// Sets row_length and regularisation of the plan from the start, where the Jacobian is `G`.
+void set_scales(const model::Mechanism& mechanism, const Configuration& start, const Matrix& G,
+                LoopPlan& plan);
+
+/// Sets the determinant of what closing solves for, once the treatment is known, from the configurations seen. The first is the start.
+void set_determinant(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
+                     const std::vector<Matrix>& jacobians, LoopPlan& plan);
+
+/// Product of the determinants of the dependent blocks. Those that are solved by orthogonalisation count without sign.
+long double block_determinant(const LoopPlan& plan, const Matrix& G);
+
+}  // namespace jourdain::loops
