@@ -140,26 +140,6 @@ Groups velocity_groups(const model::Mechanism& mechanism) {
   return groups;
 }
 
-std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians) {
-  std::vector<std::size_t> rows;
-  std::vector<std::vector<Vector>> bases(jacobians.size());  // orthonormal, of the rows so far
-  for (Eigen::Index r = 0; r < jacobians.front().rows(); ++r) {
-    bool grows = false;
-    for (std::size_t k = 0; k < jacobians.size(); ++k) {
-      const Vector row = jacobians[k].row(r);
-      Vector rest = row;
-      for (int pass = 0; pass < 2; ++pass)  // the second makes good what cancels in the first
-        for (const Vector& direction : bases[k]) rest -= direction.dot(rest) * direction;
-      // Rows that rounding of the model's numbers alone keeps off zero determine nothing.
-      if (!(rest.norm() > kRankTolerance * jacobians[k].rowwise().norm().maxCoeff())) continue;
-      bases[k].push_back(rest.normalized());
-      grows = true;
-    }
-    if (grows) rows.push_back(static_cast<std::size_t>(r));
-  }
-  return rows;
-}
-
 std::vector<Block> triangular_blocks(const std::vector<Matrix>& jacobians,
                                      const std::vector<std::size_t>& dependents) {
   const std::size_t n = dependents.size();

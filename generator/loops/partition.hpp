@@ -19,9 +19,6 @@ struct Partition {
 using Groups = std::vector<std::vector<std::size_t>>;
 Groups velocity_groups(const model::Mechanism& mechanism);
 
-/// Rows that are not combinations of earlier ones at every configuration.
-std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians);
-
 /// The partition whose dependent block is conditioned best where it is worst, over Jacobians with only regular rows. Where several
 /// are nearly as good the one with `preferred` velocities. Nothing where the groups do not fit.
 std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, const Groups& groups,

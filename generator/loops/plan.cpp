@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "loops/partition.hpp"
+#include "loops/regular_rows.hpp"
 #include "loops/scales.hpp"
 #include "model/angles.hpp"
 #include "model/checks.hpp"
