@@ -13,6 +13,7 @@
 #include "commands/method_names.hpp"
 #include "commands/plot.hpp"
 #include "commands/progress.hpp"
+#include "commands/run_bounds.hpp"
 #include "commands/run_setup.hpp"
 #include "studies/flow.hpp"
 #include "support/files.hpp"
@@ -56,15 +57,19 @@ struct Trajectory {
   studies::Residuals open;        ///< largest, of the loops
   std::vector<double> end_rates;  ///< of the positions
   double stepping_time = 0;       ///< s of wall time spent in steps
-  bool finite = true;
-  std::string problem;  ///< with the loops, that ended the run; or empty
+  std::optional<Breach> breach;   ///< where the run ended early
 };
 
 class Simulation {
  public:
   /// `guard` may be null.
-  Simulation(const Flow<double>& flow, const Arguments& arguments, const LoopGuard* guard)
-      : flow_(flow), table_(flow.table()), arguments_(arguments), guard_(guard) {}
+  Simulation(const Flow<double>& flow, const Arguments& arguments, bool conserves_energy,
+             const LoopGuard* guard)
+      : flow_(flow),
+        table_(flow.table()),
+        arguments_(arguments),
+        bounds_(flow, flow.start(), conserves_energy),
+        guard_(guard) {}
 
   /// Steps from the initial state, appending a CSV row every so many steps.
   Trajectory run(long steps, std::string& csv) {
@@ -76,21 +81,17 @@ class Simulation {
     header(csv);
     state_.first_energy = row(csv);
     ProgressBar progress;
-    for (long done = 0; done < steps && state_.finite;) {
+    for (long done = 0; done < steps && !state_.breach;) {
       const long block = std::min(arguments_.every, steps - done);
       const Point<double> before = state_.end;
-      const studies::Memory remembered = memory;
+      const studies::Memory memory_before = memory;
       const auto begin = Clock::now();
       flow_.step(method, state_.end, arguments_.step, block, memory);
       state_.stepping_time += seconds_since(begin);
       done += block;
       state_.end.t = static_cast<double>(done) * arguments_.step;
-      if (guard_ && !guard_->problem(state_.end).empty()) {
-        state_.problem = first_problem(method, before, remembered, block);
-        return state_;
-      }
       const double energy = row(csv);
-      state_.finite = std::isfinite(energy);
+      if (!trouble(state_.end).empty()) find_breach(method, before, memory_before, block);
       state_.largest_drift = std::max(state_.largest_drift, std::fabs(energy - state_.first_energy));
       progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
     }
@@ -99,15 +100,22 @@ class Simulation {
   }
 
  private:
-  /// What the guard says first in a block of steps; the state is then the one before.
-  std::string first_problem(const jourdain_method& method, Point<double> point, studies::Memory memory,
-                            long block) {
-    for (long i = 0; i < block; ++i) {
-      state_.end = point;
+  /// What is wrong with the last step or steps, which ended at `point`; empty: nothing.
+  std::string trouble(const Point<double>& point) const {
+    const std::string out = bounds_.breach(point);
+    return out.empty() && guard_ ? guard_->problem(point) : out;
+  }
+
+  /// Makes the steps of a block that ended in trouble again, one by one, up to the first one that does.
+  void find_breach(const jourdain_method& method, Point<double> point, studies::Memory memory, long steps) {
+    Point<double> last = point;
+    std::string what;
+    for (long done = 0; done < steps && what.empty(); ++done) {
+      last = point;
       flow_.step(method, point, arguments_.step, 1, memory);
-      if (const std::string problem = guard_->problem(point); !problem.empty()) return problem;
+      what = trouble(point);
     }
-    return guard_->problem(point);
+    state_.breach = {last, point, what, bounds_.breach(point).empty()};
   }
 
   void header(std::string& csv) const {
@@ -138,9 +146,15 @@ class Simulation {
   const Flow<double>& flow_;
   const jourdain_model_table& table_;
   const Arguments& arguments_;
+  RunBounds bounds_;
   const LoopGuard* guard_;
   Trajectory state_;
 };
+
+/// Six decimals; six digits where that would be many.
+std::string coordinate_text(double value) {
+  return std::fabs(value) < 1e7 ? fmt::format("{:.6f}", value) : fmt::format("{:.6g}", value);
+}
 
 void print_summary(const RunModel& model, const RunInputs& inputs, const Arguments& arguments,
                    const jourdain_model_table& table, const Trajectory& result, long steps) {
@@ -160,14 +174,17 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Argumen
   const int ny = table.position_count, nz = table.velocity_count;
   if (ny == nz || table.correct) {
     for (int i = 0; i < ny; ++i)
-      fmt::print("    {:<24} {:>12.6f}   rate {:>12.6f}\n", table.position_names[i],
-                 x[static_cast<std::size_t>(i)], result.end_rates[static_cast<std::size_t>(i)]);
+      fmt::print("    {:<24} {:>12}   rate {:>12}\n", table.position_names[i],
+                 coordinate_text(x[static_cast<std::size_t>(i)]),
+                 coordinate_text(result.end_rates[static_cast<std::size_t>(i)]));
     return;
   }
   for (int i = 0; i < ny; ++i)
-    fmt::print("    {:<24} {:>12.6f}\n", table.position_names[i], x[static_cast<std::size_t>(i)]);
+    fmt::print("    {:<24} {:>12}\n", table.position_names[i],
+               coordinate_text(x[static_cast<std::size_t>(i)]));
   for (int i = 0; i < nz; ++i)
-    fmt::print("    {:<24} {:>12.6f}\n", table.velocity_names[i], x[static_cast<std::size_t>(ny + i)]);
+    fmt::print("    {:<24} {:>12}\n", table.velocity_names[i],
+               coordinate_text(x[static_cast<std::size_t>(ny + i)]));
 }
 
 /// Coordinates over time.
@@ -219,17 +236,14 @@ int run(const Arguments& arguments) {
   if (!check_closed(*model, flow)) return kModelWrong;
   const long steps = std::lround(exact_steps);
   std::string csv;
+  const bool conserves = inputs->what.empty() && conserves_energy(model->loaded.mechanism);
   const std::optional<LoopGuard> guard =
       model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
                            : std::nullopt;
-  const Trajectory result = Simulation(flow, arguments, guard ? &*guard : nullptr).run(steps, csv);
-  if (!result.problem.empty()) {
-    fmt::print(stderr, "error: {}\n", result.problem);
-    return kModelWrong;
-  }
-  if (!result.finite) {
-    fmt::print(stderr, "error: the state is not finite at t = {:g} s; a step of {:g} s may be too long\n",
-               result.end.t, arguments.step);
+  const Trajectory result = Simulation(flow, arguments, conserves, guard ? &*guard : nullptr).run(steps, csv);
+  if (result.breach) {
+    fmt::print(stderr, "{}",
+               breach_text(flow, compiled.tangent, *result.breach, arguments.method, arguments.step));
     return kModelWrong;
   }
   const std::string plot =
