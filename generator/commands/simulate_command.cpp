@@ -12,6 +12,7 @@
 #include "commands/method_names.hpp"
 #include "commands/plot.hpp"
 #include "commands/progress.hpp"
+#include "commands/run_bounds.hpp"
 #include "commands/run_setup.hpp"
 #include "studies/flow.hpp"
 #include "support/files.hpp"
@@ -55,13 +56,16 @@ struct Trajectory {
   studies::Residuals open;        ///< largest, of the loops
   std::vector<double> end_rates;  ///< of the positions
   double stepping_time = 0;       ///< s of wall time spent in steps
-  bool finite = true;
+  std::optional<Breach> breach;   ///< where the run ended early
 };
 
 class Simulation {
  public:
-  Simulation(const Flow<double>& flow, const Arguments& arguments)
-      : flow_(flow), table_(flow.table()), arguments_(arguments) {}
+  Simulation(const Flow<double>& flow, const Arguments& arguments, bool conserves_energy)
+      : flow_(flow),
+        table_(flow.table()),
+        arguments_(arguments),
+        bounds_(flow, flow.start(), conserves_energy) {}
 
   /// Steps from the initial state, appending a CSV row every so many steps.
   Trajectory run(long steps, std::string& csv) {
@@ -73,15 +77,17 @@ class Simulation {
     header(csv);
     state_.first_energy = row(csv);
     ProgressBar progress;
-    for (long done = 0; done < steps && state_.finite;) {
+    for (long done = 0; done < steps && !state_.breach;) {
       const long block = std::min(arguments_.every, steps - done);
+      const Point<double> before = state_.end;
+      const studies::Memory memory_before = memory;
       const auto begin = Clock::now();
       flow_.step(method, state_.end, arguments_.step, block, memory);
       state_.stepping_time += seconds_since(begin);
       done += block;
       state_.end.t = static_cast<double>(done) * arguments_.step;
       const double energy = row(csv);
-      state_.finite = std::isfinite(energy);
+      if (!bounds_.breach(state_.end).empty()) find_breach(method, before, memory_before, block);
       state_.largest_drift = std::max(state_.largest_drift, std::fabs(energy - state_.first_energy));
       progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
     }
@@ -90,6 +96,16 @@ class Simulation {
   }
 
  private:
+  /// Makes the steps of a block that ended out of bounds again, one by one, up to the first one that does.
+  void find_breach(const jourdain_method& method, Point<double> point, studies::Memory memory, long steps) {
+    Point<double> last = point;
+    for (long done = 0; done < steps && bounds_.breach(point).empty(); ++done) {
+      last = point;
+      flow_.step(method, point, arguments_.step, 1, memory);
+    }
+    state_.breach = {last, point, bounds_.breach(point)};
+  }
+
   void header(std::string& csv) const {
     csv += "time";
     for (int i = 0; i < table_.position_count; ++i) csv += "," + field(table_.position_names[i]);
@@ -118,8 +134,14 @@ class Simulation {
   const Flow<double>& flow_;
   const jourdain_model_table& table_;
   const Arguments& arguments_;
+  RunBounds bounds_;
   Trajectory state_;
 };
+
+/// Six decimals; six digits where that would be many.
+std::string coordinate_text(double value) {
+  return std::fabs(value) < 1e7 ? fmt::format("{:.6f}", value) : fmt::format("{:.6g}", value);
+}
 
 void print_summary(const RunModel& model, const RunInputs& inputs, const Arguments& arguments,
                    const jourdain_model_table& table, const Trajectory& result, long steps) {
@@ -139,14 +161,17 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Argumen
   const int ny = table.position_count, nz = table.velocity_count;
   if (ny == nz || table.correct) {
     for (int i = 0; i < ny; ++i)
-      fmt::print("    {:<24} {:>12.6f}   rate {:>12.6f}\n", table.position_names[i],
-                 x[static_cast<std::size_t>(i)], result.end_rates[static_cast<std::size_t>(i)]);
+      fmt::print("    {:<24} {:>12}   rate {:>12}\n", table.position_names[i],
+                 coordinate_text(x[static_cast<std::size_t>(i)]),
+                 coordinate_text(result.end_rates[static_cast<std::size_t>(i)]));
     return;
   }
   for (int i = 0; i < ny; ++i)
-    fmt::print("    {:<24} {:>12.6f}\n", table.position_names[i], x[static_cast<std::size_t>(i)]);
+    fmt::print("    {:<24} {:>12}\n", table.position_names[i],
+               coordinate_text(x[static_cast<std::size_t>(i)]));
   for (int i = 0; i < nz; ++i)
-    fmt::print("    {:<24} {:>12.6f}\n", table.velocity_names[i], x[static_cast<std::size_t>(ny + i)]);
+    fmt::print("    {:<24} {:>12}\n", table.velocity_names[i],
+               coordinate_text(x[static_cast<std::size_t>(ny + i)]));
 }
 
 /// Coordinates over time.
@@ -198,10 +223,11 @@ int run(const Arguments& arguments) {
   if (!check_closed(*model, flow)) return kModelWrong;
   const long steps = std::lround(exact_steps);
   std::string csv;
-  const Trajectory result = Simulation(flow, arguments).run(steps, csv);
-  if (!result.finite) {
-    fmt::print(stderr, "error: the state is not finite at t = {:g} s; a step of {:g} s may be too long\n",
-               result.end.t, arguments.step);
+  const bool conserves = inputs->what.empty() && conserves_energy(model->loaded.mechanism);
+  const Trajectory result = Simulation(flow, arguments, conserves).run(steps, csv);
+  if (result.breach) {
+    fmt::print(stderr, "{}",
+               breach_text(flow, compiled.tangent, *result.breach, arguments.method, arguments.step));
     return kModelWrong;
   }
   const std::string plot =

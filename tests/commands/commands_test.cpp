@@ -206,16 +206,44 @@ TEST(Simulate, WritesAHeaderAndARowForEachInterval) {
   EXPECT_NEAR(std::stod(last.substr(last.rfind(',') + 1)), 0, 1e-9);  // released level with the pivot
 }
 
-TEST(Simulate, StopsWhenTheStateIsNoLongerFinite) {
+TEST(Simulate, StopsWhereARunLeavesAllBounds) {
   const support::TemporaryFolder folder;
   const std::string csv = folder.path() + "/p.csv";
   expect(jourdain({"simulate", "models/panda.toml", "--duration", "1000", "--step", "5", "--output", csv}), 1,
-         "not finite");
+         "leaves all bounds");
   EXPECT_FALSE(fs::exists(csv));
+  const support::ProcessResult stiff =
+      jourdain({"simulate", "models/flyball_governor.toml", "--step", "0.001", "--output", csv});
+  expect(stiff, 1, "the run leaves all bounds at t = 0.0");
+  expect(stiff, 1, "rk4 is stable up to steps of 0.000343 s");
   expect(jourdain({"simulate", "models/panda.toml", "--duration", "1", "--step", "2", "--output", csv}), 2,
          "steps");
   expect(jourdain({"simulate", "models/panda.toml", "--constant-input", "1,2", "--output", csv}), 2,
          "7 inputs");
+}
+
+TEST(Simulate, TellsEquationsWithoutValuesFromStepsThatAreTooLong) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.path() + "/root.toml";
+  support::write_file(
+      path,
+      "[model]\nname = \"root\"\n[[body]]\nname = \"bead\"\nmass = 1\n[[joint]]\nname = \"slide\"\n"
+      "type = \"prismatic\"\nparent = \"world\"\nchild = \"bead\"\n"
+      "[[force]]\nname = \"pull\"\njoint = \"slide\"\nvalue = \"sqrt(0.5 - t)\"\n");
+  expect(jourdain({"simulate", path, "--duration", "1", "--output", folder.path() + "/r.csv"}), 1,
+         "no finite rates from t = 0.");
+}
+
+TEST(Simulate, BodiesMayBeThrownFarAway) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.path() + "/thrown.toml";
+  support::write_file(
+      path,
+      "[model]\nname = \"thrown\"\ngravity = [0, 0, -9.81]\n[[body]]\nname = \"stone\"\nmass = 1\n"
+      "[[joint]]\nname = \"fall\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"stone\"\n");
+  expect(
+      jourdain({"simulate", path, "--duration", "1e6", "--step", "10", "--output", folder.path() + "/t.csv"}),
+      0, "-4.905e+12 ");
 }
 
 TEST(Simulate, NeedsACompiler) {
