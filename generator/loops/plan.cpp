@@ -61,12 +61,6 @@ class Planner {
   }
 
  private:
-  std::vector<bool> moving() const {
-    std::vector<bool> list(layout_.velocity_count(), true);
-    for (const std::size_t k : named_independent()) list[k] = false;
-    return list;
-  }
-
   std::vector<std::size_t> named_independent() const {
     std::vector<std::size_t> list;
     for (const auto& name : mechanism_.loop_options.independent)
@@ -75,72 +69,17 @@ class Planner {
   }
 
   bool assemble() {
-    const auto initial = reference::Reference<long double>(mechanism_).initial_state();
-    start_ = closure_.assembled({0, initial.y}, moving());
-    const Vector g = closure_.value(start_);
-    Eigen::Index worst = 0;
-    const long double residual = g.cwiseAbs().maxCoeff(&worst);
-    if (!(residual <= kClosed)) {
-      report_open(static_cast<std::size_t>(worst), static_cast<double>(residual));
-      return false;
-    }
-    for (const std::size_t loop : closure_.reversed(start_))
-      diagnostics_.error(mechanism_.loops[loop].where,
-                         fmt::format("loop '{}' closes with its axes against each other",
-                                     shown(mechanism_.loops[loop].name)),
-                         "turn 'to_axis' round, or start nearer to the configuration that is meant");
-    if (!closure_.reversed(start_).empty()) return false;
-    const Vector z = closure_.consistent(start_, initial.z, moving());
-    const Vector rate = closure_.jacobian(start_) * z + closure_.time_rate(start_);
-    const long double opening = rate.cwiseAbs().maxCoeff(&worst);
-    if (!(opening <= 1e-10L * (1 + z.lpNorm<Eigen::Infinity>()))) {
-      const std::size_t row = static_cast<std::size_t>(worst);
-      const model::Loop& loop = loop_of(row);
-      diagnostics_.error(
-          loop.where, fmt::format("no velocities agree with loop '{}' at the start", shown(loop.name)),
-          fmt::format(
-              "the best ones found open constraint {} at {:.3g}/s{}: start from another configuration",
-              names_[row], static_cast<double>(opening), held()));
-      return false;
-    }
-    record(initial.y, start_.y, layout_.position_names, false, plan_.y);
-    record(initial.z, z, layout_.velocity_names, true, plan_.z);
+    const std::optional<Start> start = find_start(mechanism_, closure_, named_independent(), diagnostics_);
+    if (!start) return false;
+    start_ = start->configuration;
+    plan_.moved = start->moved;
+    for (const long double entry : start_.y) plan_.y.push_back(static_cast<double>(entry));
+    for (const long double entry : start->z) plan_.z.push_back(static_cast<double>(entry));
     return true;
   }
 
-  const model::Loop& loop_of(std::size_t row) const {
-    std::size_t loop = 0, first = 0;
-    while (row >= first + model::row_count(mechanism_.loops[loop].type))
-      first += model::row_count(mechanism_.loops[loop++].type);
-    return mechanism_.loops[loop];
-  }
-
-  /// What the assembly may not move, as the end of a phrase.
-  std::string held() const {
-    std::vector<std::string> names;
-    for (const std::size_t k : named_independent()) names.push_back(shown(layout_.velocity_names[k]));
-    return names.empty() ? "" : fmt::format(" with {} as given", fmt::join(names, ", "));
-  }
-
-  void report_open(std::size_t row, double residual) {
-    const model::Loop& loop = loop_of(row);
-    diagnostics_.error(loop.where,
-                       fmt::format("loop '{}' cannot be closed from the initial values", shown(loop.name)),
-                       fmt::format("the nearest configuration found leaves constraint {} open by {:.3g}{}",
-                                   names_[row], residual, held()));
-  }
-
-  void record(const Vector& before, const Vector& after, const std::vector<std::string>& names, bool velocity,
-              std::vector<double>& values) {
-    constexpr long double kNoticeable = 1e-12L;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      values.push_back(static_cast<double>(after[at(i)]));
-      if (std::abs(after[at(i)] - before[at(i)]) > kNoticeable)
-        plan_.moved.push_back({names[i], static_cast<double>(before[at(i)]), values.back(), velocity});
-    }
-  }
-
   void set_lengths() {
+    plan_.row_length.assign(names_.size(), 1);
     reference::State<long double> state{0, start_.y, Vector::Zero(at(layout_.velocity_count()))};
     const auto terms = reference::Reference<long double>(mechanism_)
                            .evaluate(state, Vector::Zero(at(layout_.input_count())));
@@ -155,7 +94,7 @@ class Planner {
     if (!(largest > 0)) largest = S.maxCoeff();
     for (std::size_t r = 0; r < names_.size(); ++r) {
       const bool scaled = !is_length[r] && S[at(r)] > kRankTolerance * largest;
-      plan_.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / S[at(r)])) : 1);
+      if (scaled) plan_.row_length[r] = static_cast<double>(std::sqrt(largest / S[at(r)]));
     }
     plan_.regularisation = kRegularisation * static_cast<double>(largest);
   }
@@ -176,18 +115,30 @@ class Planner {
     return list;
   }
 
-  bool treat() {
-    const model::LoopOptions& options = mechanism_.loop_options;
-    if (options.treatment == LoopTreatment::kMultipliers) {
-      plan_.treatment = LoopTreatment::kMultipliers;
-      return true;
-    }
+  /// Rows of blocks count regular rows until here.
+  void name_rows() {
+    for (Block& block : plan_.blocks)
+      for (std::size_t& row : block.rows) row = plan_.rows[row];
+  }
+
+  /// G at the configurations seen, without redundant rows.
+  std::vector<Matrix> regular_jacobians() const {
     std::vector<Matrix> regular;
     for (const Matrix& G : jacobians_) {
       Matrix part(at(plan_.rows.size()), G.cols());
       for (std::size_t k = 0; k < plan_.rows.size(); ++k) part.row(at(k)) = G.row(at(plan_.rows[k]));
       regular.push_back(part);
     }
+    return regular;
+  }
+
+  bool treat() {
+    const model::LoopOptions& options = mechanism_.loop_options;
+    if (options.treatment == LoopTreatment::kMultipliers) {
+      plan_.treatment = LoopTreatment::kMultipliers;
+      return true;
+    }
+    const std::vector<Matrix> regular = regular_jacobians();
     const std::vector<std::size_t> named = named_independent();
     const std::optional<Partition> partition =
         named.empty() ? choose_partition(regular, velocity_groups(mechanism_), preferred())
@@ -204,8 +155,7 @@ class Planner {
     plan_.independent = partition->independent;
     plan_.blocks = partition->blocks;
     plan_.conditioning = partition->conditioning;
-    for (Block& block : plan_.blocks)
-      for (std::size_t& row : block.rows) row = plan_.rows[row];
+    name_rows();
     plan_.treatment = LoopTreatment::kPartitioned;
     return options.treatment == LoopTreatment::kPartitioned || close_explicitly();
   }
