@@ -44,6 +44,7 @@ class Planner {
     if (!assemble()) return {};
     for (const Configuration& c : walk(closure_, start_, mechanism_, kConfigurations))
       jacobians_.push_back(closure_.jacobian(c));
+    if (!check_acting()) return {};
     plan_.rows = regular_rows(jacobians_);
     for (std::size_t r = 0; r < names_.size(); ++r)
       if (std::find(plan_.rows.begin(), plan_.rows.end(), r) == plan_.rows.end())
@@ -76,6 +77,24 @@ class Planner {
     for (const long double entry : start_.y) plan_.y.push_back(static_cast<double>(entry));
     for (const long double entry : start->z) plan_.z.push_back(static_cast<double>(entry));
     return true;
+  }
+
+  /// Every loop must hold some coordinate back somewhere.
+  bool check_acting() {
+    std::size_t first = 0;
+    bool all_act = true;
+    for (const model::Loop& loop : mechanism_.loops) {
+      const std::size_t count = model::row_count(loop.type);
+      const bool acts = std::any_of(jacobians_.begin(), jacobians_.end(), [&](const Matrix& G) {
+        return !G.middleRows(at(first), at(count)).isZero(0);
+      });
+      if (!acts)
+        diagnostics_.error(loop.where, fmt::format("loop '{}' holds no coordinate back", shown(loop.name)),
+                           "it stays closed however the mechanism moves: leave it out");
+      all_act = all_act && acts;
+      first += count;
+    }
+    return all_act;
   }
 
   void set_lengths() {
