@@ -49,15 +49,9 @@ class Planner {
     for (std::size_t r = 0; r < names_.size(); ++r)
       if (std::find(plan_.rows.begin(), plan_.rows.end(), r) == plan_.rows.end())
         plan_.redundant.push_back(names_[r]);
-    plan_.freedom = layout_.velocity_count() - plan_.rows.size();
-    if (plan_.freedom == 0) {
-      diagnostics_.error(mechanism_.loops.front().where, "the loops leave no degree of freedom",
-                         fmt::format("{} coordinates, {} independent constraints", layout_.velocity_count(),
-                                     plan_.rows.size()));
-      return {};
-    }
+    plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
     set_lengths();
-    if (!treat()) return {};
+    if (!(plan_.freedom == 0 ? treat_determined() : treat())) return {};
     return plan_;
   }
 
@@ -132,6 +126,26 @@ class Planner {
             entry && !mechanism_.joints[j].coordinates[c].initial_velocity.is_zero())
           list[*entry] = true;
     return list;
+  }
+
+  /// Without freedom all positions follow from time; multipliers are left for what is singular on the way.
+  bool treat_determined() {
+    const model::LoopOptions& options = mechanism_.loop_options;
+    if (!layout_.rheonomic)
+      diagnostics_.note(mechanism_.loops.front().where, "the loops leave no degree of freedom",
+                        "nothing depends on time either: the mechanism stands still");
+    if (options.treatment == LoopTreatment::kMultipliers) return true;
+    if (!options.independent.empty()) return report_bad({});
+    const std::optional<Partition> partition = given_partition(regular_jacobians(), {});
+    if (!partition || partition->conditioning < kWorstConditioning) {
+      plan_.reason = "what is solved for the positions does not stay regular";
+      return !options.treatment || report_bad(partition);
+    }
+    plan_.blocks = partition->blocks;
+    plan_.conditioning = partition->conditioning;
+    name_rows();
+    plan_.treatment = LoopTreatment::kPartitioned;
+    return options.treatment == LoopTreatment::kPartitioned || close_explicitly();
   }
 
   /// Rows of blocks count regular rows until here.
