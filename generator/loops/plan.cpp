@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "loops/inertia.hpp"
 #include "loops/partition.hpp"
 #include "model/angles.hpp"
 #include "model/checks.hpp"
@@ -42,16 +43,19 @@ class Planner {
     plan_.iterations = mechanism_.loop_options.iterations;
     plan_.stabilisation = mechanism_.loop_options.stabilisation;
     if (!assemble()) return {};
-    for (const Configuration& c : walk(closure_, start_, mechanism_, kConfigurations))
-      jacobians_.push_back(closure_.jacobian(c));
+    const std::vector<Configuration> seen = walk(closure_, start_, mechanism_, kConfigurations);
+    for (const Configuration& c : seen) jacobians_.push_back(closure_.jacobian(c));
     if (!check_acting()) return {};
     plan_.rows = regular_rows(jacobians_);
     for (std::size_t r = 0; r < names_.size(); ++r)
       if (std::find(plan_.rows.begin(), plan_.rows.end(), r) == plan_.rows.end())
         plan_.redundant.push_back(names_[r]);
     plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
+    if (!check_moved_inertia(mechanism_, seen, jacobians_, diagnostics_)) return {};
+    massless_ = massless_in_tree(mechanism_, start_);
     set_lengths();
     if (!(plan_.freedom == 0 ? treat_determined() : treat())) return {};
+    if (!check_tree_inertia(mechanism_, massless_, plan_, diagnostics_)) return {};
     return plan_;
   }
 
@@ -93,6 +97,7 @@ class Planner {
 
   void set_lengths() {
     plan_.row_length.assign(names_.size(), 1);
+    if (!massless_.empty()) return;  // there is no M⁻¹, and there will be no multipliers
     reference::State<long double> state{0, start_.y, Vector::Zero(at(layout_.velocity_count()))};
     const auto terms = reference::Reference<long double>(mechanism_)
                            .evaluate(state, Vector::Zero(at(layout_.input_count())));
@@ -270,6 +275,7 @@ class Planner {
   std::vector<std::string> names_;
   Configuration start_;
   std::vector<Matrix> jacobians_;
+  std::vector<model::JointIndex> massless_;  ///< where the tree's mass matrix is singular
   LoopPlan plan_;
 };
 
