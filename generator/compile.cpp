@@ -169,6 +169,7 @@ emit::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPl
 }
 
 void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
+  if (!mechanism.loops.empty()) return;  // judged where they are closed
   for (model::JointIndex index : reference::massless_joints(mechanism)) {
     const model::Joint& joint = mechanism.joints[index.value];
     diagnostics.error(joint.where, fmt::format("joint '{}' moves no inertia", joint.name),

@@ -52,7 +52,7 @@ struct CompiledModel {
   std::vector<emit::File> files;  ///< empty unless the verdict accepts
 };
 
-/// Joints that move no inertia become diagnostics; call it before `compile`.
+/// Joints that move no inertia become diagnostics (with loops plan_loops says so); call it before `compile`.
 void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diagnostics);
 
 /// Derives, optimises, validates and emits. A rejected verdict leaves `files` empty. `mechanism` must have passed

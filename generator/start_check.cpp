@@ -57,6 +57,7 @@ void report(const model::Mechanism& mechanism, std::vector<Element> model::Mecha
 }
 
 void report_singular(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
+  if (!mechanism.loops.empty()) return;  // judged where they are closed
   const auto state = reference::Reference<long double>(mechanism).initial_state();
   const std::vector<model::JointIndex> singular = reference::singular_joints(mechanism, state);
   if (singular.empty() || !reference::massless_joints(mechanism).empty())

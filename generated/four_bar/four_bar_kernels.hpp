@@ -73,8 +73,8 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
   initial.y[0] = Real(1.0471975511965976);
-  initial.y[1] = Real(-0.659849840711641);
-  initial.y[2] = Real(1.5985953109212792);
+  initial.y[1] = Real(-0.6598498407116409);
+  initial.y[2] = Real(1.598595310921279);
   initial.z[0] = Real(6.283185307179586);
   return initial;
 }

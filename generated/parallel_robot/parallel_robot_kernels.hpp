@@ -91,12 +91,12 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
   initial.y[0] = Real(0.9272952180016123);
-  initial.y[1] = Real(-1.8545904360032248);
-  initial.y[2] = Real(0.9272952180016119);
+  initial.y[1] = Real(-1.8545904360032246);
+  initial.y[2] = Real(0.9272952180016123);
   initial.y[3] = Real(0.9272952180016123);
-  initial.y[4] = Real(-1.8545904360032253);
+  initial.y[4] = Real(-1.8545904360032246);
   initial.y[5] = Real(0.9272952180016123);
-  initial.y[6] = Real(-1.854590436003224);
+  initial.y[6] = Real(-1.8545904360032246);
   initial.z[0] = Real(0.0);
   initial.z[1] = Real(0.0);
   initial.z[2] = Real(0.0);

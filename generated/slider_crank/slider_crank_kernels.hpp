@@ -75,7 +75,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
   initial.y[0] = Real(0.5235987755982988);
-  initial.y[1] = Real(-0.6376389032035031);
+  initial.y[1] = Real(-0.637638903203503);
   initial.y[2] = Real(0.1830292911522865);
   initial.z[0] = Real(100.0);
   return initial;

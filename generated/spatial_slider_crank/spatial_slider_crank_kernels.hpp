@@ -60,10 +60,10 @@ template <class Real>
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
-  initial.y[0] = Real(1.8068463605087188e-17);
-  initial.y[1] = Real(0.19999999999999998);
-  initial.y[2] = Real(0.7853981633974484);
-  initial.y[3] = Real(-0.339836909454122);
+  initial.y[0] = Real(1.5111067779016718e-16);
+  initial.y[1] = Real(0.2);
+  initial.y[2] = Real(0.7853981633974483);
+  initial.y[3] = Real(-0.3398369094541219);
   initial.z[0] = Real(6.0);
   return initial;
 }

@@ -64,13 +64,13 @@ template <class Real>
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
-  initial.y[0] = Real(-0.06171389001427642);
-  initial.y[1] = Real(3.7729901814981383e-17);
-  initial.y[2] = Real(0.4552798191630703);
+  initial.y[0] = Real(-0.06171389001427645);
+  initial.y[1] = Real(-2.4542388533184645e-17);
+  initial.y[2] = Real(0.45527981916307037);
   initial.y[3] = Real(0.48736497954384256);
-  initial.y[4] = Real(0.22266839016588572);
-  initial.y[5] = Real(1.230547444549821);
-  initial.y[6] = Real(-0.22266839016588572);
+  initial.y[4] = Real(0.22266839016588588);
+  initial.y[5] = Real(1.2305474445498212);
+  initial.y[6] = Real(-0.22266839016588588);
   initial.z[0] = Real(0.0);
   return initial;
 }

@@ -108,6 +108,10 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
     rates += fmt::format(
         "  Real yd[Model::position_count];\n  ::{}::detail::velocities(model(), state, yd);\n", name);
     rates += "  write(yd, ydot, Model::position_count);\n";
+  } else if (has(compiled, "position_rate")) {
+    rates = fmt::format(
+        "  Real yd[Model::position_count];\n  ::{}::position_rate(model(), to_state(t, y, z), yd);\n", name);
+    rates += "  write(yd, ydot, Model::position_count);\n";
   }
   const bool with_derivatives = has(compiled, "forward_dynamics_derivatives");
   std::string derivatives;

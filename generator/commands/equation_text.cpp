@@ -202,7 +202,7 @@ std::string equations_text(const model::Mechanism& mechanism, bool latex) {
                   closed ? ", g(y, t) = 0, G z + g_t = 0; all coordinates of the tree" : "");
   text += legend(mechanism, latex);
   if (!latex) text += "\n";
-  if (equations.zdot.size() <= kExpandedCoordinates && has_expanded_form(mechanism))
+  if (equations.M.size() <= kExpandedCoordinates && has_expanded_form(mechanism))
     text += block("Expanded", expanded(equations, latex), latex);
   for (const ir::Program& program :
        lower_functions(equations, emit::with_needed({"mass_matrix", "k_bar", "q_bar"}, shape_of(mechanism)))

@@ -48,7 +48,7 @@ class Derivation {
     equations.M = mass_matrix();
     equations.k_bar = k_bar();
     equations.q_bar = q_bar(applied);
-    equations.zdot = accelerations(applied);
+    if (mechanism_.loops.empty()) equations.zdot = accelerations(applied);
     equations.tau = inverse_dynamics("a", derive_applied_forces(scene_, Inputs::kZero));
     if (options_.for_derivatives) {
       equations.residual = inverse_dynamics("r", applied);
@@ -59,8 +59,8 @@ class Derivation {
     set_initial_state(equations);
     for (const model::Output& output : mechanism_.outputs) equations.output_names.push_back(output.name);
     equations.closures = derive_closure(scene_);
-    equations.outputs_take_leaves = options_.for_derivatives;
-    if (options_.for_derivatives)
+    equations.outputs_take_leaves = options_.for_derivatives || !mechanism_.loops.empty();
+    if (equations.outputs_take_leaves)
       equations.outputs = derive_outputs(scene_, equations, scene_.leaves.zdot,
                                          with_loop_forces(scene_, applied, equations.closures));
     else

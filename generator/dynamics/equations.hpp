@@ -38,7 +38,7 @@ struct Equations {
   std::vector<std::vector<Ex>> M;  ///< nz × nz, full and symmetric; entries between different branches are 0
   std::vector<Ex> k_bar;           ///< Coriolis, centrifugal and rheonomic terms; no gravity
   std::vector<Ex> q_bar;           ///< applied forces; a force along z makes it negative
-  std::vector<Ex> zdot;            ///< M⁻¹ (k̄ − q̄)
+  std::vector<Ex> zdot;            ///< M⁻¹ (k̄ − q̄); none where there are loops
   std::vector<Ex> tau;             ///< M ż − k̄ + q̄ at u = 0, with ż a leaf (inverse dynamics)
   std::vector<Ex> residual;        ///< M ż − k̄ + q̄, with ż a leaf; only for derivatives
   std::vector<Ex> load;            ///< of q̄ all but gravity; only for derivatives

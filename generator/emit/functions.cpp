@@ -250,7 +250,7 @@ bool has_function(const FunctionInfo& function, const SceneShape& shape) {
     case Shape::kLinearization:
       return shape.velocities > 0;
     case Shape::kArrays:
-      return shape.velocities > 0 && shape.has(function.arrays.front());
+      return shape.has(function.arrays.front());
     case Shape::kRate:
       return shape.has_rate();
     case Shape::kCorrection:

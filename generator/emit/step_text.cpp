@@ -42,9 +42,13 @@ bool any_step(const std::vector<FunctionInfo>& functions) {
 }
 
 std::string body(const StepScene& scene, const FunctionInfo& function) {
-  if (scene.shape.velocities == 0) return "  state.t = state.t + h;\n";
   const std::string correction = scene.shape.correction();
   const std::string corrected = correction.empty() ? "" : fmt::format("  {}(model, state);\n", correction);
+  if (scene.shape.velocities == 0) {
+    std::string text = "  state.t = state.t + h;\n";
+    for (int k = 0; k < scene.shape.closings; ++k) text += corrected;
+    return text;
+  }
   if (const Rosenbrock* method = find_rosenbrock(function.stepper->name)) {
     std::string text = rosenbrock_body(scene, *method) + corrected;
     for (int k = 1; k < scene.shape.closings && scene.shape.has_dependents; ++k) text += corrected;
@@ -123,12 +127,12 @@ std::string step_definitions(const StepScene& scene, const FunctionInfo& functio
 }
 
 long step_operations(const StepScene& scene, const Stepper& stepper, const ir::Module& module) {
-  if (scene.shape.velocities == 0) return 1;
   const auto count = [&module](const char* name) {
     const ir::Program* program = find_program(module, name);
     return program ? static_cast<long>(ir::count_operations(*program).arithmetic()) : 0;
   };
   const long correction = scene.shape.constraints > 0 ? count(scene.shape.correction()) : 0;
+  if (scene.shape.velocities == 0) return 1 + scene.shape.closings * correction;
   if (const Rosenbrock* method = find_rosenbrock(stepper.name))
     return correction * (1 + closings_of(scene, *method)) + count("residual_derivatives") +
            stepper.evaluations * count("residual") +

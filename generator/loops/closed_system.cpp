@@ -67,6 +67,18 @@ std::vector<std::size_t> dependent_positions(const LoopPlan& plan, const model::
   return entries;
 }
 
+namespace {
+
+/// Who is independent, as the beginning of a sentence.
+std::string independent_text(const LoopPlan& plan, const model::CoordinateLayout& layout) {
+  if (plan.independent.empty()) return "all coordinates follow from time, ";
+  std::vector<std::string> names;
+  for (const std::size_t k : plan.independent) names.push_back(layout.velocity_names[k]);
+  return fmt::format("independent: {}; the others ", fmt::join(names, ", "));
+}
+
+}  // namespace
+
 std::vector<std::string> sentences(const model::Mechanism& mechanism, const LoopPlan& plan) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   std::vector<std::string> list;
@@ -76,22 +88,20 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
                   plan.row_length.size()));
   if (!plan.redundant.empty())
     list.push_back(fmt::format("redundant constraints: {}", fmt::join(plan.redundant, ", ")));
-  std::vector<std::string> independent;
-  for (const std::size_t k : plan.independent) independent.push_back(layout.velocity_names[k]);
+  const std::string independent = independent_text(plan, layout);
   switch (plan.treatment) {
     case model::LoopTreatment::kExplicit:
       list.push_back(fmt::format(
-          "independent: {}; the others in closed form, on the branch of the initial state. At the "
+          "{}in closed form, on the branch of the initial state. At the "
           "parameters' defaults it exists everywhere in the declared ranges: every discriminant is proven "
           "to be {:.2g} or more (the square of the sine of the angle from a dead position)",
-          fmt::join(independent, ", "), plan.closed_form->smallest_margin));
+          independent, plan.closed_form->smallest_margin));
       break;
     case model::LoopTreatment::kPartitioned:
       list.push_back(fmt::format(
-          "independent: {}; the others by {} Newton iteration{} at the end of a step. Not proven: what is "
-          "solved for them has a smallest singular value of {:.2g} of the constraints' largest at the "
-          "configurations seen",
-          fmt::join(independent, ", "), plan.iterations, plan.iterations == 1 ? "" : "s", plan.conditioning));
+          "{}by {} Newton iteration{} at the end of a step. Not proven: what is solved for them has a "
+          "smallest singular value of {:.2g} of the constraints' largest at the configurations seen",
+          independent, plan.iterations, plan.iterations == 1 ? "" : "s", plan.conditioning));
       break;
     case model::LoopTreatment::kMultipliers:
       list.push_back(fmt::format(

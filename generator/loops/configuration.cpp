@@ -140,8 +140,6 @@ Vector least_norm(const Matrix& A, const Vector& b) {
   return decomposition.solve(b);
 }
 
-namespace {
-
 bool in_range(const Configuration& config, const model::Mechanism& mechanism,
               const model::CoordinateLayout& layout) {
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
@@ -152,6 +150,18 @@ bool in_range(const Configuration& config, const model::Mechanism& mechanism,
         return false;
     }
   return true;
+}
+
+namespace {
+
+/// A step of at most 0.7 rad or m in which nothing but time moves a mechanism without freedom.
+Configuration driven(const NumericClosure& closure, const Configuration& from, long double time) {
+  const Vector z = closure.consistent(from, Vector::Zero(at(closure.velocity_count())), {});
+  const long double fastest = z.lpNorm<Eigen::Infinity>();
+  if (fastest * time > 0.7L) time = 0.7L / fastest;
+  Configuration next = closure.displaced(from, z * time);
+  next.t += time;
+  return next;
 }
 
 }  // namespace
@@ -169,8 +179,10 @@ std::vector<Configuration> walk(const NumericClosure& closure, const Configurati
     direction -= least_norm(G, G * direction);
     const long double length = direction.lpNorm<Eigen::Infinity>();
     if (!(length > 0)) continue;
-    Configuration next = closure.displaced(from, direction * (uniform(0.1, 0.7) / length));
-    next.t = start.t + uniform(0, 1);
+    const long double stride = uniform(0.1, 0.7), time = uniform(0, 1);
+    Configuration next = closure.displaced(from, direction * (stride / length));
+    next.t = start.t + time;
+    if (length < kRankTolerance) next = driven(closure, from, time);
     next = closure.assembled(next, {});
     if (closure.value(next).lpNorm<Eigen::Infinity>() <= kClosed && in_range(next, mechanism, layout))
       found.push_back(next);

@@ -45,10 +45,10 @@ class NumericClosure {
   Configuration displaced(const Configuration& from, const Vector& displacement) const;
 
   /// The nearest closed configuration, by damped Gauss-Newton steps of least norm over the velocities listed in `moving`
-  /// (empty: all). Check `value` of the result: it may not be closed.
+  /// (empty: all). Check `value` of the result: where it is not closed, g is as small as these steps can make it.
   Configuration assembled(Configuration start, const std::vector<bool>& moving) const;
 
-  /// The nearest velocities that meet G z + g_t = 0, of those in `moving`.
+  /// The nearest velocities that meet G z + g_t = 0, of those in `moving`; where there are none, those that come nearest to that.
   Vector consistent(const Configuration& at, const Vector& z, const std::vector<bool>& moving) const;
 
  private:
@@ -68,7 +68,12 @@ std::size_t rank_of(const Matrix& A);
 /// A⁺ b, the least-squares solution of least norm.
 Vector least_norm(const Matrix& A, const Vector& b);
 
-/// Closed configurations from seeded random walks on the constraint manifold, the first is `start`.
+/// Whether all coordinates are within the ranges that they declare.
+bool in_range(const Configuration& config, const model::Mechanism& mechanism,
+              const model::CoordinateLayout& layout);
+
+/// Closed configurations from seeded random walks on the constraint manifold, the first is `start`. Where no freedom is left they are
+/// those of times to come; without prescribed motion all are the start.
 std::vector<Configuration> walk(const NumericClosure& closure, const Configuration& start,
                                 const model::Mechanism& mechanism, std::size_t count);
 

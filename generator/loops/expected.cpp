@@ -51,8 +51,9 @@ TreeMotion tree_motion(const LoopPlan& plan, const Matrix& M, const Matrix& G, c
                        const Vector& gamma, TreeMotion known) {
   if (plan.is_reduced()) {
     const Matrix& B = known.B;
-    known.zdot =
-        known.beta + B * (B.transpose() * M * B).ldlt().solve(B.transpose() * (forces - M * known.beta));
+    known.zdot = known.beta;
+    if (B.cols() > 0)
+      known.zdot += B * (B.transpose() * M * B).ldlt().solve(B.transpose() * (forces - M * known.beta));
     Matrix regular(at(plan.rows.size()), G.cols());
     for (std::size_t r = 0; r < plan.rows.size(); ++r) regular.row(at(r)) = G.row(at(plan.rows[r]));
     const Vector lambda = least_norm(regular.transpose(), forces - M * known.zdot);

@@ -76,10 +76,13 @@ std::vector<std::vector<dynamics::OutputValues>> resized_outputs(
     const model::Mechanism& mechanism, const LoopPlan& plan,
     std::vector<std::vector<dynamics::OutputValues>> outputs) {
   if (!plan.is_reduced()) return outputs;
-  for (std::size_t k = 0; k < outputs.size(); ++k)
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    if (mechanism.outputs[k].kind != model::OutputKind::kJacobian) continue;
+    if (plan.independent.empty())
+      std::erase_if(outputs[k], [](const dynamics::OutputValues& member) { return member.is_matrix; });
     for (dynamics::OutputValues& member : outputs[k])
-      if (mechanism.outputs[k].kind == model::OutputKind::kJacobian && member.is_matrix)
-        member.columns = static_cast<int>(plan.independent.size());
+      if (member.is_matrix) member.columns = static_cast<int>(plan.independent.size());
+  }
   return outputs;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/inertia.hpp"
 #include "loops/partition.hpp"
 #include "loops/regular_rows.hpp"
 #include "loops/scales.hpp"
@@ -43,30 +44,23 @@ class Planner {
     if (!assemble()) return {};
     configurations_ = walk(closure_, start_, mechanism_, kConfigurations);
     for (const Configuration& c : configurations_) jacobians_.push_back(closure_.jacobian(c));
+    if (!check_acting()) return {};
     plan_.rows = regular_rows(jacobians_);
     for (std::size_t r = 0; r < names_.size(); ++r)
       if (std::find(plan_.rows.begin(), plan_.rows.end(), r) == plan_.rows.end())
         plan_.redundant.push_back(names_[r]);
-    plan_.freedom = layout_.velocity_count() - plan_.rows.size();
-    if (plan_.freedom == 0) {
-      diagnostics_.error(mechanism_.loops.front().where, "the loops leave no degree of freedom",
-                         fmt::format("{} coordinates, {} independent constraints", layout_.velocity_count(),
-                                     plan_.rows.size()));
-      return {};
-    }
-    set_scales(mechanism_, start_, jacobians_.front(), plan_);
-    if (!treat()) return {};
+    plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
+    if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
+    massless_ = massless_in_tree(mechanism_, start_);
+    set_scales(mechanism_, start_, jacobians_.front(), massless_.empty(), plan_);
+    plan_.is_named = mechanism_.loop_options.treatment || !mechanism_.loop_options.independent.empty();
+    if (!(plan_.freedom == 0 ? treat_determined() : treat())) return {};
+    if (!check_tree_inertia(mechanism_, massless_, plan_, diagnostics_)) return {};
     set_determinant(mechanism_, configurations_, jacobians_, plan_);
     return plan_;
   }
 
  private:
-  std::vector<bool> moving() const {
-    std::vector<bool> list(layout_.velocity_count(), true);
-    for (const std::size_t k : named_independent()) list[k] = false;
-    return list;
-  }
-
   std::vector<std::size_t> named_independent() const {
     std::vector<std::size_t> list;
     for (const auto& name : mechanism_.loop_options.independent)
@@ -75,69 +69,31 @@ class Planner {
   }
 
   bool assemble() {
-    const auto initial = reference::Reference<long double>(mechanism_).initial_state();
-    start_ = closure_.assembled({0, initial.y}, moving());
-    const Vector g = closure_.value(start_);
-    Eigen::Index worst = 0;
-    const long double residual = g.cwiseAbs().maxCoeff(&worst);
-    if (!(residual <= kClosed)) {
-      report_open(static_cast<std::size_t>(worst), static_cast<double>(residual));
-      return false;
-    }
-    for (const std::size_t loop : closure_.reversed(start_))
-      diagnostics_.error(mechanism_.loops[loop].where,
-                         fmt::format("loop '{}' closes with its axes against each other",
-                                     shown(mechanism_.loops[loop].name)),
-                         "turn 'to_axis' round, or start nearer to the configuration that is meant");
-    if (!closure_.reversed(start_).empty()) return false;
-    const Vector z = closure_.consistent(start_, initial.z, moving());
-    const Vector rate = closure_.jacobian(start_) * z + closure_.time_rate(start_);
-    const long double opening = rate.cwiseAbs().maxCoeff(&worst);
-    if (!(opening <= 1e-10L * (1 + z.lpNorm<Eigen::Infinity>()))) {
-      const std::size_t row = static_cast<std::size_t>(worst);
-      const model::Loop& loop = loop_of(row);
-      diagnostics_.error(
-          loop.where, fmt::format("no velocities agree with loop '{}' at the start", shown(loop.name)),
-          fmt::format(
-              "the best ones found open constraint {} at {:.3g}/s{}: start from another configuration",
-              names_[row], static_cast<double>(opening), held()));
-      return false;
-    }
-    record(initial.y, start_.y, layout_.position_names, false, plan_.y);
-    record(initial.z, z, layout_.velocity_names, true, plan_.z);
+    const std::optional<Start> start = find_start(mechanism_, closure_, named_independent(), diagnostics_);
+    if (!start) return false;
+    start_ = start->configuration;
+    plan_.moved = start->moved;
+    for (const long double entry : start_.y) plan_.y.push_back(static_cast<double>(entry));
+    for (const long double entry : start->z) plan_.z.push_back(static_cast<double>(entry));
     return true;
   }
 
-  const model::Loop& loop_of(std::size_t row) const {
-    std::size_t loop = 0, first = 0;
-    while (row >= first + model::row_count(mechanism_.loops[loop].type))
-      first += model::row_count(mechanism_.loops[loop++].type);
-    return mechanism_.loops[loop];
-  }
-
-  /// What the assembly may not move, as the end of a phrase.
-  std::string held() const {
-    std::vector<std::string> names;
-    for (const std::size_t k : named_independent()) names.push_back(shown(layout_.velocity_names[k]));
-    return names.empty() ? "" : fmt::format(" with {} as given", fmt::join(names, ", "));
-  }
-
-  void report_open(std::size_t row, double residual) {
-    const model::Loop& loop = loop_of(row);
-    diagnostics_.error(loop.where,
-                       fmt::format("loop '{}' cannot be closed from the initial values", shown(loop.name)),
-                       fmt::format("the nearest configuration found leaves constraint {} open by {:.3g}{}",
-                                   names_[row], residual, held()));
-  }
-
-  void record(const Vector& before, const Vector& after, const std::vector<std::string>& names, bool velocity,
-              std::vector<double>& values) {
-    constexpr long double kNoticeable = 1e-12L;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      values.push_back(static_cast<double>(after[at(i)]));
-      if (std::abs(after[at(i)] - before[at(i)]) > kNoticeable)
-        plan_.moved.push_back({names[i], static_cast<double>(before[at(i)]), values.back(), velocity});
+  /// Every loop must hold some coordinate back somewhere.
+  bool check_acting() {
+    std::size_t first = 0;
+    bool all_act = true;
+    for (const model::Loop& loop : mechanism_.loops) {
+      const std::size_t count = model::row_count(loop.type);
+      const bool acts = std::any_of(jacobians_.begin(), jacobians_.end(), [&](const Matrix& G) {
+        return !G.middleRows(at(first), at(count)).isZero(0);
+      });
+      if (!acts)
+        diagnostics_.error(loop.where, fmt::format("loop '{}' holds no coordinate back", shown(loop.name)),
+                           "it stays closed however the mechanism moves: leave it out");
+      all_act = all_act && acts;
+      first += count;
     }
+    return all_act;
   }
 
   /// Coordinates that are driven, or that the description starts with a velocity.
@@ -156,17 +112,37 @@ class Planner {
     return list;
   }
 
-  bool treat() {
+  /// Without freedom all positions follow from time; multipliers are left for what is singular on the way.
+  bool treat_determined() {
     const model::LoopOptions& options = mechanism_.loop_options;
-    const std::vector<std::size_t> named = named_independent();
-    plan_.is_named = options.treatment || !named.empty();
+    if (!layout_.rheonomic)
+      diagnostics_.note(mechanism_.loops.front().where, "the loops leave no degree of freedom",
+                        "nothing depends on time either: the mechanism stands still");
     if (options.treatment == LoopTreatment::kMultipliers) return true;
+    if (!options.independent.empty()) return report_bad({});
+    const std::optional<Partition> partition = given_partition(regular_jacobians(), {});
+    if (!partition || partition->blocks.empty()) return !options.treatment || report_bad(partition);
+    take(*partition);
+    return options.treatment == LoopTreatment::kPartitioned || close_explicitly() ||
+           options.treatment != LoopTreatment::kExplicit;
+  }
+
+  /// G at the configurations seen, without redundant rows.
+  std::vector<Matrix> regular_jacobians() const {
     std::vector<Matrix> regular;
     for (const Matrix& G : jacobians_) {
       Matrix part(at(plan_.rows.size()), G.cols());
       for (std::size_t k = 0; k < plan_.rows.size(); ++k) part.row(at(k)) = G.row(at(plan_.rows[k]));
       regular.push_back(part);
     }
+    return regular;
+  }
+
+  bool treat() {
+    const model::LoopOptions& options = mechanism_.loop_options;
+    if (options.treatment == LoopTreatment::kMultipliers) return true;
+    const std::vector<Matrix> regular = regular_jacobians();
+    const std::vector<std::size_t> named = named_independent();
     const std::optional<Partition> partition =
         named.empty() ? choose_partition(regular, velocity_groups(mechanism_), preferred())
                       : given_partition(regular, named);
@@ -189,9 +165,9 @@ class Planner {
     plan_.treatment = LoopTreatment::kPartitioned;
   }
 
-  /// A choice that is not proven is taken only where it is asked for.
+  /// A choice that is not proven is taken only where it is asked for, or where multipliers would need M⁻¹ of a singular M.
   bool close_by_newton() {
-    if (plan_.is_named)
+    if (plan_.is_named || !massless_.empty())
       diagnostics_.warning(mechanism_.loop_options.where,
                            "it is not proven that the other coordinates follow from the independent ones "
                            "wherever the mechanism goes",
@@ -277,6 +253,7 @@ class Planner {
   Configuration start_;
   std::vector<Configuration> configurations_;  ///< closed ones; the first is the start
   std::vector<Matrix> jacobians_;              ///< there
+  std::vector<model::JointIndex> massless_;    ///< where the tree's mass matrix is singular
   LoopPlan plan_;
 };
 

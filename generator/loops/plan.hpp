@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "loops/closed_form.hpp"
-#include "loops/configuration.hpp"
+#include "loops/start.hpp"
 #include "model/mechanism.hpp"
 #include "support/diagnostics.hpp"
 
@@ -17,18 +17,12 @@ struct Block {
   std::vector<std::size_t> rows, dependents;
 };
 
-struct Moved {
-  std::string coordinate;
-  double from = 0, to = 0;  ///< rad, m; rad/s, m/s of a velocity
-  bool velocity = false;
-};
-
 struct LoopPlan {
   model::LoopTreatment treatment = model::LoopTreatment::kMultipliers;
   bool is_named = false;               ///< the description asks for it, or names the independent coordinates
   std::string reason;                  ///< why not a treatment that comes before it; a phrase
   std::vector<double> y, z;            ///< where the mechanism starts, all coordinates of the tree
-  std::vector<Moved> moved;            ///< what the assembly changed
+  std::vector<Moved> moved;            ///< what closing the loops changed
   std::size_t freedom = 0;             ///< degrees of freedom
   std::vector<std::string> redundant;  ///< rows that follow from others, by name
   std::vector<std::size_t> rows;       ///< the others

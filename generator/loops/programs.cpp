@@ -52,6 +52,7 @@ class LoopProgram {
 
   Column zdot() {
     if (!system_.plan.is_reduced()) return constrained_motion(system_.plan.rows).zdot;
+    if (dependence_.independent_count() == 0) return {};
     return ir::SymmetricFactors(builder_, mass_matrix()).solved(forces());
   }
 

@@ -48,8 +48,11 @@ Matrix schur_matrix(const model::Mechanism& mechanism, const Configuration& at_s
 }
 
 void set_scales(const model::Mechanism& mechanism, const Configuration& start, const Matrix& G,
-                LoopPlan& plan) {
-  set_row_lengths(mechanism, schur_matrix(mechanism, start, G).diagonal(), plan);
+                bool is_regular, LoopPlan& plan) {
+  if (is_regular)
+    set_row_lengths(mechanism, schur_matrix(mechanism, start, G).diagonal(), plan);
+  else
+    plan.row_length.assign(static_cast<std::size_t>(G.rows()), 1);
 }
 
 void set_determinant(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
@@ -71,7 +74,8 @@ long double block_determinant(const LoopPlan& plan, const Matrix& G) {
   for (const Block& block : plan.blocks) {
     const Matrix D = rows_of(G, block.rows)(Eigen::all, block.dependents);
     const long double determinant = D.determinant();
-    product *= block.rows.size() <= DenseSolver::kLargestByCofactors ? determinant : determinant * determinant;
+    product *=
+        block.rows.size() <= DenseSolver::kLargestByCofactors ? determinant : determinant * determinant;
   }
   return product;
 }

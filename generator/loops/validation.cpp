@@ -10,6 +10,7 @@
 #include "loops/derivative_check.hpp"
 #include "loops/expected.hpp"
 #include "model/checks.hpp"
+#include "reference/minimal.hpp"
 
 namespace jourdain::loops {
 
@@ -64,6 +65,8 @@ class Comparison {
     leaves[LeafKind::kInput] = ray_.u;
     leaves[LeafKind::kTime] = {static_cast<double>(ray_.configuration.t)};
     for (const ir::Program& program : module_.functions) compare(program, ir::interpret(program, leaves));
+    verdict_.condition =
+        std::max(verdict_.condition, static_cast<double>(reference::condition<long double>(mass_matrix())));
   }
 
  private:
@@ -189,7 +192,7 @@ class Comparison {
     const auto entry = [&](const Vector& expected, long double scale) {
       record(program.name, v, expected, scale * e_.condition, verdict_.entry_error);
     };
-    const long double load = e_.load.maxCoeff() * e_.B.cwiseAbs().maxCoeff();
+    const long double load = e_.load.maxCoeff() * (e_.B.cols() == 0 ? 1 : e_.B.cwiseAbs().maxCoeff());
     const Vector force = e_.k - e_.q - e_.M * e_.beta;
     const std::string& name = program.name;
     if (name == "k_bar") return entry(e_.B.transpose() * (e_.k - e_.M * e_.beta), load);
@@ -252,10 +255,13 @@ class Comparison {
     return tree_motion(plan_, e_.M, e_.G, e_.k - e_.q, e_.gamma, {e_.B, b, e_.beta, {}, {}});
   }
 
+  /// Of multipliers; reduced treatments need none.
+  Spread spread() const { return plan_.is_reduced() ? Spread{1, 1} : spread_of(plan_, e_.G, e_.M); }
+
   /// Gᵀ λ: λ itself is not unique where rows are redundant.
   void compare_constraint_forces(const Vector& lambda) {
-    const Spread spread = spread_of(plan_, e_.G, e_.M);
-    if (!plan_.is_reduced() && spread.is_singular) return;
+    const Spread spread = this->spread();
+    if (spread.is_singular) return;
     const TreeMotion motion = motion_of_tree();
     const long double scale = e_.load.maxCoeff() + (e_.M.cwiseAbs() * motion.zdot.cwiseAbs()).maxCoeff() +
                               e_.G.cwiseAbs().maxCoeff() * motion.lambda.lpNorm<Eigen::Infinity>();
@@ -267,15 +273,14 @@ class Comparison {
   }
 
   void compare_outputs(const Vector& v) {
-    const Spread spread = spread_of(plan_, e_.G, e_.M);
-    if (!plan_.is_reduced() && spread.is_singular) return;
+    const Spread spread = this->spread();
+    if (spread.is_singular) return;
     const TreeMotion motion = motion_of_tree();
     const std::vector<Vector> expected =
         expected_outputs(mechanism_, equations_, plan_, motion,
                          [&](kinematics::LeafKind kind, std::size_t i) { return leaf(kind, i, e_.z); });
     // What rounding does to accelerations and multipliers passes on.
-    const Vector pivots = Eigen::SelfAdjointEigenSolver<Matrix>(e_.M).eigenvalues();
-    const long double sensitivity = e_.condition * pivots.tail(1)[0] / pivots[0] +
+    const long double sensitivity = e_.condition * reference::condition<long double>(mass_matrix()) +
                                     (plan_.is_reduced() ? 0 : spread.lost_share / validate::kTolerance);
     Eigen::Index next = 0;
     for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -288,8 +293,11 @@ class Comparison {
     }
   }
 
+  /// Of the independent coordinates.
+  Matrix mass_matrix() const { return e_.B.transpose() * e_.M * e_.B; }
+
   void compare_mass_matrix(const ir::Program& program, const Vector& v) {
-    const Matrix M = e_.B.transpose() * e_.M * e_.B;
+    const Matrix M = mass_matrix();
     Vector expected(v.size());
     for (Eigen::Index k = 0; k < v.size(); ++k) {
       const ir::Output& output = program.outputs[static_cast<std::size_t>(k)];
@@ -297,8 +305,6 @@ class Comparison {
     }
     record(program.name, v, expected, e_.M.cwiseAbs().maxCoeff() * e_.B.cwiseAbs().maxCoeff() * e_.condition,
            verdict_.entry_error);
-    const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(M).eigenvalues();
-    verdict_.condition = std::max(verdict_.condition, static_cast<double>(values.tail(1)[0] / values[0]));
   }
 
   /// As a backward error.
@@ -377,6 +383,7 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   const ConstraintPrograms programs = constraint_programs(mechanism, closures);
   const NumericClosure closure(mechanism, programs, model::default_values(mechanism));
   verdict.states = 0;
+  verdict.condition = 0;  // that of the tree off the loops is nobody's
   for (const Ray& ray : draw_rays(closure, plan, mechanism, states)) {
     Comparison(mechanism, equations, closures, closure, module, plan, ray, verdict).run();
     ++verdict.states;

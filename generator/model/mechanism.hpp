@@ -88,6 +88,8 @@ struct Coordinate {
   Expression friction_speed = 1e-3;  ///< speed over which its sign is smoothed, rad/s or m/s
   Expression initial_position;       ///< rad or m
   Expression initial_velocity;       ///< rad/s or m/s
+  SourceRange position_where = {};   ///< of the initial position where the description gives it; otherwise line 0
+  SourceRange velocity_where = {};   ///< of the initial velocity, likewise
   std::optional<Expression>
       motion;  ///< of time and parameters: the coordinate is prescribed, no part of y and z
   SourceRange motion_where = {};
@@ -123,6 +125,8 @@ struct Joint {
   SourceRange where = {};
   SourceRange child_where = {};  ///< of the child's name; line 0: use `where`
   SourceRange axis_where = {};   ///< of the axis; line 0: use `where`
+  /// Of the initial values of spherical and free joints where the description gives them; otherwise line 0.
+  SourceRange orientation_where = {}, spin_where = {}, origin_where = {}, origin_velocity_where = {};
 
   /// Sets the type and makes the coordinates that belong to it, all values zero, named after the joint.
   void set_type(JointType new_type);

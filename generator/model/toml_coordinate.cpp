@@ -67,6 +67,8 @@ void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordin
   if (table.has("friction_speed")) coordinate.friction_speed = table.positive("friction_speed");
   coordinate.initial_position = table.number("initial_position");
   coordinate.initial_velocity = table.number("initial_velocity");
+  coordinate.position_where = table.where_given("initial_position");
+  coordinate.velocity_where = table.where_given("initial_velocity");
   if (table.has("motion")) coordinate.motion = read_time_function(file, table, "motion");
   read_range(file, table, coordinate);
   if (!coordinate.motion) return;

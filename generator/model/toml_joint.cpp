@@ -155,9 +155,13 @@ class JointReader {
     if (joint.type != JointType::kSpherical && joint.type != JointType::kFree) return;
     joint.initial_orientation = table_.quaternion("initial_orientation");
     joint.initial_spin = table_.vector("initial_angular_velocity");
+    joint.orientation_where = table_.where_given("initial_orientation");
+    joint.spin_where = table_.where_given("initial_angular_velocity");
     if (joint.type == JointType::kSpherical) return;
     joint.initial_origin = table_.vector("initial_position");
     joint.initial_origin_velocity = table_.vector("initial_velocity");
+    joint.origin_where = table_.where_given("initial_position");
+    joint.origin_velocity_where = table_.where_given("initial_velocity");
   }
 
   void refuse_foreign_keys(const Joint& joint) {

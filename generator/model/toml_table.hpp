@@ -70,6 +70,8 @@ class TomlTable {
   const toml::node* find(std::string_view key) const { return table_.get(key); }
   /// Of the value of `key`, or of the table where it is missing.
   SourceRange where(std::string_view key) const;
+  /// Of the value of `key`; line 0 where it is missing.
+  SourceRange where_given(std::string_view key) const { return has(key) ? where(key) : SourceRange(); }
 
   /// The text of `key`; nothing (after a diagnostic if it has another type) where it is missing.
   std::optional<std::string> text(std::string_view key) const;

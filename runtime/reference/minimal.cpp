@@ -222,10 +222,17 @@ Scalar backward_error(const Terms<Scalar>& terms, const VectorX<Scalar>& zdot) {
 template <class Scalar>
 Scalar condition(const MatrixX<Scalar>& M) {
   if (M.size() == 0) return 1;
-  const VectorX<Scalar> values =
-      Eigen::SelfAdjointEigenSolver<MatrixX<Scalar>>(M, Eigen::EigenvaluesOnly).eigenvalues();
-  const Scalar smallest = values[0];
-  return smallest > 0 ? values[values.size() - 1] / smallest : std::numeric_limits<Scalar>::infinity();
+  // The smallest eigenvalue is the largest one of the inverse: where sizes differ by many orders, rounding of the largest entries
+  // would hide it. Entries of the inverse are as exact as those of M scaled to a unit diagonal allow.
+  const VectorX<Scalar> d = M.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<MatrixX<Scalar>> factors(d.asDiagonal() * M * d.asDiagonal());
+  if (!d.allFinite() || factors.info() != Eigen::Success) return std::numeric_limits<Scalar>::infinity();
+  const MatrixX<Scalar> inverse =
+      d.asDiagonal() * factors.solve(MatrixX<Scalar>::Identity(M.rows(), M.cols())) * d.asDiagonal();
+  const auto largest = [](const MatrixX<Scalar>& A) {
+    return Eigen::SelfAdjointEigenSolver<MatrixX<Scalar>>(A, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  };
+  return largest(M) * largest(inverse);
 }
 
 template class Reference<double>;

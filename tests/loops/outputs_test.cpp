@@ -284,6 +284,19 @@ TEST(LoopOutputs, AgreeWhereAMotionIsPrescribed) {
     EXPECT_EQ(compare(read_text(kDriven), treatment, 2), kStates);
 }
 
+/// The same with a second motion: nothing is free.
+std::string determined() {
+  std::string text = kDriven;
+  const std::string free = "initial_position = 1.9\nrange = [1.3, 2.3]\n";
+  text.replace(text.find(free), free.size(), "motion = \"1.9 + 0.2*sin(3*t)\"\n");
+  return text;
+}
+
+TEST(LoopOutputs, AgreeWhereMotionsDetermineEverything) {
+  for (const LoopTreatment treatment : {LoopTreatment::kPartitioned, LoopTreatment::kMultipliers})
+    EXPECT_EQ(compare(read_text(determined()), treatment, 3), kStates);
+}
+
 TEST(LoopOutputs, AgreeForLoopsOfEveryType) {
   std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < cases(60); ++seed) {

@@ -1,0 +1,146 @@
+// Initial values that the description gives are kept where the loops allow it.
+#include "loops/start.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "loops/closed_system.hpp"
+#include "model/read.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+using testing::HasSubstr;
+
+/// Positions and velocities of crank, coupler and rocker that close the four-bar of models/four_bar.toml.
+constexpr double kY[] = {1.0471975511965976, -0.6598498407116409, 1.598595310921279};
+constexpr double kZ[] = {6.283185307179586, -7.455346572816508, 2.057346272142422};
+
+/// That four-bar with these initial values, each one or several keys of its joint.
+std::string four_bar(const std::string& crank, const std::string& coupler, const std::string& rocker,
+                     const std::string& loops = "") {
+  std::string text = "[model]\nname = \"four_bar\"\n";
+  for (const char* body : {"crank_bar", "coupler_bar", "rocker_bar"})
+    text += fmt::format("[[body]]\nname = \"{}\"\nmass = 1\ninertia = [0.01, 0.01, 0.01]\n", body);
+  const auto joint = [&](const char* name, const char* parent, const char* position,
+                         const std::string& keys) {
+    text += fmt::format(
+        "[[joint]]\nname = \"{0}\"\ntype = \"revolute\"\nparent = \"{1}\"\nchild = \"{0}_bar\"\nposition = "
+        "{2}\n{3}\n",
+        name, parent, position, keys);
+  };
+  joint("crank", "world", "[0, 0, 0]", crank);
+  joint("coupler", "crank_bar", "[0.12, 0, 0]", coupler);
+  joint("rocker", "world", "[0.4, 0, 0]", rocker);
+  return text + R"([[frame]]
+name = "coupler_end"
+body = "coupler_bar"
+position = [0.36, 0, 0]
+[[frame]]
+name = "rocker_end"
+body = "rocker_bar"
+position = [0.24, 0, 0]
+[[loop]]
+name = "pin"
+type = "planar_pin"
+from = "rocker_end"
+to = "coupler_end"
+)" + loops;
+}
+
+std::string keys(double position, double velocity) {
+  return fmt::format("initial_position = {}\ninitial_velocity = {}", position, velocity);
+}
+
+struct Result {
+  std::optional<loops::LoopPlan> plan;
+  std::string messages;
+};
+
+Result plan(const std::string& text) {
+  support::Diagnostics diagnostics("text.toml", text);
+  const std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, {});
+  Result result;
+  if (mechanism) result.plan = loops::plan_loops(*mechanism, diagnostics);
+  result.messages = diagnostics.format();
+  return result;
+}
+
+TEST(LoopStart, ClosedValuesStayAsTheyAre) {
+  const Result result = plan(four_bar(keys(kY[0], kZ[0]), keys(kY[1], kZ[1]), keys(kY[2], kZ[2])));
+  ASSERT_TRUE(result.plan) << result.messages;
+  EXPECT_TRUE(result.plan->moved.empty());
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(result.plan->y[k], kY[k], 1e-14);
+    EXPECT_NEAR(result.plan->z[k], kZ[k], 1e-13);
+  }
+}
+
+TEST(LoopStart, AVelocityThatIsGivenIsKeptAndOthersFollow) {
+  for (const char* loops : {"", "[loops]\ntreatment = \"multipliers\"\n"}) {
+    const Result result =
+        plan(four_bar("initial_position = 1\ninitial_velocity = 8", "", "initial_position = 1.6", loops));
+    ASSERT_TRUE(result.plan) << result.messages;
+    EXPECT_EQ(result.plan->z[0], 8);
+    EXPECT_NE(result.plan->z[2], 0);
+  }
+}
+
+TEST(LoopStart, AnIndependentVelocityThatIsNotGivenYields) {
+  const Result result =
+      plan(four_bar("initial_position = 1", "", "initial_position = 1.6\ninitial_velocity = 2",
+                    "[loops]\nindependent = [\"crank\"]\n"));
+  ASSERT_TRUE(result.plan) << result.messages;
+  EXPECT_EQ(result.plan->y[0], 1);
+  EXPECT_EQ(result.plan->z[2], 2);
+}
+
+TEST(LoopStart, APositionThatIsGivenIsKeptWhereOthersCanCloseTheLoops) {
+  const Result result = plan(four_bar("initial_position = 1.2", "", ""));
+  ASSERT_TRUE(result.plan) << result.messages;
+  EXPECT_EQ(result.plan->y[0], 1.2);
+  EXPECT_NE(result.plan->y[1], 0);
+}
+
+TEST(LoopStart, PositionsWithFewDigitsAssembleNearby) {
+  const Result all =
+      plan(four_bar("initial_position = 1.0472", "initial_position = -0.6598", "initial_position = 1.5986"));
+  ASSERT_TRUE(all.plan) << all.messages;
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(all.plan->y[k], kY[k], 1e-4);
+  const Result two = plan(four_bar("initial_position = 1.0472", "initial_position = -0.6598", ""));
+  ASSERT_TRUE(two.plan) << two.messages;
+  EXPECT_NEAR(two.plan->y[0], 1.0472, 3e-3);
+  EXPECT_NEAR(two.plan->y[2], kY[2], 1e-2);
+}
+
+TEST(LoopStart, GivenZerosYieldToOtherVelocities) {
+  const Result result = plan(four_bar(keys(kY[0], kZ[0]), keys(kY[1], 0), keys(kY[2], 0)));
+  ASSERT_TRUE(result.plan) << result.messages;
+  EXPECT_EQ(result.plan->z[0], kZ[0]);
+  EXPECT_NEAR(result.plan->z[2], kZ[2], 1e-12);
+}
+
+TEST(LoopStart, VelocitiesRoundedToSevenDigitsAgree) {
+  const Result result = plan(four_bar(keys(kY[0], 6.283185), keys(kY[1], -7.455347), keys(kY[2], 2.057346)));
+  ASSERT_TRUE(result.plan) << result.messages;
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(result.plan->z[k], kZ[k], 2e-6);
+  EXPECT_FALSE(result.plan->moved.empty());
+}
+
+TEST(LoopStart, VelocitiesThatConflictAreAnError) {
+  const Result result = plan(four_bar(keys(kY[0], kZ[0]), keys(kY[1], kZ[1]), keys(kY[2], 3)));
+  EXPECT_FALSE(result.plan);
+  EXPECT_THAT(result.messages, HasSubstr("text.toml:38:20: error: 'rocker' cannot start with 3"));
+  EXPECT_THAT(result.messages, HasSubstr("the loops leave it 2.057346272"));
+}
+
+TEST(LoopStart, AMotionLeavesNothingToGive) {
+  const Result result =
+      plan(four_bar("motion = \"1 + 3*t\"", "", "initial_position = 1.6\ninitial_velocity = 3"));
+  EXPECT_FALSE(result.plan);
+  EXPECT_THAT(result.messages, HasSubstr("'rocker' cannot start with 3"));
+}
+
+}  // namespace
+}  // namespace jourdain::tests
