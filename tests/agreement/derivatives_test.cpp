@@ -131,7 +131,9 @@ Errors errors_of(const Derived& derived, const Sample& sample) {
 TEST(Derivatives, OfEveryModelAgreeWithDifferencesInSixtyDigits) {
   for (const auto& entry : std::filesystem::directory_iterator(model_path(""))) {
     if (entry.path().extension() != ".toml") continue;
-    const Derived derived = derive(read_model(entry.path()));
+    model::Mechanism tree = read_model(entry.path());
+    tree.loops.clear();  // accelerations with loops are none of the tree's equations
+    const Derived derived = derive(tree);
     Errors worst;
     for (std::uint64_t seed = 0; seed < 3; ++seed)
       worst.widen(errors_of(derived, random_sample(derived.mechanism, seed)));
