@@ -197,7 +197,7 @@ class LoopProgram {
     for (std::size_t r = 0; r < system_.constraints.value.outputs.size(); ++r) g.push_back(here.g(r));
     const Column nothing(M.size(), builder_.literal(0));
     const MultiplierSolver solver(builder_, system_, M, here);
-    const Column y = displaced(builder_, system_, position_leaves(builder_, system_),
+    const Column y = displaced(builder_, system_.tangent, position_leaves(builder_, system_),
                                solver.accelerations(nothing, solver.multipliers(g)));
     const ConstraintValues there(builder_, system_, y);
     for (std::size_t r = 0; r < g.size(); ++r) {
@@ -256,7 +256,7 @@ Program closing_program(const LoopSystem& system) {
       const Column change = DenseSolver(builder, std::move(A)).solve(open);
       Column displacement(dependent.size(), builder.literal(0));
       for (std::size_t k = 0; k < change.size(); ++k) displacement[block.dependents[k]] = change[k];
-      y = displaced(builder, system, y, displacement);
+      y = displaced(builder, system.tangent, y, displacement);
     }
   }
   const auto write = [&](std::size_t entry) { builder.output("y", static_cast<int>(entry), -1, y[entry]); };

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <numbers>
 
 #include "loops/positivity.hpp"
+#include "loops/timeless.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::loops {
@@ -32,7 +32,7 @@ class Reach {
     ir::Builder builder = request.builder;
     for (const Requirement& requirement : request.requirements)
       builder.output("f", -1, -1, requirement.value);
-    const Program program = without_clock(builder.finish("requirements"));
+    const Program program = without_time(builder.finish("requirements"));
     program_ = passes::remove_dead_code(program);
   }
 
@@ -52,31 +52,13 @@ class Reach {
   }
 
  private:
-  /// Copies the requirements into `builder_`. Angles under sines and cosines that depend on time become positions of their own,
-  /// anywhere on the circle: what holds for them all holds at all times.
-  Program without_clock(const Program& program) {
-    std::vector<bool> timed(program.nodes.size(), false);
-    std::vector<ir::Signed> copy(program.nodes.size());
-    std::map<ir::ValueId, std::size_t> driven;
-    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
-      const Node& node = program.nodes[i];
-      const int operands = ir::operand_count(node.op);
-      timed[i] = (node.op == Op::kLeaf && node.leaf == LeafKind::kTime) ||
-                 (operands >= 1 && timed[node.a.value]) || (operands == 2 && timed[node.b.value]);
-      ir::Signed a = copy[node.a.value];
-      if (timed[i] && (node.op == Op::kSin || node.op == Op::kCos)) {
-        const auto [it, is_new] = driven.try_emplace(node.a, names_.size());
-        if (is_new) {
-          names_.push_back("the driven angle");
-          angular_.push_back(true);
-          range_.emplace_back();
-        }
-        a = builder_.leaf(LeafKind::kPosition, it->second);
-        timed[i] = false;
-      }
-      copy[i] = builder_.apply(node, a, copy[node.b.value]);
-    }
-    for (const ir::Output& output : program.outputs) values_.push_back(copy[output.value.value]);
+  /// Copies the requirements into `builder_`, driven angles as positions of their own.
+  Program without_time(const Program& program) {
+    Timeless timeless = without_clock(builder_, program, names_.size());
+    values_ = std::move(timeless.values);
+    names_.resize(names_.size() + timeless.driven.size(), "the driven angle");
+    angular_.resize(names_.size(), true);
+    range_.resize(names_.size());
     ir::Builder builder = builder_;
     for (const ir::Signed value : values_) builder.output("f", -1, -1, value);
     return builder.finish("requirements");
@@ -94,7 +76,7 @@ class Reach {
       const std::size_t k = node.index;
       if (std::find(request_.dependents.begin(), request_.dependents.end(), k) != request_.dependents.end())
         return fmt::format("its discriminant depends on the whole turns of {}", names_[k]);
-      if (!range_[k] && !(angular_[k] && is_periodic(k)))
+      if (!range_[k] && !(angular_[k] && is_periodic(program_, k)))
         return fmt::format("its discriminant depends on {}, which has no range", names_[k]);
       region_.entries.push_back(k);
       region_.leaves[LeafKind::kPosition][k] =
@@ -105,23 +87,6 @@ class Reach {
   }
 
   static Interval circle() { return {-kPi - 1e-9, kPi + 1e-9}; }
-
-  /// Is a position used in sums under sines and cosines alone, so that a whole turn of it changes nothing?
-  bool is_periodic(std::size_t entry) const {
-    std::vector<bool> turns(program_.nodes.size(), false);
-    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
-      const Node& node = program_.nodes[i];
-      const int operands = ir::operand_count(node.op);
-      const bool operand_turns =
-          (operands >= 1 && turns[node.a.value]) || (operands == 2 && turns[node.b.value]);
-      const bool is_sum = node.op == Op::kAdd || node.op == Op::kSubtract || node.op == Op::kNegate;
-      turns[i] = (operand_turns && is_sum) ||
-                 (node.op == Op::kLeaf && node.leaf == LeafKind::kPosition && node.index == entry);
-      if (operand_turns && !is_sum && node.op != Op::kSin && node.op != Op::kCos) return false;
-    }
-    return std::none_of(program_.outputs.begin(), program_.outputs.end(),
-                        [&](const ir::Output& output) { return turns[output.value.value]; });
-  }
 
   std::string text(const Counterexample& found) const {
     const Requirement& requirement = request_.requirements[found.bound];
