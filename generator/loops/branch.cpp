@@ -21,7 +21,8 @@ constexpr double kConverged = 1e-9;
 constexpr int kInflations = 4;
 /// A set that is larger than its image needs is mapped into itself more easily.
 constexpr double kInflation = 1.25;
-constexpr double kLeastWidth = 1e-15;
+/// So that the branch is well inside of X: of a unit of x, and of how far x moves over the box.
+constexpr double kLeastWidth = 1e-15, kLeastShare = 1e-3;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -134,6 +135,17 @@ std::optional<VectorXd> BranchEquations::solution(VectorXd x, const VectorXd& p)
   return {};
 }
 
+Intervals Branch::over(const Intervals& part) const {
+  Intervals result;
+  for (std::size_t i = 0; i < U.size(); ++i) {
+    Interval value = Interval::point(x[at(i)]) + U[i];
+    for (std::size_t k = 0; k < part.size(); ++k)
+      value = value + Interval::point(S(at(i), at(k))) * (part[k] - Interval::point(centre[at(k)]));
+    result.push_back(value);
+  }
+  return result;
+}
+
 namespace {
 
 /// One box under proof.
@@ -146,14 +158,20 @@ class Krawczyk {
     IntervalMatrix column(g.size(), 1);
     column.entries = g;
     offset_ = product(branch_.C, column).entries;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      double change = 0;
+      for (std::size_t k = 0; k < shift_.size(); ++k)
+        change += std::fabs(branch_.S(at(i), at(k))) * shift_[k].high;
+      least_.push_back(kLeastWidth + kLeastShare * change);
+    }
   }
 
   std::optional<Branch> run() {
     Intervals U(equations_.size());
     for (int i = 0; i <= kInflations; ++i) {
-      for (Interval& u : U) {
-        const double radius = kInflation * magnitude(u) + kLeastWidth;
-        u = {-radius, radius};
+      for (std::size_t k = 0; k < U.size(); ++k) {
+        const double radius = kInflation * magnitude(U[k]) + least_[k];
+        U[k] = {-radius, radius};
       }
       const std::optional<Intervals> image = map(U, i > 0);
       if (!image) return {};
@@ -167,12 +185,8 @@ class Krawczyk {
   /// K(U). Nothing where no multiple of U can do better; the first U has no shape yet.
   std::optional<Intervals> map(const Intervals& U, bool has_shape) {
     const std::size_t n = equations_.size();
-    branch_.X.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      Interval x = Interval::point(branch_.x[at(i)]) + U[i];
-      for (std::size_t k = 0; k < shift_.size(); ++k) x = x + slope(i, k) * shift_[k];
-      branch_.X.push_back(x);
-    }
+    branch_.U = U;
+    branch_.X = branch_.over(branch_.P);
     const std::optional<IntervalMatrix> A = equations_.slopes(branch_.X, branch_.P);
     if (!A) return {};
     for (std::size_t i = 0; i < n; ++i)
@@ -209,7 +223,8 @@ class Krawczyk {
 
   const BranchEquations& equations_;
   Branch branch_;
-  Intervals shift_, offset_;  ///< P − c; C g(x, c)
+  Intervals shift_, offset_;   ///< P − c; C g(x, c)
+  std::vector<double> least_;  ///< of the radius of U
 };
 
 }  // namespace
@@ -225,7 +240,7 @@ std::optional<Branch> enclose_branch(const BranchEquations& equations, const Int
   const MatrixXd C = slopes.leftCols(x->size()).inverse();
   if (!g || !C.allFinite()) return {};
   const MatrixXd S = -C * slopes.rightCols(centre.size());
-  Branch branch{P, centre, *x, C, S, {}, IntervalMatrix(equations.size(), equations.size())};
+  Branch branch{P, centre, *x, C, S, {}, {}, IntervalMatrix(equations.size(), equations.size())};
   return Krawczyk(equations, std::move(branch), *g).run();
 }
 

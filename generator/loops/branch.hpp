@@ -84,10 +84,12 @@ struct Branch {
   Intervals P;
   Eigen::VectorXd centre, x;  ///< the middle of P; a point near the branch there
   Eigen::MatrixXd C, S;       ///< near (∂g/∂x)⁻¹ there, and the slope dx/dp
-  Intervals X;
+  Intervals U, X;
   IntervalMatrix jacobian;  ///< ∂g/∂x over X and P
   /// Near x(p) at a point of P; not proven.
   Eigen::VectorXd guess(const Eigen::VectorXd& p) const { return x + S * (p - centre); }
+  /// Where it is over a part of P.
+  Intervals over(const Intervals& part) const;
 };
 
 /// Encloses the branch that Newton's method finds from `guess` over the box P: the operator of Krawczyk (1969) on the deviation from

@@ -10,6 +10,7 @@
 
 #include "ir/compose.hpp"
 #include "loops/block_bounds.hpp"
+#include "loops/subdivision.hpp"
 #include "loops/timeless.hpp"
 #include "model/angles.hpp"
 #include "passes/rewrite.hpp"
@@ -45,18 +46,16 @@ struct Free {
   bool is_parameter = false;
 };
 
-/// The region taken apart: a box is proven, or its halves are.
-struct Part {
-  std::optional<Branch> branch;
-  std::size_t side = 0;
-  double middle = 0;
-  std::size_t halves[2] = {0, 0};
-};
-
 /// A solution at a point on the branch: the only one in a small box.
 struct Anchor {
   VectorXd p, x;
   Intervals X;
+};
+
+/// A part that the branch enters.
+struct Open {
+  std::size_t part = 0;
+  Anchor anchor;
 };
 
 class Proof {
@@ -67,7 +66,6 @@ class Proof {
     if (const std::string failure = lay_out(); !failure.empty()) return failure;
     std::vector<int> turns(free_.size(), 1);
     for (;;) {
-      parts_.clear();
       set_circles(turns);
       BlockBounds bounds(problem_, *equations_, start_x_, start_p());
       bounds_ = &bounds;
@@ -238,10 +236,21 @@ class Proof {
     for (std::size_t i = 0; i < unknowns_.size(); ++i)
       if (std::fabs(start->x[at(i)] - start_x_[at(i)]) > kAssembled)
         return "the initial state does not close the loops";
-    Intervals whole;
-    for (const Free& f : free_) whole.push_back(f.side);
-    parts_.emplace_back();
-    return prove(0, whole, std::vector<int>(free_.size(), 0), *start);
+    region_.emplace(whole());
+    open_ = {{0, *start}};
+    while (!open_.empty()) {
+      const Open next = std::move(open_.back());
+      open_.pop_back();
+      const std::string end = prove(region_->at(next.anchor.p, next.part), next.anchor);
+      if (!end.empty()) return end;
+    }
+    return "";
+  }
+
+  Intervals whole() const {
+    Intervals sides;
+    for (const Free& f : free_) sides.push_back(f.side);
+    return sides;
   }
 
   std::optional<Anchor> anchor(const VectorXd& p, const VectorXd& near) const {
@@ -252,64 +261,86 @@ class Proof {
     return Anchor{p, branch->x, branch->X};
   }
 
-  /// The branch through `known`, a point of P, over P; as part `index`.
-  std::string prove(std::size_t index, const Intervals& P, const std::vector<int>& halvings,
-                    const Anchor& known) {
+  /// The branch through `known` over a part and on to its neighbours, or over half of the part.
+  std::string prove(std::size_t index, const Anchor& known) {
+    if ((*region_)[index].branch) return "";
     if (++boxes_ > request_.effort)
-      return fmt::format("not decided within {} boxes near {}", request_.effort, text(known.p));
-    if (prove_whole(index, P, known)) return "";
-    const std::optional<std::size_t> side = longest(P, halvings);
+      return fmt::format("not decided within {} boxes: {}", request_.effort, failure(known));
+    if (prove_whole(index, known)) return meet_neighbours(index);
+    const std::optional<std::size_t> side = longest((*region_)[index]);
     if (!side) return failure(known);
-    return prove_halves(index, P, halvings, known, *side);
+    region_->halve(index, *side);
+    for (const std::size_t half : (*region_)[index].halves)
+      if (const std::string end = reach(half); !end.empty()) return end;
+    open_.push_back({index, known});
+    return "";
   }
 
-  bool prove_whole(std::size_t index, const Intervals& P, const Anchor& known) {
-    VectorXd middle(known.p.size());
-    for (std::size_t k = 0; k < P.size(); ++k) middle[at(k)] = P[k].middle();
+  bool prove_whole(std::size_t index, const Anchor& known) {
+    const Intervals& P = (*region_)[index].P;
     slope_ = slope_at(known);
-    std::optional<Branch> branch = enclose_branch(*equations_, P, known.x + slope_ * (middle - known.p));
-    if (!branch || !is_inside(known.X, branch->X)) return false;
+    std::optional<Branch> branch =
+        enclose_branch(*equations_, P, known.x + slope_ * (middle(P) - known.p));
+    if (!branch || !is_on(*branch, known)) return false;
     seen_ = std::min(seen_, bounds_->margin_near(branch->x, branch->centre));
     const bool sharp = boxes_ <= request_.effort / kSharpShare;
     if (!bounds_->include(*branch, sharp ? std::max(kLeastMargin, seen_ / 2) : kLeastMargin)) return false;
-    parts_[index].branch = std::move(branch);
+    (*region_)[index].branch = std::move(branch);
     ++proven_;
     return true;
   }
 
-  std::string prove_halves(std::size_t index, const Intervals& P, std::vector<int> halvings,
-                           const Anchor& known, std::size_t side) {
-    ++halvings[side];
-    const double middle = P[side].middle();
-    Intervals half[2] = {P, P};
-    half[0][side].high = half[1][side].low = middle;
-    const std::size_t first = known.p[at(side)] <= middle ? 0 : 1;
-    parts_[index].side = side;
-    parts_[index].middle = middle;
-    for (std::size_t& child : parts_[index].halves) {
-      child = parts_.size();
-      parts_.emplace_back();
+  /// The branch must go on into every part that it enters, and agree with those that are proven: if it does so at one point of a shared
+  /// face it does on all of that, as both are continuous and regular.
+  std::string meet_neighbours(std::size_t index) {
+    const Branch& branch = *(*region_)[index].branch;
+    for (const std::size_t other : region_->touching(branch.P)) {
+      const Part& part = (*region_)[other];
+      if (other == index || !enters(branch, part.P)) continue;
+      const VectorXd p = middle(intersection(branch.P, part.P));
+      const std::optional<Anchor> shared = anchor_on(branch, p);
+      if (!shared || (part.branch && !is_on(*part.branch, *shared)))
+        return fmt::format("not decided near {}", text(p));
+      if (!part.branch) open_.push_back({other, *shared});
     }
-    const auto halves = parts_[index].halves;
-    const std::size_t one = halves[first], other = halves[1 - first];
-    if (const std::string end = prove(one, half[first], halvings, known); !end.empty()) return end;
-    VectorXd face = known.p;
-    face[at(side)] = middle;
-    const std::optional<Anchor> shared = anchor_on(part_with(one, face), face);
-    if (!shared) return failure(known);
-    return prove(other, half[1 - first], halvings, *shared);
+    return "";
+  }
+
+  /// A part that is not proven yet is entered from a neighbour that is.
+  std::string reach(std::size_t index) {
+    const Intervals& P = (*region_)[index].P;
+    for (const std::size_t other : region_->touching(P)) {
+      const std::optional<Branch>& branch = (*region_)[other].branch;
+      if (!branch || !enters(*branch, P)) continue;
+      const VectorXd p = middle(intersection(branch->P, P));
+      const std::optional<Anchor> shared = anchor_on(*branch, p);
+      if (!shared) return fmt::format("not decided near {}", text(p));
+      open_.push_back({index, *shared});
+      return "";
+    }
+    return "";
+  }
+
+  /// May all dependents be within their ranges somewhere where the branch's box meets P?
+  bool enters(const Branch& branch, const Intervals& P) const {
+    const Intervals X = branch.over(intersection(branch.P, P));
+    for (std::size_t i = 0; i < X.size(); ++i)
+      if (const Range& range = request_.range[unknowns_[i]])
+        if (X[i].high < (*range)[0] || X[i].low > (*range)[1]) return false;
+    return true;
+  }
+
+  /// Is that solution on the branch? `there.p` is in the branch's box.
+  static bool is_on(const Branch& branch, const Anchor& there) {
+    Intervals point;
+    for (const double value : there.p) point.push_back(Interval::point(value));
+    return is_inside(there.X, branch.over(point));
   }
 
   /// The branch of a proven part at a point of its box.
   std::optional<Anchor> anchor_on(const Branch& branch, const VectorXd& p) const {
     std::optional<Anchor> found = anchor(p, branch.guess(p));
-    return found && is_inside(found->X, branch.X) ? found : std::nullopt;
-  }
-
-  const Branch& part_with(std::size_t index, const VectorXd& p) const {
-    while (!parts_[index].branch)
-      index = parts_[index].halves[p[at(parts_[index].side)] <= parts_[index].middle ? 0 : 1];
-    return *parts_[index].branch;
+    return found && is_on(branch, *found) ? found : std::nullopt;
   }
 
   Eigen::MatrixXd slope_at(const Anchor& known) const {
@@ -318,7 +349,8 @@ class Proof {
   }
 
   /// The side along which the dependents change most, an angle's own change included.
-  std::optional<std::size_t> longest(const Intervals& P, const std::vector<int>& halvings) const {
+  std::optional<std::size_t> longest(const Part& part) const {
+    const Intervals& P = part.P;
     std::optional<std::size_t> best;
     double most = 0;
     for (std::size_t k = 0; k < P.size(); ++k) {
@@ -326,7 +358,7 @@ class Proof {
       for (std::size_t i = 0; i < unknowns_.size(); ++i)
         rate = std::max(
             rate, std::fabs(slope_(at(i), at(k))) / (problem_.slide_unknowns[i] ? bounds_->length() : 1));
-      if (halvings[k] >= kHalvings || !(rate * P[k].width() > most)) continue;
+      if (part.halvings[k] >= kHalvings || !(rate * P[k].width() > most)) continue;
       most = rate * P[k].width();
       best = k;
     }
@@ -356,26 +388,49 @@ class Proof {
   /// A circle after whose turns the branch is not shown to be where it was.
   std::optional<std::size_t> open_circle() const {
     for (std::size_t k = 0; k < free_.size(); ++k)
-      if (free_[k].is_circle && !closes(k)) return k;
+      if (free_[k].is_circle && !is_cut(k) && !closes(k)) return k;
     return {};
   }
 
-  /// One solution half of all turns before the start and one half of them after it, whole turns of angles taken off, are the same if the
+  /// Do the dependents' ranges keep the branch from the ends of a circle?
+  bool is_cut(std::size_t k) const {
+    Intervals low = whole(), high = low;
+    low[k].high = low[k].low;
+    high[k].low = high[k].high;
+    return none_proven(low) && none_proven(high);
+  }
+
+  bool none_proven(const Intervals& P) const {
+    const std::vector<std::size_t> parts = region_->touching(P);
+    return std::none_of(parts.begin(), parts.end(),
+                        [&](std::size_t part) { return (*region_)[part].branch.has_value(); });
+  }
+
+  /// Nothing is known about parts that the dependents' ranges exclude.
+  bool is_all_proven() const {
+    const std::vector<std::size_t> parts = region_->touching(whole());
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](std::size_t part) { return (*region_)[part].branch.has_value(); });
+  }
+
+  /// The solution half of all turns before the start and that half of them after it, whole turns of angles taken off, are the same if the
   /// second is in the box about the branch at the first in which there is only one. Two branches that meet anywhere do so everywhere.
   bool closes(std::size_t k) const {
+    if (free_.size() > 1 && !is_all_proven()) return false;
     VectorXd p = start_p();
     const double turns = std::round(free_[k].side.width() / (2 * kPi));
     p[at(k)] = free_[k].start - turns * kPi;
-    const Branch& before = part_with(0, p);
-    const std::optional<Anchor> first = anchor_on(before, p);
+    const std::optional<Branch>& before = (*region_)[region_->at(p)].branch;
+    const std::optional<Anchor> first = before ? anchor_on(*before, p) : std::nullopt;
     Intervals P;
     for (const double value : p) P.push_back(Interval::point(value));
     P[k] = P[k] + Interval::point(turns) * kTurn;
-    p[at(k)] = P[k].middle();
-    const Branch& after = part_with(0, p);
-    const std::optional<Branch> second = enclose_branch(*equations_, P, after.guess(p));
-    if (!first || !second || !is_inside(second->X, after.X)) return false;
-    return is_inside(turned_back(second->X, first->x), before.X);
+    const VectorXd later = middle(P);
+    const std::optional<Branch>& after = (*region_)[region_->at(later)].branch;
+    if (!first || !after) return false;
+    const std::optional<Branch> second = enclose_branch(*equations_, P, after->guess(later));
+    if (!second || !is_on(*after, {later, second->x, second->X})) return false;
+    return is_on(*before, {p, first->x, turned_back(second->X, first->x)});
   }
 
   /// Moved by whole turns, and quaternions to the other sign, to be next to `x`.
@@ -400,6 +455,9 @@ class Proof {
     for (const Free& f : free_)
       list.push_back(f.is_circle ? "any " + f.name
                                  : fmt::format("{} in [{}, {}]", f.name, f.side.low, f.side.high));
+    for (const std::size_t k : unknowns_)
+      if (const Range& range = request_.range[k])
+        list.push_back(fmt::format("{} in [{}, {}]", request_.names[k], (*range)[0], (*range)[1]));
     proof.region = fmt::format("{}", fmt::join(list, ", "));
     proof.at_defaults = at_defaults_;
     proof.boxes = proven_;
@@ -426,7 +484,8 @@ class Proof {
   std::vector<std::string> at_defaults_;
   std::optional<BranchEquations> equations_;
   VectorXd start_x_;
-  std::vector<Part> parts_;
+  std::optional<Subdivision> region_;
+  std::vector<Open> open_;
   BlockBounds* bounds_ = nullptr;
   Eigen::MatrixXd slope_;  ///< of the dependents, where a box was tried last
   std::size_t boxes_ = 0, proven_ = 0;

@@ -95,8 +95,10 @@ TEST(RegularityProof, Trial) {
     const auto constraints = loops::constraint_programs(mechanism, equations);
     const auto plan = loops::plan_loops(mechanism, constraints, diagnostics);
     const auto begin = std::chrono::steady_clock::now();
-    const auto result = prove_regular(
-        loops::regularity_request(mechanism, constraints, *plan, model::default_values(mechanism)));
+    auto request = loops::regularity_request(mechanism, constraints, *plan, model::default_values(mechanism));
+    if (getenv("EFFORT")) request.effort = strtoul(getenv("EFFORT"), nullptr, 10);
+    if (getenv("PRINT") && name == "parallel_robot") puts(ir::print(request.g).c_str());
+    const auto result = prove_regular(request);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     std::printf("%s %.2f s: %s\n", name.c_str(), seconds, why_not(result).c_str());
     if (const auto* p = std::get_if<RegularityProof>(&result))
