@@ -68,11 +68,20 @@ BlockBounds::BlockBounds(NewtonProblem problem, const BranchEquations& equations
       d[k] = builder.leaf(LeafKind::kVelocity, k);
       seeds.push_back({d[k], k, builder.literal(1)});
     }
-  y = displaced(builder, problem_.tangent, y, d);
-  const Column g =
-      ir::insert(builder, problem_.g, [&](LeafKind kind, std::size_t i) -> std::optional<ir::Signed> {
-        return kind == LeafKind::kPosition && i < y.size() ? std::optional(y[i]) : std::nullopt;
-      });
+  Column move(y.size(), builder.literal(0));
+  for (const model::Tangent::Scalar& s : problem_.tangent.scalars) move[s.position] = d[s.velocity];
+  const Column moved = displaced(builder, problem_.tangent, y, d);
+  const auto leaf = [&](LeafKind kind, std::size_t i) -> std::optional<ir::Signed> {
+    if (kind != LeafKind::kPosition) return {};
+    if (i < y.size()) return moved[i];
+    if (i < equations_.first_sum()) return {};
+    ir::Signed sum = builder.leaf(kind, i);
+    for (const auto& [position, factor] : equations_.sums()[i - equations_.first_sum()].terms)
+      if (position < y.size())
+        sum = builder.add(sum, builder.multiply(builder.literal(factor), move[position]));
+    return sum;
+  };
+  const Column g = ir::insert(builder, equations_.rows(), leaf);
   const ir::JacobianEntries first = ir::differentiate(builder, g, seeds, {});
   ir::Builder second = builder;
   Column slopes;
@@ -102,7 +111,7 @@ void BlockBounds::scale(const VectorXd& x, const VectorXd& p) {
   if (angle > 0 && slide > 0) length_ = angle / slide;
   for (const bool is_slide : problem_.slides) size_.push_back(is_slide ? length_ : 1);
   for (const double norm : G.colwise().norm()) column_norm_.push_back(norm > 0 ? norm : 1);
-  row_scale_.assign(problem_.g.outputs.size(), 0);
+  row_scale_.assign(equations_.rows().outputs.size(), 0);
   for (const Block& block : problem_.blocks)
     for (const std::size_t r : block.rows)
       for (const std::size_t k : block.dependents)
@@ -113,21 +122,18 @@ MatrixXd BlockBounds::jacobian(const VectorXd& x, const VectorXd& p) const {
   ir::LeafValues<double> leaves = equations_.leaves(x, p);
   leaves[LeafKind::kVelocity].assign(problem_.velocities, 0);
   const std::vector<double> values = ir::interpret(G_, leaves);
-  MatrixXd G = MatrixXd::Zero(at(problem_.g.outputs.size()), at(problem_.velocities));
+  MatrixXd G = MatrixXd::Zero(at(equations_.rows().outputs.size()), at(problem_.velocities));
   for (std::size_t i = 0; i < values.size(); ++i) G(G_.outputs[i].row, G_.outputs[i].column) = values[i];
   return G;
 }
 
 /// Over all displacements of up to `reach` from the branch; a displacement d moves entries of a quaternion by |d|/2 at most.
 std::optional<BlockBounds::Tensors> BlockBounds::tensors(const Branch& branch, double reach) const {
-  Intervals X = branch.X;
-  for (std::size_t i = 0; i < X.size(); ++i) {
-    const double by = reach * (problem_.slide_unknowns[i] ? length_ : 1);
-    X[i] = X[i] + Interval{-by, by};
-  }
-  ir::LeafValues<Interval> leaves = equations_.leaves(X, branch.P);
+  std::vector<double> around;
+  for (const bool is_slide : problem_.slide_unknowns) around.push_back(reach * (is_slide ? length_ : 1));
+  ir::LeafValues<Interval> leaves = equations_.leaves(branch, around);
   leaves[LeafKind::kVelocity].assign(problem_.velocities, Interval{});
-  const std::size_t rows = problem_.g.outputs.size(), n = problem_.velocities;
+  const std::size_t rows = equations_.rows().outputs.size(), n = problem_.velocities;
   Tensors result{std::vector(rows, std::vector<Interval>(n)),
                  std::vector(rows, std::vector<Interval>(n * n))};
   const auto place = [](const ir::Program& program, const ir::IntervalResults& found, auto& tensor) {

@@ -66,33 +66,83 @@ BranchEquations::BranchEquations(const ir::Program& g, std::vector<Variable> unk
     : unknowns_(std::move(unknowns)),
       free_(std::move(free)),
       fixed_(std::move(fixed)),
-      values_(g),
       evaluate_(std::move(evaluate)) {
   JD_CHECK(g.outputs.size() == unknowns_.size(), "{} rows for {} unknowns", g.outputs.size(), size());
   for (std::size_t kind = 0; kind < ir::kLeafKinds; ++kind)
     for (const double value : fixed_.of[kind]) fixed_intervals_.of[kind].push_back(Interval::point(value));
+  SummedAngles summed = with_summed_angles(g, first_sum());
+  values_ = std::move(summed.program);
+  sums_ = std::move(summed.sums);
   ir::Builder builder;
   std::vector<ir::Seed> seeds;
+  std::size_t column = 0;
   for (const auto* list : {&unknowns_, &free_})
-    for (const Variable& v : *list)
-      seeds.push_back({builder.leaf(v.kind, v.index), seeds.size(), builder.literal(1)});
-  for (const auto& [where, value] : ir::differentiate(builder, ir::insert(builder, g), seeds, {}))
+    for (const Variable& v : *list) {
+      seeds.push_back({builder.leaf(v.kind, v.index), column, builder.literal(1)});
+      for (std::size_t s = 0; s < sums_.size() && v.kind == LeafKind::kPosition; ++s)
+        for (const auto& [position, factor] : sums_[s].terms)
+          if (position == v.index)
+            seeds.push_back(
+                {builder.leaf(LeafKind::kPosition, first_sum() + s), column, builder.literal(factor)});
+      ++column;
+    }
+  for (const auto& [where, value] : ir::differentiate(builder, ir::insert(builder, values_), seeds, {}))
     builder.output("slope", static_cast<int>(where.first), static_cast<int>(where.second), value);
   slopes_ = passes::remove_dead_code(builder.finish("slopes"));
-}
-
-ir::LeafValues<Interval> BranchEquations::leaves(const Intervals& x, const Intervals& p) const {
-  ir::LeafValues<Interval> leaves = fixed_intervals_;
-  for (std::size_t i = 0; i < x.size(); ++i) leaves[unknowns_[i].kind][unknowns_[i].index] = x[i];
-  for (std::size_t i = 0; i < p.size(); ++i) leaves[free_[i].kind][free_[i].index] = p[i];
-  return leaves;
 }
 
 ir::LeafValues<double> BranchEquations::leaves(const VectorXd& x, const VectorXd& p) const {
   ir::LeafValues<double> leaves = fixed_;
   for (std::size_t i = 0; i < size(); ++i) leaves[unknowns_[i].kind][unknowns_[i].index] = x[at(i)];
   for (std::size_t i = 0; i < free_.size(); ++i) leaves[free_[i].kind][free_[i].index] = p[at(i)];
+  std::vector<double>& y = leaves[LeafKind::kPosition];
+  for (const AngleSum& sum : sums_) {
+    double value = sum.offset;
+    for (const auto& [position, factor] : sum.terms) value += factor * y[position];
+    y.push_back(value);
+  }
   return leaves;
+}
+
+ir::LeafValues<Interval> BranchEquations::leaves(const Branch& branch,
+                                                 const std::vector<double>& around) const {
+  ir::LeafValues<Interval> leaves = fixed_intervals_;
+  const Intervals X = branch.over(branch.P);
+  for (std::size_t i = 0; i < size(); ++i)
+    leaves[unknowns_[i].kind][unknowns_[i].index] = X[i] + Interval{-around[i], around[i]};
+  for (std::size_t i = 0; i < free_.size(); ++i) leaves[free_[i].kind][free_[i].index] = branch.P[i];
+  for (const AngleSum& sum : sums_) leaves[LeafKind::kPosition].push_back(along(sum, branch, around));
+  return leaves;
+}
+
+/// Σ factor y with y = x + S (P − c) + U and y = c + (P − c): terms of one p are added up before its interval comes in.
+Interval BranchEquations::along(const AngleSum& sum, const Branch& branch,
+                                const std::vector<double>& around) const {
+  Interval value = Interval::point(sum.offset);
+  Intervals slope(free_.size());
+  for (const auto& [position, factor] : sum.terms) {
+    const Interval f = Interval::point(factor);
+    const auto is_it = [p = position](const Variable& v) {
+      return v.kind == LeafKind::kPosition && v.index == p;
+    };
+    const auto unknown = std::find_if(unknowns_.begin(), unknowns_.end(), is_it);
+    const auto free = std::find_if(free_.begin(), free_.end(), is_it);
+    if (unknown != unknowns_.end()) {
+      const auto i = static_cast<std::size_t>(unknown - unknowns_.begin());
+      value = value + f * (Interval::point(branch.x[at(i)]) + branch.U[i] + Interval{-around[i], around[i]});
+      for (std::size_t k = 0; k < slope.size(); ++k)
+        slope[k] = slope[k] + f * Interval::point(branch.S(at(i), at(k)));
+    } else if (free != free_.end()) {
+      const auto k = static_cast<std::size_t>(free - free_.begin());
+      value = value + f * Interval::point(branch.centre[at(k)]);
+      slope[k] = slope[k] + f;
+    } else {
+      value = value + f * Interval::point(fixed_[LeafKind::kPosition][position]);
+    }
+  }
+  for (std::size_t k = 0; k < slope.size(); ++k)
+    value = value + slope[k] * (branch.P[k] - Interval::point(branch.centre[at(k)]));
+  return value;
 }
 
 MatrixXd BranchEquations::slopes(const VectorXd& x, const VectorXd& p) const {
@@ -103,8 +153,8 @@ MatrixXd BranchEquations::slopes(const VectorXd& x, const VectorXd& p) const {
   return result;
 }
 
-std::optional<IntervalMatrix> BranchEquations::slopes(const Intervals& x, const Intervals& p) const {
-  const ir::IntervalResults found = evaluate_(slopes_, leaves(x, p));
+std::optional<IntervalMatrix> BranchEquations::slopes(const Branch& branch) const {
+  const ir::IntervalResults found = evaluate_(slopes_, leaves(branch, std::vector<double>(size(), 0)));
   IntervalMatrix result(size(), size() + free_.size());
   for (std::size_t i = 0; i < found.values.size(); ++i) {
     if (found.maybe_undefined[i]) return {};
@@ -115,7 +165,8 @@ std::optional<IntervalMatrix> BranchEquations::slopes(const Intervals& x, const 
 }
 
 std::optional<Intervals> BranchEquations::value(const VectorXd& x, const VectorXd& p) const {
-  const ir::IntervalResults found = evaluate_(values_, leaves(point(x), point(p)));
+  const Branch here = {point(p), p, x, {}, MatrixXd::Zero(x.size(), p.size()), Intervals(size())};
+  const ir::IntervalResults found = evaluate_(values_, leaves(here, std::vector<double>(size(), 0)));
   for (const bool undefined : found.maybe_undefined)
     if (undefined) return {};
   return found.values;
@@ -186,12 +237,12 @@ class Krawczyk {
   std::optional<Intervals> map(const Intervals& U, bool has_shape) {
     const std::size_t n = equations_.size();
     branch_.U = U;
-    branch_.X = branch_.over(branch_.P);
-    const std::optional<IntervalMatrix> A = equations_.slopes(branch_.X, branch_.P);
+    const std::optional<IntervalMatrix> A = equations_.slopes(branch_);
     if (!A) return {};
+    IntervalMatrix jacobian(n, n);
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) branch_.jacobian(i, j) = (*A)(i, j);
-    const IntervalMatrix E = rest(branch_.C, branch_.jacobian), drift = product(branch_.C, along_tangent(*A));
+      for (std::size_t j = 0; j < n; ++j) jacobian(i, j) = (*A)(i, j);
+    const IntervalMatrix E = rest(branch_.C, jacobian), drift = product(branch_.C, along_tangent(*A));
     Intervals image;
     for (std::size_t i = 0; i < n; ++i) {
       Interval value = Interval{} - offset_[i];
@@ -240,7 +291,7 @@ std::optional<Branch> enclose_branch(const BranchEquations& equations, const Int
   const MatrixXd C = slopes.leftCols(x->size()).inverse();
   if (!g || !C.allFinite()) return {};
   const MatrixXd S = -C * slopes.rightCols(centre.size());
-  Branch branch{P, centre, *x, C, S, {}, {}, IntervalMatrix(equations.size(), equations.size())};
+  Branch branch{P, centre, *x, C, S, {}};
   return Krawczyk(equations, std::move(branch), *g).run();
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ir/interval.hpp"
+#include "loops/angle_sums.hpp"
 
 namespace jourdain::loops {
 
@@ -43,6 +44,20 @@ struct Variable {
   std::size_t index = 0;
 };
 
+/// A branch x(p) over a box P of the free variables: for every p in P there is exactly one solution in x + S (p − centre) + U. It
+/// depends continuously on p, and ∂g/∂x is regular all over that set.
+struct Branch {
+  Intervals P;
+  Eigen::VectorXd centre, x;  ///< the middle of P; a point near the branch there
+  Eigen::MatrixXd C, S;       ///< near (∂g/∂x)⁻¹ there, and the slope dx/dp
+  Intervals U;
+
+  /// Near x(p) at a point of P; not proven.
+  Eigen::VectorXd guess(const Eigen::VectorXd& p) const { return x + S * (p - centre); }
+  /// Where it is over a part of P.
+  Intervals over(const Intervals& part) const;
+};
+
 /// g and its derivatives by the unknowns x and the free variables p. Other leaves have fixed values.
 class BranchEquations {
  public:
@@ -55,45 +70,37 @@ class BranchEquations {
 
   /// (∂g/∂x, ∂g/∂p) at a point.
   Eigen::MatrixXd slopes(const Eigen::VectorXd& x, const Eigen::VectorXd& p) const;
-  /// Over a box. Nothing where it may not exist.
-  std::optional<IntervalMatrix> slopes(const Intervals& x, const Intervals& p) const;
+  /// Over all of a branch's set. Nothing where it may not exist.
+  std::optional<IntervalMatrix> slopes(const Branch& branch) const;
   /// g at a point, with what rounding does to it.
   std::optional<Intervals> value(const Eigen::VectorXd& x, const Eigen::VectorXd& p) const;
   /// The solution near x, by Newton's method in double precision; not proven. Nothing where that fails.
   std::optional<Eigen::VectorXd> solution(Eigen::VectorXd x, const Eigen::VectorXd& p) const;
 
-  /// All leaves with these values put in.
-  ir::LeafValues<Interval> leaves(const Intervals& x, const Intervals& p) const;
+  /// g, of positions and sums of positions as `with_summed_angles` has them.
+  const ir::Program& rows() const { return values_; }
+  const std::vector<AngleSum>& sums() const { return sums_; }
+  std::size_t first_sum() const { return fixed_[ir::LeafKind::kPosition].size(); }
+  /// All leaves of such programs at a point, and over a branch's set with unknowns off by as much as `around` more.
   ir::LeafValues<double> leaves(const Eigen::VectorXd& x, const Eigen::VectorXd& p) const;
-  /// Outputs of another program of the same leaves.
+  ir::LeafValues<Interval> leaves(const Branch& branch, const std::vector<double>& around) const;
   ir::IntervalResults evaluated(const ir::Program& program, const ir::LeafValues<Interval>& leaves) const {
     return evaluate_(program, leaves);
   }
 
  private:
+  Interval along(const AngleSum& sum, const Branch& branch, const std::vector<double>& around) const;
+
   std::vector<Variable> unknowns_, free_;
   ir::LeafValues<double> fixed_;
+  std::vector<AngleSum> sums_;
   ir::LeafValues<Interval> fixed_intervals_;
   ir::Program values_, slopes_;
   Evaluator evaluate_;
 };
 
-/// A branch x(p) over a box P of the free variables: for every p in P there is exactly one solution in X, it is inside
-/// x + S (p − centre) + U, depends continuously on p, and ∂g/∂x is regular all over X.
-struct Branch {
-  Intervals P;
-  Eigen::VectorXd centre, x;  ///< the middle of P; a point near the branch there
-  Eigen::MatrixXd C, S;       ///< near (∂g/∂x)⁻¹ there, and the slope dx/dp
-  Intervals U, X;
-  IntervalMatrix jacobian;  ///< ∂g/∂x over X and P
-  /// Near x(p) at a point of P; not proven.
-  Eigen::VectorXd guess(const Eigen::VectorXd& p) const { return x + S * (p - centre); }
-  /// Where it is over a part of P.
-  Intervals over(const Intervals& part) const;
-};
-
 /// Encloses the branch that Newton's method finds from `guess` over the box P: the operator of Krawczyk (1969) on the deviation from
-/// its tangent. With A enclosing the derivatives over X = x + S (P − c) + U,
+/// its tangent. With A enclosing the derivatives over x + S (P − c) + U,
 ///
 ///   K(U) = −C g(x, c) − C (A_p + A_x S) (P − c) + (1 − C A_x) U
 ///

@@ -89,7 +89,7 @@ class Proof {
       return "an angle depends on time and on coordinates, but not by a sum";
     for (std::size_t i = 0; i < timeless.values.size(); ++i)
       builder.output("g", static_cast<int>(i), -1, timeless.values[i]);
-    problem_.g = passes::remove_dead_code(builder.finish("g"));
+    g_ = passes::remove_dead_code(builder.finish("g"));
     problem_.tangent = request_.tangent;
     problem_.positions = request_.initial_y.size();
     problem_.iterations = request_.iterations;
@@ -104,7 +104,7 @@ class Proof {
     std::vector<Variable> unknowns, free;
     for (const std::size_t k : unknowns_) unknowns.push_back({LeafKind::kPosition, k});
     for (const Free& f : free_) free.push_back(f.leaf);
-    equations_.emplace(with_unit_lengths(problem_.g), unknowns, free, fixed, request_.evaluate);
+    equations_.emplace(with_unit_lengths(g_), unknowns, free, fixed, request_.evaluate);
     start_x_ = VectorXd(at(unknowns_.size()));
     for (std::size_t i = 0; i < unknowns_.size(); ++i) start_x_[at(i)] = request_.initial_y[unknowns_[i]];
     return "";
@@ -178,7 +178,7 @@ class Proof {
   /// The leaves that the rows depend on beside the unknowns.
   std::string list_free() {
     std::set<std::size_t> positions, parameters;
-    for (const ir::Node& node : problem_.g.nodes) {
+    for (const ir::Node& node : g_.nodes) {
       if (node.op != ir::Op::kLeaf) continue;
       if (node.leaf == LeafKind::kTime) return "a constraint depends on time other than by an angle's sine";
       (node.leaf == LeafKind::kPosition ? positions : parameters).insert(node.index);
@@ -193,7 +193,7 @@ class Proof {
       const Range range = k < ny ? request_.range[k] : std::nullopt;
       free.is_circle = !range;
       if (range) free.side = {(*range)[0], (*range)[1]};
-      if (!range && !((k >= ny || request_.angular[k]) && is_periodic(problem_.g, k)))
+      if (!range && !((k >= ny || request_.angular[k]) && is_periodic(g_, k)))
         return fmt::format("the constraints depend on {}, which has no range", free.name);
       if (range && !free.side.contains(free.start))
         return fmt::format("{} starts at {:.6g}, outside its range", free.name, free.start);
@@ -258,7 +258,7 @@ class Proof {
     for (const double value : p) point.push_back(Interval::point(value));
     const std::optional<Branch> branch = enclose_branch(*equations_, point, near);
     if (!branch) return {};
-    return Anchor{p, branch->x, branch->X};
+    return Anchor{p, branch->x, branch->over(point)};
   }
 
   /// The branch through `known` over a part and on to its neighbours, or over half of the part.
@@ -279,8 +279,7 @@ class Proof {
   bool prove_whole(std::size_t index, const Anchor& known) {
     const Intervals& P = (*region_)[index].P;
     slope_ = slope_at(known);
-    std::optional<Branch> branch =
-        enclose_branch(*equations_, P, known.x + slope_ * (middle(P) - known.p));
+    std::optional<Branch> branch = enclose_branch(*equations_, P, known.x + slope_ * (middle(P) - known.p));
     if (!branch || !is_on(*branch, known)) return false;
     seen_ = std::min(seen_, bounds_->margin_near(branch->x, branch->centre));
     const bool sharp = boxes_ <= request_.effort / kSharpShare;
@@ -429,14 +428,14 @@ class Proof {
     const std::optional<Branch>& after = (*region_)[region_->at(later)].branch;
     if (!first || !after) return false;
     const std::optional<Branch> second = enclose_branch(*equations_, P, after->guess(later));
-    if (!second || !is_on(*after, {later, second->x, second->X})) return false;
-    return is_on(*before, {p, first->x, turned_back(second->X, first->x)});
+    if (!second || !is_on(*after, {later, second->x, second->over(P)})) return false;
+    return is_on(*before, {p, first->x, turned_back(second->over(P), first->x)});
   }
 
   /// Moved by whole turns, and quaternions to the other sign, to be next to `x`.
   Intervals turned_back(Intervals X, const VectorXd& x) const {
     for (std::size_t i = 0; i < unknowns_.size(); ++i)
-      if (request_.angular[unknowns_[i]] && is_periodic(problem_.g, unknowns_[i]))
+      if (request_.angular[unknowns_[i]] && is_periodic(g_, unknowns_[i]))
         X[i] = X[i] - Interval::point(std::round((X[i].middle() - x[at(i)]) / (2 * kPi))) * kTurn;
     for (const std::size_t w : quaternions_) {
       const auto first =
@@ -476,6 +475,7 @@ class Proof {
 
   const RegularityRequest& request_;
   NewtonProblem problem_;
+  Program g_;                          ///< rows of the blocks, in their order, without time
   std::vector<std::size_t> row_of_;    ///< of the request's g, by row of the problem's
   std::vector<std::size_t> unknowns_;  ///< entries of y; the four of a quaternion
   std::vector<std::size_t> quaternions_;
