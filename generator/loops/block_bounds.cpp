@@ -111,11 +111,15 @@ void BlockBounds::scale(const VectorXd& x, const VectorXd& p) {
   if (angle > 0 && slide > 0) length_ = angle / slide;
   for (const bool is_slide : problem_.slides) size_.push_back(is_slide ? length_ : 1);
   for (const double norm : G.colwise().norm()) column_norm_.push_back(norm > 0 ? norm : 1);
+  determinant_.assign(problem_.blocks.size(), INFINITY);
+  row_norm_.assign(equations_.rows().outputs.size(), 0);
   row_scale_.assign(equations_.rows().outputs.size(), 0);
   for (const Block& block : problem_.blocks)
     for (const std::size_t r : block.rows)
-      for (const std::size_t k : block.dependents)
+      for (const std::size_t k : block.dependents) {
         row_scale_[r] = std::hypot(row_scale_[r], G(at(r), at(k)) * size_[k]);
+        row_norm_[r] = std::hypot(row_norm_[r], G(at(r), at(k)) / column_norm_[k]);
+      }
 }
 
 MatrixXd BlockBounds::jacobian(const VectorXd& x, const VectorXd& p) const {
@@ -186,7 +190,13 @@ bool BlockBounds::add_block(const Block& block, const MatrixXd& middle, const Te
     moved = std::max(moved, sums[3]);
   }
   if (!(contraction < kContraction)) return false;
-  result.margin = std::min(result.margin, margin_of(block, C, E, G));
+  result.determinant.push_back(determinant_of(block, C, E));
+  for (std::size_t i = 0; i < n; ++i) {
+    double square = 0;
+    for (std::size_t j = 0; j < n; ++j)
+      square += std::pow(magnitude(G(i, j)) / column_norm_[block.dependents[j]], 2);
+    result.row_norm[block.rows[i]] = std::sqrt(square) * kOutward;
+  }
   const double factor = kOutward / (1 - contraction * kOutward);
   const double kappa = problem_.tangent.quaternions.empty() ? 1 : 2;
   result.omega = std::max(result.omega, kappa * factor * omega);
@@ -197,34 +207,42 @@ bool BlockBounds::add_block(const Block& block, const MatrixXd& middle, const Te
 }
 
 /// `E` is 1 − C G over a box, `C` exact.
-double BlockBounds::margin_of(const Block& block, const MatrixXd& C, const IntervalMatrix& E,
-                              const IntervalMatrix& G) const {
-  const std::size_t n = block.dependents.size();
-  double margin = 1 / (magnitude(determinant(C)) * kOutward);
-  for (std::size_t i = 0; i < n; ++i) {
-    double off = 0, square = 0;
-    for (std::size_t j = 0; j < n; ++j) {
-      const std::size_t column = block.dependents[j];
-      off += magnitude(E(i, j)) * size_[column] / size_[block.dependents[i]];
-      const double entry = magnitude(G(i, j)) / column_norm_[column];
-      square += entry * entry;
-    }
-    margin *= (1 - off * kOutward) / (std::sqrt(square) * kOutward * column_norm_[block.dependents[i]]);
+double BlockBounds::determinant_of(const Block& block, const MatrixXd& C, const IntervalMatrix& E) const {
+  double result = 1 / (magnitude(determinant(C)) * kOutward);
+  for (std::size_t i = 0; i < E.rows; ++i) {
+    double off = 0;
+    for (std::size_t j = 0; j < E.columns; ++j)
+      off += magnitude(E(i, j)) * size_[block.dependents[j]] / size_[block.dependents[i]];
+    result *= (1 - off * kOutward) / (column_norm_[block.dependents[i]] * kOutward);
+  }
+  return result;
+}
+
+double BlockBounds::margin(const std::vector<double>& determinant,
+                           const std::vector<double>& row_norm) const {
+  double margin = 1;
+  for (std::size_t b = 0; b < problem_.blocks.size(); ++b) {
+    double share = determinant[b];
+    for (const std::size_t r : problem_.blocks[b].rows) share /= std::max(row_norm[r], row_norm_[r]);
+    margin = std::min(margin, share);
   }
   return margin;
 }
 
+double BlockBounds::margin() const { return margin(determinant_, row_norm_); }
+
 double BlockBounds::margin_near(const VectorXd& x, const VectorXd& p) const {
   const MatrixXd G = jacobian(x, p);
-  double margin = 1;
+  std::vector<double> determinants, norms(row_norm_.size(), 0);
   for (const Block& block : problem_.blocks) {
     MatrixXd A(at(block.rows.size()), at(block.rows.size()));
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       for (std::size_t j = 0; j < block.rows.size(); ++j)
         A(at(i), at(j)) = G(at(block.rows[i]), at(block.dependents[j])) / column_norm_[block.dependents[j]];
-    margin = std::min(margin, std::fabs(A.determinant()) / A.rowwise().norm().prod());
+    determinants.push_back(std::fabs(A.determinant()));
+    for (std::size_t i = 0; i < block.rows.size(); ++i) norms[block.rows[i]] = A.row(at(i)).norm();
   }
-  return margin;
+  return margin(determinants, norms);
 }
 
 std::optional<BlockBounds::Bounds> BlockBounds::bounds(const Branch& branch, double reach) const {
@@ -232,6 +250,7 @@ std::optional<BlockBounds::Bounds> BlockBounds::bounds(const Branch& branch, dou
   if (!over) return {};
   const MatrixXd middle = jacobian(branch.x, branch.centre);
   Bounds result;
+  result.row_norm.assign(row_norm_.size(), 0);
   std::vector<double> off(problem_.velocities, 0);
   for (const Block& block : problem_.blocks)
     if (!add_block(block, middle, *over, result, off)) return {};
@@ -251,9 +270,12 @@ bool BlockBounds::include(const Branch& branch, double least) {
     if (!found && ++failures == kFailures) return false;
     const double within = found ? radius_within(found->omega) : 0;
     if (within >= radius) {
-      if (!(found->margin > least)) return false;
+      if (!(margin(found->determinant, found->row_norm) > least)) return false;
       radius_ = radius;
-      margin_ = std::min(margin_, found->margin);
+      for (std::size_t b = 0; b < determinant_.size(); ++b)
+        determinant_[b] = std::min(determinant_[b], found->determinant[b]);
+      for (std::size_t r = 0; r < row_norm_.size(); ++r)
+        row_norm_[r] = std::max(row_norm_[r], found->row_norm[r]);
       stiffest_ = std::max(stiffest_, found->inverse);
       amplification_ = std::max(amplification_, found->amplification);
       return true;

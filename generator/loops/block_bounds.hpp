@@ -23,8 +23,9 @@ struct NewtonProblem {
   int iterations = 2;
 };
 
-/// Takes a branch box by box. The margin of a block A is |det A| over the product of the norms of its rows, columns divided by their
-/// norms at the start; with C near A⁻¹ and e_ij bounds of |1 − C A|, |det A| ≥ Π (1 − Σ_j e_ij) / |det C| (Ostrowski 1937).
+/// Takes a branch box by box. The margin of a block A is the least |det A| over the product of the largest norms of its rows, columns
+/// divided by their norms at the start. With C near A⁻¹ and e_ij bounds of |1 − C A|, |det A| ≥ Π (1 − Σ_j e_ij) / |det C|
+/// (Ostrowski 1937).
 ///
 /// Displacements d lead from the dependents to the branch; slides count in units of `length`. In one block
 /// with e = max |d| Newton's iteration leaves e⁺ ≤ κ ω/2 e², ω a bound of |G⁻¹ ∂²g/∂d²| (the affine invariant form of the theorem of
@@ -38,8 +39,9 @@ class BlockBounds {
   /// margin not proven to be above `least`.
   bool include(const Branch& branch, double least);
 
-  double margin() const { return margin_; }
-  /// The margin at a point, the smallest of all blocks; not proven.
+  /// The smallest of all blocks.
+  double margin() const;
+  /// |det| at a point over the norms so far, the smallest of all blocks; not proven.
   double margin_near(const Eigen::VectorXd& x, const Eigen::VectorXd& p) const;
 
   /// Dependents off by this or less come back; rad, or units of `length`.
@@ -56,10 +58,11 @@ class BlockBounds {
 
  private:
   struct Bounds {
-    double omega = 0;          ///< of G⁻¹ ∂²g/∂d²
-    double inverse = 0;        ///< of G⁻¹ by scaled rows
-    double amplification = 1;  ///< of what each block is off by
-    double margin = 1;
+    double omega = 0;                 ///< of G⁻¹ ∂²g/∂d²
+    double inverse = 0;               ///< of G⁻¹ by scaled rows
+    double amplification = 1;         ///< of what each block is off by
+    std::vector<double> determinant;  ///< by block: a lower bound
+    std::vector<double> row_norm;     ///< by row: an upper bound
   };
   struct Tensors {
     std::vector<std::vector<Interval>> G, H;  ///< by row; then by velocity, by velocity and velocity
@@ -71,8 +74,8 @@ class BlockBounds {
   std::optional<Bounds> bounds(const Branch& branch, double reach) const;
   bool add_block(const Block& block, const Eigen::MatrixXd& middle, const Tensors& over, Bounds& result,
                  std::vector<double>& off) const;
-  double margin_of(const Block& block, const Eigen::MatrixXd& C, const IntervalMatrix& E,
-                   const IntervalMatrix& G) const;
+  double determinant_of(const Block& block, const Eigen::MatrixXd& C, const IntervalMatrix& E) const;
+  double margin(const std::vector<double>& determinant, const std::vector<double>& row_norm) const;
   double radius_within(double omega) const;
 
   NewtonProblem problem_;
@@ -81,7 +84,8 @@ class BlockBounds {
   std::vector<double> size_;         ///< by velocity: 1 rad, or `length`
   std::vector<double> column_norm_;  ///< by velocity, at the start
   std::vector<double> row_scale_;
-  double margin_ = 1, radius_ = 0.1, stiffest_ = 0, amplification_ = 1, length_ = 1;
+  std::vector<double> determinant_, row_norm_;  ///< by block, by row; columns divided
+  double radius_ = 0.1, stiffest_ = 0, amplification_ = 1, length_ = 1;
 };
 
 }  // namespace jourdain::loops

@@ -237,6 +237,7 @@ class Proof {
       if (std::fabs(start->x[at(i)] - start_x_[at(i)]) > kAssembled)
         return "the initial state does not close the loops";
     region_.emplace(whole());
+    worst_ = start->p;
     open_ = {{0, *start}};
     while (!open_.empty()) {
       const Open next = std::move(open_.back());
@@ -265,7 +266,8 @@ class Proof {
   std::string prove(std::size_t index, const Anchor& known) {
     if ((*region_)[index].branch) return "";
     if (++boxes_ > request_.effort)
-      return fmt::format("not decided within {} boxes: {}", request_.effort, failure(known));
+      return fmt::format("not decided within {} boxes; nearest to singular near {}", request_.effort,
+                         text(worst_));
     if (prove_whole(index, known)) return meet_neighbours(index);
     const std::optional<std::size_t> side = longest((*region_)[index]);
     if (!side) return failure(known);
@@ -281,12 +283,19 @@ class Proof {
     slope_ = slope_at(known);
     std::optional<Branch> branch = enclose_branch(*equations_, P, known.x + slope_ * (middle(P) - known.p));
     if (!branch || !is_on(*branch, known)) return false;
-    seen_ = std::min(seen_, bounds_->margin_near(branch->x, branch->centre));
+    look_at(*branch);
     const bool sharp = boxes_ <= request_.effort / kSharpShare;
     if (!bounds_->include(*branch, sharp ? std::max(kLeastMargin, seen_ / 2) : kLeastMargin)) return false;
     (*region_)[index].branch = std::move(branch);
     ++proven_;
     return true;
+  }
+
+  void look_at(const Branch& branch) {
+    const double margin = bounds_->margin_near(branch.x, branch.centre);
+    if (margin > seen_) return;
+    seen_ = margin;
+    worst_ = branch.centre;
   }
 
   /// The branch must go on into every part that it enters, and agree with those that are proven: if it does so at one point of a shared
@@ -489,6 +498,7 @@ class Proof {
   BlockBounds* bounds_ = nullptr;
   Eigen::MatrixXd slope_;  ///< of the dependents, where a box was tried last
   std::size_t boxes_ = 0, proven_ = 0;
+  VectorXd worst_;   ///< where the margin seen is least
   double seen_ = 1;  ///< least margin at middles
 };
 

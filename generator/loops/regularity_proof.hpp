@@ -36,8 +36,8 @@ struct RegularityRequest {
 /// parameters within their ranges: the branch of the initial state exists, no other one meets it, and what is solved for the dependent
 /// coordinates is regular on it.
 struct RegularityProof {
-  /// Of every block: |det| over the product of the norms of its rows, columns divided by their norms at the start. 1 is
-  /// orthogonal, 0 singular; a pin of two bars has the sine of the angle between them.
+  /// Of every block: the least |det| over the product of the largest norms of its rows, columns divided by their norms at the start.
+  /// 1 is orthogonal, 0 singular.
   double margin = 1;
   std::string region;                    ///< "crank in [0.5, 2.9], any rocker"; empty where nothing varies
   std::vector<std::string> at_defaults;  ///< parameters at whose given values it holds only
