@@ -23,6 +23,8 @@ constexpr double kLeastRadius = 1e-10;
 constexpr double kContraction = 0.75;
 /// Without bounds at smaller and smaller reach: the box itself is too large.
 constexpr int kFailures = 3;
+/// Of a row: what is left of entries that are zero everywhere. Analytic ones that vanish at many points are.
+constexpr double kCancelled = 1e-12;
 /// Makes good the rounding of sums of bounds.
 constexpr double kOutward = 1 + 1e-9;
 
@@ -167,8 +169,15 @@ bool BlockBounds::add_block(const Block& block, const MatrixXd& middle, const Te
       for (std::size_t k = 0; k < n; ++k) H(i, j * n + k) = over.H[row][column * nz + block.dependents[k]];
     }
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < nz; ++k)
-      if (off[k] > 0) earlier(i, k) = over.G[block.rows[i]][k];
+    for (std::size_t k = 0; k < nz; ++k) {
+      const bool own =
+          std::find(block.dependents.begin(), block.dependents.end(), k) != block.dependents.end();
+      const double entry = std::fabs(middle(at(block.rows[i]), at(k)));
+      if (off[k] > 0)
+        earlier(i, k) = over.G[block.rows[i]][k];
+      else if (!own && entry > kCancelled * row_scale_[block.rows[i]])
+        return false;  // a later block moves this one
+    }
   const MatrixXd C = J.inverse();
   if (!C.allFinite()) return false;
   const IntervalMatrix E = rest(C, G), CH = product(C, H), drift = product(C, earlier);

@@ -13,8 +13,7 @@ namespace jourdain::loops {
 
 /// What the iterations solve: rows and dependent velocities, block after block.
 struct NewtonProblem {
-  ir::Program g;  ///< outputs as the blocks' rows count them
-  std::vector<Block> blocks;
+  std::vector<Block> blocks;  ///< rows as the branch's equations count them
   model::Tangent tangent;
   std::size_t positions = 0;  ///< entries of y; position leaves after them are free variables
   std::size_t velocities = 0;
@@ -30,6 +29,7 @@ struct NewtonProblem {
 /// Displacements d lead from the dependents to the branch; slides count in units of `length`. In one block
 /// with e = max |d| Newton's iteration leaves e⁺ ≤ κ ω/2 e², ω a bound of |G⁻¹ ∂²g/∂d²| (the affine invariant form of the theorem of
 /// Newton and Kantorovich: Deuflhard 2004, theorem 2.3), κ = 2 where there are quaternions, whose displacements do not add up.
+/// That rows do not depend on later blocks is seen at the middle of each box, not proven.
 class BlockBounds {
  public:
   BlockBounds(NewtonProblem problem, const BranchEquations& equations, const Eigen::VectorXd& start_x,
@@ -51,7 +51,7 @@ class BlockBounds {
   /// Distance from the branch after the iterations, in exact arithmetic.
   double ends_within() const;
   double length() const { return length_; }
-  /// By row of the problem's g.
+  /// By row of the equations.
   const std::vector<double>& row_scale() const { return row_scale_; }
 
   static constexpr double kReach = 4;

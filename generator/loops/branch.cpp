@@ -122,11 +122,9 @@ Interval BranchEquations::along(const AngleSum& sum, const Branch& branch,
   Intervals slope(free_.size());
   for (const auto& [position, factor] : sum.terms) {
     const Interval f = Interval::point(factor);
-    const auto is_it = [p = position](const Variable& v) {
-      return v.kind == LeafKind::kPosition && v.index == p;
-    };
-    const auto unknown = std::find_if(unknowns_.begin(), unknowns_.end(), is_it);
-    const auto free = std::find_if(free_.begin(), free_.end(), is_it);
+    const Variable variable = {LeafKind::kPosition, position};
+    const auto unknown = std::find(unknowns_.begin(), unknowns_.end(), variable);
+    const auto free = std::find(free_.begin(), free_.end(), variable);
     if (unknown != unknowns_.end()) {
       const auto i = static_cast<std::size_t>(unknown - unknowns_.begin());
       value = value + f * (Interval::point(branch.x[at(i)]) + branch.U[i] + Interval{-around[i], around[i]});

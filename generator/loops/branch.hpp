@@ -9,6 +9,7 @@
 
 #include "ir/interval.hpp"
 #include "loops/angle_sums.hpp"
+#include "loops/variable.hpp"
 
 namespace jourdain::loops {
 
@@ -37,12 +38,6 @@ IntervalMatrix rest(const Eigen::MatrixXd& C, const IntervalMatrix& A);
 double magnitude(Interval a);
 
 bool is_inside(const Intervals& inner, const Intervals& outer);
-
-/// Leaves of a program that vary.
-struct Variable {
-  ir::LeafKind kind = ir::LeafKind::kPosition;
-  std::size_t index = 0;
-};
 
 /// A branch x(p) over a box P of the free variables: for every p in P there is exactly one solution in x + S (p − centre) + U. It
 /// depends continuously on p, and ∂g/∂x is regular all over that set.

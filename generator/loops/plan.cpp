@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "loops/partition.hpp"
-#include "model/angles.hpp"
+#include "loops/position_request.hpp"
 #include "model/checks.hpp"
 #include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
@@ -226,29 +226,9 @@ class Planner {
   }
 
   std::variant<ClosedForm, std::string> solve_positions() const {
-    ClosedFormRequest request;
-    request.g = constraints_.value;
-    const model::Tangent tangent = model::tangent_of(mechanism_, layout_);
-    for (const Block& block : plan_.blocks) {
-      PositionBlock& positions = request.blocks.emplace_back();
-      positions.rows = block.rows;
-      for (const std::size_t velocity : block.dependents) {
-        const auto scalar = std::find_if(tangent.scalars.begin(), tangent.scalars.end(),
-                                         [&](const auto& s) { return s.velocity == velocity; });
-        if (scalar == tangent.scalars.end()) return "a rotation in space depends on other coordinates";
-        positions.dependents.push_back(scalar->position);
-      }
-    }
-    request.initial_y = plan_.y;
-    request.parameters = model::default_values(mechanism_);
-    request.angular = model::angular_positions(mechanism_);
-    request.range.resize(layout_.position_count());
-    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
-      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
-        if (const auto entry = layout_.joints[j].position[c])
-          request.range[*entry] = mechanism_.joints[j].coordinates[c].range;
-    request.names = layout_.position_names;
-    return closed_form(request);
+    auto request = position_request(mechanism_, constraints_, plan_);
+    if (auto* failure = std::get_if<std::string>(&request)) return std::move(*failure);
+    return closed_form(std::get<ClosedFormRequest>(request));
   }
 
   bool report_bad(const std::optional<Partition>& partition) {

@@ -66,24 +66,37 @@ class Reach {
 
   /// Intervals of the leaves that matter. Otherwise which one has none.
   std::string lay_out() {
-    for (const double value : request_.parameters)
-      region_.leaves[LeafKind::kParameter].push_back(Interval::point(value));
+    for (std::size_t k = 0; k < request_.parameters.size(); ++k)
+      region_.leaves[LeafKind::kParameter].push_back(parameter(k));
     region_.leaves[LeafKind::kPosition].resize(names_.size());
     region_.leaves[LeafKind::kTime] = {Interval::line()};
     for (const Node& node : program_.nodes) {
-      if (node.op != Op::kLeaf || node.leaf == LeafKind::kParameter) continue;
+      if (node.op != Op::kLeaf) continue;
+      if (node.leaf == LeafKind::kParameter) {
+        if (parameter(node.index).width() > 0) region_.entries.push_back({LeafKind::kParameter, node.index});
+        continue;
+      }
       if (node.leaf != LeafKind::kPosition) return "its discriminant depends on time";
       const std::size_t k = node.index;
       if (std::find(request_.dependents.begin(), request_.dependents.end(), k) != request_.dependents.end())
         return fmt::format("its discriminant depends on the whole turns of {}", names_[k]);
       if (!range_[k] && !(angular_[k] && is_periodic(program_, k)))
         return fmt::format("its discriminant depends on {}, which has no range", names_[k]);
-      region_.entries.push_back(k);
+      region_.entries.push_back({LeafKind::kPosition, k});
       region_.leaves[LeafKind::kPosition][k] =
           range_[k] ? Interval{(*range_[k])[0], (*range_[k])[1]} : circle();
     }
-    std::sort(region_.entries.begin(), region_.entries.end());
+    std::sort(region_.entries.begin(), region_.entries.end(), [](const Variable& a, const Variable& b) {
+      return std::pair(a.kind != LeafKind::kPosition, a.index) <
+             std::pair(b.kind != LeafKind::kPosition, b.index);
+    });
     return "";
+  }
+
+  Interval parameter(std::size_t k) const {
+    const bool varies = k < request_.parameter_range.size() && request_.parameter_range[k];
+    if (!varies) return Interval::point(request_.parameters[k]);
+    return {(*request_.parameter_range[k])[0], (*request_.parameter_range[k])[1]};
   }
 
   static Interval circle() { return {-kPi - 1e-9, kPi + 1e-9}; }
@@ -92,12 +105,14 @@ class Reach {
     const Requirement& requirement = request_.requirements[found.bound];
     std::string region, point;
     for (std::size_t i = 0; i < region_.entries.size(); ++i) {
-      const std::size_t k = region_.entries[i];
+      const auto [kind, k] = region_.entries[i];
+      const bool is_position = kind == LeafKind::kPosition;
+      const std::string& name = is_position ? names_[k] : request_.parameter_names[k];
       const char* separator = i == 0 ? "" : ", ";
-      const auto& range = range_[k];
-      region += fmt::format("{}{} in {}", separator, names_[k],
+      const auto& range = is_position ? range_[k] : request_.parameter_range[k];
+      region += fmt::format("{}{} in {}", separator, name,
                             range ? fmt::format("[{}, {}]", (*range)[0], (*range)[1]) : "[-pi, pi]");
-      point += fmt::format("{}{} = {:.4g}", separator, names_[k], found.position[i]);
+      point += fmt::format("{}{} = {:.4g}", separator, name, found.position[i]);
     }
     std::string message =
         fmt::format("{} of {} not proven positive", requirement.is_margin ? "discriminant" : "divisor",

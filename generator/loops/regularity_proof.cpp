@@ -10,9 +10,11 @@
 
 #include "ir/compose.hpp"
 #include "loops/block_bounds.hpp"
+#include "loops/position_request.hpp"
 #include "loops/subdivision.hpp"
 #include "loops/timeless.hpp"
 #include "model/angles.hpp"
+#include "model/checks.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::loops {
@@ -188,7 +190,7 @@ class Proof {
       const std::size_t ny = request_.initial_y.size();
       Free free;
       free.leaf = {LeafKind::kPosition, k};
-      free.name = k < ny ? request_.names[k] : "the driven angle";
+      free.name = k < ny ? request_.names[k] : "driven angle";
       free.start = k < ny ? request_.initial_y[k] : driven_[k - ny];
       const Range range = k < ny ? request_.range[k] : std::nullopt;
       free.is_circle = !range;
@@ -509,7 +511,7 @@ std::variant<RegularityProof, std::string> prove_regular(const RegularityRequest
 }
 
 RegularityRequest regularity_request(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
-                                     const LoopPlan& plan, const std::vector<double>& parameters) {
+                                     const LoopPlan& plan) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   RegularityRequest request;
   request.g = constraints.value;
@@ -517,15 +519,11 @@ RegularityRequest regularity_request(const model::Mechanism& mechanism, const Co
   request.tangent = model::tangent_of(mechanism, layout);
   request.initial_y = plan.y;
   request.angular = model::angular_positions(mechanism);
-  request.range.resize(layout.position_count());
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
-      if (const auto entry = layout.joints[j].position[c])
-        request.range[*entry] = mechanism.joints[j].coordinates[c].range;
+  request.range = position_ranges(mechanism);
   request.names = layout.position_names;
-  request.parameters = parameters;
+  request.parameters = model::default_values(mechanism);
   for (const model::Parameter& parameter : mechanism.parameters) {
-    request.parameter_range.emplace_back();
+    request.parameter_range.push_back(parameter.range);
     request.parameter_names.push_back(parameter.name);
   }
   request.iterations = plan.iterations;
