@@ -6,22 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
-#include "ir/compose.hpp"
 #include "loops/block_bounds.hpp"
 #include "loops/position_request.hpp"
+#include "loops/regularity_layout.hpp"
 #include "loops/subdivision.hpp"
 #include "loops/timeless.hpp"
 #include "model/angles.hpp"
 #include "model/checks.hpp"
-#include "passes/rewrite.hpp"
 
 namespace jourdain::loops {
 
 using Eigen::VectorXd;
-using ir::LeafKind;
-using ir::Program;
 
 namespace {
 
@@ -37,16 +33,6 @@ constexpr double kNearlySingular = 0.03;
 constexpr double kCircleSlack = 1e-9;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-/// What the branch is followed over.
-struct Free {
-  Variable leaf;
-  std::string name;
-  double start = 0;
-  Interval side;
-  bool is_circle = false;
-  bool is_parameter = false;
-};
 
 /// A solution at a point on the branch: the only one in a small box.
 struct Anchor {
@@ -65,178 +51,46 @@ class Proof {
   explicit Proof(const RegularityRequest& request) : request_(request) {}
 
   std::variant<RegularityProof, std::string> run() {
-    if (const std::string failure = lay_out(); !failure.empty()) return failure;
-    std::vector<int> turns(free_.size(), 1);
+    auto layout = lay_out(request_);
+    if (auto* failure = std::get_if<std::string>(&layout)) return std::move(*failure);
+    layout_ = std::move(std::get<RegularityLayout>(layout));
+    std::vector<int> turns(layout_.free.size(), 1);
     for (;;) {
       set_circles(turns);
-      BlockBounds bounds(problem_, *equations_, start_x_, start_p());
+      BlockBounds bounds(layout_.problem, *layout_.equations, layout_.start, start_p());
       bounds_ = &bounds;
       seen_ = 1;
+      proven_ = 0;
       if (const std::string failure = follow(); !failure.empty()) return failure;
       const std::optional<std::size_t> open = open_circle();
       if (!open) return result(bounds);
       if (++turns[*open] > kMostTurns)
         return fmt::format("the dependent coordinates are not where they were after {} turns of {}",
-                           kMostTurns, free_[*open].name);
+                           kMostTurns, layout_.free[*open].name);
     }
   }
 
  private:
-  /// Unknowns, rows and free variables. Otherwise what cannot be handled.
-  std::string lay_out() {
-    ir::Builder builder;
-    const Program rows = used_rows();
-    const Timeless timeless = without_clock(builder, rows, request_.initial_y.size());
-    if (timeless.drives_with_positions)
-      return "an angle depends on time and on coordinates, but not by a sum";
-    for (std::size_t i = 0; i < timeless.values.size(); ++i)
-      builder.output("g", static_cast<int>(i), -1, timeless.values[i]);
-    g_ = passes::remove_dead_code(builder.finish("g"));
-    problem_.tangent = request_.tangent;
-    problem_.positions = request_.initial_y.size();
-    problem_.iterations = request_.iterations;
-    list_unknowns();
-    for (const ir::ValueId angle : timeless.driven) driven_.push_back(value_at_start(rows, angle));
-    if (const std::string failure = list_free(); !failure.empty()) return failure;
-    ir::LeafValues<double> fixed;
-    fixed[LeafKind::kParameter] = request_.parameters;
-    fixed[LeafKind::kPosition] = request_.initial_y;
-    fixed[LeafKind::kPosition].insert(fixed[LeafKind::kPosition].end(), driven_.begin(), driven_.end());
-    fixed[LeafKind::kTime] = {0};
-    std::vector<Variable> unknowns, free;
-    for (const std::size_t k : unknowns_) unknowns.push_back({LeafKind::kPosition, k});
-    for (const Free& f : free_) free.push_back(f.leaf);
-    equations_.emplace(with_unit_lengths(g_), unknowns, free, fixed, request_.evaluate);
-    start_x_ = VectorXd(at(unknowns_.size()));
-    for (std::size_t i = 0; i < unknowns_.size(); ++i) start_x_[at(i)] = request_.initial_y[unknowns_[i]];
-    return "";
-  }
-
-  /// Rows of the blocks, in their order; `problem_.blocks` counts them anew.
-  Program used_rows() {
-    Program rows = request_.g;
-    rows.outputs.clear();
-    for (const Block& block : request_.blocks) {
-      problem_.blocks.push_back({{}, block.dependents});
-      for (const std::size_t r : block.rows) {
-        const auto output = std::find_if(request_.g.outputs.begin(), request_.g.outputs.end(),
-                                         [&](const auto& o) { return o.row == static_cast<int>(r); });
-        JD_CHECK(output != request_.g.outputs.end(), "no row {}", r);
-        problem_.blocks.back().rows.push_back(rows.outputs.size());
-        rows.outputs.push_back(*output);
-        row_of_.push_back(r);
-      }
-    }
-    return passes::remove_dead_code(rows);
-  }
-
-  void list_unknowns() {
-    std::set<std::size_t> velocities;
-    for (const Block& block : problem_.blocks)
-      velocities.insert(block.dependents.begin(), block.dependents.end());
-    for (const model::Tangent::Scalar& s : request_.tangent.scalars) {
-      problem_.velocities = std::max(problem_.velocities, s.velocity + 1);
-      problem_.slides.resize(std::max(problem_.slides.size(), problem_.velocities), false);
-      problem_.slides[s.velocity] = !request_.angular[s.position];
-      if (velocities.count(s.velocity) == 0) continue;
-      unknowns_.push_back(s.position);
-      problem_.slide_unknowns.push_back(!request_.angular[s.position]);
-    }
-    for (const model::Tangent::Scalar& s : request_.tangent.quaternions) {
-      problem_.velocities = std::max(problem_.velocities, s.velocity + 3);
-      if (velocities.count(s.velocity) == 0) continue;
-      quaternions_.push_back(s.position);
-      for (std::size_t k = 0; k < 4; ++k) unknowns_.push_back(s.position + k);
-      problem_.slide_unknowns.resize(unknowns_.size(), false);
-    }
-    problem_.slides.resize(problem_.velocities, false);
-  }
-
-  double value_at_start(Program program, ir::ValueId value) const {
-    program.outputs = {{"angle", -1, -1, value}};
-    ir::LeafValues<double> leaves;
-    leaves[LeafKind::kParameter] = request_.parameters;
-    leaves[LeafKind::kPosition] = request_.initial_y;
-    leaves[LeafKind::kTime] = {0};
-    return ir::interpret(program, leaves)[0];
-  }
-
-  /// (|quaternion|² − 1)/2 = 0 after the rows.
-  Program with_unit_lengths(const Program& g) const {
-    ir::Builder builder;
-    std::vector<ir::Signed> values = ir::insert(builder, g);
-    for (const std::size_t w : quaternions_) {
-      ir::Signed sum = builder.literal(-0.5);
-      for (std::size_t k = 0; k < 4; ++k) {
-        const ir::Signed entry = builder.leaf(LeafKind::kPosition, w + k);
-        sum = builder.add(sum, builder.multiply(builder.literal(0.5), builder.multiply(entry, entry)));
-      }
-      values.push_back(sum);
-    }
-    for (std::size_t i = 0; i < values.size(); ++i) builder.output("g", static_cast<int>(i), -1, values[i]);
-    return builder.finish("g");
-  }
-
-  /// The leaves that the rows depend on beside the unknowns.
-  std::string list_free() {
-    std::set<std::size_t> positions, parameters;
-    for (const ir::Node& node : g_.nodes) {
-      if (node.op != ir::Op::kLeaf) continue;
-      if (node.leaf == LeafKind::kTime) return "a constraint depends on time other than by an angle's sine";
-      (node.leaf == LeafKind::kPosition ? positions : parameters).insert(node.index);
-    }
-    for (const std::size_t k : unknowns_) positions.erase(k);
-    for (const std::size_t k : positions) {
-      const std::size_t ny = request_.initial_y.size();
-      Free free;
-      free.leaf = {LeafKind::kPosition, k};
-      free.name = k < ny ? request_.names[k] : "driven angle";
-      free.start = k < ny ? request_.initial_y[k] : driven_[k - ny];
-      const Range range = k < ny ? request_.range[k] : std::nullopt;
-      free.is_circle = !range;
-      if (range) free.side = {(*range)[0], (*range)[1]};
-      if (!range && !((k >= ny || request_.angular[k]) && is_periodic(g_, k)))
-        return fmt::format("the constraints depend on {}, which has no range", free.name);
-      if (range && !free.side.contains(free.start))
-        return fmt::format("{} starts at {:.6g}, outside its range", free.name, free.start);
-      free_.push_back(free);
-    }
-    for (const std::size_t k : parameters) {
-      if (!request_.parameter_range[k]) {
-        at_defaults_.push_back(request_.parameter_names[k]);
-        continue;
-      }
-      const auto [low, high] = *request_.parameter_range[k];
-      free_.push_back({{LeafKind::kParameter, k},
-                       request_.parameter_names[k],
-                       request_.parameters[k],
-                       {low, high},
-                       false,
-                       true});
-    }
-    return "";
-  }
-
   void set_circles(const std::vector<int>& turns) {
-    for (std::size_t k = 0; k < free_.size(); ++k)
-      if (free_[k].is_circle) {
+    for (std::size_t k = 0; k < layout_.free.size(); ++k)
+      if (layout_.free[k].is_circle) {
         const double half = turns[k] * kPi + kCircleSlack;
-        free_[k].side = {free_[k].start - half, free_[k].start + half};
+        layout_.free[k].side = {layout_.free[k].start - half, layout_.free[k].start + half};
       }
   }
 
   VectorXd start_p() const {
-    VectorXd p(at(free_.size()));
-    for (std::size_t k = 0; k < free_.size(); ++k) p[at(k)] = free_[k].start;
+    VectorXd p(at(layout_.free.size()));
+    for (std::size_t k = 0; k < layout_.free.size(); ++k) p[at(k)] = layout_.free[k].start;
     return p;
   }
 
   /// Follows the branch over all of the region. Otherwise where it ends.
   std::string follow() {
-    const std::optional<Anchor> start = anchor(start_p(), start_x_);
+    const std::optional<Anchor> start = anchor(start_p(), layout_.start);
     if (!start) return "the initial state is singular";
-    for (std::size_t i = 0; i < unknowns_.size(); ++i)
-      if (std::fabs(start->x[at(i)] - start_x_[at(i)]) > kAssembled)
+    for (std::size_t i = 0; i < layout_.unknowns.size(); ++i)
+      if (std::fabs(start->x[at(i)] - layout_.start[at(i)]) > kAssembled)
         return "the initial state does not close the loops";
     region_.emplace(whole());
     worst_ = start->p;
@@ -252,21 +106,22 @@ class Proof {
 
   Intervals whole() const {
     Intervals sides;
-    for (const Free& f : free_) sides.push_back(f.side);
+    for (const FreeVariable& f : layout_.free) sides.push_back(f.side);
     return sides;
   }
 
   std::optional<Anchor> anchor(const VectorXd& p, const VectorXd& near) const {
     Intervals point;
     for (const double value : p) point.push_back(Interval::point(value));
-    const std::optional<Branch> branch = enclose_branch(*equations_, point, near);
+    const std::optional<Branch> branch = enclose_branch(*layout_.equations, point, near);
     if (!branch) return {};
     return Anchor{p, branch->x, branch->over(point)};
   }
 
   /// The branch through `known` over a part and on to its neighbours, or over half of the part.
   std::string prove(std::size_t index, const Anchor& known) {
-    if ((*region_)[index].branch) return "";
+    if (const std::optional<Branch>& there = (*region_)[index].branch)
+      return is_on(*there, known) ? "" : fmt::format("not decided near {}", text(known.p));
     if (++boxes_ > request_.effort)
       return fmt::format("not decided within {} boxes; nearest to singular near {}", request_.effort,
                          text(worst_));
@@ -283,7 +138,8 @@ class Proof {
   bool prove_whole(std::size_t index, const Anchor& known) {
     const Intervals& P = (*region_)[index].P;
     slope_ = slope_at(known);
-    std::optional<Branch> branch = enclose_branch(*equations_, P, known.x + slope_ * (middle(P) - known.p));
+    std::optional<Branch> branch =
+        enclose_branch(*layout_.equations, P, known.x + slope_ * (middle(P) - known.p));
     if (!branch || !is_on(*branch, known)) return false;
     look_at(*branch);
     const bool sharp = boxes_ <= request_.effort / kSharpShare;
@@ -306,7 +162,8 @@ class Proof {
     const Branch& branch = *(*region_)[index].branch;
     for (const std::size_t other : region_->touching(branch.P)) {
       const Part& part = (*region_)[other];
-      if (other == index || !enters(branch, part.P)) continue;
+      const bool met = enters(branch, part.P) || (part.branch && enters(*part.branch, branch.P));
+      if (other == index || !met) continue;
       const VectorXd p = middle(intersection(branch.P, part.P));
       const std::optional<Anchor> shared = anchor_on(branch, p);
       if (!shared || (part.branch && !is_on(*part.branch, *shared)))
@@ -335,7 +192,7 @@ class Proof {
   bool enters(const Branch& branch, const Intervals& P) const {
     const Intervals X = branch.over(intersection(branch.P, P));
     for (std::size_t i = 0; i < X.size(); ++i)
-      if (const Range& range = request_.range[unknowns_[i]])
+      if (const Range& range = request_.range[layout_.unknowns[i]])
         if (X[i].high < (*range)[0] || X[i].low > (*range)[1]) return false;
     return true;
   }
@@ -354,7 +211,7 @@ class Proof {
   }
 
   Eigen::MatrixXd slope_at(const Anchor& known) const {
-    const Eigen::MatrixXd slopes = equations_->slopes(known.x, known.p);
+    const Eigen::MatrixXd slopes = layout_.equations->slopes(known.x, known.p);
     return -slopes.leftCols(known.x.size()).partialPivLu().solve(slopes.rightCols(known.p.size()));
   }
 
@@ -364,10 +221,10 @@ class Proof {
     std::optional<std::size_t> best;
     double most = 0;
     for (std::size_t k = 0; k < P.size(); ++k) {
-      double rate = free_[k].is_parameter || !is_angle(k) ? 0 : 1;
-      for (std::size_t i = 0; i < unknowns_.size(); ++i)
-        rate = std::max(
-            rate, std::fabs(slope_(at(i), at(k))) / (problem_.slide_unknowns[i] ? bounds_->length() : 1));
+      double rate = layout_.free[k].is_parameter || !is_angle(k) ? 0 : 1;
+      for (std::size_t i = 0; i < layout_.unknowns.size(); ++i)
+        rate = std::max(rate, std::fabs(slope_(at(i), at(k))) /
+                                  (layout_.problem.slide_unknowns[i] ? bounds_->length() : 1));
       if (part.halvings[k] >= kHalvings || !(rate * P[k].width() > most)) continue;
       most = rate * P[k].width();
       best = k;
@@ -376,7 +233,7 @@ class Proof {
   }
 
   bool is_angle(std::size_t k) const {
-    const std::size_t entry = free_[k].leaf.index;
+    const std::size_t entry = layout_.free[k].leaf.index;
     return entry >= request_.initial_y.size() || request_.angular[entry];
   }
 
@@ -390,15 +247,15 @@ class Proof {
 
   std::string text(const VectorXd& p) const {
     std::vector<std::string> list;
-    for (std::size_t k = 0; k < free_.size(); ++k)
-      list.push_back(fmt::format("{} = {:.4g}", free_[k].name, p[at(k)]));
+    for (std::size_t k = 0; k < layout_.free.size(); ++k)
+      list.push_back(fmt::format("{} = {:.4g}", layout_.free[k].name, p[at(k)]));
     return list.empty() ? "the initial state" : fmt::format("{}", fmt::join(list, ", "));
   }
 
   /// A circle after whose turns the branch is not shown to be where it was.
   std::optional<std::size_t> open_circle() const {
-    for (std::size_t k = 0; k < free_.size(); ++k)
-      if (free_[k].is_circle && !is_cut(k) && !closes(k)) return k;
+    for (std::size_t k = 0; k < layout_.free.size(); ++k)
+      if (layout_.free[k].is_circle && !is_cut(k) && !closes(k)) return k;
     return {};
   }
 
@@ -426,10 +283,10 @@ class Proof {
   /// The solution half of all turns before the start and that half of them after it, whole turns of angles taken off, are the same if the
   /// second is in the box about the branch at the first in which there is only one. Two branches that meet anywhere do so everywhere.
   bool closes(std::size_t k) const {
-    if (free_.size() > 1 && !is_all_proven()) return false;
+    if (layout_.free.size() > 1 && !is_all_proven()) return false;
     VectorXd p = start_p();
-    const double turns = std::round(free_[k].side.width() / (2 * kPi));
-    p[at(k)] = free_[k].start - turns * kPi;
+    const double turns = std::round(layout_.free[k].side.width() / (2 * kPi));
+    p[at(k)] = layout_.free[k].start - turns * kPi;
     const std::optional<Branch>& before = (*region_)[region_->at(p)].branch;
     const std::optional<Anchor> first = before ? anchor_on(*before, p) : std::nullopt;
     Intervals P;
@@ -438,19 +295,19 @@ class Proof {
     const VectorXd later = middle(P);
     const std::optional<Branch>& after = (*region_)[region_->at(later)].branch;
     if (!first || !after) return false;
-    const std::optional<Branch> second = enclose_branch(*equations_, P, after->guess(later));
+    const std::optional<Branch> second = enclose_branch(*layout_.equations, P, after->guess(later));
     if (!second || !is_on(*after, {later, second->x, second->over(P)})) return false;
     return is_on(*before, {p, first->x, turned_back(second->over(P), first->x)});
   }
 
   /// Moved by whole turns, and quaternions to the other sign, to be next to `x`.
   Intervals turned_back(Intervals X, const VectorXd& x) const {
-    for (std::size_t i = 0; i < unknowns_.size(); ++i)
-      if (request_.angular[unknowns_[i]] && is_periodic(g_, unknowns_[i]))
+    for (std::size_t i = 0; i < layout_.unknowns.size(); ++i)
+      if (request_.angular[layout_.unknowns[i]] && is_periodic(layout_.g, layout_.unknowns[i]))
         X[i] = X[i] - Interval::point(std::round((X[i].middle() - x[at(i)]) / (2 * kPi))) * kTurn;
-    for (const std::size_t w : quaternions_) {
-      const auto first =
-          static_cast<std::size_t>(std::find(unknowns_.begin(), unknowns_.end(), w) - unknowns_.begin());
+    for (const std::size_t w : layout_.quaternions) {
+      const auto first = static_cast<std::size_t>(
+          std::find(layout_.unknowns.begin(), layout_.unknowns.end(), w) - layout_.unknowns.begin());
       double along = 0;
       for (std::size_t i = first; i < first + 4; ++i) along += X[i].middle() * x[at(i)];
       for (std::size_t i = first; along < 0 && i < first + 4; ++i) X[i] = Interval{} - X[i];
@@ -462,21 +319,22 @@ class Proof {
     RegularityProof proof;
     proof.margin = bounds.margin();
     std::vector<std::string> list;
-    for (const Free& f : free_)
+    for (const FreeVariable& f : layout_.free)
       list.push_back(f.is_circle ? "any " + f.name
                                  : fmt::format("{} in [{}, {}]", f.name, f.side.low, f.side.high));
-    for (const std::size_t k : unknowns_)
+    for (const std::size_t k : layout_.unknowns)
       if (const Range& range = request_.range[k])
         list.push_back(fmt::format("{} in [{}, {}]", request_.names[k], (*range)[0], (*range)[1]));
     proof.region = fmt::format("{}", fmt::join(list, ", "));
-    proof.at_defaults = at_defaults_;
+    proof.at_defaults = layout_.at_defaults;
     proof.boxes = proven_;
     proof.radius = bounds.radius();
     proof.residual = bounds.residual();
     proof.ends_within = bounds.ends_within();
     proof.length = bounds.length();
     proof.row_scale.assign(request_.g.outputs.size(), 0);
-    for (std::size_t i = 0; i < row_of_.size(); ++i) proof.row_scale[row_of_[i]] = bounds.row_scale()[i];
+    for (std::size_t i = 0; i < layout_.row_of.size(); ++i)
+      proof.row_scale[layout_.row_of[i]] = bounds.row_scale()[i];
     return proof;
   }
 
@@ -485,16 +343,7 @@ class Proof {
   static constexpr Interval kTurn{6.283185307179586, 6.283185307179587};
 
   const RegularityRequest& request_;
-  NewtonProblem problem_;
-  Program g_;                          ///< rows of the blocks, in their order, without time
-  std::vector<std::size_t> row_of_;    ///< of the request's g, by row of the problem's
-  std::vector<std::size_t> unknowns_;  ///< entries of y; the four of a quaternion
-  std::vector<std::size_t> quaternions_;
-  std::vector<double> driven_;  ///< at t = 0
-  std::vector<Free> free_;
-  std::vector<std::string> at_defaults_;
-  std::optional<BranchEquations> equations_;
-  VectorXd start_x_;
+  RegularityLayout layout_;
   std::optional<Subdivision> region_;
   std::vector<Open> open_;
   BlockBounds* bounds_ = nullptr;
