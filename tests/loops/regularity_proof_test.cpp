@@ -163,6 +163,16 @@ TEST(RegularityProof, FollowsTwoIndependentCoordinates) {
   EXPECT_THAT(why_not(prove_regular(five_bar(0.45))), HasSubstr("near crank = "));  // 0.45 + 0.9 < 1.4
 }
 
+TEST(RegularityProof, StopsWhereDependentsLeaveTheirRanges) {
+  RegularityRequest request = four_bar(1, 0.7, 0.6, 0.8, 0.9);  // the crank cannot turn round
+  EXPECT_NE(why_not(prove_regular(request)), "");
+  const double rocker = request.initial_y[2];
+  request.range[2] = {{rocker - 0.1, rocker + 0.1}};
+  const auto held = prove_regular(request);
+  ASSERT_EQ(why_not(held), "");
+  EXPECT_THAT(std::get<RegularityProof>(held).region, HasSubstr("any crank, y2 in ["));
+}
+
 TEST(RegularityProof, HoldsAtAllTimes) {
   const auto driven = [](double amplitude) {
     Rows rows;
