@@ -101,7 +101,8 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
   if (options.loops) describe_loops(mechanism, *options.loops, text);
   for (const model::Parameter& parameter : mechanism.parameters)
-    text.parameters.push_back({parameter.name, parameter.value, parameter.unit, parameter.description});
+    text.parameters.push_back(
+        {parameter.name, parameter.value, parameter.unit, parameter.description, parameter.range});
   return text;
 }
 

@@ -100,6 +100,11 @@ std::string algorithm_text(const Articulation& articulation) {
       links, articulation.links.size(), articulation.operations, factorised, articulation.articulated);
 }
 
+std::string range_text(const model::Parameter& parameter) {
+  if (!parameter.range) return "";
+  return fmt::format(" (from {:g} to {:g})", (*parameter.range)[0], (*parameter.range)[1]);
+}
+
 int run(const ModelArguments& arguments) {
   const std::optional<LoadedMechanism> loaded = load(arguments);
   if (!loaded) return kModelWrong;
@@ -120,8 +125,8 @@ int run(const ModelArguments& arguments) {
     fmt::print("  input u[{}] {} {}\n", mechanism.actuators.size() + i, mechanism.inputs[i].name,
                mechanism.inputs[i].unit);
   for (const model::Parameter& parameter : mechanism.parameters)
-    fmt::print("  parameter {} = {:g} {} {}\n", parameter.name, parameter.value, parameter.unit,
-               parameter.description);
+    fmt::print("  parameter {} = {:g} {} {}{}\n", parameter.name, parameter.value, parameter.unit,
+               parameter.description, range_text(parameter));
   fmt::print("{}{}{}{}", operations_table(compiled.module) + algorithm_text(compiled.articulation),
              omissions_text(compiled.omissions), passes_text(compiled.passes),
              verdict_text(compiled.verdict));

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "commands/input_table.hpp"
+#include "loops/parameter_check.hpp"
 #include "model/coordinates.hpp"
 #include "model/scenario.hpp"
 #include "studies/driven_inputs.hpp"
@@ -49,7 +50,14 @@ bool apply_settings(const std::vector<std::string>& settings, const model::Mecha
       fmt::print(stderr, "error: --set {}: a number must follow, as in {}=0.5\n", setting, name);
       return false;
     }
-    values[static_cast<std::size_t>(found - names.begin())] = value;
+    const auto index = static_cast<std::size_t>(found - names.begin());
+    if (const auto& range = mechanism.parameters[index].range;
+        range && !((*range)[0] <= value && value <= (*range)[1])) {
+      fmt::print(stderr, "error: --set {}: '{}' is outside its range from {} to {}\n", setting, name,
+                 (*range)[0], (*range)[1]);
+      return false;
+    }
+    values[index] = value;
   }
   return true;
 }
@@ -100,6 +108,11 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
   RunModel model{std::move(*loaded), {}};
   status = kUsage;
   if (!apply_settings(arguments.settings, model.loaded.mechanism, model.parameters)) return {};
+  if (const loops::LoopPlan* plan = model.loaded.plan())
+    if (const auto failure = loops::unproven_at(model.loaded.mechanism, *plan, model.parameters)) {
+      fmt::print(stderr, "error: --set: {}\n", *failure);
+      return {};
+    }
   const std::size_t inputs = model::lay_out_coordinates(model.loaded.mechanism).input_count();
   if (!arguments.constant_input.empty() && arguments.constant_input.size() != inputs) {
     fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",

@@ -145,6 +145,8 @@ class Emitter {
     for (const ParameterText& parameter : model_.parameters) {
       std::string remark = parameter.description;
       if (!parameter.unit.empty()) remark += (remark.empty() ? "" : ", ") + parameter.unit;
+      if (const auto& range = parameter.range)
+        remark += fmt::format("{}from {} to {}", remark.empty() ? "" : ", ", (*range)[0], (*range)[1]);
       text += fmt::format("  Real {} = {};{}\n", parameter.name, literal_text(parameter.value),
                           remark.empty() ? "" : "  ///< " + comment_text(remark));
     }

@@ -1,6 +1,8 @@
 // The emitted files of a model.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@ struct ParameterText {
   double value = 0;
   std::string unit;
   std::string description;
+  std::optional<std::array<double, 2>> range = {};
 };
 
 /// Members of an output; a scalar has one without a name.

@@ -32,10 +32,13 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
   };
   const auto string = [](const std::string& value) { return "\"" + quoted_text(value) + "\""; };
   std::vector<std::string> parameters, names;
-  std::string values;
+  std::string values, ranges;
   for (const ParameterText& parameter : model.parameters) {
     parameters.push_back(parameter.name);
     values += fmt::format("{}{}", values.empty() ? "" : ", ", parameter.value);
+    if (const auto& range = parameter.range)
+      ranges += fmt::format("{}{}: [{}, {}]", ranges.empty() ? "" : ", ", string(parameter.name), (*range)[0],
+                            (*range)[1]);
   }
   for (const FunctionInfo& function : functions) names.push_back(function.name);
   field("generator", string(fmt::format("Jourdain {}", kVersion)));
@@ -64,6 +67,7 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
   field("outputs", string_array(outputs));
   field("parameters", string_array(parameters));
   field("parameter_values", "[" + values + "]");
+  if (!ranges.empty()) field("parameter_ranges", "{" + ranges + "}");
   field("functions", string_array(names));
   text += "  \"operations\": {\n";
   text += fmt::format("    \"model\": {}", operations_object(ir::count_operations(module.constants)));

@@ -35,7 +35,7 @@ class Closing {
         roles_.later.insert(k);
         varied[k] = false;
       }
-    samples_ = samples_near(request.initial_y, varied, request.parameters, kSamples);
+    samples_ = samples_near(request.initial_y, varied, request.parameters, request.parameter_range, kSamples);
   }
 
   std::variant<ClosedForm, std::string> run() {
@@ -45,12 +45,14 @@ class Closing {
       if (block.dependents.size() > 2) return fmt::format("block of {} unknowns", block.dependents.size());
       if (const std::string failure = solve_block(block); !failure.empty()) return failure;
     }
-    ClosedForm result{closing_program(), 1};
+    ClosedForm result{closing_program()};
     if (const std::string failure = check(result.close); !failure.empty()) return failure;
-    const auto margin = smallest_margin({builder_, conditions_, request_.parameters, request_.angular,
-                                         request_.range, roles_.names, dependents_});
+    const auto margin =
+        smallest_margin({builder_, conditions_, request_.parameters, request_.angular, request_.range,
+                         roles_.names, dependents_, request_.parameter_range, request_.parameter_names});
     if (const auto* failure = std::get_if<std::string>(&margin)) return *failure;
     result.smallest_margin = std::get<double>(margin);
+    result.at_defaults = at_defaults();
     return result;
   }
 
@@ -76,6 +78,17 @@ class Closing {
     for (const std::size_t k : entries)
       text += fmt::format("{}{}", text.empty() ? "" : ", ", roles_.names[k]);
     return text;
+  }
+
+  std::vector<std::string> at_defaults() const {
+    std::vector<bool> enters(request_.parameter_names.size(), false);
+    for (const ir::Node& node : request_.g.nodes)
+      if (node.op == ir::Op::kLeaf && node.leaf == LeafKind::kParameter && node.index < enters.size())
+        enters[node.index] = !request_.parameter_range[node.index];
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < enters.size(); ++k)
+      if (enters[k]) names.push_back(request_.parameter_names[k]);
+    return names;
   }
 
   /// Puts the block's dependents among the known coordinates. Otherwise why not.

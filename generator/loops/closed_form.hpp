@@ -26,6 +26,9 @@ struct ClosedFormRequest {
   std::vector<bool> angular;                                ///< by entry of y
   std::vector<std::optional<std::array<double, 2>>> range;  ///< by entry of y: what it stays within
   std::vector<std::string> names;                           ///< by entry of y, for messages; or empty
+  std::vector<std::optional<std::array<double, 2>>> parameter_range =
+      {};  ///< none, or empty: as in `parameters`
+  std::vector<std::string> parameter_names = {};
 };
 
 struct ClosedForm {
@@ -33,9 +36,11 @@ struct ClosedForm {
   /// turns are kept; of other dependents the given value has no influence. "regularity" is the product of the discriminants, each as
   /// sin² of the angle from a dead position, "opening" the square of the change from the values given.
   ir::Program close;
-  /// Over the declared range, with the parameters' default values: of every discriminant, as sin² of the angle from a dead
-  /// position, a lower bound that interval arithmetic proves. 1 where no root is taken.
+  /// Over the declared ranges: of every discriminant, as sin² of the angle from a dead position, a lower bound that interval arithmetic
+  /// proves. 1 where no root is taken.
   double smallest_margin = 1;
+  /// Parameters of the constraints without a range: all this holds at their values in the request.
+  std::vector<std::string> at_defaults = {};
 };
 
 /// Solves blocks of one coordinate (linear, or α cos + β sin = γ) and of two: two angles of which the rows are

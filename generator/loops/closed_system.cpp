@@ -77,6 +77,27 @@ std::string independent_text(const LoopPlan& plan, const model::CoordinateLayout
   return fmt::format("independent: {}; the others ", fmt::join(names, ", "));
 }
 
+std::string at_defaults(const std::vector<std::string>& parameters) {
+  return parameters.empty() ? "" : fmt::format(", at the default value of {}", fmt::join(parameters, ", "));
+}
+
+std::string regularity_text(const LoopPlan& plan) {
+  if (!plan.proof)
+    return fmt::format(
+        "NOT PROVEN to stay regular: what is solved for them has a smallest singular value of {:.2g} of the "
+        "constraints' largest at the configurations seen",
+        plan.conditioning);
+  const RegularityProof& proof = *plan.proof;
+  return fmt::format(
+      "Proven{}{}{}: the branch of the initial state exists, no other one meets it, and determinants of what "
+      "is "
+      "solved for are {:.2g} or more of their rows' sizes. Dependent coordinates that are off by {:.1g} "
+      "(rad; "
+      "slides over {:.2g} m) end within {:.1g} of the branch",
+      proof.region.empty() ? "" : " for ", proof.region, at_defaults(proof.at_defaults), proof.margin,
+      proof.radius, proof.length, proof.ends_within);
+}
+
 }  // namespace
 
 std::vector<std::string> sentences(const model::Mechanism& mechanism, const LoopPlan& plan) {
@@ -92,16 +113,15 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
   switch (plan.treatment) {
     case model::LoopTreatment::kExplicit:
       list.push_back(fmt::format(
-          "{}in closed form, on the branch of the initial state. At the "
-          "parameters' defaults it exists everywhere in the declared ranges: every discriminant is proven "
-          "to be {:.2g} or more (the square of the sine of the angle from a dead position)",
-          independent, plan.closed_form->smallest_margin));
+          "{}in closed form, on the branch of the initial state. Proven: it exists everywhere in the "
+          "declared "
+          "ranges{}; every discriminant is {:.2g} or more (the square of the sine of the angle from a dead "
+          "position)",
+          independent, at_defaults(plan.closed_form->at_defaults), plan.closed_form->smallest_margin));
       break;
     case model::LoopTreatment::kPartitioned:
-      list.push_back(fmt::format(
-          "{}by {} Newton iteration{} at the end of a step. Not proven: what is solved for them has a "
-          "smallest singular value of {:.2g} of the constraints' largest at the configurations seen",
-          independent, plan.iterations, plan.iterations == 1 ? "" : "s", plan.conditioning));
+      list.push_back(fmt::format("{}by {} Newton iteration{} at the end of a step. {}", independent,
+                                 plan.iterations, plan.iterations == 1 ? "" : "s", regularity_text(plan)));
       break;
     case model::LoopTreatment::kMultipliers:
       list.push_back(fmt::format(

@@ -72,11 +72,11 @@ Column position_rates(Builder& builder, const LoopSystem& system, const Column& 
   return ydot;
 }
 
-Column displaced(Builder& builder, const LoopSystem& system, const Column& y, const Column& d) {
+Column displaced(Builder& builder, const model::Tangent& tangent, const Column& y, const Column& d) {
   Column moved = y;
-  for (const model::Tangent::Scalar& s : system.tangent.scalars)
+  for (const model::Tangent::Scalar& s : tangent.scalars)
     moved[s.position] = builder.add(y[s.position], d[s.velocity]);
-  for (const model::Tangent::Scalar& s : system.tangent.quaternions) {
+  for (const model::Tangent::Scalar& s : tangent.quaternions) {
     bool rests = true;
     for (std::size_t k = 0; k < 3; ++k) rests = rests && builder.is_literal(d[s.velocity + k], 0);
     if (rests) continue;

@@ -49,7 +49,8 @@ ConstraintRates constraint_rates(ir::Builder& builder, const LoopSystem& system,
 Column position_rates(ir::Builder& builder, const LoopSystem& system, const Column& z);
 
 /// y of the tree moved by a small displacement; quaternions come back to unit length.
-Column displaced(ir::Builder& builder, const LoopSystem& system, const Column& y, const Column& displacement);
+Column displaced(ir::Builder& builder, const model::Tangent& tangent, const Column& y,
+                 const Column& displacement);
 
 /// M of the tree, full, by row.
 std::vector<Column> tree_mass_matrix(ir::Builder& builder, const LoopSystem& system);

@@ -8,9 +8,10 @@
 
 #include "loops/inertia.hpp"
 #include "loops/partition.hpp"
+#include "loops/position_request.hpp"
 #include "loops/regular_rows.hpp"
+#include "loops/regularity_proof.hpp"
 #include "loops/scales.hpp"
-#include "model/angles.hpp"
 #include "model/checks.hpp"
 #include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
@@ -123,8 +124,11 @@ class Planner {
     const std::optional<Partition> partition = given_partition(regular_jacobians(), {});
     if (!partition || partition->blocks.empty()) return !options.treatment || report_bad(partition);
     take(*partition);
-    return options.treatment == LoopTreatment::kPartitioned || close_explicitly() ||
-           options.treatment != LoopTreatment::kExplicit;
+    if (options.treatment != LoopTreatment::kPartitioned && close_explicitly()) return true;
+    if (options.treatment == LoopTreatment::kExplicit) return false;
+    const auto found = prove_regular(regularity_request(mechanism_, constraints_, plan_));
+    if (const auto* proof = std::get_if<RegularityProof>(&found)) plan_.proof = *proof;
+    return true;
   }
 
   /// G at the configurations seen, without redundant rows.
@@ -167,13 +171,23 @@ class Planner {
 
   /// A choice that is not proven is taken only where it is asked for, or where multipliers would need M⁻¹ of a singular M.
   bool close_by_newton() {
-    if (plan_.is_named || !massless_.empty())
-      diagnostics_.warning(mechanism_.loop_options.where,
-                           "it is not proven that the other coordinates follow from the independent ones "
-                           "wherever the mechanism goes",
-                           "watch 'regularity' of State, or use treatment = \"multipliers\"");
-    else
-      keep_all();
+    const auto found = prove_regular(regularity_request(mechanism_, constraints_, plan_));
+    if (const auto* proof = std::get_if<RegularityProof>(&found)) {
+      plan_.proof = *proof;
+      return true;
+    }
+    const std::string& why = std::get<std::string>(found);
+    if (plan_.is_named || !massless_.empty()) {
+      diagnostics_.warning(
+          mechanism_.loop_options.where,
+          fmt::format("it is not proven that the other coordinates follow from the independent ones: {}",
+                      why),
+          "watch 'regularity' of State, declare ranges, or use treatment = \"multipliers\"");
+      return true;
+    }
+    if (!plan_.reason.empty()) plan_.reason += "; ";
+    plan_.reason += "no choice of independent coordinates proven: " + why;
+    keep_all();
     return true;
   }
 
@@ -200,29 +214,9 @@ class Planner {
   }
 
   std::variant<ClosedForm, std::string> solve_positions() const {
-    ClosedFormRequest request;
-    request.g = constraints_.value;
-    const model::Tangent tangent = model::tangent_of(mechanism_, layout_);
-    for (const Block& block : plan_.blocks) {
-      PositionBlock& positions = request.blocks.emplace_back();
-      positions.rows = block.rows;
-      for (const std::size_t velocity : block.dependents) {
-        const auto scalar = std::find_if(tangent.scalars.begin(), tangent.scalars.end(),
-                                         [&](const auto& s) { return s.velocity == velocity; });
-        if (scalar == tangent.scalars.end()) return "a rotation in space depends on other coordinates";
-        positions.dependents.push_back(scalar->position);
-      }
-    }
-    request.initial_y = plan_.y;
-    request.parameters = model::default_values(mechanism_);
-    request.angular = model::angular_positions(mechanism_);
-    request.range.resize(layout_.position_count());
-    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
-      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
-        if (const auto entry = layout_.joints[j].position[c])
-          request.range[*entry] = mechanism_.joints[j].coordinates[c].range;
-    request.names = layout_.position_names;
-    return closed_form(request);
+    auto request = position_request(mechanism_, constraints_, plan_);
+    if (auto* failure = std::get_if<std::string>(&request)) return std::move(*failure);
+    return closed_form(std::get<ClosedFormRequest>(request));
   }
 
   bool report_bad(const std::optional<Partition>& partition) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "loops/closed_form.hpp"
+#include "loops/regularity.hpp"
 #include "loops/start.hpp"
 #include "model/mechanism.hpp"
 #include "support/diagnostics.hpp"
@@ -38,6 +39,7 @@ struct LoopPlan {
   std::vector<double> closing_regularisation;  ///< by row: added to the diagonal of G W Gᵀ in `project`
   double determinant = 1;  ///< of what closing solves for, its largest at the configurations seen
   std::optional<ClosedForm> closed_form;  ///< of the dependent positions; kExplicit
+  std::optional<RegularityProof> proof;   ///< of the dependent blocks; kPartitioned, none: not proven
   int iterations = 2;
   double stabilisation = 0;  ///< 1/s
 

@@ -38,7 +38,7 @@ class Proof {
     ir::Builder slopes = builder;
     std::vector<ir::Seed> seeds;
     for (std::size_t k = 0; k < region.entries.size(); ++k)
-      seeds.push_back({slopes.leaf(LeafKind::kPosition, region.entries[k]), k, slopes.literal(1)});
+      seeds.push_back({slopes.leaf(region.entries[k].kind, region.entries[k].index), k, slopes.literal(1)});
     for (const auto& [at, value] : ir::differentiate(slopes, values, seeds, {}))
       slopes.output("f_y", static_cast<int>(at.first), static_cast<int>(at.second), value);
     slopes_ = passes::remove_dead_code(slopes.finish("slopes"));
@@ -46,8 +46,8 @@ class Proof {
 
   std::variant<std::vector<double>, Counterexample> run() {
     Box whole;
-    for (const std::size_t entry : region_.entries) {
-      whole.sides.push_back(region_.leaves[LeafKind::kPosition][entry]);
+    for (const Variable& entry : region_.entries) {
+      whole.sides.push_back(region_.leaves[entry.kind][entry.index]);
       whole.halvings.push_back(0);
     }
     std::vector<Box> open = {whole};
@@ -96,7 +96,8 @@ class Proof {
 
   IntervalResults over(const Program& program, const std::vector<Interval>& sides) const {
     LeafValues<Interval> leaves = region_.leaves;
-    for (std::size_t k = 0; k < sides.size(); ++k) leaves[LeafKind::kPosition][region_.entries[k]] = sides[k];
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      leaves[region_.entries[k].kind][region_.entries[k].index] = sides[k];
     return ir::interpret_interval(program, leaves);
   }
 

@@ -7,6 +7,7 @@
 
 #include "ir/builder.hpp"
 #include "ir/interval.hpp"
+#include "loops/variable.hpp"
 
 namespace jourdain::loops {
 
@@ -15,9 +16,9 @@ struct Bound {
   double least = 0;  ///< the value must be greater
 };
 
-/// The positions that vary, each over a finite interval, and the intervals of all leaves.
+/// The leaves that vary, each over a finite interval, and the intervals of all leaves.
 struct Region {
-  std::vector<std::size_t> entries;
+  std::vector<Variable> entries;
   ir::LeafValues<ir::Interval> leaves;
 };
 

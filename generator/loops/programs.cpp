@@ -234,7 +234,7 @@ Program closing_program(const LoopSystem& system) {
       const Column change = solver.solve(open);
       Column displacement(dependent.size(), builder.literal(0));
       for (std::size_t k = 0; k < change.size(); ++k) displacement[block.dependents[k]] = change[k];
-      y = displaced(builder, system, y, displacement);
+      y = displaced(builder, system.tangent, y, displacement);
       for (const Signed& entry : change)
         if (i == 0) opening = builder.add(opening, builder.multiply(entry, entry));
       if (i + 1 == system.plan.iterations) determinant = builder.multiply(determinant, solver.determinant());

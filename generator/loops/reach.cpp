@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <numbers>
 
 #include "loops/positivity.hpp"
+#include "loops/timeless.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::loops {
@@ -32,7 +32,7 @@ class Reach {
     ir::Builder builder = request.builder;
     for (const Requirement& requirement : request.requirements)
       builder.output("f", -1, -1, requirement.value);
-    const Program program = without_clock(builder.finish("requirements"));
+    const Program program = without_time(builder.finish("requirements"));
     program_ = passes::remove_dead_code(program);
   }
 
@@ -52,31 +52,13 @@ class Reach {
   }
 
  private:
-  /// Copies the requirements into `builder_`. Angles under sines and cosines that depend on time become positions of their own,
-  /// anywhere on the circle: what holds for them all holds at all times.
-  Program without_clock(const Program& program) {
-    std::vector<bool> timed(program.nodes.size(), false);
-    std::vector<ir::Signed> copy(program.nodes.size());
-    std::map<ir::ValueId, std::size_t> driven;
-    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
-      const Node& node = program.nodes[i];
-      const int operands = ir::operand_count(node.op);
-      timed[i] = (node.op == Op::kLeaf && node.leaf == LeafKind::kTime) ||
-                 (operands >= 1 && timed[node.a.value]) || (operands == 2 && timed[node.b.value]);
-      ir::Signed a = copy[node.a.value];
-      if (timed[i] && (node.op == Op::kSin || node.op == Op::kCos)) {
-        const auto [it, is_new] = driven.try_emplace(node.a, names_.size());
-        if (is_new) {
-          names_.push_back("the driven angle");
-          angular_.push_back(true);
-          range_.emplace_back();
-        }
-        a = builder_.leaf(LeafKind::kPosition, it->second);
-        timed[i] = false;
-      }
-      copy[i] = builder_.apply(node, a, copy[node.b.value]);
-    }
-    for (const ir::Output& output : program.outputs) values_.push_back(copy[output.value.value]);
+  /// Copies the requirements into `builder_`, driven angles as positions of their own.
+  Program without_time(const Program& program) {
+    Timeless timeless = without_clock(builder_, program, names_.size());
+    values_ = std::move(timeless.values);
+    names_.resize(names_.size() + timeless.driven.size(), "the driven angle");
+    angular_.resize(names_.size(), true);
+    range_.resize(names_.size());
     ir::Builder builder = builder_;
     for (const ir::Signed value : values_) builder.output("f", -1, -1, value);
     return builder.finish("requirements");
@@ -84,55 +66,53 @@ class Reach {
 
   /// Intervals of the leaves that matter. Otherwise which one has none.
   std::string lay_out() {
-    for (const double value : request_.parameters)
-      region_.leaves[LeafKind::kParameter].push_back(Interval::point(value));
+    for (std::size_t k = 0; k < request_.parameters.size(); ++k)
+      region_.leaves[LeafKind::kParameter].push_back(parameter(k));
     region_.leaves[LeafKind::kPosition].resize(names_.size());
     region_.leaves[LeafKind::kTime] = {Interval::line()};
     for (const Node& node : program_.nodes) {
-      if (node.op != Op::kLeaf || node.leaf == LeafKind::kParameter) continue;
+      if (node.op != Op::kLeaf) continue;
+      if (node.leaf == LeafKind::kParameter) {
+        if (parameter(node.index).width() > 0) region_.entries.push_back({LeafKind::kParameter, node.index});
+        continue;
+      }
       if (node.leaf != LeafKind::kPosition) return "its discriminant depends on time";
       const std::size_t k = node.index;
       if (std::find(request_.dependents.begin(), request_.dependents.end(), k) != request_.dependents.end())
         return fmt::format("its discriminant depends on the whole turns of {}", names_[k]);
-      if (!range_[k] && !(angular_[k] && is_periodic(k)))
+      if (!range_[k] && !(angular_[k] && is_periodic(program_, k)))
         return fmt::format("its discriminant depends on {}, which has no range", names_[k]);
-      region_.entries.push_back(k);
+      region_.entries.push_back({LeafKind::kPosition, k});
       region_.leaves[LeafKind::kPosition][k] =
           range_[k] ? Interval{(*range_[k])[0], (*range_[k])[1]} : circle();
     }
-    std::sort(region_.entries.begin(), region_.entries.end());
+    std::sort(region_.entries.begin(), region_.entries.end(), [](const Variable& a, const Variable& b) {
+      return std::pair(a.kind != LeafKind::kPosition, a.index) <
+             std::pair(b.kind != LeafKind::kPosition, b.index);
+    });
     return "";
   }
 
-  static Interval circle() { return {-kPi - 1e-9, kPi + 1e-9}; }
-
-  /// Is a position used in sums under sines and cosines alone, so that a whole turn of it changes nothing?
-  bool is_periodic(std::size_t entry) const {
-    std::vector<bool> turns(program_.nodes.size(), false);
-    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
-      const Node& node = program_.nodes[i];
-      const int operands = ir::operand_count(node.op);
-      const bool operand_turns =
-          (operands >= 1 && turns[node.a.value]) || (operands == 2 && turns[node.b.value]);
-      const bool is_sum = node.op == Op::kAdd || node.op == Op::kSubtract || node.op == Op::kNegate;
-      turns[i] = (operand_turns && is_sum) ||
-                 (node.op == Op::kLeaf && node.leaf == LeafKind::kPosition && node.index == entry);
-      if (operand_turns && !is_sum && node.op != Op::kSin && node.op != Op::kCos) return false;
-    }
-    return std::none_of(program_.outputs.begin(), program_.outputs.end(),
-                        [&](const ir::Output& output) { return turns[output.value.value]; });
+  Interval parameter(std::size_t k) const {
+    const bool varies = k < request_.parameter_range.size() && request_.parameter_range[k];
+    if (!varies) return Interval::point(request_.parameters[k]);
+    return {(*request_.parameter_range[k])[0], (*request_.parameter_range[k])[1]};
   }
+
+  static Interval circle() { return {-kPi - 1e-9, kPi + 1e-9}; }
 
   std::string text(const Counterexample& found) const {
     const Requirement& requirement = request_.requirements[found.bound];
     std::string region, point;
     for (std::size_t i = 0; i < region_.entries.size(); ++i) {
-      const std::size_t k = region_.entries[i];
+      const auto [kind, k] = region_.entries[i];
+      const bool is_position = kind == LeafKind::kPosition;
+      const std::string& name = is_position ? names_[k] : request_.parameter_names[k];
       const char* separator = i == 0 ? "" : ", ";
-      const auto& range = range_[k];
-      region += fmt::format("{}{} in {}", separator, names_[k],
+      const auto& range = is_position ? range_[k] : request_.parameter_range[k];
+      region += fmt::format("{}{} in {}", separator, name,
                             range ? fmt::format("[{}, {}]", (*range)[0], (*range)[1]) : "[-pi, pi]");
-      point += fmt::format("{}{} = {:.4g}", separator, names_[k], found.position[i]);
+      point += fmt::format("{}{} = {:.4g}", separator, name, found.position[i]);
     }
     std::string message =
         fmt::format("{} of {} not proven positive", requirement.is_margin ? "discriminant" : "divisor",

@@ -22,15 +22,16 @@ struct ReachRequest {
   const ir::Builder& builder;
   const std::vector<Requirement>& requirements;
   const std::vector<double>& parameters;
-  const std::vector<bool>& angular;                                ///< by entry of y
-  const std::vector<std::optional<std::array<double, 2>>>& range;  ///< by entry of y
-  const std::vector<std::string>& names;                           ///< by entry of y
-  const std::vector<std::size_t>& dependents;                      ///< entries of y
+  const std::vector<bool>& angular;                                          ///< by entry of y
+  const std::vector<std::optional<std::array<double, 2>>>& range;            ///< by entry of y
+  const std::vector<std::string>& names;                                     ///< by entry of y
+  const std::vector<std::size_t>& dependents;                                ///< entries of y
+  const std::vector<std::optional<std::array<double, 2>>>& parameter_range;  ///< none: as in `parameters`
+  const std::vector<std::string>& parameter_names;
 };
 
 /// The least margin that is proven wherever the independent coordinates may be: within their range, an angle without one or one
-/// that time drives anywhere. 1
-/// where there is none. Otherwise what is not proven, a phrase for the user.
+/// that time drives anywhere; and for all parameters within their ranges. 1 where there is none. Otherwise what is not proven, a phrase for the user.
 std::variant<double, std::string> smallest_margin(const ReachRequest& request);
 
 }  // namespace jourdain::loops

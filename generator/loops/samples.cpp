@@ -1,5 +1,6 @@
 #include "loops/samples.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "passes/rewrite.hpp"
@@ -18,7 +19,9 @@ constexpr double kAgreement = 1e-9;
 }  // namespace
 
 Samples samples_near(const std::vector<double>& initial_y, const std::vector<bool>& varied,
-                     const std::vector<double>& parameters, std::size_t count) {
+                     const std::vector<double>& parameters,
+                     const std::vector<std::optional<std::array<double, 2>>>& parameter_range,
+                     std::size_t count) {
   support::Uniform uniform(1);
   double radius = kFarthest;
   const auto offset = [&] { return uniform(-radius, radius); };
@@ -31,6 +34,12 @@ Samples samples_near(const std::vector<double>& initial_y, const std::vector<boo
     for (std::size_t k = 0; k < initial_y.size(); ++k)
       if (varied[k]) samples[i][LeafKind::kPosition][k] += offset();
     samples[i][LeafKind::kTime][0] += offset();
+    for (std::size_t k = 0; k < parameter_range.size(); ++k)
+      if (const auto& range = parameter_range[k]) {
+        double& value = samples[i][LeafKind::kParameter][k];
+        value += offset() / kFarthest * ((*range)[1] - (*range)[0]) / 2;
+        value = std::clamp(value, (*range)[0], (*range)[1]);
+      }
     radius /= 2;
   }
   return samples;

@@ -1,6 +1,8 @@
 // Values of a program under construction at a few states near the initial one, to tell which form an equation has.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "loops/scalar.hpp"
@@ -10,9 +12,12 @@ namespace jourdain::loops {
 /// States that formulas are evaluated at; the first is the initial one. What holds at all of them to rounding is taken to hold.
 using Samples = std::vector<ir::LeafValues<double>>;
 
-/// `count` states: the entries of y that `varied` marks and the time are off by up to 0.3, later ones by less.
+/// `count` states: the entries of y that `varied` marks and the time are off by up to 0.3, parameters with a range by up to half of it,
+/// later ones by less.
 Samples samples_near(const std::vector<double>& initial_y, const std::vector<bool>& varied,
-                     const std::vector<double>& parameters, std::size_t count);
+                     const std::vector<double>& parameters,
+                     const std::vector<std::optional<std::array<double, 2>>>& parameter_range,
+                     std::size_t count);
 
 /// By state, then by value. Values that do not exist at a state are not numbers.
 std::vector<std::vector<double>> evaluated(const std::vector<Scalar>& values, const Samples& samples);

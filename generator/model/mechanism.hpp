@@ -38,6 +38,8 @@ struct Parameter {
   std::string unit;
   std::string description;
   SourceRange where = {};
+  /// Values it may have at run time; what the compiler proves about loops it proves for all of them. None: the default only.
+  std::optional<std::array<double, 2>> range = {};
 };
 
 /// Inertia tensor (kg m²), symmetric.

@@ -28,7 +28,22 @@ void check_parameter_name(TomlFile& file, const Parameter& parameter) {
                "C++ reserves such names");
 }
 
-/// The value is the number itself, or stands in a table with unit and description.
+/// The default value must lie in the range.
+void read_range(const TomlTable& table, Parameter& parameter) {
+  const std::optional<std::array<double, 2>> range = table.constant_pair("range");
+  if (!range || !table.has("value")) return;
+  const auto [least, greatest] = *range;
+  if (!(least < greatest))
+    table.error("range",
+                fmt::format("{} is empty: {} is not below {}", table.quoted("range"), least, greatest),
+                "write the smaller number first");
+  else if (!(least <= parameter.value && parameter.value <= greatest))
+    table.error("range", fmt::format("{} is {}, outside its range from {} to {}", table.what(),
+                                     parameter.value, least, greatest));
+  parameter.range = range;
+}
+
+/// The value is the number itself, or stands in a table with unit, description and range.
 void read_value(TomlFile& file, const toml::node& node, Parameter& parameter) {
   const std::string what = fmt::format("parameter '{}'", support::shown(parameter.name));
   const toml::table* details = node.as_table();
@@ -36,13 +51,15 @@ void read_value(TomlFile& file, const toml::node& node, Parameter& parameter) {
     parameter.value = file.constant(node, what);
     return;
   }
-  const TomlTable table(file, *details, what, file.range(node.source()), {"value", "unit", "description"});
+  const TomlTable table(file, *details, what, file.range(node.source()),
+                        {"value", "unit", "description", "range"});
   parameter.unit = table.text("unit").value_or("");
   parameter.description = table.text("description").value_or("");
   if (const toml::node* value = table.find("value"))
     parameter.value = file.constant(*value, what);
   else
     table.missing("value");
+  read_range(table, parameter);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 //
 //   [parameters]                   # tunable at run time; the values are defaults
 //   m = 1.0
-//   l = { value = 1.0, unit = "m", description = "length" }
+//   l = { value = 1.0, unit = "m", description = "length", range = [0.5, 2] }
+//                                  # range: values it may have; what is proven of loops is proven for them all
 //
 //   [[body]]
 //   name = "bob"

@@ -24,16 +24,17 @@ void expect(const support::ProcessResult& result, int status, const std::string&
 }
 
 /// The slider-crank with a tunable radius of its crank (m), in a file of `folder`.
-std::string tunable_slider_crank(const std::string& folder) {
+std::string tunable_slider_crank(const std::string& folder, const std::string& parameter,
+                                 const std::string& treatment) {
   std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/slider_crank.toml");
   const auto replace = [&text](const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);
   };
-  replace("[parameters]\n", "[parameters]\nradius = 0.045\n");
+  replace("[parameters]\n", "[parameters]\n" + parameter + "\n");
   replace("position = [0.045, 0, 0]\ninitial", "position = [\"radius\", 0, 0]\ninitial");
-  replace("treatment = \"explicit\"", "treatment = \"partitioned\"");
+  replace("treatment = \"explicit\"", "treatment = \"" + treatment + "\"");
   const std::string path = folder + "/slider_crank.toml";
   support::write_file(path, text);
   return path;
@@ -116,7 +117,8 @@ TEST(LoopCommands, AMechanismThatMotionsDetermineIsCheckedAndSimulated) {
 
 TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {
   const support::TemporaryFolder folder;
-  const std::string path = tunable_slider_crank(folder.path()), csv = folder.path() + "/run.csv";
+  const std::string path = tunable_slider_crank(folder.path(), "radius = 0.045", "partitioned"),
+                    csv = folder.path() + "/run.csv";
   constexpr double kRadius = 0.05, kRod = 0.145, kOffset = 0.006;
   expect(jourdain({"simulate", path, "--set", "radius=0.05", "--duration", "0.01", "--step", "1e-5",
                    "--output", csv}),
@@ -125,8 +127,33 @@ TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {
   const double crank = start[1], piston = start[3];
   const double along = kRadius * std::cos(crank), across = kRadius * std::sin(crank) - kOffset;
   EXPECT_NEAR(piston, along + std::sqrt(kRod * kRod - across * across), 1e-12);
-  expect(jourdain({"simulate", path, "--set", "radius=0.5", "--duration", "0.01", "--output", csv}), 1,
-         "do not close at these values of its parameters");
+}
+
+TEST(LoopCommands, ParametersAtWhichLoopsAreNotProvenToCloseAreRefused) {
+  const support::TemporaryFolder folder;
+  for (const std::string treatment : {"partitioned", "explicit"}) {
+    const std::string path = tunable_slider_crank(folder.path(), "radius = 0.045", treatment);
+    // At 0.139 m it is as long as the rod, less the offset: the crank no longer turns round.
+    for (const std::string command : {"simulate", "report"})
+      expect(jourdain({command, path, "--set", "radius=0.14", "--duration", "0.01"}), 2,
+             "error: --set: the loops are not proven to close at radius = 0.14: ");
+    expect(jourdain({"simulate", path, "--set", "radius=0.1", "--duration", "0.01", "--output",
+                     folder.path() + "/run.csv"}),
+           0, "loops open by ");
+  }
+}
+
+TEST(LoopCommands, ParametersOutsideTheirRangeAreRefused) {
+  const support::TemporaryFolder folder;
+  const std::string path =
+      tunable_slider_crank(folder.path(), "radius = { value = 0.045, range = [0.03, 0.1] }", "explicit");
+  expect(jourdain({"simulate", path, "--set", "radius=0.11", "--duration", "0.01"}), 2,
+         "error: --set radius=0.11: 'radius' is outside its range from 0.03 to 0.1");
+  expect(jourdain({"simulate", path, "--set", "radius=0.1", "--duration", "0.01", "--output",
+                   folder.path() + "/run.csv"}),
+         0, "loops open by ");
+  expect(jourdain({"info", path}), 0, "radius = 0.045");
+  expect(jourdain({"info", path}), 0, "(from 0.03 to 0.1)");
 }
 
 TEST(LoopCommands, AMotionCannotBeFollowed) {

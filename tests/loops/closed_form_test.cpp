@@ -165,6 +165,27 @@ TEST(ClosedForm, FollowsTheParameters) {
   EXPECT_NEAR(leaves[LeafKind::kPosition][2], std::sqrt(5.0), 1e-15);
 }
 
+TEST(ClosedForm, HoldsForAllParametersInTheirRanges) {
+  // A crank of length p, a rod of 3: the crank turns round as long as p < 3.
+  Rows rows;
+  rows.rows(rows.parameter(0) * rows.bar(1, rows.y(0)) + rows.bar(3, rows.y(1)) -
+            Vector2{rows.y(2), rows.number(0)});
+  ClosedFormRequest request = {rows.finish(),       {{{0, 1}, {1, 2}}}, {0, 0, 4}, {1},
+                               {true, true, false}, {{}, {}, {}},       {}};
+  request.parameter_range = {{{0.5, 2}}};
+  request.parameter_names = {"radius"};
+  const auto inside = closed_form(request);
+  ASSERT_EQ(why_not(inside), "");
+  // 1 − (2/3)² at the longest crank, by half or better.
+  EXPECT_LE(std::get<ClosedForm>(inside).smallest_margin, 5.0 / 9);
+  EXPECT_GE(std::get<ClosedForm>(inside).smallest_margin, 5.0 / 18);
+  EXPECT_TRUE(std::get<ClosedForm>(inside).at_defaults.empty());
+  request.parameter_range = {{{0.5, 3.1}}};
+  EXPECT_THAT(why_not(closed_form(request)), HasSubstr(", radius in [0.5, 3.1]: it "));
+  request.parameter_range = {{}};
+  EXPECT_THAT(std::get<ClosedForm>(closed_form(request)).at_defaults, ::testing::ElementsAre("radius"));
+}
+
 TEST(ClosedForm, SolvesLinearRowsOfSlidesAndGears) {
   // A yoke x = cos q, two slides askew of it, and a gear of a third of the turns.
   Rows rows;

@@ -14,7 +14,7 @@ using ir::LeafKind;
 
 Region region(std::vector<Interval> sides) {
   Region result;
-  for (std::size_t k = 0; k < sides.size(); ++k) result.entries.push_back(k);
+  for (std::size_t k = 0; k < sides.size(); ++k) result.entries.push_back({LeafKind::kPosition, k});
   result.leaves[LeafKind::kPosition] = std::move(sides);
   return result;
 }
@@ -62,6 +62,17 @@ TEST_F(Positivity, IsNotProvenOfWhatMayNotExist) {
   const Scalar two = {&builder_, builder_.literal(2)};
   const auto quotient = prove({two - y(0) / (y(0) * y(0))}, region({{-2, -1}, {0, 0}}));
   EXPECT_TRUE(std::holds_alternative<std::vector<double>>(quotient));
+}
+
+TEST_F(Positivity, IsProvenForParametersThatVary) {
+  const Scalar length = {&builder_, builder_.leaf(LeafKind::kParameter, 0)};
+  Region where = region({{-4, 4}});
+  where.entries.push_back({LeafKind::kParameter, 0});
+  where.leaves[LeafKind::kParameter] = {{1.1, 2}};
+  const auto proof = prove({length - sine(y(0))}, where);
+  EXPECT_NEAR(std::get<std::vector<double>>(proof)[0], 0.075, 0.026);
+  where.leaves[LeafKind::kParameter] = {{0.9, 2}};
+  EXPECT_LT(std::get<Counterexample>(prove({length - sine(y(0))}, where)).position[1], 1.001);
 }
 
 TEST_F(Positivity, NeedsNoRegionForConstants) {

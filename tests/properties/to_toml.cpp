@@ -23,7 +23,7 @@ class Writer {
         fmt::format("[model]\nname = \"{}\"\ngravity = {}\n", mechanism_.name, vector(mechanism_.gravity));
     if (!mechanism_.parameters.empty()) text_ += "\n[parameters]\n";
     for (const model::Parameter& parameter : mechanism_.parameters)
-      text_ += fmt::format("{} = {}\n", parameter.name, number(parameter.value));
+      text_ += fmt::format("{} = {}\n", parameter.name, parameter_text(parameter));
     for (const model::Body& body : mechanism_.bodies) add(body);
     for (const model::Joint& joint : mechanism_.joints) add(joint);
     for (const model::Actuator& actuator : mechanism_.actuators)
@@ -41,6 +41,12 @@ class Writer {
   static std::string number(double value) {
     const std::string digits = fmt::format("{}", value);
     return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+  }
+
+  static std::string parameter_text(const model::Parameter& parameter) {
+    if (!parameter.range) return number(parameter.value);
+    return fmt::format("{{ value = {}, range = [{}, {}] }}", number(parameter.value),
+                       number((*parameter.range)[0]), number((*parameter.range)[1]));
   }
 
   std::string infix(const Expression& expression, std::size_t index) const {
