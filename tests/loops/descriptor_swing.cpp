@@ -97,8 +97,8 @@ class Swing {
     return 0.5 * (before + now + part * rates(now));
   }
 
-  /// Gragg, Bulirsch and Stoer: 2, 4, 6, … substeps extrapolated in the squares of their lengths. The result and the difference of
-  /// the last two columns. Loads do not depend on time.
+  /// Gragg, Bulirsch and Stoer: 2, 4, 6, … substeps extrapolated in the squares of their lengths. The result and the
+  /// difference of the last two columns. Loads do not depend on time.
   std::pair<VectorXd, double> extrapolated(double h) {
     const VectorXd x = packed(state_), f = rates(x);
     std::vector<VectorXd> row;

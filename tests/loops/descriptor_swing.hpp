@@ -34,9 +34,9 @@ inline constexpr double kAgreement = 1e-6;
 /// Rows that the linkages here need have singular values of 1e-2 and more, but near singular positions.
 inline constexpr double kRedundant = 1e-4;
 
-/// Motion from the description's initial values, which must meet the loops to rounding. Of the loops' rows those combinations count
-/// that have singular values above kRedundant of the largest: on the way they are off the constraints by what a stage errs. A
-/// mechanism whose axes are rounded does not move in this form, or moves where it should not: ask for the motion of the ideal one.
+/// Motion from the description's initial values, which must meet the loops to rounding. Of the loops' rows those combinations
+/// count that have singular values above kRedundant of the largest: stages are off the constraints by what they err, and there
+/// redundant rows are not quite so. A mechanism whose axes are rounded has no motion, strictly: ask for that of the ideal one.
 KnownMotion known_motion(const model::Mechanism& mechanism, double size, const Looks& looks);
 
 }  // namespace jourdain::tests

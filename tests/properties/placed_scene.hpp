@@ -1,5 +1,5 @@
-// Mechanisms described where they stand: bodies, and joints at points and along axes of the world at the start, so that every
-// loop is closed there by construction. Which joints make the tree and which close loops is drawn.
+// Mechanisms described where they stand: bodies, and joints at points and along axes of the world at the start, so that
+// every loop is closed there by construction. Which joints make the tree and which close loops is drawn.
 #pragma once
 
 #include <Eigen/Dense>
@@ -92,7 +92,7 @@ class PlacedScene {
 
 Eigen::Matrix3d random_rotation(Random& random);
 
-/// Numbers of joints, frames and parameters rounded to so many decimals: what a file written by a program or a person has.
+/// Numbers of joints, frames and parameters rounded to so many decimals, as a program or a person writes them.
 model::Mechanism rounded(model::Mechanism mechanism, int decimals);
 
 /// The axis of one end of a loop turned by `angle`, rad; itself where no loop has axes.

@@ -16,15 +16,24 @@ namespace {
 
 constexpr double kFastest = 2;  // norm of the rates at the start, rad/s and m/s
 
+/// Where a linkage is near a dead position, its loop or its dyad is: near two of them at once it is near a singular position.
+struct Starts {
+  Start loop, dyad;
+  Starts(Start start, Random& random) : loop(start), dyad(start) {
+    (random.chance(0.5) ? loop : dyad) = Start::kAnywhere;
+  }
+};
+
 void draw_two_loops(PlacedScene& scene, Start start, Random& random) {
+  const Starts starts(start, random);
   switch (random.below(3)) {
     case 0: {
-      const auto links = draw_five_bar(scene, start, random);
-      return add_dyad(scene, links[1], links[3], start, random);
+      const auto links = draw_five_bar(scene, starts.loop, random);
+      return add_dyad(scene, links[1], links[3], starts.dyad, random);
     }
     case 1: {
-      const auto links = draw_slider_crank(scene, start, random);
-      return add_dyad(scene, links[2], links[0], start, random);
+      const auto links = draw_slider_crank(scene, starts.loop, random);
+      return add_dyad(scene, links[2], links[0], starts.dyad, random);
     }
     default: {
       const auto links = draw_four_bar(scene, random.chance(0.5), start, random);
@@ -34,15 +43,17 @@ void draw_two_loops(PlacedScene& scene, Start start, Random& random) {
 }
 
 void draw_six_bar(PlacedScene& scene, bool watt, Start start, Random& random) {
-  const auto links = draw_four_bar(scene, random.chance(0.5), start, random);
+  const Starts starts(start, random);
+  const auto links = draw_four_bar(scene, random.chance(0.5), starts.loop, random);
   const std::size_t first = random.below(4);
-  add_dyad(scene, links[first], links[(first + (watt ? 1 : 2)) % 4], start, random);
+  add_dyad(scene, links[first], links[(first + (watt ? 1 : 2)) % 4], starts.dyad, random);
 }
 
 void draw_three_loops(PlacedScene& scene, Start start, Random& random) {
-  const auto links = draw_four_bar(scene, random.chance(0.5), start, random);
-  add_dyad(scene, links[1], links[3], start, random);
-  add_dyad(scene, links[2], links[0], start, random);
+  const Starts starts(start, random);
+  const auto links = draw_four_bar(scene, random.chance(0.5), starts.loop, random);
+  add_dyad(scene, links[1], links[3], starts.dyad, random);
+  add_dyad(scene, links[2], links[0], Start::kAnywhere, random);
 }
 
 /// Some planar linkage.
@@ -165,8 +176,8 @@ double size_of(const model::Mechanism& mechanism) {
   return size;
 }
 
-/// In the plane of a planar linkage; platforms hang or stand, as they would otherwise soon swing through singular positions, where
-/// there is no reference.
+/// In the plane of a planar linkage; platforms hang or stand, as they would otherwise soon swing through singular positions,
+/// where there is no reference.
 Point3 direction_of_gravity(LinkageClass kind, bool planar, Random& random) {
   const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
   if (planar) return Point3(x, -1, 0).normalized();

@@ -1,5 +1,5 @@
-// Seeded random mechanisms with closed loops of the kinds that people build, swinging free: what the compiler's own choice of a
-// treatment is judged with. They know nothing of treatments.
+// Seeded random mechanisms with closed loops of the kinds that people build, swinging free: what the compiler's own choice of
+// a treatment is judged with. They know nothing of treatments.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ enum class LinkageClass {
 struct LinkageKind {
   LinkageClass kind;
   std::string_view name;
-  std::uint64_t count;    ///< of seeds, 0 … count − 1, in the full bench
+  std::uint64_t count;    ///< of seeds in the bench: 0 … count − 1
   bool has_dead = false;  ///< a quarter starts near a dead position
   bool overconstrained = false;
 };
@@ -44,12 +44,12 @@ struct RandomLinkage {
   /// The same before axes and lengths were rounded or an axis was tilted; equal to `mechanism` where nothing was.
   model::Mechanism ideal;
   double perturbation = 0;  ///< of numbers or of an axis: largest that was made; 0: none
-  double size = 1;          ///< m: the longest distance of joints of a body, summed over bodies
+  double size = 1;          ///< m: distances of joints and frames from their bodies' origins, summed
 };
 
 /// From rest (half of them) or with rates of up to 2, bodies with mass and inertia, gravity, no damping. Half have tunable
-/// lengths. Of the overconstrained ones four in ten are rounded to 4, 6, 9 or 12 decimals, two in ten have an axis tilted by 1e-16 to
-/// 1e-4 rad. Loops are closed to rounding at the start, but for those.
+/// lengths. Of the overconstrained ones four in ten are rounded to 4, 6, 9 or 12 decimals, two in ten have an axis tilted by
+/// 1e-16 to 1e-4 rad. Loops are closed to rounding at the start, but for those.
 RandomLinkage random_linkage(const LinkageKind& kind, std::uint64_t seed);
 
 }  // namespace jourdain::tests
