@@ -24,6 +24,7 @@ namespace {
 using namespace jourdain;
 using namespace jourdain::tests;
 
+constexpr const char* kTreatments[] = {"explicit", "partitioned", "multipliers"};
 constexpr Looks kLooks{0.05, 40};      // 2 s
 constexpr double kUsualStep = 0.4e-3;  // s, between those that are tried first and second
 
@@ -40,7 +41,9 @@ struct Tally {
     ++outcomes[static_cast<std::size_t>(judgement.outcome)];
     const bool right = judgement.outcome == Outcome::kRight;
     if (judgement.outcome == Outcome::kWrong)
-      remarks.push_back(fmt::format("wrong: {}: {}", seed, judgement.why));
+      remarks.push_back(fmt::format("wrong ({}): {}: {}",
+                                    kTreatments[static_cast<std::size_t>(judgement.treatment)], seed,
+                                    judgement.why));
     if (judgement.outcome == Outcome::kRefused && linkage.perturbation == 0)
       remarks.push_back(fmt::format("refused: {}: {}", seed, judgement.why));
     if (judgement.operations == 0) return;
