@@ -45,7 +45,8 @@ struct Tally {
                                     kTreatments[static_cast<std::size_t>(judgement.treatment)], seed,
                                     judgement.why));
     if (judgement.outcome == Outcome::kRefused && linkage.perturbation == 0)
-      remarks.push_back(fmt::format("refused: {}: {}", seed, judgement.why));
+      remarks.push_back(
+          fmt::format("refused: {}: {}", seed, judgement.why.substr(0, judgement.why.find('\n'))));
     if (judgement.operations == 0) return;
     ++treatments[static_cast<std::size_t>(judgement.treatment)];
     finer += right && judgement.step < kUsualStep;
