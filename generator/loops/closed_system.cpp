@@ -108,7 +108,12 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
                   plan.freedom, plan.freedom == 1 ? "" : "s", layout.velocity_count(), plan.rows.size(),
                   plan.row_length.size()));
   if (!plan.redundant.empty())
-    list.push_back(fmt::format("redundant constraints: {}", fmt::join(plan.redundant, ", ")));
+    list.push_back(
+        fmt::format("redundant constraints: {}{}", fmt::join(plan.redundant, ", "),
+                    plan.disagreeing.empty()
+                        ? ""
+                        : fmt::format("; they disagree with the others by {:.1g} and stay open by that",
+                                      plan.disagreement)));
   const std::string independent = independent_text(plan, layout);
   switch (plan.treatment) {
     case model::LoopTreatment::kExplicit:

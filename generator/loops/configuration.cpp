@@ -39,6 +39,22 @@ ir::LeafValues<long double> NumericClosure::leaves(const Configuration& config, 
   return values;
 }
 
+void NumericClosure::disregard(const std::vector<std::size_t>& rows) { disregarded_ = rows; }
+
+Vector NumericClosure::regarded(Vector g) const {
+  for (const std::size_t r : disregarded_) g[at(r)] = 0;
+  return g;
+}
+
+Matrix NumericClosure::regarded(Matrix G) const {
+  for (const std::size_t r : disregarded_) G.row(at(r)).setZero();
+  return G;
+}
+
+Vector NumericClosure::opening_rate(const Configuration& config, const Vector& z) const {
+  return regarded(Vector(jacobian(config) * z + time_rate(config)));
+}
+
 Vector NumericClosure::value(const Configuration& config) const {
   const std::vector<long double> g = ir::interpret(programs_.value, leaves(config, {}));
   return Eigen::Map<const Vector>(g.data(), at(g.size()));
@@ -100,17 +116,17 @@ Configuration NumericClosure::displaced(const Configuration& from, const Vector&
 Configuration NumericClosure::assembled(Configuration config, const std::vector<bool>& moving) const {
   constexpr int kSteps = 200;
   constexpr long double kLongest = 0.3L;  // of one step, rad or m: further the linearisation says little
-  Vector g = value(config);
+  Vector g = regarded(value(config));
   for (int i = 0; i < kSteps && !(g.lpNorm<Eigen::Infinity>() <= kClosed / 1e5L); ++i) {
-    Vector step = least_norm(columns_of(jacobian(config), moving), -g);
+    Vector step = least_norm(columns_of(regarded(jacobian(config)), moving), -g);
     if (!step.allFinite()) break;
     if (step.lpNorm<Eigen::Infinity>() > kLongest) step *= kLongest / step.lpNorm<Eigen::Infinity>();
     Configuration best = displaced(config, step);
-    Vector better = value(best);
+    Vector better = regarded(value(best));
     for (int halvings = 0; halvings < 20 && !(better.norm() < g.norm()); ++halvings) {
       step /= 2;
       best = displaced(config, step);
-      better = value(best);
+      better = regarded(value(best));
     }
     if (!(better.norm() < g.norm())) break;
     config = best;
@@ -121,8 +137,7 @@ Configuration NumericClosure::assembled(Configuration config, const std::vector<
 
 Vector NumericClosure::consistent(const Configuration& config, const Vector& z,
                                   const std::vector<bool>& moving) const {
-  const Matrix G = jacobian(config);
-  return z - least_norm(columns_of(G, moving), G * z + time_rate(config));
+  return z - least_norm(columns_of(regarded(jacobian(config)), moving), opening_rate(config, z));
 }
 
 std::size_t rank_of(const Matrix& A) {
@@ -175,8 +190,8 @@ std::vector<Configuration> walk(const NumericClosure& closure, const Configurati
     const Configuration& from = found[tries % found.size()];
     Vector direction(at(closure.velocity_count()));
     for (long double& entry : direction) entry = uniform(-1, 1);
-    const Matrix G = closure.jacobian(from);
-    direction -= least_norm(G, G * direction);
+    direction = closure.consistent(from, direction, {}) -
+                closure.consistent(from, Vector::Zero(direction.size()), {});
     const long double length = direction.lpNorm<Eigen::Infinity>();
     if (!(length > 0)) continue;
     const long double stride = uniform(0.1, 0.7), time = uniform(0, 1);
@@ -184,8 +199,7 @@ std::vector<Configuration> walk(const NumericClosure& closure, const Configurati
     next.t = start.t + time;
     if (length < kRankTolerance) next = driven(closure, from, time);
     next = closure.assembled(next, {});
-    if (closure.value(next).lpNorm<Eigen::Infinity>() <= kClosed && in_range(next, mechanism, layout))
-      found.push_back(next);
+    if (closure.open(next) <= kClosed && in_range(next, mechanism, layout)) found.push_back(next);
   }
   return found;
 }

@@ -33,6 +33,13 @@ class NumericClosure {
   std::size_t velocity_count() const { return velocities_; }
   const model::Tangent& tangent() const { return tangent_; }
 
+  /// Rows that follow from others, but for numbers that disagree: assembling and walking leave them open.
+  void disregard(const std::vector<std::size_t>& rows);
+  /// max |g| of the other rows.
+  long double open(const Configuration& at) const { return regarded(value(at)).lpNorm<Eigen::Infinity>(); }
+  /// ġ at these velocities, zero for rows that are disregarded.
+  Vector opening_rate(const Configuration& at, const Vector& z) const;
+
   Vector value(const Configuration& at) const;      ///< g
   Matrix jacobian(const Configuration& at) const;   ///< G, rows × nz
   Vector time_rate(const Configuration& at) const;  ///< g_t
@@ -52,12 +59,16 @@ class NumericClosure {
   Vector consistent(const Configuration& at, const Vector& z, const std::vector<bool>& moving) const;
 
  private:
+  /// Without the rows that are disregarded.
+  Vector regarded(Vector g) const;
+  Matrix regarded(Matrix G) const;
   ir::LeafValues<long double> leaves(const Configuration& at, const Vector& z) const;
 
   const ConstraintPrograms& programs_;
   model::Tangent tangent_;
   std::vector<double> parameters_;
   std::size_t rows_ = 0, velocities_ = 0;
+  std::vector<std::size_t> disregarded_;
 };
 
 /// Pivots below this share of the largest count as zero.

@@ -69,7 +69,45 @@ class Planner {
     return list;
   }
 
+  /// Numbers of a file have so and so many digits: rows that follow from others but for those are left open, and that is said.
+  void settle_disagreement() {
+    const Configuration initial{0, reference::Reference<long double>(mechanism_).initial_state().y};
+    std::vector<bool> moving(layout_.velocity_count(), true);
+    for (const std::size_t k : named_independent()) moving[k] = false;
+    const Configuration nearest = closure_.assembled(initial, moving);
+    const Matrix G = closure_.jacobian(nearest);
+    const std::vector<std::size_t> regular = regular_rows({G});
+    std::vector<std::size_t> others;
+    for (std::size_t r = 0; r < names_.size(); ++r)
+      if (std::find(regular.begin(), regular.end(), r) == regular.end()) others.push_back(r);
+    const long double apart = std::max(closure_.open(nearest), largest_rest(G, regular, others));
+    if (others.empty() || apart <= kClosed || apart > kRowTolerance) return;
+    closure_.disregard(others);
+    if (!stay_nearly_closed(closure_.assembled(nearest, moving), others)) return closure_.disregard({});
+    plan_.disagreeing = others;
+    plan_.disagreement = static_cast<double>(apart);
+    std::vector<std::string> names;
+    for (const std::size_t r : others) names.push_back(names_[r]);
+    diagnostics_.note(
+        mechanism_.loops.front().where,
+        fmt::format("constraints {} follow from the others but for {:.1g}: they are left open by that",
+                    fmt::join(names, ", "), plan_.disagreement),
+        "rounded numbers, or an axis that is askew; more than 1e-6 would hold the mechanism back");
+  }
+
+  /// Near a singular configuration rows nearly follow from others, too, but not for long.
+  bool stay_nearly_closed(const Configuration& start, const std::vector<std::size_t>& rows) const {
+    constexpr long double kNearly = 100 * kRowTolerance;
+    for (const Configuration& c : walk(closure_, start, mechanism_, kConfigurations)) {
+      const Vector g = closure_.value(c);
+      for (const std::size_t r : rows)
+        if (!(std::abs(g[at(r)]) <= kNearly)) return false;
+    }
+    return true;
+  }
+
   bool assemble() {
+    settle_disagreement();
     const std::optional<Start> start = find_start(mechanism_, closure_, named_independent(), diagnostics_);
     if (!start) return false;
     start_ = start->configuration;

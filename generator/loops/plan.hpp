@@ -27,6 +27,9 @@ struct LoopPlan {
   std::size_t freedom = 0;             ///< degrees of freedom
   std::vector<std::string> redundant;  ///< rows that follow from others, by name
   std::vector<std::size_t> rows;       ///< the others
+  /// Redundant rows that disagree with the others by more than rounding, and by how much (m, rad) at the start: they stay open.
+  std::vector<std::size_t> disagreeing;
+  double disagreement = 0;
   std::vector<std::size_t> independent;  ///< velocities; empty with multipliers
   std::vector<Block> blocks;  ///< of the dependent ones, in the order of solution; empty with multipliers
   /// Smallest singular value of the dependent block over the largest of G, rows and columns scaled; the worst at the configurations

@@ -1,7 +1,7 @@
 #include "loops/programs.hpp"
 
+#include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "ir/compose.hpp"
 #include "loops/closed_system.hpp"
@@ -158,16 +158,22 @@ class LoopProgram {
     return {solver.accelerations(pushed, lambda), lambda};
   }
 
-  std::vector<std::size_t> all_rows() const {
-    std::vector<std::size_t> rows(system_.constraints.value.outputs.size());
-    std::iota(rows.begin(), rows.end(), 0);
-    return rows;
+  /// λ over all rows that agree with each other, zero for the others.
+  Column least_multipliers() {
+    std::vector<std::size_t> rows;
+    const std::vector<std::size_t>& apart = system_.plan.disagreeing;
+    Column lambda(system_.constraints.value.outputs.size(), builder_.literal(0));
+    for (std::size_t r = 0; r < lambda.size(); ++r)
+      if (std::find(apart.begin(), apart.end(), r) == apart.end()) rows.push_back(r);
+    const Column found = constrained_motion(rows).lambda;
+    for (std::size_t k = 0; k < rows.size(); ++k) lambda[rows[k]] = found[k];
+    return lambda;
   }
 
   /// With reduced treatments what the dependent coordinates lack at the accelerations given; otherwise those of the state, over all
   /// rows: of redundant ones those of least norm.
   Column constraint_forces(const Column& zdot) {
-    if (!system_.plan.is_reduced()) return constrained_motion(all_rows()).lambda;
+    if (!system_.plan.is_reduced()) return least_multipliers();
     Column missing = vector("residual", dependence_.accelerations(zdot));
     for (Signed& entry : missing) entry = -entry;
     return dependence_.multipliers(missing);

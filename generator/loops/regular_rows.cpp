@@ -95,4 +95,13 @@ std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians) {
   return chosen;
 }
 
+long double largest_rest(const Matrix& G, const std::vector<std::size_t>& regular,
+                         const std::vector<std::size_t>& others) {
+  Rows rows(G);
+  for (const std::size_t r : regular) rows.take(r);
+  long double largest = 0;
+  for (const std::size_t r : others) largest = std::max(largest, rows.rest(r));
+  return largest;
+}
+
 }  // namespace jourdain::loops

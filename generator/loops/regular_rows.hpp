@@ -15,4 +15,8 @@ inline constexpr long double kRowTolerance = 1e-6L;
 /// are; earlier rows where there is little difference. In order.
 std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians);
 
+/// What the largest of `others` adds to the rows `regular` of G, over its largest row.
+long double largest_rest(const Matrix& G, const std::vector<std::size_t>& regular,
+                         const std::vector<std::size_t>& others);
+
 }  // namespace jourdain::loops

@@ -83,9 +83,7 @@ class StartSearch {
     return list;
   }
 
-  bool is_closed(const Configuration& config) const {
-    return closure_.value(config).lpNorm<Eigen::Infinity>() <= kClosed;
-  }
+  bool is_closed(const Configuration& config) const { return closure_.open(config) <= kClosed; }
 
   bool is_start(const Configuration& config) const {
     return is_closed(config) && closure_.reversed(config).empty() && in_range(config, mechanism_, layout_);
@@ -128,9 +126,7 @@ class StartSearch {
   }
 
   /// ġ at these velocities.
-  Vector opening(const Vector& z) const {
-    return closure_.jacobian(start_.configuration) * z + closure_.time_rate(start_.configuration);
-  }
+  Vector opening(const Vector& z) const { return closure_.opening_rate(start_.configuration, z); }
 
   bool agrees(const Vector& z) const {
     return opening(z).lpNorm<Eigen::Infinity>() <= kAgrees * (1 + z.lpNorm<Eigen::Infinity>());

@@ -326,7 +326,8 @@ class Comparison {
     if (spread.is_singular) return;
     const Matrix S = e_.G * e_.M.ldlt().solve(e_.G.transpose());
     const long double s = plan_.stabilisation;
-    const Vector opening = e_.G * zdot + e_.gamma + 2 * s * e_.rate + s * s * e_.g;
+    Vector opening = e_.G * zdot + e_.gamma + 2 * s * e_.rate + s * s * e_.g;
+    for (const std::size_t r : plan_.disagreeing) opening[at(r)] = 0;
     const long double terms = (e_.G.cwiseAbs() * zdot.cwiseAbs() + e_.gamma.cwiseAbs()).maxCoeff() +
                               2 * s * (e_.G.cwiseAbs() * e_.z.cwiseAbs()).maxCoeff();
     record("G zdot + gamma = 0 with the program's zdot", opening, Vector::Zero(opening.size()),
@@ -381,7 +382,8 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   options.closures_only = true;
   const dynamics::Equations closures = dynamics::derive_equations(mechanism, options);
   const ConstraintPrograms programs = constraint_programs(mechanism, closures);
-  const NumericClosure closure(mechanism, programs, model::default_values(mechanism));
+  NumericClosure closure(mechanism, programs, model::default_values(mechanism));
+  closure.disregard(plan.disagreeing);
   verdict.states = 0;
   verdict.condition = 0;  // that of the tree off the loops is nobody's
   for (const Ray& ray : draw_rays(closure, plan, mechanism, states)) {

@@ -81,7 +81,8 @@ void DescriptorReference<Scalar>::add_loop_rows(Scalar t, const Coordinates& coo
     for (const auto& coordinate : coordinates[j]) near[j].push_back(coordinate.value);
   const descriptor::Parts<Scalar> parts{bodies_, joints_, frames_, loops_, parameters_};
   const descriptor::LoopRows<Scalar> rows = descriptor::loop_rows(parts, t, system.motions, near);
-  const Eigen::MatrixX<Scalar> independent = descriptor::independent_combinations(system.G, rows.jacobian);
+  const Eigen::MatrixX<Scalar> independent =
+      descriptor::independent_combinations(system.G, rows.jacobian, options_.dependent);
 
   const Eigen::Index before = system.G.rows(), count = rows.value.size();
   const auto extend = [&](Eigen::VectorX<Scalar>& column, const Eigen::VectorX<Scalar>& more) {

@@ -201,7 +201,7 @@ LoopRows<Scalar> loop_rows(const Parts<Scalar>& parts, Scalar t,
 
 template <class Scalar>
 Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& joint_rows,
-                                                const Eigen::MatrixX<Scalar>& loop_rows) {
+                                                const Eigen::MatrixX<Scalar>& loop_rows, double dependent) {
   using Matrix = Eigen::MatrixX<Scalar>;
   const Eigen::Index freedom = joint_rows.cols() - joint_rows.rows();
   Matrix motions = Matrix::Identity(joint_rows.cols(), joint_rows.cols());
@@ -214,15 +214,16 @@ Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& jo
   // A state that has run away has no rank: its accelerations are no numbers either way.
   if (!seen.allFinite()) return Matrix::Identity(loop_rows.rows(), loop_rows.rows());
   Eigen::JacobiSVD<Matrix> svd(seen, Eigen::ComputeThinU);
-  svd.setThreshold(Scalar(kDependent));
+  svd.setThreshold(Scalar(dependent));
   return svd.matrixU().leftCols(svd.rank()).transpose() * scales.asDiagonal();
 }
 
-#define JOURDAIN_INSTANTIATE(S)                                                           \
-  template std::vector<Loop<S>> read_loops(const model::Mechanism&);                      \
-  template LoopRows<S> loop_rows(const Parts<S>&, S, const std::vector<AbsoluteBody<S>>&, \
-                                 const std::vector<std::vector<S>>&);                     \
-  template Eigen::MatrixX<S> independent_combinations(const Eigen::MatrixX<S>&, const Eigen::MatrixX<S>&);
+#define JOURDAIN_INSTANTIATE(S)                                                                           \
+  template std::vector<Loop<S>> read_loops(const model::Mechanism&);                                      \
+  template LoopRows<S> loop_rows(const Parts<S>&, S, const std::vector<AbsoluteBody<S>>&,                 \
+                                 const std::vector<std::vector<S>>&);                                     \
+  template Eigen::MatrixX<S> independent_combinations(const Eigen::MatrixX<S>&, const Eigen::MatrixX<S>&, \
+                                                      double);
 JOURDAIN_INSTANTIATE(double)
 JOURDAIN_INSTANTIATE(long double)
 #undef JOURDAIN_INSTANTIATE

@@ -59,9 +59,11 @@ LoopRows<Scalar> loop_rows(const Parts<Scalar>& parts, Scalar t,
 inline constexpr double kDependent = 1e-11;
 
 /// Combinations of loop rows, each divided by its length, that are independent of each other on the motions that
-/// `joint_rows` (of full rank) allow: orthonormal left singular vectors times those scales. Shape rank × rows.
+/// `joint_rows` (of full rank) allow: orthonormal left singular vectors times those scales, of singular values above the share
+/// `dependent` of the largest. Shape rank × rows.
 template <class Scalar>
 Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& joint_rows,
-                                                const Eigen::MatrixX<Scalar>& loop_rows);
+                                                const Eigen::MatrixX<Scalar>& loop_rows,
+                                                double dependent = kDependent);
 
 }  // namespace jourdain::reference::descriptor
