@@ -424,17 +424,24 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t32 = t17 * t26 + t18 * t25;
   const Real t41 = (t25 * t25 + (t26 * t26 + (t18 * t18 + t17 * t17 - Real(1.0)))) * Real(0.5);
   const Real t44 = t32 * t32 + t29 * t29;
-  const Real t47 = detail::square_root(t44 - t41 * t41);
-  const Real t54 = (t32 * t47 - t29 * t41) / t44;
-  const Real t55 = (t29 * t47 + t32 * t41) / t44;
-  const Real t61 = t17 * t54 - (t25 - t18 * t55);
-  const Real t63 = t18 * t54 + (t26 - t17 * t55);
-  Real t66, t65;
-  detail::sine_cosine(state.y[1], t66, t65);
-  Real t79, t78;
-  detail::sine_cosine(state.y[2], t79, t78);
-  closed.y[1] = state.y[1] + detail::arctangent2(-(t61 * t66 + t63 * t65), -(t63 * t66 - t61 * t65));
-  closed.y[2] = state.y[2] + detail::arctangent2(-(t54 * t79 - t55 * t78), t55 * t79 + t54 * t78);
+  const Real t45 = t41 * t41;
+  const Real t47 = detail::square_root(t44 - t45);
+  const Real t56 = (t32 * t47 - t29 * t41) / t44;
+  const Real t57 = (t29 * t47 + t32 * t41) / t44;
+  const Real t63 = t17 * t56 - (t25 - t18 * t57);
+  const Real t65 = t18 * t56 + (t26 - t17 * t57);
+  Real t68, t67;
+  detail::sine_cosine(state.y[1], t68, t67);
+  const Real t78 = state.y[1] + detail::arctangent2(-(t63 * t68 + t65 * t67), -(t65 * t68 - t63 * t67));
+  Real t81, t80;
+  detail::sine_cosine(state.y[2], t81, t80);
+  const Real t90 = state.y[2] + detail::arctangent2(-(t56 * t81 - t57 * t80), t57 * t81 + t56 * t80);
+  const Real t91 = state.y[1] - t78;
+  const Real t93 = state.y[2] - t90;
+  closed.y[1] = t78;
+  closed.y[2] = t90;
+  closed.regularity = Real(1.0) - t45 / t44;
+  closed.opening = t91 * t91 + t93 * t93;
   state = closed;
 }
 

@@ -9,9 +9,9 @@
 //
 // Loops
 // - 1 degree of freedom: 5 coordinates of the tree, 4 of 4 constraints are independent
-// - multipliers, stabilised with 5/s; one projection of positions and velocities at the end of a step
-// - G M^-1 G^T is regularised by 3.8e-07/kg: multipliers and accelerations lose a share (d/(s + d))^3, d that
-//   and s the singular value of G M^-1 G^T, near singular configurations and where constraints are redundant
+// - multipliers; one projection of positions and velocities at the end of a step
+// - G M^-1 G^T is regularised by d = 3.7e-10/kg: near singular configurations multipliers and accelerations
+//   lose a share (d/(s + d))^2, s its smallest singular value
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
@@ -27,7 +27,7 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 5.2e-17 of the sum of absolute terms against
+// - 8 random states: backward error of M zdot = k_bar - q_bar 5.7e-17 of the sum of absolute terms against
 //   60-digit arithmetic, entries of the functions 1.7e-16; symbolic equations against the numeric reference
 //   4.1e-20; cond(M) up to 4.3e+01
 #pragma once
@@ -44,6 +44,12 @@ struct State {
   Real t;
   Real y[5];
   Real z[5];
+  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
+  /// Below Model::least_regularity do not trust what follows.
+  Real regularity = Real(1.0);
+  /// Square of the distance that the last closing moved the positions, rad or m. Beyond
+  /// Model::greatest_opening loops may be left open: the step was too long.
+  Real opening = Real(0.0);
 };
 
 /// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
@@ -73,6 +79,8 @@ struct Model {
   static constexpr int input_count = 0;
   static constexpr int output_count = 1;
   static constexpr int constraint_count = 4;
+  static constexpr double least_regularity = 0;  ///< see State
+  static constexpr double greatest_opening = 1e-10;  ///< see State
   static constexpr int parameter_count = 0;
 
   explicit Model(const Parameters& = {}) noexcept;
@@ -113,7 +121,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.
-/// 401 operations (229 mul, 166 add and sub, 6 div), 10 sin and cos.
+/// 326 operations (193 mul, 127 add and sub, 6 div), 10 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[5]) noexcept;
@@ -142,9 +150,9 @@ template <class Real>
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
-/// Moves positions and velocities to the nearest ones (weighted by mass) that the loops allow, to first order.
+/// Moves positions and velocities to the nearest ones that the loops allow, to first order.
 /// Call it after changing a state, several times where that was far; steps end with it.
-/// 567 operations (326 mul, 231 add and sub, 10 div), 24 sin and cos.
+/// 349 operations (201 mul, 141 add and sub, 7 div), 24 sin and cos.
 template <class Real>
 void project(const Model<Real>& model, State<Real>& state) noexcept;
 
@@ -157,14 +165,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 367 operations (209 mul, 152 add and sub, 6 div), 10 sin and cos.
+/// 292 operations (173 mul, 113 add and sub, 6 div), 10 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 2296 operations.
+/// 1778 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

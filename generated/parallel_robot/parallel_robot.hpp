@@ -9,9 +9,9 @@
 //
 // Loops
 // - 3 degrees of freedom: 7 coordinates of the tree, 4 of 4 constraints are independent
-// - independent: arm1, arm2, arm3; the others by 2 Newton iterations at the end of a step. What is solved for
-//   them has a smallest singular value of 0.1 of the constraints' largest, or more, at the configurations
-//   seen
+// - independent: arm1, arm2, arm3; the others by 2 Newton iterations at the end of a step. NOT PROVEN to stay
+//   regular: what is solved for them has a smallest singular value of 0.1 of the constraints' largest at the
+//   configurations seen
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
@@ -25,8 +25,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 1.0e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 2.6e-17; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 1.3e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 7.4e-17; symbolic equations against the numeric reference
 //   8.4e-20; cond(M) up to 2.0e+00
 #pragma once
 
@@ -46,6 +46,12 @@ struct State {
   Real t;
   Real y[7];
   Real z[3];
+  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
+  /// Below Model::least_regularity do not trust what follows.
+  Real regularity = Real(1.0);
+  /// Square of the distance that the last closing moved the positions, rad or m. Beyond
+  /// Model::greatest_opening loops may be left open: the step was too long.
+  Real opening = Real(0.0);
 };
 
 /// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
@@ -82,6 +88,8 @@ struct Model {
   static constexpr int input_count = 3;
   static constexpr int output_count = 2;
   static constexpr int constraint_count = 4;
+  static constexpr double least_regularity = 0.001;  ///< see State
+  static constexpr double greatest_opening = 1e-05;  ///< see State
   static constexpr int parameter_count = 1;
 
   explicit Model(const Parameters& = {}) noexcept;
@@ -167,7 +175,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 600 operations (326 mul, 266 add and sub, 8 div), 34 sin and cos.
+/// 612 operations (334 mul, 269 add and sub, 9 div), 34 sin and cos.
 template <class Real>
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
@@ -187,7 +195,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5777 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
+/// 5789 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -350,13 +350,20 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t7 = t1 * Real(0.145);
   const Real t9 = t1 * Real(0.045) - Real(0.006);
   const Real t12 = t6 * t6 + t7 * t7;
-  const Real t15 = detail::square_root(t12 - t9 * t9);
-  const Real t22 = (t6 * t15 - t7 * t9) / t12;
-  const Real t23 = (t7 * t15 + t6 * t9) / t12;
-  Real t26, t25;
-  detail::sine_cosine(state.y[1], t26, t25);
-  closed.y[1] = state.y[1] + detail::arctangent2(-(t22 * t26 + t23 * t25), -(t23 * t26 - t22 * t25));
-  closed.y[2] = t2 * Real(0.045) + Real(0.145) * (t1 * t23 + t2 * t22);
+  const Real t13 = t9 * t9;
+  const Real t15 = detail::square_root(t12 - t13);
+  const Real t25 = (t6 * t15 - t7 * t9) / t12;
+  const Real t26 = (t7 * t15 + t6 * t9) / t12;
+  Real t29, t28;
+  detail::sine_cosine(state.y[1], t29, t28);
+  const Real t39 = state.y[1] + detail::arctangent2(-(t25 * t29 + t26 * t28), -(t26 * t29 - t25 * t28));
+  const Real t45 = t2 * Real(0.045) + Real(0.145) * (t1 * t26 + t2 * t25);
+  const Real t46 = state.y[1] - t39;
+  const Real t49 = t45 - state.y[2];
+  closed.y[1] = t39;
+  closed.y[2] = t45;
+  closed.regularity = -(t13 / t12 - Real(1.0));
+  closed.opening = t46 * t46 + t49 * t49;
   state = closed;
 }
 

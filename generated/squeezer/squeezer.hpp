@@ -10,9 +10,9 @@
 //
 // Loops
 // - 1 degree of freedom: 7 coordinates of the tree, 6 of 6 constraints are independent
-// - independent: beta; the others in closed form, on the branch of the initial state. At the parameters'
-//   defaults it exists everywhere in the declared ranges: every discriminant is proven to be 0.17 or more
-//   (the square of the sine of the angle from a dead position)
+// - independent: beta; the others in closed form, on the branch of the initial state. Proven: it exists
+//   everywhere in the declared ranges; every discriminant is 0.17 or more (the square of the sine of the
+//   angle from a dead position)
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
@@ -27,8 +27,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 1.6e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 4.3e-17; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 2.1e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 1.9e-16; symbolic equations against the numeric reference
 //   3.0e-19; cond(M) up to 1.0e+00
 #pragma once
 
@@ -49,6 +49,12 @@ struct State {
   Real t;
   Real y[7];
   Real z[1];
+  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
+  /// Below Model::least_regularity do not trust what follows.
+  Real regularity = Real(1.0);
+  /// Square of the distance that the last closing moved the positions, rad or m. Beyond
+  /// Model::greatest_opening loops may be left open: the step was too long.
+  Real opening = Real(0.0);
 };
 
 /// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
@@ -78,6 +84,8 @@ struct Model {
   static constexpr int input_count = 0;
   static constexpr int output_count = 1;
   static constexpr int constraint_count = 6;
+  static constexpr double least_regularity = 1e-06;  ///< see State
+  static constexpr double greatest_opening = 0.01;  ///< see State
   static constexpr int parameter_count = 2;
 
   explicit Model(const Parameters& = {}) noexcept;
@@ -157,7 +165,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 137 operations (76 mul, 51 add and sub, 8 div), 14 sin and cos, 6 atan2.
+/// 160 operations (85 mul, 64 add and sub, 9 div), 14 sin and cos, 6 atan2.
 template <class Real>
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
@@ -177,7 +185,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 2022 operations.
+/// 2045 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
