@@ -222,21 +222,21 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t100 = s4 * Real(3.0);
   const Real t101 = c2 * t98;
   const Real t113 = Real(1.0) / (c2 * (c2 * t54) - (Real(3.0) * (s1 * s1) - (t63 * (t60 * t63) -
-      Real(3.75e-10))));
+      Real(3.75e-07))));
   const Real t114 = t86 * t113;
   const Real t120 = t91 * t113;
   const Real t122 = s2 * t90 - t86 * t120;
   const Real t124 = t101 * t113;
   const Real t126 = s2 * t98 - t86 * t124;
-  const Real t129 = Real(1.0) / (t86 * t114 - (s2 * t81 - (c1 * t80 - (t66 * t79 - Real(3.75e-10)))));
+  const Real t129 = Real(1.0) / (t86 * t114 - (s2 * t81 - (c1 * t80 - (t66 * t79 - Real(3.75e-07)))));
   const Real t130 = t122 * t129;
   const Real t137 = t126 * t129;
   const Real t142 = t122 * t137 - (t91 * t124 + (c4 * t100 - (t69 * t98 - s3 * t99)));
   const Real t144 = Real(1.0) / (t122 * t130 - (t91 * t120 + (Real(3.0) * (c4 * c4) + (Real(3.0) * (s3 * s3) -
-      (t69 * t90 - Real(3.75e-10))))));
+      (t69 * t90 - Real(3.75e-07))))));
   const Real t145 = t142 * t144;
   const Real t153 = Real(1.0) / (t142 * t145 - (t126 * t137 - (t101 * t124 + (s4 * t100 + (c3 * t99 - (t72 *
-      t98 - Real(3.75e-10)))))));
+      t98 - Real(3.75e-07)))))));
   const Real w1_z = state.z[0] + state.z[1];
   const Real t161 = s1 * w1_z;
   const Real t165 = state.z[2] * (c2 * state.z[2]);
@@ -281,23 +281,30 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t275 = t144 * t258 - t145 * t273;
   const Real t279 = t137 * t273 + (t129 * t247 + t130 * t275);
   const Real t285 = t124 * t273 + (t120 * t275 - (t113 * t240 - t114 * t279));
-  const Real t286 = Real(3.75e-10) * t285;
-  const Real t291 = Real(3.75e-10) * t279 + t114 * t286;
-  const Real t296 = t130 * t291 + (Real(3.75e-10) * t275 + t120 * t286);
-  const Real t305 = t153 * (t145 * t296 - (t137 * t291 + (Real(3.75e-10) * t273 + t124 * t286)));
+  const Real t286 = Real(3.75e-07) * t285;
+  const Real t291 = Real(3.75e-07) * t279 + t114 * t286;
+  const Real t296 = t130 * t291 + (Real(3.75e-07) * t275 + t120 * t286);
+  const Real t305 = t153 * (t145 * t296 - (t137 * t291 + (Real(3.75e-07) * t273 + t124 * t286)));
   const Real t307 = t144 * t296 - t145 * t305;
   const Real t311 = t137 * t305 - (t129 * t291 - t130 * t307);
-  const Real t318 = t124 * t305 + (t120 * t307 + (t114 * t311 - (t285 - t113 * t286)));
-  const Real t319 = t279 - t311;
-  const Real t320 = t275 - t307;
-  const Real t321 = t273 - t305;
-  const Real t346 = t60 * (t66 * t319 - (t218 - t63 * t318));
-  const Real t350 = t54 * (t72 * t321 + (t69 * t320 + (s2 * t319 - (t214 - c2 * t318))));
-  zdot[0] = -t346;
-  zdot[1] = -(Real(3.0) * (c1 * t319 - (rQp1 - s1 * t318)) - t55 * t346);
-  zdot[2] = -t350;
-  zdot[3] = -(Real(3.0) * (c3 * t321 - (rQp3 - s3 * t320)) - t47 * t350);
-  zdot[4] = Real(3.0) * (s4 * t321 + (rQp4 + c4 * t320));
+  const Real t317 = t124 * t305 + (t120 * t307 + (t113 * t286 + t114 * t311));
+  const Real t318 = Real(3.75e-07) * t317;
+  const Real t323 = Real(3.75e-07) * t311 + t114 * t318;
+  const Real t328 = t130 * t323 + (Real(3.75e-07) * t307 + t120 * t318);
+  const Real t337 = t153 * (t145 * t328 - (t137 * t323 + (Real(3.75e-07) * t305 + t124 * t318)));
+  const Real t339 = t144 * t328 - t145 * t337;
+  const Real t343 = t137 * t337 - (t129 * t323 - t130 * t339);
+  const Real t351 = t124 * t337 + (t120 * t339 + (t114 * t343 + (t113 * t318 + (t285 - t317))));
+  const Real t353 = t343 + (t279 - t311);
+  const Real t355 = t339 + (t275 - t307);
+  const Real t357 = t337 + (t273 - t305);
+  const Real t382 = t60 * (t66 * t353 - (t218 + t63 * t351));
+  const Real t386 = t54 * (t72 * t357 + (t69 * t355 + (s2 * t353 - (t214 + c2 * t351))));
+  zdot[0] = -t382;
+  zdot[1] = -(Real(3.0) * (c1 * t353 - (rQp1 + s1 * t351)) - t55 * t382);
+  zdot[2] = -t386;
+  zdot[3] = -(Real(3.0) * (c3 * t357 - (rQp3 - s3 * t355)) - t47 * t386);
+  zdot[4] = Real(3.0) * (s4 * t357 + (rQp4 + c4 * t355));
 }
 
 template <class Real>
@@ -654,21 +661,21 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real t100 = s4 * Real(3.0);
   const Real t101 = c2 * t98;
   const Real t113 = Real(1.0) / (c2 * (c2 * t54) - (Real(3.0) * (s1 * s1) - (t63 * (t60 * t63) -
-      Real(3.75e-10))));
+      Real(3.75e-07))));
   const Real t114 = t86 * t113;
   const Real t120 = t91 * t113;
   const Real t122 = s2 * t90 - t86 * t120;
   const Real t124 = t101 * t113;
   const Real t126 = s2 * t98 - t86 * t124;
-  const Real t129 = Real(1.0) / (t86 * t114 - (s2 * t81 - (c1 * t80 - (t66 * t79 - Real(3.75e-10)))));
+  const Real t129 = Real(1.0) / (t86 * t114 - (s2 * t81 - (c1 * t80 - (t66 * t79 - Real(3.75e-07)))));
   const Real t130 = t122 * t129;
   const Real t137 = t126 * t129;
   const Real t142 = t122 * t137 - (t91 * t124 + (c4 * t100 - (t69 * t98 - s3 * t99)));
   const Real t144 = Real(1.0) / (t122 * t130 - (t91 * t120 + (Real(3.0) * (c4 * c4) + (Real(3.0) * (s3 * s3) -
-      (t69 * t90 - Real(3.75e-10))))));
+      (t69 * t90 - Real(3.75e-07))))));
   const Real t145 = t142 * t144;
   const Real t153 = Real(1.0) / (t142 * t145 - (t126 * t137 - (t101 * t124 + (s4 * t100 + (c3 * t99 - (t72 *
-      t98 - Real(3.75e-10)))))));
+      t98 - Real(3.75e-07)))))));
   const Real w1_z = state.z[0] + state.z[1];
   const Real t161 = s1 * w1_z;
   const Real t165 = state.z[2] * (c2 * state.z[2]);
@@ -710,16 +717,23 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real t274 = t144 * t257 - t145 * t272;
   const Real t278 = t137 * t272 + (t129 * t246 + t130 * t274);
   const Real t284 = t124 * t272 + (t120 * t274 - (t113 * t239 - t114 * t278));
-  const Real t285 = Real(3.75e-10) * t284;
-  const Real t290 = Real(3.75e-10) * t278 + t114 * t285;
-  const Real t295 = t130 * t290 + (Real(3.75e-10) * t274 + t120 * t285);
-  const Real t304 = t153 * (t145 * t295 - (t137 * t290 + (Real(3.75e-10) * t272 + t124 * t285)));
+  const Real t285 = Real(3.75e-07) * t284;
+  const Real t290 = Real(3.75e-07) * t278 + t114 * t285;
+  const Real t295 = t130 * t290 + (Real(3.75e-07) * t274 + t120 * t285);
+  const Real t304 = t153 * (t145 * t295 - (t137 * t290 + (Real(3.75e-07) * t272 + t124 * t285)));
   const Real t306 = t144 * t295 - t145 * t304;
   const Real t310 = t137 * t304 - (t129 * t290 - t130 * t306);
-  lambda[0] = -(t124 * t304 + (t120 * t306 + (t114 * t310 - (t284 - t113 * t285))));
-  lambda[1] = -(t278 - t310);
-  lambda[2] = -(t274 - t306);
-  lambda[3] = -(t272 - t304);
+  const Real t316 = t124 * t304 + (t120 * t306 + (t113 * t285 + t114 * t310));
+  const Real t317 = Real(3.75e-07) * t316;
+  const Real t322 = Real(3.75e-07) * t310 + t114 * t317;
+  const Real t327 = t130 * t322 + (Real(3.75e-07) * t306 + t120 * t317);
+  const Real t336 = t153 * (t145 * t327 - (t137 * t322 + (Real(3.75e-07) * t304 + t124 * t317)));
+  const Real t338 = t144 * t327 - t145 * t336;
+  const Real t342 = t137 * t336 - (t129 * t322 - t130 * t338);
+  lambda[0] = t124 * t336 + (t120 * t338 + (t114 * t342 + (t113 * t317 + (t284 - t316))));
+  lambda[1] = -(t342 + (t278 - t310));
+  lambda[2] = -(t338 + (t274 - t306));
+  lambda[3] = -(t336 + (t272 - t304));
 }
 
 template <class Real>

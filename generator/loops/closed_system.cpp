@@ -134,8 +134,8 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
           plan.stabilisation == 0 ? "" : fmt::format(", stabilised with {:g}/s", plan.stabilisation)));
       list.push_back(
           fmt::format("G M^-1 G^T is regularised by d = {:.2g}/kg: near singular configurations multipliers "
-                      "and accelerations lose a share (d/(s + d))^2, s its smallest singular value",
-                      plan.regularisation));
+                      "and accelerations lose a share (d/(s + d))^{}, s its smallest singular value",
+                      plan.regularisation, plan.corrections + 1));
       break;
   }
   if (!plan.reason.empty()) list.push_back(fmt::format("why so: {}", plan.reason));

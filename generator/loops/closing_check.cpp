@@ -95,7 +95,7 @@ class Expectation {
     Matrix S = G * back;
     for (std::size_t k = 0; k < plan_.rows.size(); ++k) {
       const double length = plan_.row_length[plan_.rows[k]];
-      S(at(k), at(k)) += plan_.regularisation / (length * length);
+      S(at(k), at(k)) += plan_.closing_regularisation / (length * length);
     }
     const auto factors = S.ldlt();
     const Vector g = rows_of(closure_.value(start_), plan_.rows), lambda = factors.solve(g);

@@ -43,7 +43,7 @@ Spread spread_of(const LoopPlan& plan, const Matrix& G, const Matrix& M) {
   for (const long double s : sigma)
     if (s > kRankTolerance * sigma[0]) spread.smallest = std::min(spread.smallest, s);
   spread.is_singular = spread.smallest < 1e3L * plan.regularisation;
-  spread.lost_share = std::pow(plan.regularisation / spread.smallest, 2);
+  spread.lost_share = std::pow(plan.regularisation / spread.smallest, plan.corrections + 1);
   return spread;
 }
 

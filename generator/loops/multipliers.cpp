@@ -6,18 +6,11 @@ using ir::Signed;
 
 namespace {
 
-/// Of the regularisation where there are redundant rows.
-constexpr double kRedundant = 1e3;
-
-bool has_redundant(const LoopPlan& plan, const std::vector<std::size_t>& rows) {
-  return rows.size() > plan.rows.size();
-}
-
-Column regularisation(ir::Builder& builder, const LoopPlan& plan, const std::vector<std::size_t>& rows) {
-  const double d = plan.regularisation * (has_redundant(plan, rows) ? kRedundant : 1);
+Column diagonal(ir::Builder& builder, const LoopPlan& plan, const std::vector<std::size_t>& rows,
+                double size) {
   Column delta;
   for (const std::size_t r : rows)
-    delta.push_back(builder.literal(d / (plan.row_length[r] * plan.row_length[r])));
+    delta.push_back(builder.literal(size / (plan.row_length[r] * plan.row_length[r])));
   return delta;
 }
 
@@ -25,12 +18,12 @@ Column regularisation(ir::Builder& builder, const LoopPlan& plan, const std::vec
 
 MultiplierSolver::MultiplierSolver(ir::Builder& builder, const LoopSystem& system,
                                    const std::vector<Column>& M, const ConstraintValues& constraints,
-                                   const std::vector<std::size_t>& rows)
+                                   const std::vector<std::size_t>& rows, const Regularisation& regularisation)
     : builder_(builder),
-      corrections_(has_redundant(system.plan, rows) ? 2 : 1),
+      corrections_(regularisation.corrections),
       mass_(builder, M),
       V_(lowered_rows(constraints, rows)),
-      schur_(builder, products(), regularisation(builder, system.plan, rows)) {}
+      schur_(builder, products(), diagonal(builder, system.plan, rows, regularisation.size)) {}
 
 std::vector<Column> MultiplierSolver::lowered_rows(const ConstraintValues& constraints,
                                                    const std::vector<std::size_t>& rows) const {

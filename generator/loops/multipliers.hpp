@@ -6,13 +6,19 @@
 
 namespace jourdain::loops {
 
-/// Factors of M and of S + Δ, S = G M⁻¹ Gᵀ, at one configuration, over some of the rows. Δ is regularisation/row_length²; where the rows
-/// hold redundant ones it is larger: rounding is divided by it.
+/// Added to the diagonal of S over the square of each row's length, 1/kg, and corrections that make it good (see SchurFactors).
+struct Regularisation {
+  double size = 0;
+  int corrections = 1;
+};
+
+/// Factors of M and of S + Δ, S = G M⁻¹ Gᵀ, at one configuration, over some of the rows.
 class MultiplierSolver {
  public:
   /// `M` full, by row.
   MultiplierSolver(ir::Builder& builder, const LoopSystem& system, const std::vector<Column>& M,
-                   const ConstraintValues& constraints, const std::vector<std::size_t>& rows);
+                   const ConstraintValues& constraints, const std::vector<std::size_t>& rows,
+                   const Regularisation& regularisation);
 
   /// L⁻ᵀ x for M = Lᵀ D L.
   Column lowered(const Column& x) const { return mass_.lowered(x); }

@@ -25,8 +25,10 @@ std::vector<double> closed_again(const LoopPlan& plan, const std::vector<double>
   leaves[LeafKind::kTime] = {0};
   std::vector<double> y = plan.y;
   const std::vector<double> found = ir::interpret(plan.closed_form->close, leaves);
-  for (std::size_t i = 0; i < found.size(); ++i)
-    y[static_cast<std::size_t>(plan.closed_form->close.outputs[i].row)] = found[i];
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const ir::Output& output = plan.closed_form->close.outputs[i];
+    if (output.name == "y") y[static_cast<std::size_t>(output.row)] = found[i];
+  }
   return y;
 }
 

@@ -42,6 +42,7 @@ class Planner {
   std::optional<LoopPlan> plan() {
     plan_.iterations = mechanism_.loop_options.iterations;
     plan_.stabilisation = mechanism_.loop_options.stabilisation;
+    plan_.is_named = mechanism_.loop_options.treatment || !mechanism_.loop_options.independent.empty();
     if (!assemble()) return {};
     configurations_ = walk(closure_, start_, mechanism_, kConfigurations);
     for (const Configuration& c : configurations_) jacobians_.push_back(closure_.jacobian(c));
@@ -54,7 +55,6 @@ class Planner {
     if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
     massless_ = massless_in_tree(mechanism_, start_);
     set_scales(mechanism_, start_, jacobians_.front(), massless_.empty(), plan_);
-    plan_.is_named = mechanism_.loop_options.treatment || !mechanism_.loop_options.independent.empty();
     if (!(plan_.freedom == 0 ? treat_determined() : treat())) return {};
     if (!check_tree_inertia(mechanism_, massless_, plan_, diagnostics_)) return {};
     set_determinant(mechanism_, configurations_, jacobians_, plan_);

@@ -36,10 +36,10 @@ struct LoopPlan {
   /// seen. 0 is singular.
   double conditioning = 0;
   std::vector<double> row_length;  ///< m by row: what its multiplier is divided by to be a force
-  double regularisation = 0;       ///< added to G M⁻¹ Gᵀ of rows with lengths, 1/kg; see multipliers
-  std::vector<double>
-      metric;  ///< W of `project` by velocity: powers of 4 that make columns of G alike in size
-  std::vector<double> closing_regularisation;  ///< by row: added to the diagonal of G W Gᵀ in `project`
+  /// Added to G M⁻¹ Gᵀ of rows with lengths, 1/kg, for accelerations and for what closes, and how often that is made good; see
+  /// SchurFactors. Multipliers that were asked for are meant to pass singular configurations: there more bounds them.
+  double regularisation = 0, closing_regularisation = 0;
+  int corrections = 1;
   double determinant = 1;  ///< of what closing solves for, its largest at the configurations seen
   std::optional<ClosedForm> closed_form;  ///< of the dependent positions; kExplicit
   std::optional<RegularityProof> proof;   ///< of the dependent blocks; kPartitioned, none: not proven

@@ -141,9 +141,18 @@ class LoopProgram {
     return r;
   }
 
+  /// Rounding is divided by it where rows are redundant.
+  Regularisation regularisation(const std::vector<std::size_t>& rows) const {
+    constexpr double kRedundant = 1e3;
+    const LoopPlan& plan = system_.plan;
+    if (rows.size() == plan.rows.size()) return {plan.regularisation, plan.corrections};
+    return {kRedundant * plan.closing_regularisation, 2};
+  }
+
   Motion constrained_motion(const std::vector<std::size_t>& rows) {
     const ConstraintValues constraints(builder_, system_);
-    const MultiplierSolver solver(builder_, system_, tree_mass_matrix(builder_, system_), constraints, rows);
+    const MultiplierSolver solver(builder_, system_, tree_mass_matrix(builder_, system_), constraints, rows,
+                                  regularisation(rows));
     const ConstraintRates rates = constraint_rates(builder_, system_, dependence_.z());
     const Column pushed = solver.lowered(forces());
     Column c = solver.constrained(pushed);

@@ -30,7 +30,8 @@ ir::Program projection_program(const LoopSystem& system) {
   Builder builder;
   const ConstraintValues here(builder, system);
   const std::size_t n = system.layout.velocity_count();
-  const MultiplierSolver solver(builder, system, tree_mass_matrix(builder, system), here, system.plan.rows);
+  const MultiplierSolver solver(builder, system, tree_mass_matrix(builder, system), here, system.plan.rows,
+                                {system.plan.closing_regularisation, 0});
   const auto correction = [&](const Column& c) {
     return solver.accelerations(Column(n, builder.literal(0)), solver.corrections(c));
   };

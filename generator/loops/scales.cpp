@@ -11,8 +11,9 @@ namespace jourdain::loops {
 
 namespace {
 
-/// Regularisation as a share of the largest entry of G M⁻¹ Gᵀ at the start, of rows with lengths.
-constexpr double kRegularisation = 1e-10;
+/// Regularisation as a share of the largest entry of G M⁻¹ Gᵀ at the start, of rows with lengths: what rounding allows, and what keeps
+/// multipliers bounded where singular configurations are passed again and again.
+constexpr double kLeast = 1e-10, kBounding = 1e-7;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -34,7 +35,11 @@ void set_row_lengths(const model::Mechanism& mechanism, const Vector& S, LoopPla
     const bool scaled = !is_length[r] && S[at(r)] > kRankTolerance * largest;
     plan.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / S[at(r)])) : 1);
   }
-  plan.regularisation = kRegularisation * static_cast<double>(largest);
+  const bool bounds =
+      plan.is_named && plan.redundant.empty();  // rows that are chosen may be weak where others hold
+  plan.regularisation = (bounds ? kBounding : kLeast) * static_cast<double>(largest);
+  plan.closing_regularisation = kLeast * static_cast<double>(largest);
+  plan.corrections = bounds ? 2 : 1;
 }
 
 }  // namespace

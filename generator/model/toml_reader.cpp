@@ -97,7 +97,7 @@
 //   treatment = "partitioned"      # explicit, multipliers
 //   independent = ["crank"]        # coordinates, by name
 //   iterations = 2                 # of Newton's method at the end of a step
-//   stabilisation = 5              # 1/s, multipliers
+//   stabilisation = 0              # 1/s, multipliers: damps what opens between projections
 //
 //   [[output]]
 //   name = "tip_pose"

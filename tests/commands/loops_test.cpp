@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "support/files.hpp"
@@ -163,6 +164,62 @@ TEST(LoopCommands, AMotionCannotBeFollowed) {
   expect(jourdain({"simulate", "models/four_bar.toml", "--inputs", scenario, "--output",
                    folder.path() + "/x.csv"}),
          1, "closed loops cannot follow a motion");
+}
+
+/// A model of models/ with pieces of its text replaced, in a file of `folder`.
+std::string changed_model(const std::string& folder, const std::string& name,
+                          const std::vector<std::pair<std::string, std::string>>& changes) {
+  std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/" + name);
+  for (const auto& [from, to] : changes) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  }
+  const std::string path = folder + "/" + name;
+  support::write_file(path, text);
+  return path;
+}
+
+TEST(LoopCommands, ARunEndsWhereTheMechanismIsSingularUnlessMultipliersAreAskedFor) {
+  const support::TemporaryFolder folder;
+  const std::string left_to_the_tool =
+      changed_model(folder.path(), "n_four_bar.toml", {{"[loops]\ntreatment = \"multipliers\"", ""}});
+  for (const std::string step : {"1e-3", "1e-4"})
+    expect(jourdain({"simulate", left_to_the_tool, "--duration", "2", "--step", step, "--output",
+                     folder.path() + "/o.csv"}),
+           1, "error: at t = 0.71");
+  expect(jourdain(
+             {"simulate", "models/n_four_bar.toml", "--duration", "2", "--output", folder.path() + "/o.csv"}),
+         0, "loops open by ");
+}
+
+TEST(LoopCommands, ARunEndsWhereDependentCoordinatesTurnSingular) {
+  const support::TemporaryFolder folder;
+  const std::string rocker = changed_model(folder.path(), "four_bar.toml",
+                                           {{"treatment = \"explicit\"", "treatment = \"partitioned\""},
+                                            {"independent = [\"crank\"]", "independent = [\"rocker\"]"}});
+  const auto result = jourdain({"simulate", rocker, "--duration", "5", "--output", folder.path() + "/o.csv"});
+  expect(result, 1, "warning: it is not proven that the other coordinates follow");
+  expect(result, 1, "the other coordinates no longer follow from rocker");
+}
+
+TEST(LoopCommands, ARunEndsWhereACoordinateLeavesTheRangeOfTheProof) {
+  const support::TemporaryFolder folder;
+  const std::string narrow =
+      changed_model(folder.path(), "spring_four_bar.toml", {{"range = [0.5, 2.95]", "range = [1.7, 1.8]"}});
+  expect(jourdain({"simulate", narrow, "--duration", "2", "--output", folder.path() + "/o.csv"}), 1,
+         "leaves its range [1.7, 1.8]");
+}
+
+TEST(LoopCommands, ReportsSayWhereLoopsTurnSingularAndRecommendNothing) {
+  const support::TemporaryFolder folder;
+  const std::string left_to_the_tool =
+      changed_model(folder.path(), "n_four_bar.toml", {{"[loops]\ntreatment = \"multipliers\"", ""}});
+  const auto result =
+      jourdain({"report", left_to_the_tool, "--duration", "1s", "--methods", "rk4", "--longest-step", "4ms",
+                "--halvings", "2", "--tolerance", "1e-6", "-o", folder.path()});
+  expect(result, 0, "NOT TO BE TRUSTED from t = 7");
+  expect(result, 0, "no recommendation, the loops turn singular");
 }
 
 }  // namespace

@@ -184,7 +184,9 @@ TEST(RegularityProof, HoldsAtAllTimes) {
     form.initial_y = {0, 0};
     form.angular = {true, true};
     form.range.resize(2);
-    return request_of(form);
+    RegularityRequest request = request_of(form);
+    request.effort = 20000;
+    return request;
   };
   const auto proven = prove_regular(driven(0.5));
   ASSERT_EQ(why_not(proven), "");

@@ -132,7 +132,7 @@ TEST(ReadLoops, HasDefaultOptions) {
   EXPECT_FALSE(options.treatment.has_value());
   EXPECT_TRUE(options.independent.empty());
   EXPECT_EQ(options.iterations, 2);
-  EXPECT_EQ(options.stabilisation, 5);
+  EXPECT_EQ(options.stabilisation, 0);
 }
 
 TEST(ReadLoops, TakesOptions) {
