@@ -90,8 +90,9 @@ struct Coordinate {
   Expression friction_speed = 1e-3;  ///< speed over which its sign is smoothed, rad/s or m/s
   Expression initial_position;       ///< rad or m
   Expression initial_velocity;       ///< rad/s or m/s
-  SourceRange position_where = {};   ///< of the initial position where the description gives it; otherwise line 0
-  SourceRange velocity_where = {};   ///< of the initial velocity, likewise
+  SourceRange position_where =
+      {};  ///< of the initial position where the description gives it; otherwise line 0
+  SourceRange velocity_where = {};  ///< of the initial velocity, likewise
   std::optional<Expression>
       motion;  ///< of time and parameters: the coordinate is prescribed, no part of y and z
   SourceRange motion_where = {};

@@ -23,8 +23,9 @@ struct Verdict {
   double backward_error = 0;   ///< of M ż = k̄ − q̄, program in double, relative to its term sum; worst
   double entry_error = 0;      ///< of an entry of M, k̄, q̄ and other outputs, program in double; worst
   double reference_error = 0;  ///< between symbolic statements and numeric reference; worst
-  double condition = 0;        ///< of M as emitted, with loops where they are closed; 2-norm, SI units as they are; worst
-  double snap_effect = 0;      ///< change of ż by snapping, norm over norm; worst
+  double condition =
+      0;  ///< of M as emitted, with loops where they are closed; 2-norm, SI units as they are; worst
+  double snap_effect = 0;             ///< change of ż by snapping, norm over norm; worst
   std::vector<std::string> failures;  ///< sentences; empty: accepted
 
   bool accepted() const { return failures.empty(); }
