@@ -78,9 +78,9 @@ struct System {
                                               {"fourth", 4, 4, 0, 0, 40, steps<true>}};
     const double roundoff = P == 1 ? 0x1p-53 : 0x1p-166;
     static const jourdain_model_table result = {
-        P,       1,       1,         1,        0,       0,       2,       roundoff, 4,
-        names,   names,   names,     no_names, methods, nullptr, initial, rates,    nullptr,
-        nullptr, kinetic, potential, nullptr,  0,       nullptr, nullptr, nullptr};
+        P,         1,       1,        1,       0,       0,       2,     roundoff, 4,       names,
+        names,     names,   no_names, methods, nullptr, initial, rates, nullptr,  nullptr, kinetic,
+        potential, nullptr, 0,        nullptr, nullptr, nullptr, 0,     0,        nullptr};
     return result;
   }
 };
