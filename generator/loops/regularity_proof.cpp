@@ -211,6 +211,7 @@ class Proof {
   }
 
   Eigen::MatrixXd slope_at(const Anchor& known) const {
+    if (known.p.size() == 0) return {known.x.size(), 0};
     const Eigen::MatrixXd slopes = layout_.equations->slopes(known.x, known.p);
     return -slopes.leftCols(known.x.size()).partialPivLu().solve(slopes.rightCols(known.p.size()));
   }
