@@ -22,7 +22,10 @@ struct Closed {
   long double condition = 1;  ///< of what was solved
 };
 
-long double condition_of(const Matrix& A) { return A.size() == 0 ? 1 : 1 / A.partialPivLu().rcond(); }
+long double condition_of(const Matrix& A) {
+  const Vector sigma = Eigen::JacobiSVD<Matrix>(A).singularValues();
+  return sigma.size() == 0 ? 1 : sigma[0] / sigma[sigma.size() - 1];
+}
 
 class Expectation {
  public:
