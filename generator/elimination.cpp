@@ -28,13 +28,6 @@ void add_quaternion(Builder& builder, const model::Tangent::Scalar& at, std::vec
     for (std::size_t c = 0; c < 3; ++c) list.push_back({q[k], at.velocity + c, by[k][c]});
 }
 
-/// Operations that remain after the passes: they find more in some orders than in others.
-std::size_t remaining_operations(const Program& program) {
-  ir::Module module;
-  module.functions = {program};
-  return ir::count_operations(passes::optimise(std::move(module)).module.functions[0]).arithmetic();
-}
-
 }  // namespace
 
 std::vector<Seed> displacement_seeds(Builder& builder, const model::Tangent& tangent) {
@@ -43,6 +36,12 @@ std::vector<Seed> displacement_seeds(Builder& builder, const model::Tangent& tan
     list.push_back({builder.leaf(LeafKind::kPosition, s.position), s.velocity, builder.literal(1)});
   for (const model::Tangent::Scalar& s : tangent.quaternions) add_quaternion(builder, s, list);
   return list;
+}
+
+std::size_t remaining_operations(const Program& program) {
+  ir::Module module;
+  module.functions = {program};
+  return ir::count_operations(passes::optimise(std::move(module)).module.functions[0]).arithmetic();
 }
 
 /// On the robot arms the first quarter of the program goes forward: rotations and velocities.

@@ -1,6 +1,9 @@
 #include "dynamics/closure.hpp"
 
+#include <fmt/format.h>
+
 #include "dynamics/applied_forces.hpp"
+#include "dynamics/moving_vector.hpp"
 #include "dynamics/points.hpp"
 #include "kinematics/numbers.hpp"
 
@@ -16,22 +19,25 @@ namespace {
 class SeenFrame {
  public:
   SeenFrame(Scene& scene, const model::Frame& frame, std::size_t ancestor, const std::string& name)
-      : scene_(scene), pose_(frame_pose(scene, frame)), ancestor_(ancestor), name_(name) {}
-
-  Vector3 position() const { return follow_point(scene_, pose_.link, pose_.r_LB, ancestor_, name_).position; }
-
-  /// Of a direction given in the frame.
-  Vector3 direction(const Vector3& given) const {
-    const Vector3 v_L = kinematics::settled(pose_.R_LB * given);
-    Vector3 v = scene_.frames.to_working(pose_.link, v_L, name_ + "d");
-    for (std::size_t j = pose_.link; j != ancestor_; j = scene_.tree.links[j].parent)
-      v = scene_.frames.to_parent(j, v, name_ + "d");
-    return v;
+      : scene_(scene), pose_(frame_pose(scene, frame)), inward_(scene, pose_.link, ancestor), name_(name) {
+    path_ = follow_point(scene, pose_.link, pose_.r_LB, ancestor, name);
   }
 
+  MovingVector position() const { return inward_.point(path_.levers, path_.position, name_ + "m"); }
+
+  /// Of a direction given in the frame.
+  MovingVector direction(const Vector3& given) const {
+    const Vector3 v_L = kinematics::settled(pose_.R_LB * given);
+    return inward_.direction(scene_.frames.to_working(pose_.link, v_L, name_ + "d"), name_ + "d");
+  }
+
+  const PointPath& path() const { return path_; }
+
+ private:
   Scene& scene_;
   kinematics::BodyPose pose_;
-  std::size_t ancestor_;
+  InwardPath inward_;
+  PointPath path_;
   std::string name_;
 };
 
@@ -53,96 +59,165 @@ Axes plane_axes(const std::array<double, 3>& axis) {
   return {first, kinematics::cross(n, first)};
 }
 
+/// One loop.
 class Closure {
  public:
-  explicit Closure(Scene& scene) : scene_(scene) {}
+  Closure(Scene& scene, const Loop& loop)
+      : scene_(scene),
+        loop_(loop),
+        from_(scene.mechanism.frames[loop.from.value]),
+        to_(scene.mechanism.frames[loop.to.value]),
+        ancestor_(common_ancestor(scene.tree, link_of(from_.body), link_of(to_.body))),
+        carrier_(model::carrier(scene.mechanism, from_.body, to_.body)),
+        a_(scene, from_, ancestor_, loop.name + "a"),
+        b_(scene, to_, ancestor_, loop.name + "b"),
+        difference_(b_.position() - a_.position()) {
+    difference_.value = scene.statements.bind(loop.name + "d", difference_.value);
+    difference_.first = scene.statements.bind(loop.name + "dv", difference_.first);
+    difference_.second = scene.statements.bind(loop.name + "da", difference_.second);
+  }
 
-  LoopClosure close(const Loop& loop) {
-    if (loop.type == LoopType::kResidual)
-      return {{general_value(scene_, loop.name, loop.residual, Inputs::kZero)}, {}, {}};
-    const model::Frame &from = scene_.mechanism.frames[loop.from.value],
-                       &to = scene_.mechanism.frames[loop.to.value];
-    const std::size_t ancestor = common_ancestor(scene_.tree, link_of(from.body), link_of(to.body));
-    const SeenFrame a(scene_, from, ancestor, loop.name + "a"), b(scene_, to, ancestor, loop.name + "b");
-    const Vector3 difference = scene_.statements.bind(loop.name + "d", b.position() - a.position());
-    const std::optional<model::BodyIndex> carrier = model::carrier(scene_.mechanism, from.body, to.body);
-    std::vector<Ex> g, senses;
-    std::vector<RowGradient> gradients;
-    const auto apart = [&](const Vector3& along) {  // a direction fixed in `from`
-      g.push_back(dot(along, difference));
-      gradients.push_back({.place = along, .turn_from = kinematics::cross(along, difference)});
-    };
-    const auto apart_in_carrier = [&](const std::vector<Vector3>& axes) {
-      const Vector3 seen = in_carrier(carrier, difference, loop.name);
-      for (const Vector3& axis : axes) {
-        const Vector3 along = from_carrier(carrier, axis, loop.name);
-        g.push_back(dot(axis, seen));
-        gradients.push_back({.place = along, .turn_carrier = kinematics::cross(along, difference)});
-      }
-    };
-    const auto across = [&](const Vector3& fixed_in_from, const Vector3& fixed_in_to) {
-      const Vector3 turn = kinematics::cross(fixed_in_from, fixed_in_to);
-      g.push_back(dot(fixed_in_from, fixed_in_to));
-      gradients.push_back({.turn_from = turn, .turn_to = Ex(-1) * turn});
-    };
-    const auto coincide = [&] { apart_in_carrier({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); };
-    const Axes from_axes = plane_axes(loop.axis), to_axes = plane_axes(loop.to_axis);
-    const auto n = [&] { return a.direction(kinematics::unit_vector(loop.axis)); };
-    const auto w = [&] { return b.direction(kinematics::unit_vector(loop.to_axis)); };
-    const auto points_apart = [&] {
-      for (const Vector3& axis : from_axes) apart(a.direction(axis));
-    };
-    const auto parallel = [&] {
-      for (const Vector3& axis : from_axes) across(a.direction(axis), w());
-      senses = {dot(n(), w())};
-    };
-    switch (loop.type) {
-      case LoopType::kBall:
-        coincide();
-        break;
-      case LoopType::kRevolute:
-        coincide();
-        parallel();
-        break;
-      case LoopType::kUniversal:
-        coincide();
-        across(n(), w());
-        break;
-      case LoopType::kPrismatic:
-        points_apart();
-        parallel();
-        across(a.direction(from_axes[0]), b.direction(to_axes[1]));
-        senses.push_back(dot(a.direction(from_axes[0]), b.direction(to_axes[0])));
-        break;
-      case LoopType::kCylindrical:
-        points_apart();
-        parallel();
-        break;
-      case LoopType::kPlanarPin:
-        apart_in_carrier({from_axes[0], from_axes[1]});
-        break;
-      case LoopType::kPointInPlane:
-        apart(n());
-        break;
-      case LoopType::kPointOnLine:
-        points_apart();
-        break;
-      case LoopType::kRod: {
-        const Ex length = general_value(scene_, loop.name + "l", loop.length, Inputs::kZero);
-        const Ex square = scene_.statements.bind(loop.name + "ll", dot(difference, difference));
-        g.push_back((square - length * length) / (2 * length));
-        gradients.push_back({.place = Ex(1 / length) * difference});
-        break;
-      }
-      case LoopType::kResidual:
-        break;
-    }
-    for (Ex& row : g) row = scene_.statements.bind("g_" + loop.name, kinematics::settled(row));
-    for (Ex& sense : senses) sense = scene_.statements.bind("sense_" + loop.name, kinematics::settled(sense));
-    return {g, senses, gradients};
+  LoopClosure close(ClosureRates rates) {
+    write_rows();
+    for (Ex& row : closure_.rows) row = scene_.statements.bind("g_" + loop_.name, kinematics::settled(row));
+    for (Ex& sense : closure_.senses)
+      sense = scene_.statements.bind("sense_" + loop_.name, kinematics::settled(sense));
+    if (rates == ClosureRates::kGiven)
+      for (std::size_t r = 0; r < closure_.rows.size(); ++r) add_slopes(r);
+    return std::move(closure_);
   }
 
  private:
+  void add_row(const kinematics::Taylor& row, const RowGradient& gradient) {
+    closure_.rows.push_back(row.value);
+    closure_.rates.push_back(scene_.statements.bind("rate_" + loop_.name, row.first));
+    closure_.biases.push_back(scene_.statements.bind("bias_" + loop_.name, row.second));
+    closure_.gradients.push_back(gradient);
+  }
+
+  /// Along a direction fixed in `from`.
+  void hold_along(const Vector3& axis) {
+    const MovingVector along = a_.direction(axis);
+    add_row(product(along, difference_),
+            {.place = along.value, .turn_from = kinematics::cross(along.value, difference_.value)});
+  }
+
+  void hold_in_carrier(const std::vector<Vector3>& axes) {
+    const auto seen = [&](const Vector3& v, const char* what) {
+      return in_carrier(carrier_, v, loop_.name + what);
+    };
+    const MovingVector difference{seen(difference_.value, ""), seen(difference_.first, "v"),
+                                  seen(difference_.second, "a")};
+    for (const Vector3& axis : axes) {
+      const Vector3 along = from_carrier(carrier_, axis, loop_.name);
+      add_row(product({.value = axis}, difference),
+              {.place = along, .turn_carrier = kinematics::cross(along, difference_.value)});
+    }
+  }
+
+  /// Of a direction of `from` and one of `to`.
+  void hold_across(const MovingVector& u, const MovingVector& w) {
+    const Vector3 turn = kinematics::cross(u.value, w.value);
+    add_row(product(u, w), {.turn_from = turn, .turn_to = Ex(-1) * turn});
+  }
+
+  void hold_points(const Axes& from_axes) {
+    for (const Vector3& axis : from_axes) hold_along(axis);
+  }
+
+  void hold_parallel(const Axes& from_axes) {
+    const MovingVector w = b_.direction(kinematics::unit_vector(loop_.to_axis));
+    for (const Vector3& axis : from_axes) hold_across(a_.direction(axis), w);
+    closure_.senses = {dot(a_.direction(kinematics::unit_vector(loop_.axis)).value, w.value)};
+  }
+
+  /// (Δ·Δ/l − l)/2, with a length that may be a function of time.
+  void hold_length() {
+    kinematics::Statements& statements = scene_.statements;
+    const Ex l = general_value(scene_, loop_.name + "l", loop_.length, Inputs::kZero);
+    const kinematics::Taylor length =
+        kinematics::differentiated(loop_.length, scene_.leaves.t, scene_.leaves.parameters, statements);
+    const kinematics::Taylor square = product(difference_, difference_);
+    const Ex inverse = statements.bind(loop_.name + "il", 1 / l);
+    const Ex value = statements.bind(loop_.name + "ll", square.value);
+    const Ex ratio = statements.bind(loop_.name + "lr", value * inverse * inverse);
+    const Ex twice = statements.bind(loop_.name + "lv", inverse * square.first / 2);
+    time_rate_ = -length.first * (ratio + 1) / 2;
+    const Ex bias = inverse * square.second / 2 - length.second * (ratio + 1) / 2 +
+                    length.first * inverse * (length.first * ratio - 2 * twice);
+    add_row({(value - l * l) / (2 * l), twice + time_rate_, bias}, {.place = Ex(1 / l) * difference_.value});
+  }
+
+  void write_rows() {
+    const Axes from_axes = plane_axes(loop_.axis), to_axes = plane_axes(loop_.to_axis);
+    const Vector3 n = kinematics::unit_vector(loop_.axis);
+    const auto coincide = [&] { hold_in_carrier({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); };
+    switch (loop_.type) {
+      case LoopType::kBall:
+        return coincide();
+      case LoopType::kRevolute:
+        coincide();
+        return hold_parallel(from_axes);
+      case LoopType::kUniversal:
+        coincide();
+        return hold_across(a_.direction(n), b_.direction(kinematics::unit_vector(loop_.to_axis)));
+      case LoopType::kPrismatic:
+        hold_points(from_axes);
+        hold_parallel(from_axes);
+        hold_across(a_.direction(from_axes[0]), b_.direction(to_axes[1]));
+        closure_.senses.push_back(dot(a_.direction(from_axes[0]).value, b_.direction(to_axes[0]).value));
+        return;
+      case LoopType::kCylindrical:
+        hold_points(from_axes);
+        return hold_parallel(from_axes);
+      case LoopType::kPlanarPin:
+        return hold_in_carrier({from_axes[0], from_axes[1]});
+      case LoopType::kPointInPlane:
+        return hold_along(n);
+      case LoopType::kPointOnLine:
+        return hold_points(from_axes);
+      case LoopType::kRod:
+        return hold_length();
+      case LoopType::kResidual:
+        break;
+    }
+    JD_CHECK(false, "a residual is no row of two frames");
+  }
+
+  /// G and g_t of a row: its gradient on the columns of the links on the way to either frame.
+  void add_slopes(std::size_t row) {
+    const RowGradient& gradient = closure_.gradients[row];
+    closure_.slopes.emplace_back();
+    closure_.time_slopes.push_back(time_rate_);
+    const std::string name = fmt::format("{}s{}", loop_.name, row);
+    add_side(a_.path(), {Ex(-1) * gradient.place, gradient.turn_from}, name + "a");
+    add_side(b_.path(), {gradient.place, gradient.turn_to}, name + "b");
+  }
+
+  void add_side(const PointPath& path, const Wrench& wrench, const std::string& name) {
+    const std::vector<Vector3> forces = carry_outward(scene_, path, wrench.force, name + "f"),
+                               moments = carry_outward(scene_, path, wrench.moment, name + "n");
+    for (std::size_t k = 0; k < path.links.size(); ++k)
+      add_link(path.links[k],
+               {forces[k], scene_.statements.bind(name + "m", moments[k] + cross(path.levers[k], forces[k]))},
+               name);
+  }
+
+  void add_link(std::size_t j, Wrench here, const std::string& name) {
+    if (!scene_.states[j].entry) {
+      Ex& sum = closure_.time_slopes.back();
+      sum = scene_.statements.bind(name + "t", sum + power(here, scene_.relative_twist(j)));
+      return;
+    }
+    if (scene_.tree.links[j].kind == kinematics::LinkKind::kFree) here = to_external(scene_, j, here, name);
+    for (const Column& column : scene_.columns[j]) {
+      const Ex share = power(here, column.twist);
+      if (share.is_zero()) continue;
+      Ex& sum = closure_.slopes.back()[*column.entry];
+      sum = scene_.statements.bind(name + "p", sum + share);
+    }
+  }
+
   std::size_t link_of(std::optional<model::BodyIndex> body) const {
     return body ? scene_.tree.bodies[body->value].link : kGround;
   }
@@ -163,13 +238,27 @@ class Closure {
   }
 
   Scene& scene_;
+  const Loop& loop_;
+  const model::Frame &from_, &to_;
+  std::size_t ancestor_;
+  std::optional<model::BodyIndex> carrier_;
+  SeenFrame a_, b_;
+  MovingVector difference_;
+  Ex time_rate_ = 0;  ///< of the row at rest
+  LoopClosure closure_;
 };
 
 }  // namespace
 
-std::vector<LoopClosure> derive_closure(Scene& scene) {
+std::vector<LoopClosure> derive_closure(Scene& scene, ClosureRates rates) {
   std::vector<LoopClosure> closures;
-  for (const Loop& loop : scene.mechanism.loops) closures.push_back(Closure(scene).close(loop));
+  for (const Loop& loop : scene.mechanism.loops)
+    if (loop.type == LoopType::kResidual)
+      closures.emplace_back().rows = {scene.statements.bind(
+          "g_" + loop.name,
+          kinematics::settled(general_value(scene, loop.name, loop.residual, Inputs::kZero)))};
+    else
+      closures.push_back(Closure(scene, loop).close(rates));
   return closures;
 }
 

@@ -1,6 +1,7 @@
 // The constraint functions g(y, t) of the loop joints, row by row as model::Loop defines them.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "dynamics/scene.hpp"
@@ -22,9 +23,14 @@ struct LoopClosure {
   std::vector<Ex>
       senses;  ///< products of unit vectors that are 1 where it is closed, and −1 where it is closed the wrong way
   std::vector<RowGradient> gradients;  ///< by row; none of a residual
+  /// By row, as far as asked for; none of a residual: G by entry of z, without entries that are 0, g_t, ġ, and γ = g̈ at ż = 0.
+  std::vector<std::map<std::size_t, Ex>> slopes;
+  std::vector<Ex> time_slopes, rates, biases;
 };
 
+enum class ClosureRates { kNone, kGiven };
+
 /// By loop.
-std::vector<LoopClosure> derive_closure(Scene& scene);
+std::vector<LoopClosure> derive_closure(Scene& scene, ClosureRates rates);
 
 }  // namespace jourdain::dynamics

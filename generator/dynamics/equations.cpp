@@ -33,8 +33,9 @@ class Derivation {
 
   Equations derive() {
     Equations equations;
+    const ClosureRates rates = options_.for_derivatives ? ClosureRates::kGiven : ClosureRates::kNone;
     if (options_.closures_only) {
-      equations.closures = derive_closure(scene_);
+      equations.closures = derive_closure(scene_, rates);
       equations.statements = std::move(scene_.statements);
       return equations;
     }
@@ -58,7 +59,7 @@ class Derivation {
     equations.potential_energy = derive_potential_energy(scene_);
     set_initial_state(equations);
     for (const model::Output& output : mechanism_.outputs) equations.output_names.push_back(output.name);
-    equations.closures = derive_closure(scene_);
+    equations.closures = derive_closure(scene_, rates);
     equations.outputs_take_leaves = options_.for_derivatives || !mechanism_.loops.empty();
     if (equations.outputs_take_leaves)
       equations.outputs = derive_outputs(scene_, equations, scene_.leaves.zdot,

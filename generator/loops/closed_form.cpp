@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/dense_solver.hpp"
 #include "loops/dyad.hpp"
 #include "loops/reach.hpp"
+#include "loops/rotation.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::loops {
@@ -17,6 +19,8 @@ using ir::Program;
 namespace {
 
 constexpr std::size_t kSamples = 9;
+/// Boxes after which the proof of pivots is given up: without it only operations are lost.
+constexpr std::size_t kPivotBoxes = 20000;
 /// rad or length: the initial state is assembled to rounding, times what the mechanism's condition makes of it.
 constexpr double kAssembled = 1e-6;
 /// Of the change of g over a unit of the dependents: what a wrong form leaves is of size 1.
@@ -30,7 +34,7 @@ class Closing {
       roles_.names.push_back(fmt::format("y[{}]", k));
     std::vector<bool> varied(request.initial_y.size(), true);
     for (const PositionBlock& block : request.blocks)
-      for (const std::size_t k : block.dependents) {
+      for (const std::size_t k : entries_of(block)) {
         dependents_.push_back(k);
         roles_.later.insert(k);
         varied[k] = false;
@@ -40,23 +44,98 @@ class Closing {
 
   std::variant<ClosedForm, std::string> run() {
     for (const PositionBlock& block : request_.blocks) {
-      JD_CHECK(block.rows.size() == block.dependents.size(), "{} rows for {} unknowns", block.rows.size(),
-               block.dependents.size());
-      if (block.dependents.size() > 2) return fmt::format("block of {} unknowns", block.dependents.size());
+      const std::size_t count = block.dependents.size() + (block.rotation ? 3 : 0);
+      JD_CHECK(block.rows.size() == count, "{} rows for {} unknowns", block.rows.size(), count);
+      if (block.dependents.size() > kScalars) return fmt::format("block of {} unknowns", count);
       if (const std::string failure = solve_block(block); !failure.empty()) return failure;
     }
     ClosedForm result{closing_program()};
     if (const std::string failure = check(result.close); !failure.empty()) return failure;
-    const auto margin =
-        smallest_margin({builder_, conditions_, request_.parameters, request_.angular, request_.range,
-                         roles_.names, dependents_, request_.parameter_range, request_.parameter_names});
+    const auto margin = proven(conditions_);
     if (const auto* failure = std::get_if<std::string>(&margin)) return *failure;
     result.smallest_margin = std::get<double>(margin);
     result.at_defaults = at_defaults();
+    for (const Elimination& elimination : request_.eliminations)
+      result.has_pivots.push_back(has_pivots(elimination));
     return result;
   }
 
  private:
+  std::variant<double, std::string> proven(const std::vector<Requirement>& requirements,
+                                           Effort effort = {}) const {
+    return smallest_margin({builder_, requirements, request_.parameters, request_.angular, request_.range,
+                            roles_.names, dependents_, request_.parameter_range, request_.parameter_names},
+                           effort);
+  }
+
+  bool has_pivots(const Elimination& elimination) {
+    std::vector<ir::ValueId> values;
+    std::vector<std::pair<std::size_t, std::size_t>> places;
+    for (const ir::Output& output : request_.jacobian.outputs) {
+      const auto place = [&](const std::vector<std::size_t>& list, int subscript) {
+        return static_cast<std::size_t>(
+            std::find(list.begin(), list.end(), static_cast<std::size_t>(subscript)) - list.begin());
+      };
+      if (output.name != "G") continue;
+      const std::size_t i = place(elimination.rows, output.row),
+                        j = place(elimination.columns, output.column);
+      if (i == elimination.rows.size() || j == elimination.columns.size()) continue;
+      values.push_back(output.value);
+      places.emplace_back(i, j);
+    }
+    Roles roles = roles_;
+    roles.unknowns.clear();
+    roles.rotation.reset();
+    if (rotations_.size() == 1) {  // its matrix has narrower bounds than the quaternion
+      roles.rotation = rotations_.begin()->first;
+      for (std::size_t k = 0; k < 4; ++k) roles.known.erase(*roles.rotation + k);
+    }
+    const auto entries = polynomials_of(builder_, request_.jacobian, values, roles);
+    if (std::holds_alternative<std::string>(entries)) return false;
+    const std::size_t n = elimination.rows.size();
+    std::vector<ir::Column> A(n, ir::Column(n, builder_.literal(0)));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Polynomial& entry = std::get<std::vector<Polynomial>>(entries)[k];
+      A[places[k].first][places[k].second] = at_rotation(entry, roles.rotation).value;
+    }
+    const DenseSolver solver(builder_, A, true);
+    std::vector<Requirement> requirements;
+    for (const ir::Signed& pivot : solver.pivots()) {
+      const bool is_positive = initial({&builder_, pivot}, samples_) > 0;
+      requirements.push_back({is_positive ? pivot : -pivot, false, "a pivot"});
+    }
+    return std::holds_alternative<double>(proven(requirements, {.boxes = kPivotBoxes, .is_sharp = false}));
+  }
+
+  /// A polynomial of nothing but the entries of one known rotation.
+  Scalar at_rotation(const Polynomial& polynomial, const std::optional<std::size_t>& rotation) {
+    Scalar sum = {&builder_, builder_.literal(0)};
+    for (const auto& [powers, coefficient] : polynomial) {
+      Scalar term = coefficient;
+      for (std::size_t i = 0; rotation && i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          for (int n = rotation_power(powers, i, j); n > 0; --n)
+            term = term * rotations_.at(*rotation).columns[j][i];
+      sum = sum + term;
+    }
+    return sum;
+  }
+
+  std::vector<ir::ValueId> values_of(const std::vector<std::size_t>& rows) const {
+    std::vector<ir::ValueId> values;
+    for (const std::size_t row : rows)
+      for (const ir::Output& output : request_.g.outputs)
+        if (output.row == static_cast<int>(row)) values.push_back(output.value);
+    return values;
+  }
+
+  /// Of y.
+  static std::vector<std::size_t> entries_of(const PositionBlock& block) {
+    std::vector<std::size_t> entries = block.dependents;
+    for (std::size_t k = 0; block.rotation && k < 4; ++k) entries.push_back(*block.rotation + k);
+    return entries;
+  }
+
   ir::Program closing_program() const {
     ir::Builder closing = builder_;
     ir::Signed regularity = closing.literal(1), opening = closing.literal(0);
@@ -93,12 +172,14 @@ class Closing {
 
   /// Puts the block's dependents among the known coordinates. Otherwise why not.
   std::string solve_block(const PositionBlock& block) {
-    for (const std::size_t k : block.dependents) roles_.later.erase(k);
+    for (const std::size_t k : entries_of(block)) roles_.later.erase(k);
     roles_.unknowns = block.dependents;
-    auto expanded = polynomials_of(builder_, request_.g, block.rows, roles_);
+    roles_.rotation = block.rotation;
+    auto expanded = polynomials_of(builder_, request_.g, values_of(block.rows), roles_);
     if (const auto* failure = std::get_if<std::string>(&expanded)) return *failure;
     auto& rows = std::get<std::vector<Polynomial>>(expanded);
     drop_rounding(rows, samples_);
+    if (block.rotation) return take(entries_of(block), solved_rotation(block, rows));
     if (const auto first = row_of_one(rows)) {
       const auto [row, unknown] = *first;
       const std::size_t entry = block.dependents[unknown], other = block.dependents[1 - unknown];
@@ -112,12 +193,29 @@ class Closing {
   std::string solve_rows(const std::vector<Polynomial>& rows, const std::vector<std::size_t>& entries) {
     std::vector<double> initial;
     for (const std::size_t k : entries) initial.push_back(request_.initial_y[k]);
-    const auto solved = solve(builder_, rows, initial, samples_);
+    return take(entries, solve(builder_, rows, initial, samples_));
+  }
+
+  std::variant<Solution, std::string> solved_rotation(const PositionBlock& block,
+                                                      const std::vector<Polynomial>& rows) {
+    if (block.dependents.size() > 1) return "more than one coordinate beside a rotation in space";
+    const std::vector<double>& y = request_.initial_y;
+    const auto first = y.begin() + static_cast<std::ptrdiff_t>(*block.rotation);
+    std::array<double, 4> quaternion;
+    std::copy(first, first + 4, quaternion.begin());
+    const auto scalar = block.dependents.empty() ? std::nullopt : std::optional(y[block.dependents[0]]);
+    return solve_rotation(builder_, rows, scalar, quaternion, samples_);
+  }
+
+  /// Puts what is solved among the known coordinates. Otherwise why there is nothing.
+  std::string take(const std::vector<std::size_t>& entries,
+                   const std::variant<Solution, std::string>& solved) {
     if (const auto* failure = std::get_if<std::string>(&solved))
       return fmt::format("{}: {}", names_of(entries), *failure);
     const Solution& solution = std::get<Solution>(solved);
     for (std::size_t k = 0; k < entries.size(); ++k)
       roles_.known[entries[k]] = placed(entries[k], solution.unknowns[k]);
+    if (solution.rotation) rotations_[entries[entries.size() - 4]] = *solution.rotation;
     for (const Condition& condition : solution.conditions)
       conditions_.push_back({condition.value.value, condition.is_margin, names_of(entries)});
     return "";
@@ -175,7 +273,8 @@ class Closing {
   const ClosedFormRequest& request_;
   ir::Builder builder_;
   Roles roles_;
-  std::vector<std::size_t> dependents_;  ///< in order of solution
+  std::map<std::size_t, Matrix3> rotations_;  ///< found, by the entry of y of the quaternion's w
+  std::vector<std::size_t> dependents_;       ///< in order of solution
   Samples samples_;
   std::vector<Requirement> conditions_;
 };

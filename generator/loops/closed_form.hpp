@@ -1,4 +1,4 @@
-// Dependent coordinates of planar loops in closed form: intersections of circles and lines.
+// Dependent coordinates of loops in closed form: intersections of circles, lines and spheres.
 #pragma once
 
 #include <array>
@@ -14,8 +14,14 @@ namespace jourdain::loops {
 
 /// A part of g(y, t) = 0 that determines some coordinates once those of earlier blocks are known.
 struct PositionBlock {
-  std::vector<std::size_t> rows;        ///< of g
-  std::vector<std::size_t> dependents;  ///< entries of y, scalar coordinates; as many as rows
+  std::vector<std::size_t> rows;             ///< of g
+  std::vector<std::size_t> dependents;       ///< entries of y, scalar coordinates
+  std::optional<std::size_t> rotation = {};  ///< entry of y of the w of a quaternion, for three of the rows
+};
+
+/// Rows and columns of a Jacobian in an order of elimination.
+struct Elimination {
+  std::vector<std::size_t> rows, columns;
 };
 
 struct ClosedFormRequest {
@@ -29,6 +35,8 @@ struct ClosedFormRequest {
   std::vector<std::optional<std::array<double, 2>>> parameter_range =
       {};  ///< none, or empty: as in `parameters`
   std::vector<std::string> parameter_names = {};
+  ir::Program jacobian = {};                   ///< outputs ("G", row, column)
+  std::vector<Elimination> eliminations = {};  ///< whose pivots are to be proven
 };
 
 struct ClosedForm {
@@ -39,13 +47,16 @@ struct ClosedForm {
   /// Over the declared ranges: of every discriminant, as sin² of the angle from a dead position, a lower bound that interval arithmetic
   /// proves. 1 where no root is taken.
   double smallest_margin = 1;
+  /// Of the eliminations asked for: proven never to divide by zero?
+  std::vector<bool> has_pivots = {};
   /// Parameters of the constraints without a range: all this holds at their values in the request.
   std::vector<std::string> at_defaults = {};
 };
 
 /// Solves blocks of one coordinate (linear, or α cos + β sin = γ) and of two: two angles of which the rows are
 /// k + A e_a + B e_b or k + R(a) (u + R(b) w), an angle and a slide of which they are k + A e_a + v s or k + R(a) (u + v s),
-/// two slides. e is (cos, sin); rows may be combined by any regular matrix that the unknowns do not change. Every root is proven to
+/// two slides; three slides between three spheres; a rotation in space with at most one coordinate (see solve_rotation). e is (cos,
+/// sin); rows may be combined by any regular matrix that the unknowns do not change. Every root is proven to
 /// stay off zero over the range of the independent coordinates that matter: an angle without range may take any value.
 /// Otherwise the reason, a phrase for the user.
 std::variant<ClosedForm, std::string> closed_form(const ClosedFormRequest& request);

@@ -165,7 +165,7 @@ std::string assembly_text(const LoopPlan& plan) {
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   if (mechanism.loops.empty()) return {};
   dynamics::DerivationOptions options;
-  options.closures_only = true;
+  options.closures_only = options.for_derivatives = true;
   const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
   return plan_loops(mechanism, constraint_programs(mechanism, equations), diagnostics);
 }

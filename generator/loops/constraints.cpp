@@ -1,6 +1,7 @@
 #include "loops/constraints.hpp"
 
-#include <set>
+#include <algorithm>
+#include <optional>
 
 #include "elimination.hpp"
 #include "ir/compose.hpp"
@@ -37,32 +38,100 @@ std::map<std::size_t, double> positions_inward(const model::Mechanism& mechanism
   return values;
 }
 
-/// One output per value of every loop, in order.
-Program lowered(const model::Mechanism& mechanism, const dynamics::Equations& equations,
-                std::vector<dynamics::Ex> dynamics::LoopClosure::*values, const char* name) {
-  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  Builder builder;
-  std::size_t row = 0;
-  for (std::size_t l = 0; l < mechanism.loops.size(); ++l) {
-    const model::Loop& loop = mechanism.loops[l];
-    std::map<std::size_t, double> fixed;
-    if (loop.type != model::LoopType::kResidual)
-      fixed = positions_inward(mechanism, layout,
-                               model::carrier(mechanism, mechanism.frames[loop.from.value].body,
-                                              mechanism.frames[loop.to.value].body));
-    for (const dynamics::Ex& value : equations.closures[l].*values) {
-      const Program one = ir::lower(equations.statements, {{name, -1, -1, value}}, name);
-      const Signed copy = ir::insert(builder, one, [&](LeafKind kind, std::size_t i) {
-        const auto it = fixed.find(i);
-        const bool given = kind == LeafKind::kPosition && it != fixed.end();
-        return given ? std::optional(builder.literal(it->second)) : std::nullopt;
-      })[0];
-      const bool is_row = values == &dynamics::LoopClosure::rows;
-      builder.output(name, static_cast<int>(is_row ? row++ : l), -1, copy);
-    }
+/// Copies targets of each loop into one program; outputs that are 0 whatever the state are left out where `sparse`.
+class LoopLowering {
+ public:
+  LoopLowering(const model::Mechanism& mechanism, const dynamics::Equations& equations)
+      : mechanism_(mechanism), equations_(equations), layout_(model::lay_out_coordinates(mechanism)) {}
+
+  void add(std::size_t loop, const ir::Target& target, bool sparse = false) {
+    const std::map<std::size_t, double> fixed = inward(mechanism_.loops[loop]);
+    const Program one = ir::lower(equations_.statements, {target}, target.name);
+    const Signed copy = ir::insert(builder_, one, [&](LeafKind kind, std::size_t i) {
+      const auto it = fixed.find(i);
+      const bool given = kind == LeafKind::kPosition && it != fixed.end();
+      return given ? std::optional(builder_.literal(it->second)) : std::nullopt;
+    })[0];
+    if (!sparse || !builder_.is_literal(copy, 0))
+      builder_.output(target.name, target.row, target.column, copy);
   }
-  return passes::remove_dead_code(builder.finish(name));
-}
+
+  Program finish(const char* name) { return passes::remove_dead_code(builder_.finish(name)); }
+
+ private:
+  /// Coordinates that the loop does not feel.
+  std::map<std::size_t, double> inward(const model::Loop& loop) const {
+    if (loop.type == model::LoopType::kResidual) return {};
+    return positions_inward(mechanism_, layout_,
+                            model::carrier(mechanism_, mechanism_.frames[loop.from.value].body,
+                                           mechanism_.frames[loop.to.value].body));
+  }
+
+  const model::Mechanism& mechanism_;
+  const dynamics::Equations& equations_;
+  model::CoordinateLayout layout_;
+  Builder builder_;
+};
+
+/// What is derived for the loops, and who derives it.
+class Lowered {
+ public:
+  Lowered(const model::Mechanism& mechanism, const dynamics::Equations& equations)
+      : mechanism_(mechanism), equations_(equations) {}
+
+  Program values() const {
+    return by_row("g", [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t r, int row) {
+      program.add(l, {"g", row, -1, closure.rows[r]});
+    });
+  }
+
+  Program senses() const {
+    LoopLowering program(mechanism_, equations_);
+    for (std::size_t l = 0; l < equations_.closures.size(); ++l)
+      for (const dynamics::Ex& sense : equations_.closures[l].senses)
+        program.add(l, {"sense", static_cast<int>(l), -1, sense});
+    return program.finish("sense");
+  }
+
+  /// By the motion of points and directions; none where a row is a residual of the description.
+  std::optional<Program> jacobian() const {
+    if (!has_rates()) return {};
+    return by_row("closure_jacobian",
+                  [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t r, int row) {
+                    for (const auto& [velocity, slope] : closure.slopes[r])
+                      program.add(l, {"G", row, static_cast<int>(velocity), slope}, true);
+                    program.add(l, {"g_t", row, -1, closure.time_slopes[r]}, true);
+                  });
+  }
+
+  std::optional<Program> rates() const {
+    if (!has_rates()) return {};
+    return by_row("closure_rates",
+                  [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t r, int row) {
+                    program.add(l, {"rate", row, -1, closure.rates[r]});
+                    program.add(l, {"gamma", row, -1, closure.biases[r]});
+                  });
+  }
+
+ private:
+  bool has_rates() const {
+    return std::all_of(equations_.closures.begin(), equations_.closures.end(),
+                       [](const dynamics::LoopClosure& closure) { return !closure.slopes.empty(); });
+  }
+
+  template <class Add>
+  Program by_row(const char* name, const Add& add) const {
+    LoopLowering program(mechanism_, equations_);
+    int row = 0;
+    for (std::size_t l = 0; l < equations_.closures.size(); ++l)
+      for (std::size_t r = 0; r < equations_.closures[l].rows.size(); ++r)
+        add(program, equations_.closures[l], l, r, row++);
+    return program.finish(name);
+  }
+
+  const model::Mechanism& mechanism_;
+  const dynamics::Equations& equations_;
+};
 
 /// A builder that holds g and differentiates it.
 class Differentiation {
@@ -129,18 +198,26 @@ class Differentiation {
   JacobianEntries G_;
 };
 
+Program cheaper(Program one, std::optional<Program> other) {
+  return other && remaining_operations(*other) < remaining_operations(one) ? std::move(*other)
+                                                                           : std::move(one);
+}
+
 }  // namespace
 
 ConstraintPrograms constraint_programs(const model::Mechanism& mechanism,
                                        const dynamics::Equations& equations) {
   const model::Tangent tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
+  const Lowered lowered(mechanism, equations);
   ConstraintPrograms programs;
-  programs.value = lowered(mechanism, equations, &dynamics::LoopClosure::rows, "g");
-  programs.senses = lowered(mechanism, equations, &dynamics::LoopClosure::senses, "sense");
-  programs.jacobian =
-      cheapest([&](EliminationOrder o) { return Differentiation(tangent, programs.value, o).jacobian(); });
-  programs.rates =
-      cheapest([&](EliminationOrder o) { return Differentiation(tangent, programs.value, o).rates(); });
+  programs.value = lowered.values();
+  programs.senses = lowered.senses();
+  programs.jacobian = cheaper(
+      cheapest([&](EliminationOrder o) { return Differentiation(tangent, programs.value, o).jacobian(); }),
+      lowered.jacobian());
+  programs.rates = cheaper(
+      cheapest([&](EliminationOrder o) { return Differentiation(tangent, programs.value, o).rates(); }),
+      lowered.rates());
   return programs;
 }
 

@@ -4,8 +4,26 @@ namespace jourdain::loops {
 
 using ir::Signed;
 
-DenseSolver::DenseSolver(ir::Builder& builder, std::vector<Column> A) : builder_(builder), A_(std::move(A)) {
-  A_.size() <= kLargestByCofactors ? invert() : orthogonalise();
+DenseSolver::DenseSolver(ir::Builder& builder, std::vector<Column> A, bool in_order)
+    : builder_(builder), A_(std::move(A)), in_order_(in_order) {
+  if (in_order)
+    eliminate();
+  else if (A_.size() <= kLargestByCofactors)
+    invert();
+  else
+    orthogonalise();
+}
+
+void DenseSolver::eliminate() {
+  for (std::size_t k = 0; k < A_.size(); ++k) {
+    pivots_.push_back(A_[k][k]);
+    inverse_pivots_.push_back(builder_.divide(builder_.literal(1), A_[k][k]));
+    for (std::size_t i = k + 1; i < A_.size(); ++i) {
+      A_[i][k] = builder_.multiply(A_[i][k], inverse_pivots_[k]);
+      for (std::size_t j = k + 1; j < A_.size(); ++j)
+        A_[i][j] = builder_.subtract(A_[i][j], builder_.multiply(A_[i][k], A_[k][j]));
+    }
+  }
 }
 
 Signed DenseSolver::product(const Column& a, const Column& b) const {
@@ -56,6 +74,11 @@ void DenseSolver::orthogonalise() {
 }
 
 Signed DenseSolver::determinant() const {
+  if (in_order_) {
+    Signed product = builder_.literal(1);
+    for (const Signed& pivot : pivots_) product = builder_.multiply(product, pivot);
+    return product;
+  }
   if (A_.size() <= kLargestByCofactors) return determinant_;
   Signed inverse = builder_.literal(1);
   for (const Signed& square : inverse_squares_) inverse = builder_.multiply(inverse, square);
@@ -64,6 +87,17 @@ Signed DenseSolver::determinant() const {
 
 Column DenseSolver::solve(Column b) const {
   const std::size_t n = A_.size();
+  if (in_order_) {
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = k + 1; i < n; ++i)
+        b[i] = builder_.subtract(b[i], builder_.multiply(A_[i][k], b[k]));
+    for (std::size_t k = n; k-- > 0;) {
+      for (std::size_t j = k + 1; j < n; ++j)
+        b[k] = builder_.subtract(b[k], builder_.multiply(A_[k][j], b[j]));
+      b[k] = builder_.multiply(b[k], inverse_pivots_[k]);
+    }
+    return b;
+  }
   Column x(n);
   if (n <= kLargestByCofactors) {
     for (std::size_t j = 0; j < n; ++j) {
@@ -84,6 +118,17 @@ Column DenseSolver::solve(Column b) const {
 
 Column DenseSolver::solve_transposed(const Column& b) const {
   const std::size_t n = A_.size();
+  if (in_order_) {
+    Column w = b;
+    for (std::size_t k = 0; k < n; ++k) {
+      for (std::size_t j = 0; j < k; ++j) w[k] = builder_.subtract(w[k], builder_.multiply(A_[j][k], w[j]));
+      w[k] = builder_.multiply(w[k], inverse_pivots_[k]);
+    }
+    for (std::size_t k = n; k-- > 0;)
+      for (std::size_t i = k + 1; i < n; ++i)
+        w[k] = builder_.subtract(w[k], builder_.multiply(A_[i][k], w[i]));
+    return w;
+  }
   Column x(n, builder_.literal(0));
   if (n <= kLargestByCofactors) {
     for (std::size_t i = 0; i < n; ++i)

@@ -20,7 +20,7 @@ Dependence::Dependence(ir::Builder& builder, const LoopSystem& system)
       A.emplace_back();
       for (const std::size_t k : block.dependents) A.back().push_back(values_.G(r, k));
     }
-    solvers_.emplace_back(builder, std::move(A));
+    solvers_.emplace_back(builder, std::move(A), block.in_order);
   }
   const Column nothing(rows, builder.literal(0));
   z_.assign(n, builder.literal(0));

@@ -11,8 +11,6 @@ using Result = std::variant<Solution, std::string>;
 
 /// Of a row's largest coefficient: rounding of numbers that a model gives to 15 digits.
 constexpr double kRounding = 1e-13;
-/// sin² at the initial state below which it does not say which solution is meant.
-constexpr double kDeadPosition = 1e-10;
 
 constexpr const char* kOtherForm = "its constraint is none of those that are solved in closed form";
 constexpr const char* kUndetermined = "its constraint does not determine it at the initial state";
@@ -22,7 +20,7 @@ class Solver {
  public:
   Solver(ir::Builder& builder, std::vector<Polynomial> rows, const std::vector<double>& initial,
          const Samples& samples)
-      : builder_(builder), rows_(std::move(rows)), initial_(initial), samples_(samples) {}
+      : roots_(builder, samples), rows_(std::move(rows)), initial_(initial), samples_(samples) {}
 
   Result run() {
     const std::size_t count = initial_.size();
@@ -36,8 +34,8 @@ class Solver {
   }
 
  private:
-  Scalar number(double value) const { return {&builder_, builder_.literal(value)}; }
-  double at_start(Scalar value) const { return initial(value, samples_); }
+  Scalar number(double value) const { return roots_.number(value); }
+  double at_start(Scalar value) const { return roots_.at_start(value); }
 
   /// Do monomials with either factor occur?
   bool has(const Monomial& a, const Monomial& b) const {
@@ -78,7 +76,7 @@ class Solver {
   bool is_regular(const Matrix2& m) const {
     const double det = at_start(determinant(m)),
                  size = at_start(dot(m.first, m.first) + dot(m.second, m.second));
-    return std::fabs(det) > kDeadPosition * size;
+    return std::fabs(det) > Roots::kDeadPosition * size;
   }
 
   /// Are lengths of all directions scaled alike: a rotation or reflection, times a number?
@@ -95,22 +93,10 @@ class Solver {
     return agree(m.second.x, turned.x, size, samples_) && agree(m.second.y, turned.y, size, samples_);
   }
 
-  /// The solution e of n · e = γ with |e| = 1 that is nearer to the initial angle; nothing at a dead position.
-  std::optional<Vector2> direction(Vector2 n, Scalar gamma, double angle) {
-    const Scalar size = dot(n, n);
-    const Vector2 start = {number(std::cos(angle)), number(std::sin(angle))};
-    const double side = at_start(cross(n, start)), scale = at_start(size);
-    if (!(side * side > kDeadPosition * scale)) return std::nullopt;
-    const Scalar root = square_root(size - gamma * gamma);
-    conditions_.push_back({number(1) - gamma * gamma / size, true});
-    conditions_.push_back({size, false});  // where γ is 0 the margin is 1 without it
-    return (gamma * n + (side > 0 ? root : -root) * quarter(n)) / size;
-  }
-
   Known known(Vector2 e) const { return {{}, e}; }
   Known known(Scalar value) const { return {value, std::nullopt}; }
 
-  Result solution(Known first, Known second) { return Solution{{first, second}, conditions_}; }
+  Result solution(Known first, Known second) { return Solution{{first, second}, roots_.conditions()}; }
 
   static Result swapped(Result result) {
     if (Solution* solution = std::get_if<Solution>(&result))
@@ -121,16 +107,16 @@ class Solver {
   Result one_slide() {
     if (!only({kConstant, value_of(0)})) return kOtherForm;
     const Scalar factor = coefficient(0, value_of(0));
-    conditions_.push_back({factor * factor, false});
-    return Solution{{known(-coefficient(0, kConstant) / factor)}, conditions_};
+    roots_.require(factor * factor, false);
+    return Solution{{known(-coefficient(0, kConstant) / factor)}, roots_.conditions()};
   }
 
   Result one_angle() {
     if (!only({kConstant, cos_of(0), sin_of(0)})) return kOtherForm;
     const Vector2 n = {coefficient(0, cos_of(0)), coefficient(0, sin_of(0))};
-    const auto e = direction(n, -coefficient(0, kConstant), initial_[0]);
+    const auto e = roots_.direction(n, -coefficient(0, kConstant), initial_[0]);
     if (!e) return kDead;
-    return Solution{{known(*e)}, conditions_};
+    return Solution{{known(*e)}, roots_.conditions()};
   }
 
   Result two_slides() {
@@ -138,7 +124,7 @@ class Solver {
     const Matrix2 m = {column(value_of(0)), column(value_of(1))};
     if (!is_regular(m)) return kUndetermined;
     const Scalar det = determinant(m);
-    conditions_.push_back({det * det / (dot(m.first, m.first) * dot(m.second, m.second)), true});
+    roots_.require(det * det / (dot(m.first, m.first) * dot(m.second, m.second)), true);
     const Vector2 s = inverse(m) * -column(kConstant);
     return solution(known(s.x), known(s.y));
   }
@@ -162,7 +148,7 @@ class Solver {
     if (!is_similarity(B)) return kOtherForm;
     const Vector2 k = inverse_A * column(kConstant), n = {dot(B.first, k), dot(B.second, k)};
     const Scalar gamma = 0.5 * (number(1) - dot(k, k) - dot(B.first, B.first));
-    const auto e_b = direction(n, gamma, initial_[1]);
+    const auto e_b = roots_.direction(n, gamma, initial_[1]);
     if (!e_b) return kDead;
     return solution(known(-(k + B * *e_b)), known(*e_b));
   }
@@ -178,9 +164,9 @@ class Solver {
     const Vector2 k = inverse_A * column(kConstant);
     const Scalar distance = dot(k, k);
     const Scalar gamma = 0.5 * (distance - 1.0 - dot(W.first, W.first));
-    const auto e_b = direction({W.first.x, W.second.x}, gamma, initial_[b]);
+    const auto e_b = roots_.direction({W.first.x, W.second.x}, gamma, initial_[b]);
     if (!e_b) return kDead;
-    conditions_.push_back({distance, false});
+    roots_.require(distance, false);
     const Vector2 m = Vector2{number(1), number(0)} + W * *e_b;
     return solution(known(-times_conjugate(k, m) / distance), known(*e_b));
   }
@@ -200,7 +186,7 @@ class Solver {
     const Matrix2 inverse_A = inverse(A);
     const Vector2 k = inverse_A * column(kConstant), v = inverse_A * column(value_of(s));
     const Scalar size = dot(v, v), offset = cross(k, v), along = dot(k, v);
-    const auto value = slide(-along / size, size - offset * offset, size, initial_[s]);
+    const auto value = roots_.slide(-along / size, size - offset * offset, size, initial_[s], size);
     if (!value) return kDead;
     return solution(known(-(k + *value * v)), known(*value));
   }
@@ -213,29 +199,18 @@ class Solver {
     if (!is_zero(U) && !is_complex(U)) return kOtherForm;
     const Vector2 k = inverse_C * column(kConstant), u = U.first;
     const Scalar distance = dot(k, k);
-    const auto value = slide(-u.x, distance - u.y * u.y, number(1), initial_[s], distance);
+    const auto value = roots_.slide(-u.x, distance - u.y * u.y, number(1), initial_[s], distance);
     if (!value) return kDead;
-    conditions_.push_back({distance, false});
+    roots_.require(distance, false);
     const Vector2 m = {u.x + *value, u.y};
     return solution(known(-times_conjugate(k, m) / distance), known(*value));
   }
 
-  /// centre ± √discriminant / divisor; the margin is the discriminant over `size`.
-  std::optional<Scalar> slide(Scalar centre, Scalar discriminant, Scalar divisor, double start,
-                              std::optional<Scalar> size = std::nullopt) {
-    const Scalar margin = discriminant / (size ? *size : divisor);
-    if (!(at_start(margin) > kDeadPosition)) return std::nullopt;
-    conditions_.push_back({margin, true});
-    const Scalar offset = square_root(discriminant) / divisor;
-    return at_start(number(start) - centre) > 0 ? centre + offset : centre - offset;
-  }
-
-  ir::Builder& builder_;
+  Roots roots_;
   std::vector<Polynomial> rows_;
   const std::vector<double>& initial_;
   const Samples& samples_;
   bool is_angle_[2] = {false, false};
-  std::vector<Condition> conditions_;
 };
 
 }  // namespace

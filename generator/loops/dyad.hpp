@@ -6,21 +6,15 @@
 #include <vector>
 
 #include "loops/polynomial.hpp"
-#include "loops/samples.hpp"
+#include "loops/roots.hpp"
 
 namespace jourdain::loops {
-
-/// What must be positive wherever the solution is used.
-struct Condition {
-  Scalar value;
-  /// sin² of the angle from a dead position, where two solutions meet; otherwise the square of a divisor.
-  bool is_margin = true;
-};
 
 struct Solution {
   std::vector<Known>
       unknowns;  ///< in the order of the polynomials' unknowns; directions for angles, values for others
   std::vector<Condition> conditions;
+  std::optional<Matrix3> rotation = {};  ///< that the last four unknowns are the quaternion of
 };
 
 /// Solves `rows` = 0 for as many unknowns, one or two; of two solutions the one that passes through `initial` values of them

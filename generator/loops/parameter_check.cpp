@@ -73,7 +73,7 @@ std::optional<std::string> unproven_at(const model::Mechanism& mechanism, const 
                                        const std::vector<double>& parameters) {
   if (!(plan.closed_form || plan.proof) || parameters == model::default_values(mechanism)) return {};
   dynamics::DerivationOptions options;
-  options.closures_only = true;
+  options.closures_only = options.for_derivatives = true;
   const ConstraintPrograms constraints =
       constraint_programs(mechanism, dynamics::derive_equations(mechanism, options));
   std::vector<std::string> changed;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/elimination_order.hpp"
 #include "loops/inertia.hpp"
 #include "loops/partition.hpp"
 #include "loops/position_request.hpp"
@@ -241,6 +242,7 @@ class Planner {
     std::variant<ClosedForm, std::string> found = solve_positions();
     if (ClosedForm* form = std::get_if<ClosedForm>(&found)) {
       plan_.treatment = LoopTreatment::kExplicit;
+      take_orders(*form);
       plan_.closed_form = std::move(*form);
       return true;
     }
@@ -254,7 +256,22 @@ class Planner {
   std::variant<ClosedForm, std::string> solve_positions() const {
     auto request = position_request(mechanism_, constraints_, plan_);
     if (auto* failure = std::get_if<std::string>(&request)) return std::move(*failure);
-    return closed_form(std::get<ClosedFormRequest>(request));
+    auto& positions = std::get<ClosedFormRequest>(request);
+    for (const Block& block : plan_.blocks) positions.eliminations.push_back(elimination_of(block));
+    return closed_form(positions);
+  }
+
+  /// Complete pivoting at the start, where cofactors are dearer; none where a pivot is nearly lost at a configuration seen.
+  Elimination elimination_of(const Block& block) const {
+    if (block.rows.size() < 3) return {};
+    return elimination_order(jacobians_, block.rows, block.dependents);
+  }
+
+  void take_orders(const ClosedForm& form) {
+    for (std::size_t b = 0; b < plan_.blocks.size(); ++b) {
+      const Elimination order = elimination_of(plan_.blocks[b]);
+      if (!order.rows.empty() && form.has_pivots[b]) plan_.blocks[b] = {order.rows, order.columns, true};
+    }
   }
 
   bool report_bad(const std::optional<Partition>& partition) {

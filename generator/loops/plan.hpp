@@ -16,6 +16,7 @@ namespace jourdain::loops {
 /// Rows that determine dependent velocities of the tree, once those of earlier blocks are known. Square.
 struct Block {
   std::vector<std::size_t> rows, dependents;
+  bool in_order = false;  ///< elimination in this order is proven to find no pivot that vanishes
 };
 
 struct LoopPlan {

@@ -23,15 +23,16 @@ class Expansion {
         expanded_(g.nodes.size()),
         dependent_(g.nodes.size(), false) {}
 
-  std::variant<std::vector<Polynomial>, std::string> run(const std::vector<std::size_t>& rows) {
-    std::vector<ValueId> values;
-    for (const std::size_t row : rows) values.push_back(row_value(row));
+  std::variant<std::vector<Polynomial>, std::string> run(const std::vector<ValueId>& values) {
     const std::vector<bool> needed = needed_by(values);
     for (std::size_t i = 0; i < g_.nodes.size() && failure_.empty(); ++i)
       if (needed[i]) expand(i);
     if (!failure_.empty()) return failure_;
     std::vector<Polynomial> polynomials;
-    for (const ValueId value : values) polynomials.push_back(expanded_[value.value]);
+    for (const ValueId value : values) {
+      polynomials.push_back(expanded_[value.value]);
+      if (has_quaternion(polynomials.back())) return "a constraint has a quaternion other than in a rotation";
+    }
     return polynomials;
   }
 
@@ -39,13 +40,6 @@ class Expansion {
   struct Pair {
     Polynomial sine, cosine;
   };
-
-  ValueId row_value(std::size_t row) const {
-    for (const ir::Output& output : g_.outputs)
-      if (output.name == "g" && output.row == static_cast<int>(row)) return output.value;
-    JD_CHECK(false, "g has no row {}", row);
-    return {};
-  }
 
   std::vector<bool> needed_by(const std::vector<ValueId>& values) const {
     std::vector<bool> needed(g_.nodes.size(), false);
@@ -94,15 +88,78 @@ class Expansion {
     return result;
   }
 
-  /// With cos² + sin² = 1.
+  /// With cos² + sin² = 1 and RᵀR = 1: of R no products of two entries of the last row are left.
   static void add_reduced(Polynomial& sum, Monomial powers, Scalar coefficient) {
-    for (const std::size_t unknown : {std::size_t{0}, std::size_t{1}})
+    for (std::size_t unknown = 0; unknown < kScalars; ++unknown)
       if (powers[3 * unknown + 1] >= 2) {
         powers[3 * unknown + 1] -= 2;
         add_reduced(sum, powers, coefficient);
         return add_reduced(sum, powers * cos_of(unknown) * cos_of(unknown), -coefficient);
       }
+    if (const auto columns = last_row_pair(powers)) {
+      const auto [j, k] = *columns;
+      --powers[kLastRow + j];
+      --powers[kLastRow + k];
+      if (j == k) add_reduced(sum, powers, coefficient);
+      for (const std::size_t i : {0, 1})
+        add_reduced(sum, powers * rotation_entry(i, j) * rotation_entry(i, k), -coefficient);
+      return;
+    }
     add_term(sum, powers, coefficient);
+  }
+
+  static constexpr std::size_t kQuaternion = 3 * kScalars, kLastRow = kQuaternion + 4 + 6;
+
+  static std::optional<std::pair<std::size_t, std::size_t>> last_row_pair(const Monomial& powers) {
+    std::vector<std::size_t> columns;
+    for (std::size_t j = 0; j < 3; ++j)
+      for (int n = powers[kLastRow + j]; n > 0; --n) columns.push_back(j);
+    if (columns.size() < 2) return std::nullopt;
+    return std::pair{columns[0], columns[1]};
+  }
+
+  /// R_ij as a polynomial of the quaternion: 1 − 2(y² + z²), 2(xy − wz), …
+  Polynomial entry_of_quaternion(std::size_t i, std::size_t j) const {
+    Polynomial p;
+    const auto add = [&](std::size_t a, std::size_t b, double factor) {
+      add_term(p, quaternion_entry(a) * quaternion_entry(b), scalar(builder_.literal(factor)));
+    };
+    if (i == j) {
+      p = literal(1);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (k != i) add(k + 1, k + 1, -2);
+      return p;
+    }
+    const std::size_t other = 3 - i - j;
+    add(std::min(i, j) + 1, std::max(i, j) + 1, 2);
+    add(0, other + 1, j == (i + 1) % 3 ? -2 : 2);
+    return p;
+  }
+
+  static bool is_same(const Polynomial& a, const Polynomial& b) {
+    return a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.begin(), [](const auto& p, const auto& q) {
+             return p.first == q.first && p.second.value.value == q.second.value.value &&
+                    p.second.value.negative == q.second.value.negative;
+           });
+  }
+
+  /// An entry of R where the polynomial is one, or minus one.
+  Polynomial with_rotation(const Polynomial& p) const {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Polynomial entry = entry_of_quaternion(i, j);
+        if (is_same(p, entry)) return monomial(rotation_entry(i, j));
+        if (is_same(p, negated(entry))) return negated(monomial(rotation_entry(i, j)));
+      }
+    return p;
+  }
+
+  static bool has_quaternion(const Polynomial& p) {
+    return std::any_of(p.begin(), p.end(), [](const auto& term) {
+      const auto first = term.first.begin() + kQuaternion;
+      return std::any_of(first, first + 4, [](int n) { return n > 0; });
+    });
   }
 
   Polynomial fail(const std::string& why) {
@@ -116,6 +173,7 @@ class Expansion {
     dependent_[i] =
         (operands >= 1 && dependent_[node.a.value]) || (operands == 2 && dependent_[node.b.value]);
     expanded_[i] = value(ValueId(i));
+    if (has_quaternion(expanded_[i])) expanded_[i] = with_rotation(expanded_[i]);
   }
 
   Polynomial value(ValueId id) {
@@ -185,6 +243,10 @@ class Expansion {
       dependent_[id.value] = true;
       return monomial(value_of(*k));
     }
+    if (node.leaf == LeafKind::kPosition && roles_.rotation && node.index - *roles_.rotation < 4) {
+      dependent_[id.value] = true;
+      return monomial(quaternion_entry(node.index - *roles_.rotation));
+    }
     if (const Known* found = known(node)) {
       dependent_[id.value] = true;
       return {{kConstant, found->value}};
@@ -243,10 +305,15 @@ Polynomial substituted(const Polynomial& row, std::size_t unknown, const Known& 
   Polynomial result;
   for (const auto& [powers, coefficient] : row) {
     Scalar factor = coefficient;
-    Monomial rest{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      rest[i] = powers[3 * (1 - unknown) + i];
-      for (int n = powers[3 * unknown + i]; n > 0; --n)
+    Monomial rest = powers;
+    std::fill(rest.begin(), rest.begin() + 3 * kScalars, 0);
+    for (std::size_t k = 0; k < 3 * kScalars; ++k) {
+      if (k / 3 != unknown) {
+        rest[k / 3 > unknown ? k - 3 : k] = powers[k];
+        continue;
+      }
+      const std::size_t i = k % 3;
+      for (int n = powers[k]; n > 0; --n)
         factor = factor * (i == 0 ? found.direction->x : i == 1 ? found.direction->y : found.value);
     }
     const auto [it, is_new] = result.try_emplace(rest, factor);
@@ -255,10 +322,11 @@ Polynomial substituted(const Polynomial& row, std::size_t unknown, const Known& 
   return result;
 }
 
-std::variant<std::vector<Polynomial>, std::string> polynomials_of(ir::Builder& builder, const Program& g,
-                                                                  const std::vector<std::size_t>& rows,
+std::variant<std::vector<Polynomial>, std::string> polynomials_of(ir::Builder& builder,
+                                                                  const Program& program,
+                                                                  const std::vector<ValueId>& values,
                                                                   const Roles& roles) {
-  return Expansion(builder, g, roles).run(rows);
+  return Expansion(builder, program, roles).run(values);
 }
 
 }  // namespace jourdain::loops

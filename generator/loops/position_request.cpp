@@ -8,6 +8,14 @@
 
 namespace jourdain::loops {
 
+namespace {
+
+bool is_among(const std::vector<std::size_t>& list, std::size_t k) {
+  return std::find(list.begin(), list.end(), k) != list.end();
+}
+
+}  // namespace
+
 std::variant<ClosedFormRequest, std::string> position_request(const model::Mechanism& mechanism,
                                                               const ConstraintPrograms& constraints,
                                                               const LoopPlan& plan) {
@@ -15,14 +23,20 @@ std::variant<ClosedFormRequest, std::string> position_request(const model::Mecha
   const model::Tangent tangent = model::tangent_of(mechanism, layout);
   ClosedFormRequest request;
   request.g = constraints.value;
+  request.jacobian = constraints.jacobian;
   for (const Block& block : plan.blocks) {
     PositionBlock& positions = request.blocks.emplace_back();
     positions.rows = block.rows;
-    for (const std::size_t velocity : block.dependents) {
-      const auto scalar = std::find_if(tangent.scalars.begin(), tangent.scalars.end(),
-                                       [&](const auto& s) { return s.velocity == velocity; });
-      if (scalar == tangent.scalars.end()) return "a rotation in space depends on other coordinates";
-      positions.dependents.push_back(scalar->position);
+    for (const model::Tangent::Scalar& scalar : tangent.scalars)
+      if (is_among(block.dependents, scalar.velocity)) positions.dependents.push_back(scalar.position);
+    for (const model::Tangent::Scalar& rotation : tangent.quaternions) {
+      const std::size_t count = is_among(block.dependents, rotation.velocity) +
+                                is_among(block.dependents, rotation.velocity + 1) +
+                                is_among(block.dependents, rotation.velocity + 2);
+      if (count == 0) continue;
+      if (count < 3) return "a rotation in space depends on other coordinates in part";
+      if (positions.rotation) return "two rotations in space depend on each other";
+      positions.rotation = rotation.position;
     }
   }
   request.initial_y = plan.y;

@@ -28,7 +28,12 @@ struct Box {
 class Proof {
  public:
   Proof(const ir::Builder& builder, const std::vector<Bound>& bounds, const Region& region, Effort effort)
-      : bounds_(bounds), region_(region), effort_(effort), least_(bounds.size(), INFINITY), seen_(least_) {
+      : bounds_(bounds),
+        region_(region),
+        effort_(effort),
+        least_(bounds.size(), INFINITY),
+        seen_(least_),
+        variation_(bounds.size(), std::vector<double>(region.entries.size(), 0)) {
     std::vector<ir::Signed> values;
     for (const Bound& bound : bounds) values.push_back(bound.value);
     ir::Builder plain = builder;
@@ -63,7 +68,7 @@ class Proof {
         for (std::size_t j = 0; j < bounds_.size(); ++j) least_[j] = std::min(least_[j], lows[j]);
         continue;
       }
-      const std::optional<std::size_t> side = widest(box);
+      const std::optional<std::size_t> side = widest(box, *undecided);
       if (!side || count >= effort_.boxes) return Counterexample{*undecided, middle(box), false};
       for (const bool upper : {true, false}) open.push_back(half(box, *side, upper));
     }
@@ -72,7 +77,8 @@ class Proof {
 
  private:
   bool is_enough(std::size_t j, double low, std::size_t count) const {
-    return low > bounds_[j].least && (count > effort_.boxes / kSharpShare || low >= seen_[j] / 2);
+    return low > bounds_[j].least &&
+           (!effort_.is_sharp || count > effort_.boxes / kSharpShare || low >= seen_[j] / 2);
   }
 
   static std::vector<double> middle(const Box& box) {
@@ -81,11 +87,18 @@ class Proof {
     return point;
   }
 
-  /// The side halved least often, unless it was halved often enough.
-  std::optional<std::size_t> widest(const Box& box) const {
-    const auto it = std::min_element(box.halvings.begin(), box.halvings.end());
-    if (it == box.halvings.end() || *it >= effort_.halvings) return std::nullopt;
-    return static_cast<std::size_t>(it - box.halvings.begin());
+  /// Of the sides that were not halved too often the one over which the bound's value varies most, as far as slopes tell; otherwise
+  /// the one that was halved least.
+  std::optional<std::size_t> widest(const Box& box, std::size_t bound) const {
+    std::optional<std::size_t> best;
+    for (std::size_t k = 0; k < box.halvings.size(); ++k) {
+      if (box.halvings[k] >= effort_.halvings) continue;
+      const auto rank = [&](std::size_t side) {
+        return std::pair(variation_[bound][side], -box.halvings[side]);
+      };
+      if (!best || rank(k) > rank(*best)) best = k;
+    }
+    return best;
   }
 
   static Box half(Box box, std::size_t side, bool upper) {
@@ -121,7 +134,8 @@ class Proof {
 
   /// Mean-value form where the natural enclosure is defined.
   void raise_by_slopes(const Box& box, const std::vector<Interval>& point, const IntervalResults& natural,
-                       const IntervalResults& central, std::vector<double>& lows) const {
+                       const IntervalResults& central, std::vector<double>& lows) {
+    for (std::vector<double>& sides : variation_) std::fill(sides.begin(), sides.end(), 0);
     std::vector<Interval> enclosure = central.values;
     std::vector<bool> usable(bounds_.size());
     for (std::size_t j = 0; j < bounds_.size(); ++j) usable[j] = !natural.maybe_undefined[j];
@@ -130,18 +144,24 @@ class Proof {
       const auto j = static_cast<std::size_t>(slopes_.outputs[i].row),
                  k = static_cast<std::size_t>(slopes_.outputs[i].column);
       if (slopes.maybe_undefined[i]) usable[j] = false;
-      enclosure[j] = enclosure[j] + slopes.values[i] * (box.sides[k] - point[k]);
+      const Interval share = slopes.values[i] * (box.sides[k] - point[k]);
+      enclosure[j] = enclosure[j] + share;
+      variation_[j][k] = std::isfinite(share.width()) ? share.width() : 0;
     }
     for (std::size_t j = 0; j < bounds_.size(); ++j)
-      if (usable[j]) lows[j] = std::max(lows[j], enclosure[j].low);
+      if (usable[j])
+        lows[j] = std::max(lows[j], enclosure[j].low);
+      else
+        std::fill(variation_[j].begin(), variation_[j].end(), 0);
   }
 
   const std::vector<Bound>& bounds_;
   const Region& region_;
   Effort effort_;
   Program values_, slopes_;
-  std::vector<double> least_;  ///< lower bounds over the boxes that are decided
-  std::vector<double> seen_;   ///< least values at middles
+  std::vector<double> least_;                   ///< lower bounds over the boxes that are decided
+  std::vector<double> seen_;                    ///< least values at middles
+  std::vector<std::vector<double>> variation_;  ///< of each value over each side of the last box; 0: unknown
   std::optional<Counterexample> violation_;
 };
 

@@ -32,7 +32,8 @@ struct Counterexample {
 
 struct Effort {
   std::size_t boxes = 200000;
-  int halvings = 22;  ///< of one side
+  int halvings = 22;     ///< of one side
+  bool is_sharp = true;  ///< otherwise a bound that is kept is enough
 };
 
 /// A lower bound of each value over the region, half of its least value or better as long as effort is left. The region is

@@ -36,13 +36,13 @@ class Reach {
     program_ = passes::remove_dead_code(program);
   }
 
-  std::variant<double, std::string> run() {
+  std::variant<double, std::string> run(Effort effort) {
     if (const std::string failure = lay_out(); !failure.empty()) return failure;
     if (ir::count_operations(program_).atan2 > 0) return "its discriminant has an arctangent, which jumps";
     std::vector<Bound> bounds;
     for (const Requirement& requirement : request_.requirements)
       bounds.push_back({values_[bounds.size()], requirement.is_margin ? kLeastMargin : kLeastDivisor});
-    const auto proof = prove_bounds(builder_, bounds, region_);
+    const auto proof = prove_bounds(builder_, bounds, region_, effort);
     if (const auto* counterexample = std::get_if<Counterexample>(&proof)) return text(*counterexample);
     double smallest = 1;
     for (std::size_t j = 0; j < bounds.size(); ++j)
@@ -135,8 +135,8 @@ class Reach {
 
 }  // namespace
 
-std::variant<double, std::string> smallest_margin(const ReachRequest& request) {
-  return Reach(request).run();
+std::variant<double, std::string> smallest_margin(const ReachRequest& request, Effort effort) {
+  return Reach(request).run(effort);
 }
 
 }  // namespace jourdain::loops

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ir/builder.hpp"
+#include "loops/positivity.hpp"
 
 namespace jourdain::loops {
 
@@ -32,6 +33,6 @@ struct ReachRequest {
 
 /// The least margin that is proven wherever the independent coordinates may be: within their range, an angle without one or one
 /// that time drives anywhere; and for all parameters within their ranges. 1 where there is none. Otherwise what is not proven, a phrase for the user.
-std::variant<double, std::string> smallest_margin(const ReachRequest& request);
+std::variant<double, std::string> smallest_margin(const ReachRequest& request, Effort effort = {});
 
 }  // namespace jourdain::loops

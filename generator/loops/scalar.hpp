@@ -61,4 +61,48 @@ inline Matrix2 inverse(const Matrix2& m) {
   return {Vector2{m.second.y, -m.first.y} / det, Vector2{-m.second.x, m.first.x} / det};
 }
 
+/// A vector of space.
+struct Vector3 {
+  Scalar x, y, z;
+
+  Scalar operator[](std::size_t i) const { return i == 0 ? x : i == 1 ? y : z; }
+};
+
+inline Vector3 operator-(Vector3 a) { return {-a.x, -a.y, -a.z}; }
+inline Vector3 operator+(Vector3 a, Vector3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector3 operator-(Vector3 a, Vector3 b) { return a + -b; }
+inline Vector3 operator*(Scalar a, Vector3 b) { return {a * b.x, a * b.y, a * b.z}; }
+inline Vector3 operator/(Vector3 a, Scalar b) { return {a.x / b, a.y / b, a.z / b}; }
+inline Scalar dot(Vector3 a, Vector3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vector3 cross(Vector3 a, Vector3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Columns of a matrix of three rows.
+struct Matrix3 {
+  Vector3 columns[3];
+};
+
+inline Vector3 operator*(const Matrix3& m, Vector3 v) {
+  return v.x * m.columns[0] + v.y * m.columns[1] + v.z * m.columns[2];
+}
+
+/// Of the matrix with these rows.
+inline Matrix3 inverse_of_rows(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 ab = cross(a, b), bc = cross(b, c), ca = cross(c, a);
+  const Scalar det = dot(a, bc);
+  return {{bc / det, ca / det, ab / det}};
+}
+
+/// w x y z
+struct Quaternion {
+  Scalar w, x, y, z;
+};
+
+inline Quaternion conjugate(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
+inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+  const Vector3 u = {a.x, a.y, a.z}, v = {b.x, b.y, b.z}, sum = a.w * v + b.w * u + cross(u, v);
+  return {a.w * b.w - dot(u, v), sum.x, sum.y, sum.z};
+}
+
 }  // namespace jourdain::loops

@@ -347,7 +347,7 @@ TEST(RegularityProof, HoldsOfModels) {
     const model::Mechanism mechanism = read_model(model_path(name + ".toml"));
     support::Diagnostics diagnostics("model", "");
     dynamics::DerivationOptions options;
-    options.closures_only = true;
+    options.closures_only = options.for_derivatives = true;
     const auto constraints =
         loops::constraint_programs(mechanism, dynamics::derive_equations(mechanism, options));
     const auto plan = loops::plan_loops(mechanism, constraints, diagnostics);

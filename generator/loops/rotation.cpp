@@ -1,0 +1,354 @@
+#include "loops/rotation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/rewrite.hpp"
+
+namespace jourdain::loops {
+
+namespace {
+
+constexpr const char* kOtherForm =
+    "its constraints are none of those that determine a rotation in closed form";
+constexpr const char* kDead = "the initial state is a dead position";
+
+using Result = std::variant<Solution, std::string>;
+
+/// Factors of a row's coefficients of R.
+using Matrix = std::array<std::array<Scalar, 3>, 3>;
+
+Vector3 row_of(const Matrix& m, std::size_t i) { return {m[i][0], m[i][1], m[i][2]}; }
+
+Matrix transposed(const Matrix& m) {
+  Matrix t;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) t[i][j] = m[j][i];
+  return t;
+}
+
+/// b_k of matrices b_k vᵀ, and v.
+struct Factors {
+  std::vector<Vector3> left;
+  Vector3 right;
+};
+
+/// R c = d.
+struct Image {
+  Vector3 c, d;
+};
+
+class RotationSolver {
+ public:
+  RotationSolver(ir::Builder& builder, const std::vector<Polynomial>& rows,
+                 const std::optional<double>& initial_scalar, const std::array<double, 4>& quaternion,
+                 const Samples& samples)
+      : builder_(builder),
+        roots_(builder, samples),
+        rows_(rows),
+        initial_scalar_(initial_scalar),
+        quaternion_(quaternion) {}
+
+  Result run() {
+    if (rows_.size() != 3 + (initial_scalar_ ? 1u : 0u)) return kOtherForm;
+    for (std::size_t last = 0; last < rows_.size(); ++last) {
+      if (!is_held_in_turning(rows_[last])) continue;
+      std::vector<Polynomial> others = rows_;
+      others.erase(others.begin() + static_cast<long>(last));
+      const auto image = initial_scalar_ ? image_of_ball(others) : image_of_line(others);
+      if (image) return turned(*image, rows_[last]);
+      if (!failure_.empty()) return failure_;
+    }
+    return kOtherForm;
+  }
+
+ private:
+  Scalar number(double value) const { return roots_.number(value); }
+  double at_start(Scalar value) const { return roots_.at_start(value); }
+
+  Scalar coefficient(const Polynomial& row, const Monomial& powers) const {
+    const auto it = row.find(powers);
+    return it == row.end() ? number(0) : it->second;
+  }
+
+  Matrix coefficients(const Polynomial& row, const Monomial& factor = kConstant) const {
+    Matrix W;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) W[i][j] = coefficient(row, rotation_entry(i, j) * factor);
+    return W;
+  }
+
+  static bool only(const Polynomial& row, const std::vector<Monomial>& factors_of_rotation,
+                   const std::vector<Monomial>& others) {
+    std::vector<Monomial> allowed = others;
+    for (const Monomial& factor : factors_of_rotation)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) allowed.push_back(rotation_entry(i, j) * factor);
+    return std::all_of(row.begin(), row.end(), [&](const auto& term) {
+      return std::find(allowed.begin(), allowed.end(), term.first) != allowed.end();
+    });
+  }
+
+  /// No scalar unknown, once that is found.
+  bool is_held_in_turning(const Polynomial& row) const {
+    return only(row, {kConstant, cos_of(0), sin_of(0), value_of(0)},
+                {kConstant, cos_of(0), sin_of(0), value_of(0), value_of(0) * value_of(0)});
+  }
+
+  /// a / b, exactly where a is a number times b.
+  Scalar ratio(Scalar a, Scalar b) const {
+    const ir::Node& node = builder_.program()[a.value.value];
+    const bool negative = a.value.negative != b.value.negative;
+    const auto with_sign = [&](Scalar s) { return negative ? -s : s; };
+    if (a.value.value == b.value.value) return with_sign(number(1));
+    if (node.op == ir::Op::kMultiply)
+      for (const auto& [factor, other] : {std::pair{node.a, node.b}, std::pair{node.b, node.a}})
+        if (factor == b.value.value && builder_.program()[other].op == ir::Op::kLiteral)
+          return with_sign({&builder_, {other, false}});
+    return a / b;
+  }
+
+  /// b_k vᵀ = W_k, with v a row of one of them.
+  std::optional<Factors> factored(const std::vector<Matrix>& list) const {
+    std::size_t from = 0, row = 0, column = 0;
+    double largest = 0;
+    for (std::size_t k = 0; k < list.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          if (const double size = std::fabs(at_start(list[k][i][j])); size > largest) {
+            largest = size;
+            from = k, row = i, column = j;
+          }
+    if (!(largest > 0)) return std::nullopt;
+    Factors factors{{}, row_of(list[from], row)};
+    const Scalar scale = factors.right[column];
+    for (const Matrix& W : list) {
+      factors.left.push_back(
+          {ratio(W[0][column], scale), ratio(W[1][column], scale), ratio(W[2][column], scale)});
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          if (!agree(W[i][j], factors.left.back()[i] * factors.right[j], scale, roots_.samples()))
+            return std::nullopt;
+    }
+    return factors;
+  }
+
+  std::vector<Matrix> coefficients(const std::vector<Polynomial>& rows, const Monomial& factor) const {
+    std::vector<Matrix> list;
+    for (const Polynomial& row : rows) list.push_back(coefficients(row, factor));
+    return list;
+  }
+
+  static Vector3 column(const RotationSolver& solver, const std::vector<Polynomial>& rows,
+                        const Monomial& m) {
+    return {solver.coefficient(rows[0], m), solver.coefficient(rows[1], m), solver.coefficient(rows[2], m)};
+  }
+
+  /// B R (c + s c′) + w = 0 with w by the scalar unknown, which it solves for.
+  std::optional<Image> image_of_ball(const std::vector<Polynomial>& rows) {
+    for (const Polynomial& row : rows)
+      if (!only(row, {kConstant, value_of(0)}, {kConstant, cos_of(0), sin_of(0), value_of(0)}))
+        return std::nullopt;
+    const auto factors = factored(coefficients(rows, kConstant));
+    if (!factors) return std::nullopt;
+    const auto& B = factors->left;
+    if (!(std::fabs(at_start(dot(B[0], cross(B[1], B[2])))) > kRegular)) return std::nullopt;
+    const auto sliding = sliding_in_body(rows, B);
+    if (!sliding) return std::nullopt;
+    const Matrix3 inverse = inverse_of_rows(B[0], B[1], B[2]);
+    const auto part = [&](const Monomial& m) { return -(inverse * column(*this, rows, m)); };
+    const Vector3 d = part(kConstant), by_cos = part(cos_of(0)), by_sin = part(sin_of(0));
+    const bool turns = !is_zero(by_cos) || !is_zero(by_sin);
+    const Vector3 along = part(value_of(0));
+    if (turns && is_zero(along) && is_zero(*sliding)) return on_circle(factors->right, d, by_cos, by_sin);
+    if (!turns) return on_lines(factors->right, *sliding, d, along);
+    return std::nullopt;
+  }
+
+  static bool is_zero(const Vector3& v) {
+    return loops::is_zero(v.x) && loops::is_zero(v.y) && loops::is_zero(v.z);
+  }
+
+  /// c′, with the same B.
+  std::optional<Vector3> sliding_in_body(const std::vector<Polynomial>& rows,
+                                         const std::vector<Vector3>& B) const {
+    const std::vector<Matrix> list = coefficients(rows, value_of(0));
+    Vector3 along = {number(0), number(0), number(0)};
+    std::size_t row = 0, axis = 0;
+    for (std::size_t k = 0; k < B.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (std::fabs(at_start(B[k][i])) > std::fabs(at_start(B[row][axis]))) row = k, axis = i;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Scalar entry = ratio(list[row][axis][j], B[row][axis]);
+      (j == 0 ? along.x : j == 1 ? along.y : along.z) = entry;
+    }
+    const Scalar size = square_root(dot(along, along));
+    for (std::size_t k = 0; k < B.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          if (!agree(list[k][i][j], B[k][i] * along[j], size, roots_.samples())) return std::nullopt;
+    return along;
+  }
+
+  /// |d₀ + d_c cos + d_s sin| = |c|, a point that turns about a fixed axis.
+  std::optional<Image> on_circle(Vector3 c, Vector3 d, Vector3 by_cos, Vector3 by_sin) {
+    const Scalar radius = dot(by_cos, by_cos);
+    const bool is_circle = agree(radius, dot(by_sin, by_sin), radius, roots_.samples()) &&
+                           agree(dot(by_cos, by_sin), number(0), radius, roots_.samples());
+    if (!is_circle) return std::nullopt;
+    const Scalar gamma = 0.5 * (dot(c, c) - dot(d, d) - radius);
+    const auto e = roots_.direction({dot(d, by_cos), dot(d, by_sin)}, gamma, *initial_scalar_);
+    if (!e) return dead();
+    scalar_ = {{}, *e};
+    return Image{c, d + e->x * by_cos + e->y * by_sin};
+  }
+
+  /// |d + s d′| = |c + s c′| where one of d′ and c′ is 0.
+  std::optional<Image> on_lines(Vector3 c, Vector3 c_along, Vector3 d, Vector3 d_along) {
+    const bool in_body = is_zero(d_along);
+    if (in_body == is_zero(c_along)) return std::nullopt;
+    const Vector3 from = in_body ? c : d, along = in_body ? c_along : d_along, other = in_body ? d : c;
+    const Scalar size = dot(along, along), half = dot(from, along), distance = dot(other, other);
+    const Scalar discriminant = half * half - size * (dot(from, from) - distance);
+    roots_.require(distance, false);
+    const auto s = roots_.slide(-half / size, discriminant, size, *initial_scalar_, size * distance);
+    if (!s) return dead();
+    scalar_ = {*s, std::nullopt};
+    const Vector3 moved = from + *s * along;
+    return in_body ? Image{moved, d} : Image{c, moved};
+  }
+
+  /// a_k · Rᵀ d + w_k = 0: two components of Rᵀ d are known, and its length.
+  std::optional<Image> image_of_line(const std::vector<Polynomial>& rows) {
+    for (const Polynomial& row : rows)
+      if (!only(row, {kConstant}, {kConstant})) return std::nullopt;
+    std::vector<Matrix> list;
+    for (const Polynomial& row : rows) list.push_back(transposed(coefficients(row)));
+    const auto factors = factored(list);
+    if (!factors) return std::nullopt;
+    const Vector3 a = factors->left[0], b = factors->left[1], d = factors->right, n = cross(a, b);
+    const Scalar size = dot(n, n);
+    if (!(at_start(size) > kRegular)) return std::nullopt;
+    const Vector3 across =
+        (-coefficient(rows[0], kConstant) * cross(b, n) - coefficient(rows[1], kConstant) * cross(n, a)) /
+        size;
+    const Scalar distance = dot(d, d);
+    roots_.require(distance, false);
+    const auto s =
+        roots_.signed_root((distance - dot(across, across)) / size, dot(turned_back(d), n), distance / size);
+    if (!s) return dead();
+    return Image{across + *s * n, d};
+  }
+
+  std::optional<Image> dead() {
+    failure_ = kDead;
+    return std::nullopt;
+  }
+
+  /// Rᵀ v of the initial R.
+  Vector3 turned_back(Vector3 v) const { return rotated(v, -1); }
+  Vector3 turned_at_start(Vector3 v) const { return rotated(v, 1); }
+  Vector3 rotated(Vector3 v, double sign) const {
+    const Quaternion q = {number(quaternion_[0]), number(sign * quaternion_[1]),
+                          number(sign * quaternion_[2]), number(sign * quaternion_[3])};
+    const Quaternion r = q * Quaternion{number(0), v.x, v.y, v.z} * conjugate(q);
+    return {r.x, r.y, r.z};
+  }
+
+  /// With R c = d and n · R t = γ: R t = (c·t/|c|²) d + x, where x is orthogonal to d, of known length and of known component along n.
+  Result turned(const Image& image, const Polynomial& last) {
+    Polynomial row = last;
+    if (scalar_) row = substituted(row, 0, *scalar_);
+    if (!only(row, {kConstant}, {kConstant})) return kOtherForm;
+    const auto factors = factored({coefficients(row)});
+    if (!factors) return kOtherForm;
+    const auto& [c, d] = image;
+    const Vector3 n = factors->left[0], t = factors->right;
+    const Scalar square = dot(c, c), per_square = number(1) / square, share = dot(c, t) * per_square;
+    const Scalar slope = dot(n, d);
+    const Vector3 t_across = t - share * c, n_across = n - slope * per_square * d;
+    const Scalar radius = dot(t_across, t_across), size = dot(n_across, n_across);
+    if (!(at_start(radius) > kRegular * at_start(dot(t, t))) ||
+        !(at_start(size) > kRegular * at_start(dot(n, n))))
+      return kDead;
+    roots_.require(size, false);
+    const Scalar per_size = number(1) / size, gamma = -coefficient(row, kConstant) - share * slope,
+                 along = gamma * per_size;
+    const Vector3 sideways = cross(d, n_across);
+    const auto off = roots_.signed_root((radius - along * gamma) * per_size * per_square,
+                                        dot(turned_at_start(t), sideways), radius * per_size * per_square);
+    if (!off) return kDead;
+    const Scalar per_length = reciprocal_root(square), per_width = reciprocal_root(radius);
+    const Vector3 e1 = per_length * d, e2 = along * per_width * n_across + *off * per_width * sideways;
+    const Vector3 f1 = per_length * c, f2 = per_width * t_across;
+    const Vector3 e3 = cross(e1, e2), f3 = cross(f1, f2);
+    const Quaternion q = quaternion_of({e1, e2, e3}) * conjugate(quaternion_of({f1, f2, f3}));
+    const double sign = at_start(q.w) * quaternion_[0] + at_start(q.x) * quaternion_[1] +
+                        at_start(q.y) * quaternion_[2] + at_start(q.z) * quaternion_[3];
+    Solution solution{{}, roots_.conditions()};
+    const auto column = [&](std::size_t j) { return f1[j] * e1 + f2[j] * e2 + f3[j] * e3; };
+    solution.rotation = Matrix3{{column(0), column(1), column(2)}};
+    if (scalar_) solution.unknowns.push_back(*scalar_);
+    for (const Scalar entry : {q.w, q.x, q.y, q.z})
+      solution.unknowns.push_back({sign > 0 ? entry : -entry, std::nullopt});
+    return solution;
+  }
+
+  /// Its value as a literal where it depends on nothing.
+  Scalar constant(Scalar value) const {
+    ir::Builder copy = builder_;
+    copy.output("value", -1, -1, value.value);
+    const ir::Program program = passes::remove_dead_code(copy.finish("value"));
+    const bool varies = std::any_of(program.nodes.begin(), program.nodes.end(),
+                                    [](const ir::Node& node) { return node.op == ir::Op::kLeaf; });
+    return varies ? value : number(at_start(value));
+  }
+
+  Scalar reciprocal_root(Scalar value) const { return constant(number(1) / square_root(value)); }
+
+  /// Of the rotation matrix with these columns, from the entry that is largest at the initial state.
+  Quaternion quaternion_of(const Matrix3& m) {
+    const auto at = [&](std::size_t i, std::size_t j) { return m.columns[j][i]; };
+    const Scalar trace = at(0, 0) + at(1, 1) + at(2, 2) + 1.0;
+    const Scalar squares[] = {trace, at(0, 0) - at(1, 1) - at(2, 2) + 1.0,
+                              at(1, 1) - at(0, 0) - at(2, 2) + 1.0,
+                              at(2, 2) - at(0, 0) - at(1, 1) + 1.0};  // of the entries, times 4
+    std::size_t largest = 0;
+    for (std::size_t k = 1; k < 4; ++k)
+      if (at_start(squares[k]) > at_start(squares[largest])) largest = k;
+    const Scalar root = constant(square_root(squares[largest])), part = number(0.5) / root;
+    Scalar entries[4];
+    const auto sum = [&](std::size_t i, std::size_t j) { return part * (at(i, j) + at(j, i)); };
+    const auto difference = [&](std::size_t i, std::size_t j) { return part * (at(j, i) - at(i, j)); };
+    if (largest == 0) {
+      entries[1] = difference(1, 2), entries[2] = difference(2, 0), entries[3] = difference(0, 1);
+    } else {
+      const std::size_t i = largest - 1, j = (i + 1) % 3, k = (i + 2) % 3;
+      entries[0] = difference(j, k), entries[1 + j] = sum(i, j), entries[1 + k] = sum(i, k);
+    }
+    entries[largest] = 0.5 * root;
+    roots_.require(squares[largest], false);
+    return {entries[0], entries[1], entries[2], entries[3]};
+  }
+
+  static constexpr double kRegular = 1e-8;
+
+  ir::Builder& builder_;
+  Roots roots_;
+  const std::vector<Polynomial>& rows_;
+  const std::optional<double>& initial_scalar_;
+  const std::array<double, 4>& quaternion_;
+  std::optional<Known> scalar_;  ///< once it is found
+  std::string failure_;
+};
+
+}  // namespace
+
+std::variant<Solution, std::string> solve_rotation(ir::Builder& builder, const std::vector<Polynomial>& rows,
+                                                   const std::optional<double>& initial_scalar,
+                                                   const std::array<double, 4>& initial_quaternion,
+                                                   const Samples& samples) {
+  return RotationSolver(builder, rows, initial_scalar, initial_quaternion, samples).run();
+}
+
+}  // namespace jourdain::loops
