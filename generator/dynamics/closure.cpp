@@ -137,6 +137,7 @@ class Closure {
     const Ex l = general_value(scene_, loop_.name + "l", loop_.length, Inputs::kZero);
     const kinematics::Taylor length =
         kinematics::differentiated(loop_.length, scene_.leaves.t, scene_.leaves.parameters, statements);
+    closure_.span = Span{difference_.value, l};
     const kinematics::Taylor square = product(difference_, difference_);
     const Ex inverse = statements.bind(loop_.name + "il", 1 / l);
     const Ex value = statements.bind(loop_.name + "ll", square.value);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "dynamics/scene.hpp"
@@ -16,6 +17,12 @@ struct RowGradient {
           turn_carrier = kinematics::zero_vector();
 };
 
+/// Of a rod: from one end to the other in W of the link of the carrier, and how long that is where it is closed.
+struct Span {
+  Vector3 difference;
+  Ex length;
+};
+
 /// Of one loop.
 struct LoopClosure {
   std::vector<Ex>
@@ -26,6 +33,7 @@ struct LoopClosure {
   /// By row, as far as asked for; none of a residual: G by entry of z, without entries that are 0, g_t, ġ, and γ = g̈ at ż = 0.
   std::vector<std::map<std::size_t, Ex>> slopes;
   std::vector<Ex> time_slopes, rates, biases;
+  std::optional<Span> span;  ///< of the one row of a rod
 };
 
 enum class ClosureRates { kNone, kGiven };

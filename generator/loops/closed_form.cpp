@@ -204,7 +204,22 @@ class Closing {
     std::array<double, 4> quaternion;
     std::copy(first, first + 4, quaternion.begin());
     const auto scalar = block.dependents.empty() ? std::nullopt : std::optional(y[block.dependents[0]]);
-    return solve_rotation(builder_, rows, scalar, quaternion, samples_);
+    std::vector<RotationRow> list;
+    for (std::size_t r = 0; r < rows.size(); ++r) list.push_back({rows[r], rod_of(block.rows[r])});
+    return solve_rotation(builder_, list, scalar, quaternion, samples_);
+  }
+
+  std::optional<RodRow> rod_of(std::size_t row) {
+    std::vector<ir::ValueId> values;
+    for (const ir::Output& output : request_.spans.outputs)
+      if (output.row == static_cast<int>(row)) values.push_back(output.value);
+    if (values.empty()) return std::nullopt;
+    const auto found = polynomials_of(builder_, request_.spans, values, roles_);
+    if (std::holds_alternative<std::string>(found)) return std::nullopt;
+    const auto& entries = std::get<std::vector<Polynomial>>(found);
+    const auto length = entries[3].find(kConstant);
+    if (length == entries[3].end()) return std::nullopt;
+    return RodRow{{entries[0], entries[1], entries[2]}, length->second};
   }
 
   /// Puts what is solved among the known coordinates. Otherwise why there is nothing.

@@ -35,7 +35,8 @@ struct ClosedFormRequest {
   std::vector<std::optional<std::array<double, 2>>> parameter_range =
       {};  ///< none, or empty: as in `parameters`
   std::vector<std::string> parameter_names = {};
-  ir::Program jacobian = {};                   ///< outputs ("G", row, column)
+  ir::Program spans = {};     ///< as in ConstraintPrograms; of no row: rods are seen as other rows
+  ir::Program jacobian = {};  ///< outputs ("G", row, column)
   std::vector<Elimination> eliminations = {};  ///< whose pivots are to be proven
 };
 

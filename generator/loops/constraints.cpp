@@ -93,6 +93,16 @@ class Lowered {
     return program.finish("sense");
   }
 
+  Program spans() const {
+    return by_row("span",
+                  [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t, int row) {
+                    if (!closure.span) return;
+                    for (int k = 0; k < 3; ++k)
+                      program.add(l, {"span", row, k, closure.span->difference[static_cast<std::size_t>(k)]});
+                    program.add(l, {"length", row, -1, closure.span->length});
+                  });
+  }
+
   /// By the motion of points and directions; none where a row is a residual of the description.
   std::optional<Program> jacobian() const {
     if (!has_rates()) return {};
@@ -212,6 +222,7 @@ ConstraintPrograms constraint_programs(const model::Mechanism& mechanism,
   ConstraintPrograms programs;
   programs.value = lowered.values();
   programs.senses = lowered.senses();
+  programs.spans = lowered.spans();
   programs.jacobian = cheaper(
       cheapest([&](EliminationOrder o) { return Differentiation(tangent, programs.value, o).jacobian(); }),
       lowered.jacobian());

@@ -10,8 +10,10 @@ namespace jourdain::loops {
 /// g(y, t), its Jacobian G by the displacements of model::Tangent and g_t; ġ = G z + g_t and γ = g̈ − G ż. Leaves are the
 /// y and z of the tree, t and parameters. Entries that are zero whatever the state are left out.
 struct ConstraintPrograms {
-  ir::Program value;     ///< ("g", row), every row
-  ir::Program senses;    ///< ("sense", loop), as in dynamics::LoopClosure
+  ir::Program value;   ///< ("g", row), every row
+  ir::Program senses;  ///< ("sense", loop), as in dynamics::LoopClosure
+  ir::Program
+      spans;  ///< of rods: ("span", row, axis) from end to end, axes of the carrier's link, and ("length", row)
   ir::Program jacobian;  ///< ("G", row, velocity), ("g_t", row)
   ir::Program rates;     ///< ("rate", row) and ("gamma", row), every row
 };

@@ -28,6 +28,7 @@ class Solver {
       if (!has(cos_of(k), sin_of(k)) && !has(value_of(k), value_of(k))) return kUndetermined;
     for (std::size_t k = 0; k < count; ++k) is_angle_[k] = has(cos_of(k), sin_of(k));
     if (count == 1) return is_angle_[0] ? one_angle() : one_slide();
+    if (count == 3) return three_spheres();
     if (is_angle_[0] && is_angle_[1]) return two_angles();
     if (!is_angle_[0] && !is_angle_[1]) return two_slides();
     return is_angle_[0] ? angle_and_slide(0, 1) : swapped(angle_and_slide(1, 0));
@@ -129,6 +130,40 @@ class Solver {
     return solution(known(s.x), known(s.y));
   }
 
+  /// x·x + n_k·x + w_k = 0 for three slides x: the differences are two planes, which meet in x₀ + s m.
+  Result three_spheres() {
+    std::vector<Monomial> allowed = {kConstant};
+    for (std::size_t k = 0; k < 3; ++k) {
+      allowed.push_back(value_of(k));
+      allowed.push_back(value_of(k) * value_of(k));
+    }
+    if (!only(allowed)) return kOtherForm;
+    Vector3 n[3], start = {number(initial_[0]), number(initial_[1]), number(initial_[2])};
+    Scalar w[3];
+    for (std::size_t r = 0; r < 3; ++r) {
+      const Scalar square = coefficient(r, value_of(0) * value_of(0));
+      for (const std::size_t k : {1, 2})
+        if (!agree(square, coefficient(r, value_of(k) * value_of(k)), square, samples_)) return kOtherForm;
+      if (loops::is_zero(square)) return kOtherForm;
+      roots_.require(square * square, false);
+      n[r] = Vector3{coefficient(r, value_of(0)), coefficient(r, value_of(1)), coefficient(r, value_of(2))} /
+             square;
+      w[r] = coefficient(r, kConstant) / square;
+    }
+    const Vector3 a = n[1] - n[0], b = n[2] - n[0], m = cross(a, b);
+    const Scalar size = dot(m, m), half = 0.5 * dot(n[0], m), radius = 0.25 * dot(n[0], n[0]) - w[0];
+    if (!(at_start(size) > Roots::kDeadPosition * at_start(dot(a, a) * dot(b, b)))) return kDead;
+    roots_.require(size, false);
+    roots_.require(radius, false);
+    const Vector3 x = ((w[0] - w[1]) * cross(b, m) + (w[0] - w[2]) * cross(m, a)) / size;
+    const Scalar rest = dot(x, x) + dot(n[0], x) + w[0];
+    const auto s = roots_.slide(-half / size, half * half - size * rest, size,
+                                at_start(dot(start - x, m) / size), size * radius);
+    if (!s) return kDead;
+    const Vector3 found = x + *s * m;
+    return Solution{{known(found.x), known(found.y), known(found.z)}, roots_.conditions()};
+  }
+
   Result two_angles() {
     std::vector<Monomial> allowed = {kConstant, cos_of(0), sin_of(0), cos_of(1), sin_of(1)};
     if (only(allowed)) return two_circles();
@@ -210,7 +245,7 @@ class Solver {
   std::vector<Polynomial> rows_;
   const std::vector<double>& initial_;
   const Samples& samples_;
-  bool is_angle_[2] = {false, false};
+  bool is_angle_[kScalars] = {false, false, false};
 };
 
 }  // namespace

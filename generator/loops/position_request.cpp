@@ -23,6 +23,7 @@ std::variant<ClosedFormRequest, std::string> position_request(const model::Mecha
   const model::Tangent tangent = model::tangent_of(mechanism, layout);
   ClosedFormRequest request;
   request.g = constraints.value;
+  request.spans = constraints.spans;
   request.jacobian = constraints.jacobian;
   for (const Block& block : plan.blocks) {
     PositionBlock& positions = request.blocks.emplace_back();

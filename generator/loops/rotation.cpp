@@ -40,7 +40,7 @@ struct Image {
 
 class RotationSolver {
  public:
-  RotationSolver(ir::Builder& builder, const std::vector<Polynomial>& rows,
+  RotationSolver(ir::Builder& builder, const std::vector<RotationRow>& rows,
                  const std::optional<double>& initial_scalar, const std::array<double, 4>& quaternion,
                  const Samples& samples)
       : builder_(builder),
@@ -52,9 +52,10 @@ class RotationSolver {
   Result run() {
     if (rows_.size() != 3 + (initial_scalar_ ? 1u : 0u)) return kOtherForm;
     for (std::size_t last = 0; last < rows_.size(); ++last) {
-      if (!is_held_in_turning(rows_[last])) continue;
-      std::vector<Polynomial> others = rows_;
-      others.erase(others.begin() + static_cast<long>(last));
+      if (!is_held_in_turning(rows_[last].value)) continue;
+      std::vector<Polynomial> others;
+      for (std::size_t k = 0; k < rows_.size(); ++k)
+        if (k != last) others.push_back(rows_[k].value);
       const auto image = initial_scalar_ ? image_of_ball(others) : image_of_line(others);
       if (image) return turned(*image, rows_[last]);
       if (!failure_.empty()) return failure_;
@@ -95,20 +96,46 @@ class RotationSolver {
                 {kConstant, cos_of(0), sin_of(0), value_of(0), value_of(0) * value_of(0)});
   }
 
-  /// a / b, exactly where a is a number times b.
-  Scalar ratio(Scalar a, Scalar b) const {
+  /// A number times a value.
+  struct Multiple {
+    double number = 1;
+    Scalar of;
+  };
+
+  Multiple multiple(Scalar a) const {
     const ir::Node& node = builder_.program()[a.value.value];
-    const bool negative = a.value.negative != b.value.negative;
-    const auto with_sign = [&](Scalar s) { return negative ? -s : s; };
-    if (a.value.value == b.value.value) return with_sign(number(1));
+    const double sign = a.value.negative ? -1 : 1;
+    if (node.op == ir::Op::kLiteral) return {sign * node.literal, number(1)};
     if (node.op == ir::Op::kMultiply)
       for (const auto& [factor, other] : {std::pair{node.a, node.b}, std::pair{node.b, node.a}})
-        if (factor == b.value.value && builder_.program()[other].op == ir::Op::kLiteral)
-          return with_sign({&builder_, {other, false}});
+        if (const ir::Node& part = builder_.program()[factor]; part.op == ir::Op::kLiteral)
+          return {sign * part.literal, {&builder_, {other, false}}};
+    return {sign, {&builder_, {a.value.value, false}}};
+  }
+
+  /// a / b, without a division where b is a number or a is a number times b.
+  Scalar ratio(Scalar a, Scalar b) const {
+    const Multiple x = multiple(a), y = multiple(b);
+    if (x.of.value.value == y.of.value.value) return number(x.number / y.number);
+    if (loops::is_literal(y.of)) return number(x.number / y.number) * x.of;
     return a / b;
   }
 
-  /// b_k vᵀ = W_k, with v a row of one of them.
+  /// As numbers, where they are multiples of one value.
+  Vector3 without_common_factor(const Vector3& v) const {
+    std::optional<Scalar> common;
+    Scalar numbers[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Multiple entry = multiple(v[k]);
+      numbers[k] = number(entry.number);
+      if (loops::is_zero(v[k])) continue;
+      if (common && common->value.value != entry.of.value.value) return v;
+      common = entry.of;
+    }
+    return {numbers[0], numbers[1], numbers[2]};
+  }
+
+  /// b_k vᵀ = W_k, with v along a row of one of them.
   std::optional<Factors> factored(const std::vector<Matrix>& list) const {
     std::size_t from = 0, row = 0, column = 0;
     double largest = 0;
@@ -120,17 +147,26 @@ class RotationSolver {
             from = k, row = i, column = j;
           }
     if (!(largest > 0)) return std::nullopt;
-    Factors factors{{}, row_of(list[from], row)};
+    Factors factors{{}, without_common_factor(row_of(list[from], row))};
     const Scalar scale = factors.right[column];
     for (const Matrix& W : list) {
       factors.left.push_back(
           {ratio(W[0][column], scale), ratio(W[1][column], scale), ratio(W[2][column], scale)});
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
-          if (!agree(W[i][j], factors.left.back()[i] * factors.right[j], scale, roots_.samples()))
+          if (!agree(W[i][j], factors.left.back()[i] * factors.right[j], list[from][row][column],
+                     roots_.samples()))
             return std::nullopt;
     }
     return factors;
+  }
+
+  bool is_orthonormal(const std::vector<Vector3>& B) const {
+    const Scalar one = number(1);
+    for (std::size_t i = 0; i < B.size(); ++i)
+      for (std::size_t j = i; j < B.size(); ++j)
+        if (!agree(dot(B[i], B[j]), number(i == j), one, roots_.samples())) return false;
+    return true;
   }
 
   std::vector<Matrix> coefficients(const std::vector<Polynomial>& rows, const Monomial& factor) const {
@@ -155,14 +191,20 @@ class RotationSolver {
     if (!(std::fabs(at_start(dot(B[0], cross(B[1], B[2])))) > kRegular)) return std::nullopt;
     const auto sliding = sliding_in_body(rows, B);
     if (!sliding) return std::nullopt;
-    const Matrix3 inverse = inverse_of_rows(B[0], B[1], B[2]);
-    const auto part = [&](const Monomial& m) { return -(inverse * column(*this, rows, m)); };
-    const Vector3 d = part(kConstant), by_cos = part(cos_of(0)), by_sin = part(sin_of(0));
+    const bool is_turned = is_orthonormal(B);  // then lengths are those of w
+    const Matrix3 inverse = is_turned ? Matrix3{{B[0], B[1], B[2]}} : inverse_of_rows(B[0], B[1], B[2]);
+    const auto part = [&](const Monomial& m) {
+      const Vector3 w = -column(*this, rows, m);
+      return is_turned ? w : inverse * w;
+    };
+    const Vector3 d = part(kConstant), by_cos = part(cos_of(0)), by_sin = part(sin_of(0)),
+                  along = part(value_of(0));
     const bool turns = !is_zero(by_cos) || !is_zero(by_sin);
-    const Vector3 along = part(value_of(0));
-    if (turns && is_zero(along) && is_zero(*sliding)) return on_circle(factors->right, d, by_cos, by_sin);
-    if (!turns) return on_lines(factors->right, *sliding, d, along);
-    return std::nullopt;
+    std::optional<Image> image;
+    if (turns && is_zero(along) && is_zero(*sliding)) image = on_circle(factors->right, d, by_cos, by_sin);
+    if (!turns) image = on_lines(factors->right, *sliding, d, along);
+    if (image && is_turned) image->d = inverse * image->d;
+    return image;
   }
 
   static bool is_zero(const Vector3& v) {
@@ -255,15 +297,48 @@ class RotationSolver {
     return {r.x, r.y, r.z};
   }
 
-  /// With R c = d and n · R t = γ: R t = (c·t/|c|²) d + x, where x is orthogonal to d, of known length and of known component along n.
-  Result turned(const Image& image, const Polynomial& last) {
-    Polynomial row = last;
-    if (scalar_) row = substituted(row, 0, *scalar_);
-    if (!only(row, {kConstant}, {kConstant})) return kOtherForm;
+  /// n · R t = value
+  struct Held {
+    Vector3 n, t;
+    Scalar value;
+  };
+
+  std::optional<Held> held_in_turning(const RotationRow& last) {
+    const auto rod = last.rod ? held_by_rod(*last.rod) : std::nullopt;
+    return rod ? rod : held_by_row(last.value);
+  }
+
+  Polynomial with_scalar(const Polynomial& row) const {
+    return scalar_ ? substituted(row, 0, *scalar_) : row;
+  }
+
+  std::optional<Held> held_by_row(const Polynomial& last) {
+    const Polynomial row = with_scalar(last);
+    if (!only(row, {kConstant}, {kConstant})) return std::nullopt;
     const auto factors = factored({coefficients(row)});
-    if (!factors) return kOtherForm;
+    if (!factors) return std::nullopt;
+    return Held{factors->left[0], factors->right, -coefficient(row, kConstant)};
+  }
+
+  /// |p + B R t| = l with an orthogonal B: 2 Bᵀp · R t = l² − |p|² − |t|².
+  std::optional<Held> held_by_rod(const RodRow& rod) {
+    std::vector<Polynomial> rows;
+    for (const Polynomial& entry : rod.difference) rows.push_back(with_scalar(entry));
+    for (const Polynomial& row : rows)
+      if (!only(row, {kConstant}, {kConstant})) return std::nullopt;
+    const auto factors = factored(coefficients(rows, kConstant));
+    if (!factors || !is_orthonormal(factors->left)) return std::nullopt;
+    const auto& B = factors->left;
+    const Vector3 p = column(*this, rows, kConstant), t = factors->right;
+    return Held{Matrix3{{B[0], B[1], B[2]}} * p, t, 0.5 * (rod.length * rod.length - dot(p, p) - dot(t, t))};
+  }
+
+  /// With R c = d and n · R t = γ: R t = (c·t/|c|²) d + x, where x is orthogonal to d, of known length and of known component along n.
+  Result turned(const Image& image, const RotationRow& last) {
+    const auto held = held_in_turning(last);
+    if (!held) return kOtherForm;
     const auto& [c, d] = image;
-    const Vector3 n = factors->left[0], t = factors->right;
+    const auto& [n, t, target] = *held;
     const Scalar square = dot(c, c), per_square = number(1) / square, share = dot(c, t) * per_square;
     const Scalar slope = dot(n, d);
     const Vector3 t_across = t - share * c, n_across = n - slope * per_square * d;
@@ -272,8 +347,7 @@ class RotationSolver {
         !(at_start(size) > kRegular * at_start(dot(n, n))))
       return kDead;
     roots_.require(size, false);
-    const Scalar per_size = number(1) / size, gamma = -coefficient(row, kConstant) - share * slope,
-                 along = gamma * per_size;
+    const Scalar per_size = number(1) / size, gamma = target - share * slope, along = gamma * per_size;
     const Vector3 sideways = cross(d, n_across);
     const auto off = roots_.signed_root((radius - along * gamma) * per_size * per_square,
                                         dot(turned_at_start(t), sideways), radius * per_size * per_square);
@@ -335,7 +409,7 @@ class RotationSolver {
 
   ir::Builder& builder_;
   Roots roots_;
-  const std::vector<Polynomial>& rows_;
+  const std::vector<RotationRow>& rows_;
   const std::optional<double>& initial_scalar_;
   const std::array<double, 4>& quaternion_;
   std::optional<Known> scalar_;  ///< once it is found
@@ -344,7 +418,7 @@ class RotationSolver {
 
 }  // namespace
 
-std::variant<Solution, std::string> solve_rotation(ir::Builder& builder, const std::vector<Polynomial>& rows,
+std::variant<Solution, std::string> solve_rotation(ir::Builder& builder, const std::vector<RotationRow>& rows,
                                                    const std::optional<double>& initial_scalar,
                                                    const std::array<double, 4>& initial_quaternion,
                                                    const Samples& samples) {

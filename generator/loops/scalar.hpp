@@ -28,6 +28,8 @@ inline Scalar angle_of(Scalar x, Scalar y) { return {x.builder, x.builder->atan2
 
 inline bool is_zero(Scalar a) { return a.builder->is_literal(a.value, 0); }
 
+inline bool is_literal(Scalar a) { return a.builder->program()[a.value.value].op == ir::Op::kLiteral; }
+
 /// A vector of the plane, or the complex number x + i y.
 struct Vector2 {
   Scalar x, y;
