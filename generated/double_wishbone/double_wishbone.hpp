@@ -9,11 +9,9 @@
 //
 // Loops
 // - 1 degree of freedom: 5 coordinates of the tree, 4 of 4 constraints are independent
-// - independent: lower; the others by 2 Newton iterations at the end of a step. Proven for lower in [-0.3,
-//   0.3], any driven angle, at the default value of steering: the branch of the initial state exists, no
-//   other one meets it, and determinants of what is solved for are 0.043 or more of their rows' sizes.
-//   Dependent coordinates that are off by 7e-07 (rad; slides over 1 m) end within 2e-16 of the branch
-// - why so: no closed form: a rotation in space depends on other coordinates
+// - independent: lower; the others in closed form, on the branch of the initial state. Proven: it exists
+//   everywhere in the declared ranges, at the default value of steering, rate; every discriminant is 0.4 or
+//   more (the square of the sine of the angle from a dead position)
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
@@ -27,8 +25,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 2.7e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 4.8e-16; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 1.8e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 1.3e-16; symbolic equations against the numeric reference
 //   8.9e-16; cond(M) up to 1.0e+00
 #pragma once
 
@@ -92,8 +90,8 @@ struct Model {
   static constexpr int input_count = 1;
   static constexpr int output_count = 2;
   static constexpr int constraint_count = 4;
-  static constexpr double least_regularity = 0.001;  ///< see State
-  static constexpr double greatest_opening = 1e-05;  ///< see State
+  static constexpr double least_regularity = 1e-06;  ///< see State
+  static constexpr double greatest_opening = 0.01;  ///< see State
   static constexpr int parameter_count = 6;
 
   explicit Model(const Parameters& = {}) noexcept;
@@ -102,13 +100,11 @@ struct Model {
   Real c1;
   Real c2;
   Real c3;
-  Real c4;
   Real free_length;
   Real stiffness;
   Real damping;
   Real tyre;
-  Real c9;
-  Real c10;
+  Real c8;
 };
 
 // Names in order, closed by a null pointer.
@@ -130,42 +126,42 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 579 operations (310 mul, 265 add and sub, 4 div), 6 sin and cos.
+/// 258 operations (152 mul, 102 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[6]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 574 operations (304 mul, 266 add and sub, 4 div), 5 sin and cos.
+/// 295 operations (167 mul, 124 add and sub, 4 div), 5 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 1325 operations (716 mul, 605 add and sub, 4 div), 6 sin and cos.
+/// 567 operations (338 mul, 225 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 620 operations (331 mul, 282 add and sub, 6 div), 5 sin and cos.
+/// 341 operations (194 mul, 140 add and sub, 6 div), 5 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 1477 operations (795 mul, 674 add and sub, 7 div), 6 sin and cos.
+/// 719 operations (417 mul, 294 add and sub, 7 div), 6 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 1454 operations (784 mul, 663 add and sub, 6 div), 6 sin and cos.
+/// 696 operations (406 mul, 283 add and sub, 6 div), 6 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 650 operations (357 mul, 289 add and sub, 4 div), 6 sin and cos.
+/// 324 operations (194 mul, 126 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -182,27 +178,27 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 1113 operations (584 mul, 516 add and sub, 11 div), 7 sin and cos.
+/// 201 operations (107 mul, 85 add and sub, 6 div), 5 sin and cos, 1 atan2.
 template <class Real>
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 672 operations (353 mul, 315 add and sub, 4 div), 6 sin and cos.
+/// 336 operations (192 mul, 140 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 1580 operations (846 mul, 726 add and sub, 7 div), 6 sin and cos.
+/// 804 operations (457 mul, 339 add and sub, 7 div), 6 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 9426 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
+/// 4198 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -22,6 +22,10 @@ template <class Real>
 Real cosine(const Real& x) noexcept { return cos(x); }
 template <class Real>
 Real square_root(const Real& x) noexcept { return sqrt(x); }
+inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
+inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
+template <class Real>
+Real arctangent2(const Real& y, const Real& x) noexcept { return atan2(y, x); }
 
 template <class Real>
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
@@ -63,15 +67,14 @@ template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
   rate = parameters.rate;
   c1 = parameters.steering * Real(0.5);
-  c2 = rate * c1;
-  c3 = Real(0.5) * (rate * parameters.steering);
-  c4 = Real(0.5) * (parameters.steering * (rate * rate));
+  c2 = Real(0.5) * (rate * parameters.steering);
+  const Real derivative = rate * rate;
+  c3 = Real(0.5) * (parameters.steering * derivative);
   free_length = parameters.free_length;
   stiffness = parameters.stiffness;
   damping = parameters.damping;
   tyre = parameters.tyre;
-  c9 = Real(0.5) * stiffness;
-  c10 = Real(1.5617376188860606) * c3;
+  c8 = Real(0.5) * stiffness;
 }
 
 template <class Real>
@@ -121,211 +124,78 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
   const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
   const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const Real expression = state.t * model.rate;
-  Real t112, c;
-  detail::sine_cosine(expression, t112, c);
+  Real s, c;
+  detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
   const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real t87 = c0 * tie_rodbx1p_x;
-  const Real t88 = s0 * tie_rodbx1p_y;
-  const Real t89 = c0 * tie_rodbx1p_y;
-  const Real t90 = s0 * tie_rodbx1p_x;
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
       Real(0.13);
-  const Real tie_rodd_y = t88 + (t87 + (Real(0.36) - (expression_3 + Real(0.36))));
-  const Real tie_rodd_z = t90 - (t89 - Real(0.21)) - Real(0.27);
-  const Real t108 = state.y[1] * Real(0.5);
-  const Real t109 = state.y[2] * Real(0.5);
-  const Real t110 = state.y[3] * Real(0.5);
-  const Real t111 = state.y[4] * Real(0.5);
-  const Real t116 = Real(2.0) * t111;
-  const Real t117 = Real(2.0) * t108;
-  const Real t118 = Real(2.0) * t109;
-  const Real t119 = q1d2 * t111;
-  const Real t120 = q1d2 * t108;
-  const Real t121 = q1d2 * t109;
-  const Real t122 = q1d3 * t111;
-  const Real t123 = q1d3 * t108;
-  const Real t124 = q1d3 * t109;
-  const Real t126 = t119 + state.y[3] * t116;
-  const Real t127 = state.y[3] * t117;
-  const Real t128 = t120 + t127;
-  const Real t129 = state.y[3] * t118;
-  const Real t130 = t121 + t129;
-  const Real t131 = state.y[2] * t116;
-  const Real t132 = state.y[2] * t117;
-  const Real t133 = state.y[2] * t118;
-  const Real t134 = state.y[1] * t116;
-  const Real t135 = state.y[1] * t117;
-  const Real t136 = state.y[1] * t118;
-  const Real t137 = Real(2.0) * t110;
-  const Real t138 = q1d3 * t110;
-  const Real t140 = t138 + state.y[4] * t137;
-  const Real t142 = t124 + state.y[4] * t118;
-  const Real t144 = t123 + state.y[4] * t117;
-  const Real t145 = state.y[2] * t137;
-  const Real t146 = state.y[1] * t137;
-  const Real t148 = t122 - state.y[3] * t137;
-  const Real t149 = t123 + t129;
-  const Real t150 = t124 - t127;
-  const Real t151 = t120 + t131;
-  const Real t152 = t119 - t132;
-  const Real t153 = q1d2 * t110;
-  const Real t154 = t133 - t153;
-  const Real t155 = t123 - t145;
-  const Real t156 = t122 - t133;
-  const Real t157 = t132 + t138;
-  const Real t159 = q1d1 * t111;
-  const Real t160 = q1d1 * t110;
-  const Real t161 = t121 - t134;
-  const Real t162 = t135 - t153;
-  const Real t163 = t119 + t136;
-  const Real t164 = t124 + t146;
-  const Real t165 = t136 - t138;
-  const Real t166 = t122 - t135;
-  const Real t168 = t155 - t161;
-  const Real t169 = t156 - t162;
-  const Real t170 = t157 - t163;
-  const Real t171 = t155 + t161;
-  const Real t172 = t156 + t162;
-  const Real t173 = t157 + t163;
-  const Real t174 = t151 + t164;
-  const Real t175 = t152 + t165;
-  const Real t176 = t154 - t166;
-  const Real t177 = t151 - t164;
-  const Real t178 = t152 - t165;
-  const Real t179 = t154 + t166;
-  const Real t180 = t126 - t140;
-  const Real t181 = t128 + t142;
-  const Real t182 = t130 - t144;
-  const Real t196 = top_jointax_x * Real(0.0697564737441253);
-  const Real t198 = top_jointax_x * Real(0.9975640502598242);
-  const Real t201 = Real(0.31) * t168 - Real(0.03) * (t174 - t180);
-  const Real t204 = Real(0.31) * t169 - Real(0.03) * (t175 + t181);
-  const Real t207 = Real(0.31) * t170 + Real(0.03) * (t176 - t182);
-  const Real t208 = t132 + q1d1 * t108;
-  const Real t209 = t131 + t159;
-  const Real t210 = t145 + t160;
-  const Real t211 = t135 - q1d1 * t109;
-  const Real t212 = t134 + t160;
-  const Real t213 = t146 - t159;
-  const Real t214 = t148 - t211;
-  const Real t215 = t149 + t212;
-  const Real t216 = t150 + t213;
-  const Real t217 = t148 + t211;
-  const Real t218 = t149 - t212;
-  const Real t219 = t150 - t213;
-  const Real t223 = t140 - t208;
-  const Real t224 = t142 - t209;
-  const Real t225 = t144 + t210;
-  const Real t226 = t126 + t208;
-  const Real t227 = t128 - t209;
-  const Real t228 = t130 - t210;
-  const Real t252 = Real(0.31) * t214 - Real(0.03) * (t177 + t223);
-  const Real t255 = Real(0.31) * t215 + Real(0.03) * (t178 + t224);
-  const Real t258 = Real(0.31) * t216 - Real(0.03) * (t179 + t225);
-  const Real t267 = Real(0.31) * t226 + Real(0.03) * (t171 + t217);
-  const Real t270 = Real(0.31) * t227 - Real(0.03) * (t172 - t218);
-  const Real t273 = Real(0.31) * t228 - Real(0.03) * (t173 - t219);
-  const Real t275 = (tie_rodd_z + tie_rodd_z) * Real(1.5617376188860606);
-  const Real t276 = (tie_rodd_y + tie_rodd_y) * Real(1.5617376188860606);
-  const Real t277 = (tie_rodd_x + tie_rodd_x) * Real(1.5617376188860606);
-  const Real t281 = c0 * t275 - s0 * t276;
-  const Real t283 = s0 * t275 + c0 * t276;
-  const Real t288 = t275 * (t87 + t88) + t276 * (t89 - t90);
-  const Real t299 = t277 * (Real(0.14) * t180 - (Real(0.02) * t174 - Real(0.07) * t168)) + (t281 * (Real(0.14)
-      * t171 + (Real(0.02) * t217 + Real(0.07) * t226)) + t283 * (Real(0.14) * t177 + (Real(0.02) * t223 -
-      Real(0.07) * t214)));
-  const Real t310 = t277 * (Real(0.14) * t181 + (Real(0.02) * t175 - Real(0.07) * t169)) - (t281 * (Real(0.14)
-      * t172 - (Real(0.02) * t218 + Real(0.07) * t227)) + t283 * (Real(0.14) * t178 + (Real(0.02) * t224 +
-      Real(0.07) * t215)));
-  const Real t321 = t277 * (Real(0.14) * t182 - (Real(0.02) * t176 + Real(0.07) * t170)) - (t281 * (Real(0.14)
-      * t173 - (Real(0.02) * t219 + Real(0.07) * t228)) - t283 * (Real(0.14) * t179 + (Real(0.02) * t225 -
-      Real(0.07) * t216)));
-  const Real t324 = t112 * t276 * model.c2;
-  const Real t326 = c0 * t252 + s0 * t267;
-  const Real t328 = c0 * t255 + s0 * t270;
-  const Real t330 = c0 * t258 + s0 * t273;
-  const Real t332 = s0 * t252 - c0 * t267;
-  const Real t334 = s0 * t255 - c0 * t270;
-  const Real t336 = s0 * t258 - c0 * t273;
-  const Real t344 = Real(1.0) / (t299 * t299 + (t332 * t332 + (t201 * t201 + t326 * t326)));
-  const Real t352 = t344 * (t299 * t310 + (t332 * t334 - (t201 * t204 - t326 * t328)));
-  const Real t354 = t204 + t201 * t352;
-  const Real t356 = t328 - t326 * t352;
-  const Real t358 = t334 - t332 * t352;
-  const Real t360 = t310 - t299 * t352;
-  const Real t368 = Real(1.0) / (t360 * t360 + (t358 * t358 + (t354 * t354 + t356 * t356)));
-  const Real t376 = t344 * (t299 * t321 + (t332 * t336 - (t201 * t207 - t326 * t330)));
-  const Real t378 = t207 + t201 * t376;
-  const Real t380 = t330 - t326 * t376;
-  const Real t382 = t336 - t332 * t376;
-  const Real t384 = t321 - t299 * t376;
-  const Real t392 = t368 * (t360 * t384 + (t358 * t382 + (t354 * t378 + t356 * t380)));
-  const Real t394 = t378 - t354 * t392;
-  const Real t396 = t380 - t356 * t392;
-  const Real t398 = t382 - t358 * t392;
-  const Real t400 = t384 - t360 * t392;
-  const Real t408 = Real(1.0) / (t400 * t400 + (t398 * t398 + (t394 * t394 + t396 * t396)));
-  const Real t414 = t344 * (t198 * t332 - (t196 * t201 - top_jointax_y * t326));
-  const Real t416 = t196 + t201 * t414;
-  const Real t418 = top_jointax_y - t326 * t414;
-  const Real t420 = t198 - t332 * t414;
-  const Real t421 = t299 * t414;
-  const Real t429 = t368 * (t360 * t421 - (t358 * t420 + (t354 * t416 + t356 * t418)));
-  const Real t431 = t416 + t354 * t429;
-  const Real t433 = t418 + t356 * t429;
-  const Real t435 = t420 + t358 * t429;
-  const Real t437 = t421 - t360 * t429;
-  const Real t445 = t408 * (t400 * t437 - (t398 * t435 + (t394 * t431 + t396 * t433)));
-  const Real t447 = t431 + t394 * t445;
-  const Real t449 = t433 + t396 * t445;
-  const Real t451 = t435 + t398 * t445;
-  const Real t453 = t437 - t400 * t445;
-  const Real t461 = Real(1.0) / (t453 * t453 + (t451 * t451 + (t447 * t447 + t449 * t449)));
-  const Real t467 = t344 * (t288 * t299 - (top_jointbx1_y * t326 - top_jointbx1_x * t332));
-  const Real t468 = t201 * t467;
-  const Real t470 = top_jointbx1_y + t326 * t467;
-  const Real t472 = top_jointbx1_x - t332 * t467;
-  const Real t474 = t288 - t299 * t467;
-  const Real t482 = t368 * (t360 * t474 + (t358 * t472 + (t354 * t468 - t356 * t470)));
-  const Real t484 = t468 - t354 * t482;
-  const Real t486 = t470 + t356 * t482;
-  const Real t488 = t472 - t358 * t482;
-  const Real t490 = t474 - t360 * t482;
-  const Real t498 = t408 * (t400 * t490 + (t398 * t488 + (t394 * t484 - t396 * t486)));
-  const Real t514 = t461 * (t453 * (t490 - t400 * t498) - (t451 * (t488 - t398 * t498) + (t447 * (t484 - t394
-      * t498) - t449 * (t486 + t396 * t498))));
-  const Real t518 = t498 - t445 * t514;
-  const Real t522 = t392 * t518 - (t482 - t429 * t514);
-  const Real t533 = t344 * (t299 * t324);
-  const Real t534 = t201 * t533;
-  const Real t535 = t326 * t533;
-  const Real t536 = t332 * t533;
-  const Real t538 = t324 - t299 * t533;
-  const Real t546 = t368 * (t360 * t538 - (t358 * t536 - (t354 * t534 - t356 * t535)));
-  const Real t548 = t534 - t354 * t546;
-  const Real t550 = t535 + t356 * t546;
-  const Real t552 = t536 + t358 * t546;
-  const Real t554 = t538 - t360 * t546;
-  const Real t562 = t408 * (t400 * t554 - (t398 * t552 - (t394 * t548 - t396 * t550)));
-  const Real t578 = t461 * (t453 * (t554 - t400 * t562) + (t451 * (t552 + t398 * t562) - (t447 * (t548 - t394
-      * t562) - t449 * (t550 + t396 * t562))));
-  const Real t582 = t562 - t445 * t578;
-  const Real t586 = t392 * t582 - (t546 - t429 * t578);
-  const Real t591 = t352 * t586 - (t376 * t582 - (t414 * t578 - ((t352 * t522 - (t376 * t518 - (t467 + t414 *
-      t514))) * state.z[0] - t533)));
-  const Real t592 = t522 * state.z[0] - t586;
-  const Real t593 = t518 * state.z[0] - t582;
+  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
+  const Real t107 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t116 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t128 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t128;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t128 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real t175 = Real(1.0) / top_joints2am_z;
+  const Real t176 = top_jointax_y * t175;
+  const Real t182 = top_joints2bm_y * t176 + (t116 + Real(0.31) * top_joints1bf1_x);
+  const Real t186 = top_joints2bm_z * t176 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t189 = top_jointax_x * t175 * Real(0.0697564737441253);
+  const Real t195 = Real(1.0) / (top_joints2bm_x * t176 + (Real(0.31) * top_joints1bf1_y - t116));
+  const Real t196 = (top_joints2bm_x * t189 + (q1r0_y * Real(0.31) + t107)) * t195;
+  const Real t205 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t189 - t186 * t196);
+  const Real t206 = tie_rods0bm_x * t195;
+  const Real t211 = Real(1.0) / (t182 * t196 - (top_joints2bm_y * t189 - (t107 - q1r0_x * Real(0.31))));
+  const Real t212 = (t182 * t206 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t211;
+  const Real t217 = Real(1.0) / (t205 * t212 + (t186 * t206 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t220 = top_jointbx1_x * t176 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
+  const Real t223 = top_jointbx1_x * t189 - t196 * t220;
+  const Real t229 = t217 * (t212 * t223 + (t206 * t220 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t232 = t211 * (t223 - t205 * t229);
+  const Real t237 = t195 * (t186 * t229 - (t220 + t182 * t232));
+  const Real t252 = tie_rods0bf0_x * s * t217 * model.c2;
+  const Real t254 = t211 * (t205 * t252);
+  const Real t258 = t195 * (t182 * t254 + t186 * t252);
+  const Real t265 = t237 * state.z[0] + t258;
+  const Real t266 = t232 * state.z[0] - t254;
+  const Real t267 = t229 * state.z[0] + t252;
+  const Real t270 = state.y[1] * Real(0.5);
+  const Real t271 = state.y[2] * Real(0.5);
+  const Real t272 = state.y[3] * Real(0.5);
+  const Real t273 = state.y[4] * Real(0.5);
   ydot[0] = state.z[0];
-  ydot[1] = t111 * t593 + (t109 * t591 + t110 * t592);
-  ydot[2] = -(t110 * t593 + (t108 * t591 - t111 * t592));
-  ydot[3] = t109 * t593 - (t111 * t591 + t108 * t592);
-  ydot[4] = -(t108 * t593 - (t110 * t591 - t109 * t592));
-  ydot[5] = -(t514 * state.z[0] - t578);
+  ydot[1] = t267 * t273 - (t265 * t271 + t266 * t272);
+  ydot[2] = -(t267 * t272 - (t265 * t270 - t266 * t273));
+  ydot[3] = t267 * t271 + (t265 * t273 + t266 * t270);
+  ydot[4] = -(t267 * t270 + (t265 * t272 - t266 * t271));
+  ydot[5] = -(t175 * (top_joints2bm_z * t229 - (top_joints2bm_y * t232 + (top_jointbx1_x + top_joints2bm_x *
+      t237))) * state.z[0] + t175 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 - top_joints2bm_y *
+      t254)));
 }
 
 template <class Real>
@@ -361,185 +231,60 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
   const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
   const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const Real expression = state.t * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
   const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real t87 = c0 * tie_rodbx1p_x;
-  const Real t88 = s0 * tie_rodbx1p_y;
-  const Real t89 = c0 * tie_rodbx1p_y;
-  const Real t90 = s0 * tie_rodbx1p_x;
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
       Real(0.13);
-  const Real tie_rodd_y = t88 + (t87 + (Real(0.36) - (expression_3 + Real(0.36))));
-  const Real tie_rodd_z = t90 - (t89 - Real(0.21)) - Real(0.27);
-  const Real t108 = state.y[1] * Real(0.5);
-  const Real t109 = state.y[2] * Real(0.5);
-  const Real t110 = state.y[3] * Real(0.5);
-  const Real t111 = state.y[4] * Real(0.5);
-  const Real t115 = Real(2.0) * t111;
-  const Real t116 = Real(2.0) * t108;
-  const Real t117 = Real(2.0) * t109;
-  const Real t118 = q1d2 * t111;
-  const Real t119 = q1d2 * t108;
-  const Real t120 = q1d2 * t109;
-  const Real t121 = q1d3 * t111;
-  const Real t122 = q1d3 * t108;
-  const Real t123 = q1d3 * t109;
-  const Real t125 = t118 + state.y[3] * t115;
-  const Real t126 = state.y[3] * t116;
-  const Real t127 = t119 + t126;
-  const Real t128 = state.y[3] * t117;
-  const Real t129 = t120 + t128;
-  const Real t130 = state.y[2] * t115;
-  const Real t131 = state.y[2] * t116;
-  const Real t132 = state.y[2] * t117;
-  const Real t133 = state.y[1] * t115;
-  const Real t134 = state.y[1] * t116;
-  const Real t135 = state.y[1] * t117;
-  const Real t136 = Real(2.0) * t110;
-  const Real t137 = q1d3 * t110;
-  const Real t139 = t137 + state.y[4] * t136;
-  const Real t141 = t123 + state.y[4] * t117;
-  const Real t143 = t122 + state.y[4] * t116;
-  const Real t144 = state.y[2] * t136;
-  const Real t145 = state.y[1] * t136;
-  const Real t147 = t121 - state.y[3] * t136;
-  const Real t148 = t122 + t128;
-  const Real t149 = t123 - t126;
-  const Real t150 = t119 + t130;
-  const Real t151 = t118 - t131;
-  const Real t152 = q1d2 * t110;
-  const Real t153 = t132 - t152;
-  const Real t154 = t122 - t144;
-  const Real t155 = t121 - t132;
-  const Real t156 = t131 + t137;
-  const Real t158 = q1d1 * t111;
-  const Real t159 = q1d1 * t110;
-  const Real t160 = t120 - t133;
-  const Real t161 = t134 - t152;
-  const Real t162 = t118 + t135;
-  const Real t163 = t123 + t145;
-  const Real t164 = t135 - t137;
-  const Real t165 = t121 - t134;
-  const Real t167 = t154 - t160;
-  const Real t168 = t155 - t161;
-  const Real t169 = t156 - t162;
-  const Real t170 = t154 + t160;
-  const Real t171 = t155 + t161;
-  const Real t172 = t156 + t162;
-  const Real t173 = t150 + t163;
-  const Real t174 = t151 + t164;
-  const Real t175 = t153 - t165;
-  const Real t176 = t150 - t163;
-  const Real t177 = t151 - t164;
-  const Real t178 = t153 + t165;
-  const Real t179 = t125 - t139;
-  const Real t180 = t127 + t141;
-  const Real t181 = t129 - t143;
-  const Real t195 = top_jointax_x * Real(0.0697564737441253);
-  const Real t197 = top_jointax_x * Real(0.9975640502598242);
-  const Real t200 = Real(0.31) * t167 - Real(0.03) * (t173 - t179);
-  const Real t203 = Real(0.31) * t168 - Real(0.03) * (t174 + t180);
-  const Real t206 = Real(0.31) * t169 + Real(0.03) * (t175 - t181);
-  const Real t207 = t131 + q1d1 * t108;
-  const Real t208 = t130 + t158;
-  const Real t209 = t144 + t159;
-  const Real t210 = t134 - q1d1 * t109;
-  const Real t211 = t133 + t159;
-  const Real t212 = t145 - t158;
-  const Real t213 = t147 - t210;
-  const Real t214 = t148 + t211;
-  const Real t215 = t149 + t212;
-  const Real t216 = t147 + t210;
-  const Real t217 = t148 - t211;
-  const Real t218 = t149 - t212;
-  const Real t222 = t139 - t207;
-  const Real t223 = t141 - t208;
-  const Real t224 = t143 + t209;
-  const Real t225 = t125 + t207;
-  const Real t226 = t127 - t208;
-  const Real t227 = t129 - t209;
-  const Real t251 = Real(0.31) * t213 - Real(0.03) * (t176 + t222);
-  const Real t254 = Real(0.31) * t214 + Real(0.03) * (t177 + t223);
-  const Real t257 = Real(0.31) * t215 - Real(0.03) * (t178 + t224);
-  const Real t266 = Real(0.31) * t225 + Real(0.03) * (t170 + t216);
-  const Real t269 = Real(0.31) * t226 - Real(0.03) * (t171 - t217);
-  const Real t272 = Real(0.31) * t227 - Real(0.03) * (t172 - t218);
-  const Real t274 = (tie_rodd_z + tie_rodd_z) * Real(1.5617376188860606);
-  const Real t275 = (tie_rodd_y + tie_rodd_y) * Real(1.5617376188860606);
-  const Real t276 = (tie_rodd_x + tie_rodd_x) * Real(1.5617376188860606);
-  const Real t280 = c0 * t274 - s0 * t275;
-  const Real t282 = s0 * t274 + c0 * t275;
-  const Real t287 = t274 * (t87 + t88) + t275 * (t89 - t90);
-  const Real t298 = t276 * (Real(0.14) * t179 - (Real(0.02) * t173 - Real(0.07) * t167)) + (t280 * (Real(0.14)
-      * t170 + (Real(0.02) * t216 + Real(0.07) * t225)) + t282 * (Real(0.14) * t176 + (Real(0.02) * t222 -
-      Real(0.07) * t213)));
-  const Real t309 = t276 * (Real(0.14) * t180 + (Real(0.02) * t174 - Real(0.07) * t168)) - (t280 * (Real(0.14)
-      * t171 - (Real(0.02) * t217 + Real(0.07) * t226)) + t282 * (Real(0.14) * t177 + (Real(0.02) * t223 +
-      Real(0.07) * t214)));
-  const Real t320 = t276 * (Real(0.14) * t181 - (Real(0.02) * t175 + Real(0.07) * t169)) - (t280 * (Real(0.14)
-      * t172 - (Real(0.02) * t218 + Real(0.07) * t227)) - t282 * (Real(0.14) * t178 + (Real(0.02) * t224 -
-      Real(0.07) * t215)));
-  const Real t322 = c0 * t251 + s0 * t266;
-  const Real t324 = c0 * t254 + s0 * t269;
-  const Real t326 = c0 * t257 + s0 * t272;
-  const Real t328 = s0 * t251 - c0 * t266;
-  const Real t330 = s0 * t254 - c0 * t269;
-  const Real t332 = s0 * t257 - c0 * t272;
-  const Real t340 = Real(1.0) / (t298 * t298 + (t328 * t328 + (t200 * t200 + t322 * t322)));
-  const Real t348 = t340 * (t298 * t309 + (t328 * t330 - (t200 * t203 - t322 * t324)));
-  const Real t350 = t203 + t200 * t348;
-  const Real t352 = t324 - t322 * t348;
-  const Real t354 = t330 - t328 * t348;
-  const Real t356 = t309 - t298 * t348;
-  const Real t364 = Real(1.0) / (t356 * t356 + (t354 * t354 + (t350 * t350 + t352 * t352)));
-  const Real t372 = t340 * (t298 * t320 + (t328 * t332 - (t200 * t206 - t322 * t326)));
-  const Real t374 = t206 + t200 * t372;
-  const Real t376 = t326 - t322 * t372;
-  const Real t378 = t332 - t328 * t372;
-  const Real t380 = t320 - t298 * t372;
-  const Real t388 = t364 * (t356 * t380 + (t354 * t378 + (t350 * t374 + t352 * t376)));
-  const Real t390 = t374 - t350 * t388;
-  const Real t392 = t376 - t352 * t388;
-  const Real t394 = t378 - t354 * t388;
-  const Real t396 = t380 - t356 * t388;
-  const Real t404 = Real(1.0) / (t396 * t396 + (t394 * t394 + (t390 * t390 + t392 * t392)));
-  const Real t410 = t340 * (t197 * t328 - (t195 * t200 - top_jointax_y * t322));
-  const Real t412 = t195 + t200 * t410;
-  const Real t414 = top_jointax_y - t322 * t410;
-  const Real t416 = t197 - t328 * t410;
-  const Real t417 = t298 * t410;
-  const Real t425 = t364 * (t356 * t417 - (t354 * t416 + (t350 * t412 + t352 * t414)));
-  const Real t427 = t412 + t350 * t425;
-  const Real t429 = t414 + t352 * t425;
-  const Real t431 = t416 + t354 * t425;
-  const Real t433 = t417 - t356 * t425;
-  const Real t441 = t404 * (t396 * t433 - (t394 * t431 + (t390 * t427 + t392 * t429)));
-  const Real t443 = t427 + t390 * t441;
-  const Real t445 = t429 + t392 * t441;
-  const Real t447 = t431 + t394 * t441;
-  const Real t449 = t433 - t396 * t441;
-  const Real t463 = t340 * (t287 * t298 - (top_jointbx1_y * t322 - top_jointbx1_x * t328));
-  const Real t464 = t200 * t463;
-  const Real t466 = top_jointbx1_y + t322 * t463;
-  const Real t468 = top_jointbx1_x - t328 * t463;
-  const Real t470 = t287 - t298 * t463;
-  const Real t478 = t364 * (t356 * t470 + (t354 * t468 + (t350 * t464 - t352 * t466)));
-  const Real t480 = t464 - t350 * t478;
-  const Real t482 = t466 + t352 * t478;
-  const Real t484 = t468 - t354 * t478;
-  const Real t486 = t470 - t356 * t478;
-  const Real t494 = t404 * (t396 * t486 + (t394 * t484 + (t390 * t480 - t392 * t482)));
-  const Real t510 = Real(1.0) / (t449 * t449 + (t447 * t447 + (t443 * t443 + t445 * t445))) * (t449 * (t486 -
-      t396 * t494) - (t447 * (t484 - t394 * t494) + (t443 * (t480 - t390 * t494) - t445 * (t482 + t392 *
-      t494))));
-  const Real t514 = t494 - t441 * t510;
-  const Real t518 = t388 * t514 - (t478 - t425 * t510);
-  const Real t522 = t348 * t518 - (t372 * t514 - (t463 + t410 * t510));
+  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
+  const Real t107 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t116 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t128 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t128;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t128 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real t173 = Real(1.0) / top_joints2am_z;
+  const Real t174 = top_jointax_y * t173;
+  const Real t180 = top_joints2bm_y * t174 + (t116 + Real(0.31) * top_joints1bf1_x);
+  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
+  const Real t193 = Real(1.0) / (top_joints2bm_x * t174 + (Real(0.31) * top_joints1bf1_y - t116));
+  const Real t194 = (top_joints2bm_x * t187 + (q1r0_y * Real(0.31) + t107)) * t193;
+  const Real t203 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t187 - t184 * t194);
+  const Real t204 = tie_rods0bm_x * t193;
+  const Real t209 = Real(1.0) / (t180 * t194 - (top_joints2bm_y * t187 - (t107 - q1r0_x * Real(0.31))));
+  const Real t210 = (t180 * t204 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t209;
+  const Real t218 = top_jointbx1_x * t174 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
+  const Real t221 = top_jointbx1_x * t187 - t194 * t218;
+  const Real t227 = Real(1.0) / (t203 * t210 + (t184 * t204 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x))) * (t210 * t221 + (t204 * t218 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t230 = t209 * (t221 - t203 * t227);
+  const Real t235 = t193 * (t184 * t227 - (t218 + t180 * t230));
+  const Real t242 = t173 * (top_joints2bm_z * t227 - (top_joints2bm_y * t230 + (top_jointbx1_x +
+      top_joints2bm_x * t235)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -553,9 +298,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
       Real(1.3056)));
   const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
       Real(0.544)));
-  M[0][0] = -(t514 * (p_3_1n_z - (t514 * Real(0.98) - (p_3_1n_z + t518 * Real(0.192)))) + (t518 * (p_2_1n_z +
-      (t514 * Real(0.192) + (p_2_1n_z - t518 * Real(1.7608)))) + (t522 * (p_1_1n_z + (p_1_1n_z - t522 *
-      Real(1.4408))) - (t510 * t510 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y *
+  M[0][0] = -(t227 * (p_3_1n_z - (t227 * Real(0.98) - (p_3_1n_z - t230 * Real(0.192)))) - (t230 * (p_2_1n_z +
+      (t227 * Real(0.192) + (p_2_1n_z + t230 * Real(1.7608)))) - (t235 * (p_1_1n_z + (p_1_1n_z - t235 *
+      Real(1.4408))) - (t242 * t242 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y *
       S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x *
       q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) - Real(3.8987000000000007)))) +
       Real(0.017799999999999996)))))));
@@ -596,8 +341,8 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
   const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const Real expression = state.t * model.rate;
-  Real t112, c;
-  detail::sine_cosine(expression, t112, c);
+  Real s, c;
+  detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
   const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
@@ -608,395 +353,121 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t108 = state.y[1] * Real(0.5);
-  const Real t109 = state.y[2] * Real(0.5);
-  const Real t110 = state.y[3] * Real(0.5);
-  const Real t111 = state.y[4] * Real(0.5);
-  const Real t113 = tie_rodd_x + tie_rodd_x;
-  const Real t114 = tie_rodd_y + tie_rodd_y;
-  const Real t115 = tie_rodd_z + tie_rodd_z;
-  const Real t116 = Real(2.0) * t111;
-  const Real t117 = Real(2.0) * t108;
-  const Real t118 = Real(2.0) * t109;
-  const Real t119 = q1d2 * t111;
-  const Real t120 = q1d2 * t108;
-  const Real t121 = q1d2 * t109;
-  const Real t122 = q1d3 * t111;
-  const Real t123 = q1d3 * t108;
-  const Real t124 = q1d3 * t109;
-  const Real t126 = t119 + state.y[3] * t116;
-  const Real t127 = state.y[3] * t117;
-  const Real t128 = t120 + t127;
-  const Real t129 = state.y[3] * t118;
-  const Real t130 = t121 + t129;
-  const Real t131 = state.y[2] * t116;
-  const Real t132 = state.y[2] * t117;
-  const Real t133 = state.y[2] * t118;
-  const Real t134 = state.y[1] * t116;
-  const Real t135 = state.y[1] * t117;
-  const Real t136 = state.y[1] * t118;
-  const Real t137 = Real(2.0) * t110;
-  const Real t138 = q1d3 * t110;
-  const Real t140 = t138 + state.y[4] * t137;
-  const Real t142 = t124 + state.y[4] * t118;
-  const Real t144 = t123 + state.y[4] * t117;
-  const Real t145 = state.y[2] * t137;
-  const Real t146 = state.y[1] * t137;
-  const Real t148 = t122 - state.y[3] * t137;
-  const Real t149 = t123 + t129;
-  const Real t150 = t124 - t127;
-  const Real t151 = t120 + t131;
-  const Real t152 = t119 - t132;
-  const Real t153 = q1d2 * t110;
-  const Real t154 = t133 - t153;
-  const Real t155 = t123 - t145;
-  const Real t156 = t122 - t133;
-  const Real t157 = t132 + t138;
-  const Real t159 = q1d1 * t111;
-  const Real t160 = q1d1 * t110;
-  const Real t161 = t121 - t134;
-  const Real t162 = t135 - t153;
-  const Real t163 = t119 + t136;
-  const Real t164 = t124 + t146;
-  const Real t165 = t136 - t138;
-  const Real t166 = t122 - t135;
-  const Real t168 = t155 - t161;
-  const Real t169 = t156 - t162;
-  const Real t170 = t157 - t163;
-  const Real t171 = t155 + t161;
-  const Real t172 = t156 + t162;
-  const Real t173 = t157 + t163;
-  const Real t174 = t151 + t164;
-  const Real t175 = t152 + t165;
-  const Real t176 = t154 - t166;
-  const Real t177 = t151 - t164;
-  const Real t178 = t152 - t165;
-  const Real t179 = t154 + t166;
-  const Real t180 = t126 - t140;
-  const Real t181 = t128 + t142;
-  const Real t182 = t130 - t144;
-  const Real t183 = Real(0.14) * t180;
-  const Real t184 = Real(0.14) * t181;
-  const Real t185 = Real(0.14) * t182;
-  const Real t186 = Real(0.02) * t174;
-  const Real t187 = Real(0.02) * t175;
-  const Real t188 = Real(0.02) * t176;
-  const Real t192 = Real(0.07) * t168;
-  const Real t193 = Real(0.07) * t169;
-  const Real t194 = Real(0.07) * t170;
-  const Real t196 = top_jointax_x * Real(0.0697564737441253);
-  const Real t198 = top_jointax_x * Real(0.9975640502598242);
-  const Real t201 = Real(0.31) * t168 - Real(0.03) * (t174 - t180);
-  const Real t204 = Real(0.31) * t169 - Real(0.03) * (t175 + t181);
-  const Real t207 = Real(0.31) * t170 + Real(0.03) * (t176 - t182);
-  const Real t208 = t132 + q1d1 * t108;
-  const Real t209 = t131 + t159;
-  const Real t210 = t145 + t160;
-  const Real t211 = t135 - q1d1 * t109;
-  const Real t212 = t134 + t160;
-  const Real t213 = t146 - t159;
-  const Real t214 = t148 - t211;
-  const Real t215 = t149 + t212;
-  const Real t216 = t150 + t213;
-  const Real t217 = t148 + t211;
-  const Real t218 = t149 - t212;
-  const Real t219 = t150 - t213;
-  const Real t220 = Real(0.14) * t177;
-  const Real t221 = Real(0.14) * t178;
-  const Real t222 = Real(0.14) * t179;
-  const Real t223 = t140 - t208;
-  const Real t224 = t142 - t209;
-  const Real t225 = t144 + t210;
-  const Real t226 = t126 + t208;
-  const Real t227 = t128 - t209;
-  const Real t228 = t130 - t210;
-  const Real t229 = Real(0.02) * t223;
-  const Real t230 = Real(0.02) * t224;
-  const Real t231 = Real(0.02) * t225;
-  const Real t235 = Real(0.07) * t214;
-  const Real t236 = Real(0.07) * t215;
-  const Real t237 = Real(0.07) * t216;
-  const Real t238 = Real(0.14) * t171;
-  const Real t239 = Real(0.14) * t172;
-  const Real t240 = Real(0.14) * t173;
-  const Real t241 = Real(0.02) * t217;
-  const Real t242 = Real(0.02) * t218;
-  const Real t243 = Real(0.02) * t219;
-  const Real t247 = Real(0.07) * t226;
-  const Real t248 = Real(0.07) * t227;
-  const Real t249 = Real(0.07) * t228;
-  const Real t252 = Real(0.31) * t214 - Real(0.03) * (t177 + t223);
-  const Real t255 = Real(0.31) * t215 + Real(0.03) * (t178 + t224);
-  const Real t258 = Real(0.31) * t216 - Real(0.03) * (t179 + t225);
-  const Real t267 = Real(0.31) * t226 + Real(0.03) * (t171 + t217);
-  const Real t270 = Real(0.31) * t227 - Real(0.03) * (t172 - t218);
-  const Real t273 = Real(0.31) * t228 - Real(0.03) * (t173 - t219);
-  const Real t275 = t115 * Real(1.5617376188860606);
-  const Real t276 = t114 * Real(1.5617376188860606);
-  const Real t277 = t113 * Real(1.5617376188860606);
-  const Real t281 = c0 * t275 + s0 * t276;
-  const Real t283 = s0 * t275 - c0 * t276;
-  const Real t286 = tie_rodbx1_x * t275 - tie_rodbx1_y * t276;
-  const Real t297 = t277 * (t183 - (t186 - t192)) - (t281 * (t238 + (t241 + t247)) + t283 * (t220 + (t229 -
-      t235)));
-  const Real t308 = t277 * (t184 + (t187 - t193)) + (t281 * (t239 - (t242 + t248)) + t283 * (t221 + (t230 +
-      t236)));
-  const Real t319 = t277 * (t185 - (t188 + t194)) + (t281 * (t240 - (t243 + t249)) - t283 * (t222 + (t231 -
-      t237)));
-  const Real t322 = t112 * t276 * model.c2;
-  const Real t324 = c0 * t252 + s0 * t267;
-  const Real t326 = c0 * t255 + s0 * t270;
-  const Real t328 = c0 * t258 + s0 * t273;
-  const Real t330 = s0 * t252 - c0 * t267;
-  const Real t332 = s0 * t255 - c0 * t270;
-  const Real t334 = s0 * t258 - c0 * t273;
-  const Real t342 = Real(1.0) / (t297 * t297 + (t330 * t330 + (t201 * t201 + t324 * t324)));
-  const Real t350 = t342 * (t297 * t308 + (t330 * t332 - (t201 * t204 - t324 * t326)));
-  const Real t352 = t204 + t201 * t350;
-  const Real t354 = t326 - t324 * t350;
-  const Real t356 = t332 - t330 * t350;
-  const Real t358 = t308 - t297 * t350;
-  const Real t366 = Real(1.0) / (t358 * t358 + (t356 * t356 + (t352 * t352 + t354 * t354)));
-  const Real t374 = t342 * (t297 * t319 + (t330 * t334 - (t201 * t207 - t324 * t328)));
-  const Real t376 = t207 + t201 * t374;
-  const Real t378 = t328 - t324 * t374;
-  const Real t380 = t334 - t330 * t374;
-  const Real t382 = t319 - t297 * t374;
-  const Real t390 = t366 * (t358 * t382 + (t356 * t380 + (t352 * t376 + t354 * t378)));
-  const Real t392 = t376 - t352 * t390;
-  const Real t394 = t378 - t354 * t390;
-  const Real t396 = t380 - t356 * t390;
-  const Real t398 = t382 - t358 * t390;
-  const Real t406 = Real(1.0) / (t398 * t398 + (t396 * t396 + (t392 * t392 + t394 * t394)));
-  const Real t412 = t342 * (t198 * t330 - (t196 * t201 - top_jointax_y * t324));
-  const Real t414 = t196 + t201 * t412;
-  const Real t416 = top_jointax_y - t324 * t412;
-  const Real t418 = t198 - t330 * t412;
-  const Real t419 = t297 * t412;
-  const Real t427 = t366 * (t358 * t419 - (t356 * t418 + (t352 * t414 + t354 * t416)));
-  const Real t429 = t414 + t352 * t427;
-  const Real t431 = t416 + t354 * t427;
-  const Real t433 = t418 + t356 * t427;
-  const Real t435 = t419 - t358 * t427;
-  const Real t443 = t406 * (t398 * t435 - (t396 * t433 + (t392 * t429 + t394 * t431)));
-  const Real t445 = t429 + t392 * t443;
-  const Real t447 = t431 + t394 * t443;
-  const Real t449 = t433 + t396 * t443;
-  const Real t451 = t435 - t398 * t443;
-  const Real t459 = Real(1.0) / (t451 * t451 + (t449 * t449 + (t445 * t445 + t447 * t447)));
-  const Real t465 = t342 * (t286 * t297 + (top_jointbx1_y * t324 - top_jointbx1_x * t330));
-  const Real t466 = t201 * t465;
-  const Real t468 = top_jointbx1_y - t324 * t465;
-  const Real t470 = top_jointbx1_x + t330 * t465;
-  const Real t472 = t286 - t297 * t465;
-  const Real t480 = t366 * (t358 * t472 - (t356 * t470 - (t352 * t466 + t354 * t468)));
-  const Real t482 = t466 - t352 * t480;
-  const Real t484 = t468 - t354 * t480;
-  const Real t486 = t470 + t356 * t480;
-  const Real t488 = t472 - t358 * t480;
-  const Real t496 = t406 * (t398 * t488 - (t396 * t486 - (t392 * t482 + t394 * t484)));
-  const Real t512 = t459 * (t451 * (t488 - t398 * t496) + (t449 * (t486 + t396 * t496) - (t445 * (t482 - t392
-      * t496) + t447 * (t484 - t394 * t496))));
-  const Real t516 = t496 - t443 * t512;
-  const Real t520 = t390 * t516 - (t480 - t427 * t512);
-  const Real t524 = t350 * t520 - (t374 * t516 - (t465 + t412 * t512));
-  const Real t531 = t342 * (t297 * t322);
-  const Real t532 = t201 * t531;
-  const Real t533 = t324 * t531;
-  const Real t534 = t330 * t531;
-  const Real t536 = t322 - t297 * t531;
-  const Real t544 = t366 * (t358 * t536 - (t356 * t534 - (t352 * t532 - t354 * t533)));
-  const Real t546 = t532 - t352 * t544;
-  const Real t548 = t533 + t354 * t544;
-  const Real t550 = t534 + t356 * t544;
-  const Real t552 = t536 - t358 * t544;
-  const Real t560 = t406 * (t398 * t552 - (t396 * t550 - (t392 * t546 - t394 * t548)));
-  const Real t576 = t459 * (t451 * (t552 - t398 * t560) + (t449 * (t550 + t396 * t560) - (t445 * (t546 - t392
-      * t560) - t447 * (t548 + t394 * t560))));
-  const Real t580 = t560 - t443 * t576;
-  const Real t584 = t390 * t580 - (t544 - t427 * t576);
-  const Real t589 = t350 * t584 - (t374 * t580 - (t412 * t576 + (t524 * state.z[0] + t531)));
-  const Real t590 = t520 * state.z[0] + t584;
-  const Real t591 = t516 * state.z[0] + t580;
-  const Real t592 = t512 * state.z[0] + t576;
-  const Real t594 = t112 * model.c3;
-  const Real t596 = t235 - (t220 + t229);
-  const Real t598 = t236 + (t221 + t230);
-  const Real t600 = t237 - (t222 + t231);
-  const Real t608 = t247 + (t238 + t241);
-  const Real t610 = t248 - (t239 - t242);
-  const Real t612 = t249 - (t240 - t243);
-  const Real t635 = t111 * t591 - (t109 * t589 - t110 * t590);
-  const Real t640 = t110 * t591 - (t108 * t589 + t111 * t590);
-  const Real t645 = t109 * t591 + (t111 * t589 - t108 * t590);
-  const Real t650 = t108 * t591 + (t110 * t589 + t109 * t590);
-  const Real t651 = Real(2.0) * t645;
-  const Real t654 = Real(0.5) * t645;
-  const Real t660 = q1d2 * t645 + state.y[3] * t651;
-  const Real t667 = Real(2.0) * t650;
-  const Real t669 = Real(0.5) * t650;
-  const Real t674 = q1d3 * t650 + state.y[4] * t667;
-  const Real t678 = q1d3 * t645 - state.y[3] * t667;
-  const Real t684 = state.y[2] * t651 - q1d2 * t640;
-  const Real t686 = state.y[2] * t667 + q1d3 * t640;
-  const Real t687 = Real(2.0) * t640;
-  const Real t689 = Real(0.5) * t640;
-  const Real t695 = state.y[1] * t651 + q1d2 * t635;
-  const Real t697 = state.y[1] * t667 - q1d3 * t635;
-  const Real t699 = Real(0.5) * t635;
-  const Real t705 = t686 + t695;
-  const Real t707 = t684 - t697;
-  const Real t712 = s2 * t592;
-  const Real t713 = c2 * t592;
-  const Real t720 = s0 * state.z[0];
-  const Real t721 = c0 * state.z[0];
-  const Real t755 = q1d1 * t640 + state.y[2] * t687;
-  const Real t757 = q1d1 * t635 - state.y[1] * t687;
-  const Real t762 = t678 - t757;
-  const Real t763 = t678 + t757;
-  const Real t765 = t674 + t755;
-  const Real t766 = t660 - t755;
-  const Real t777 = Real(0.31) * t762 - Real(0.03) * (t707 + t765);
-  const Real t782 = Real(0.31) * t766 - Real(0.03) * (t705 - t763);
-  const Real t794 = Real(0.07) * t762 - (Real(0.14) * t707 + Real(0.02) * t765);
-  const Real t798 = Real(0.07) * t766 - (Real(0.14) * t705 - Real(0.02) * t763);
-  const Real t805 = s0 * t798 - (tie_rodbx1p_y * t721 - (tie_rodbx1p_x * t720 + c0 * t794));
-  const Real t809 = c0 * t798 + (tie_rodbx1p_y * t720 + (tie_rodbx1p_x * t721 - s0 * t794));
-  const Real t812 = Real(2.0) * (Real(0.07) * (t686 - t695) - (Real(0.14) * (t660 - t674) - Real(0.02) * (t684
-      + t697)));
-  const Real t813 = Real(2.0) * (t594 + t805);
-  const Real t814 = Real(2.0) * t809;
-  const Real t815 = Real(2.0) * t699;
-  const Real t817 = t108 * t651 + q1d2 * t699;
-  const Real t819 = t108 * t667 - q1d3 * t699;
-  const Real t821 = Real(2.0) * t689;
-  const Real t823 = t109 * t651 - q1d2 * t689;
-  const Real t825 = t109 * t667 + q1d3 * t689;
-  const Real t827 = Real(2.0) * t654;
-  const Real t829 = t110 * t667 - q1d3 * t654;
-  const Real t831 = t110 * t651 + q1d2 * t654;
-  const Real t833 = t110 * t687 - q1d1 * t654;
-  const Real t834 = Real(2.0) * t669;
-  const Real t836 = t111 * t651 - q1d2 * t669;
-  const Real t838 = t111 * t667 + q1d3 * t669;
-  const Real t840 = t111 * t687 + q1d1 * t669;
-  const Real t855 = t116 * t640 + state.y[2] * t834;
-  const Real t857 = t116 * t635 - state.y[1] * t834;
-  const Real t859 = t117 * t645 + state.y[3] * t815;
-  const Real t861 = t117 * t640 - state.y[2] * t815;
-  const Real t863 = t117 * t635 + state.y[1] * t815;
-  const Real t866 = t118 * t645 - state.y[3] * t821;
-  const Real t868 = t118 * t640 + state.y[2] * t821;
-  const Real t870 = t118 * t635 - state.y[1] * t821;
-  const Real t873 = state.y[3] * t834 - (t116 * t645 + t836);
-  const Real t874 = t817 + t859;
-  const Real t875 = t825 + t859;
-  const Real t876 = t823 + t866;
-  const Real t877 = t819 - t866;
-  const Real t878 = t817 - t855;
-  const Real t879 = t836 + t861;
-  const Real t880 = t838 - t868;
-  const Real t881 = t823 - t857;
-  const Real t882 = t838 + t863;
-  const Real t883 = t836 + t870;
-  const Real t886 = t137 * t640 - state.y[2] * t827;
-  const Real t888 = t137 * t635 + state.y[1] * t827;
-  const Real t890 = t829 + t861;
-  const Real t891 = t829 + t870;
-  const Real t893 = state.y[4] * t827 - (t137 * t650 + t829);
-  const Real t894 = t873 + t893;
-  const Real t896 = state.y[4] * t821 + (t118 * t650 + t825);
-  const Real t897 = t874 - t896;
-  const Real t899 = state.y[4] * t815 - (t117 * t650 + t819);
-  const Real t900 = t876 - t899;
-  const Real t901 = t819 - t886;
-  const Real t902 = t825 - t888;
-  const Real t904 = state.y[3] * t827 + (t137 * t645 + t838);
-  const Real t905 = t831 + t868;
-  const Real t906 = t831 - t863;
-  const Real t908 = t861 + (t108 * t687 - q1d1 * t699);
-  const Real t909 = t840 + t855;
-  const Real t910 = t840 + t888;
-  const Real t911 = t833 + t886;
-  const Real t912 = t833 - t857;
-  const Real t913 = t881 + t901;
-  const Real t914 = t881 - t901;
-  const Real t915 = t880 - t906;
-  const Real t916 = t880 + t906;
-  const Real t917 = t883 + t890;
-  const Real t918 = t883 - t890;
-  const Real t919 = t878 - t902;
-  const Real t920 = t878 + t902;
-  const Real t921 = t879 + t891;
-  const Real t922 = t879 - t891;
-  const Real t923 = t882 - t905;
-  const Real t924 = t882 + t905;
-  const Real t926 = t863 + (t109 * t687 + q1d1 * t689);
-  const Real t945 = t592 * (Real(0.24) * t712 + Real(0.03132205098267723) * t713);
-  const Real t960 = t893 + t908;
-  const Real t961 = t873 + t908;
-  const Real t962 = t896 - t909;
-  const Real t963 = t874 + t909;
-  const Real t964 = t899 - t911;
-  const Real t965 = t876 + t911;
-  const Real t966 = t904 + t926;
-  const Real t967 = t904 - t926;
-  const Real t968 = t877 + t912;
-  const Real t969 = t877 - t912;
-  const Real t970 = t875 - t910;
-  const Real t971 = t875 + t910;
-  const Real t992 = Real(0.31) * t966 + Real(0.03) * (t920 + t960);
-  const Real t995 = Real(0.31) * t968 - Real(0.03) * (t922 - t962);
-  const Real t998 = Real(0.31) * t970 - Real(0.03) * (t924 - t964);
-  const Real t1007 = Real(0.31) * t961 - Real(0.03) * (t914 - t967);
-  const Real t1010 = Real(0.31) * t963 + Real(0.03) * (t916 - t969);
-  const Real t1013 = Real(0.31) * t965 - Real(0.03) * (t918 + t971);
-  const Real t1049 = Real(0.07) * t966 + (Real(0.14) * t920 + Real(0.02) * t960);
-  const Real t1051 = Real(0.07) * t968 - (Real(0.14) * t922 - Real(0.02) * t962);
-  const Real t1053 = Real(0.07) * t970 - (Real(0.14) * t924 - Real(0.02) * t964);
-  const Real t1061 = Real(0.07) * t961 - (Real(0.14) * t914 - Real(0.02) * t967);
-  const Real t1063 = Real(0.07) * t963 + (Real(0.14) * t916 - Real(0.02) * t969);
-  const Real t1065 = Real(0.07) * t965 - (Real(0.14) * t918 + Real(0.02) * t971);
-  const Real t1134 = t590 * (Real(0.31) * t915 + Real(0.03) * (t897 + t921)) + (t589 * (Real(0.31) * t913 +
-      Real(0.03) * (t894 + t919)) + (Real(0.0697564737441253) * t945 - t591 * (Real(0.31) * t917 + Real(0.03)
-      * (t900 - t923))));
-  const Real t1138 = t589 * (s0 * t1007 + (t267 * t721 - (t252 * t720 - c0 * t992))) + (state.z[0] * (c0 *
-      t782 + (top_jointbx1p_y * t720 - (top_jointbx1p_x * t721 + s0 * t777))) + (t590 * (s0 * t1010 - (t270 *
-      t721 - (t255 * t720 - c0 * t995))) + (t592 * (Real(0.03132205098267723) * t712 - Real(0.24) * t713) -
-      t591 * (s0 * t1013 - (t273 * t721 - (t258 * t720 - c0 * t998))))));
-  const Real t1142 = t589 * (c0 * t1007 - (t267 * t720 + (t252 * t721 + s0 * t992))) - (state.z[0] * (s0 *
-      t782 - (top_jointbx1p_y * t721 + (top_jointbx1p_x * t720 - c0 * t777))) - (t590 * (c0 * t1010 + (t270 *
-      t720 + (t255 * t721 + s0 * t995))) + (Real(0.9975640502598242) * t945 - t591 * (c0 * t1013 + (t273 *
-      t720 + (t258 * t721 + s0 * t998))))));
-  const Real t1146 = Real(1.5617376188860606) * (t589 * (t114 * (s0 * t1061 + (t608 * t721 - (t596 * t720 - c0
-      * t1049))) - ((c0 * t596 + s0 * t608) * t813 + (t113 * (Real(0.14) * t894 + (Real(0.07) * t913 +
-      Real(0.02) * t919)) - ((t192 + (t183 - t186)) * t812 + ((s0 * t596 - c0 * t608) * t814 + t115 * (c0 *
-      t1061 - (t608 * t720 + (t596 * t721 + s0 * t1049))))))))) - (Real(1.5617376188860606) * (state.z[0] *
-      (tie_rodbx1_x * t814 + (t115 * t805 - (t114 * t809 + tie_rodbx1_y * t813)))) - (Real(1.5617376188860606)
-      * (t590 * (t114 * (s0 * t1063 - (t610 * t721 - (t598 * t720 - c0 * t1051))) + ((c0 * t598 + s0 * t610) *
-      t813 - (t113 * (Real(0.14) * t897 + (Real(0.07) * t915 + Real(0.02) * t921)) - ((t193 - (t184 + t187)) *
-      t812 - ((s0 * t598 - c0 * t610) * t814 - t115 * (c0 * t1063 + (t610 * t720 + (t598 * t721 + s0 *
-      t1051))))))))) - (Real(1.5617376188860606) * (t594 * t813 - c * t114 * model.c4) +
-      Real(1.5617376188860606) * (t591 * (t114 * (s0 * t1065 - (t612 * t721 - (t600 * t720 - c0 * t1053))) +
-      ((c0 * t600 + s0 * t612) * t813 - (t113 * (Real(0.14) * t900 + (Real(0.07) * t917 - Real(0.02) * t923))
-      - ((t194 - (t185 - t188)) * t812 - ((s0 * t600 - c0 * t612) * t814 - t115 * (c0 * t1065 + (t612 * t720 +
-      (t600 * t721 + s0 * t1053))))))))))));
-  const Real t1154 = t342 * (t297 * t1146 + (t330 * t1142 - (t201 * t1134 + t324 * t1138)));
-  const Real t1156 = t1134 + t201 * t1154;
-  const Real t1158 = t1138 + t324 * t1154;
-  const Real t1160 = t1142 - t330 * t1154;
-  const Real t1162 = t1146 - t297 * t1154;
-  const Real t1170 = t366 * (t358 * t1162 + (t356 * t1160 + (t352 * t1156 - t354 * t1158)));
-  const Real t1172 = t1156 - t352 * t1170;
-  const Real t1174 = t1158 + t354 * t1170;
-  const Real t1176 = t1160 - t356 * t1170;
-  const Real t1178 = t1162 - t358 * t1170;
-  const Real t1186 = t406 * (t398 * t1178 + (t396 * t1176 + (t392 * t1172 - t394 * t1174)));
-  const Real t1202 = t459 * (t451 * (t1178 - t398 * t1186) - (t449 * (t1176 - t396 * t1186) + (t445 * (t1172 -
-      t392 * t1186) - t447 * (t1174 + t394 * t1186))));
-  const Real t1206 = t1186 - t443 * t1202;
-  const Real t1210 = t390 * t1206 - (t1170 - t427 * t1202);
-  const Real t1214 = t350 * t1210 - (t374 * t1206 - (t1154 + t412 * t1202));
+  const Real t108 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t117 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t129 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t129;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t129 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real derivative = s * model.c2;
+  const Real tie_rods0at = tie_rods0bf0_x * derivative;
+  const Real t178 = Real(1.0) / top_joints2am_z;
+  const Real t179 = top_jointax_y * t178;
+  const Real t185 = top_joints2bm_y * t179 + (t117 + Real(0.31) * top_joints1bf1_x);
+  const Real t189 = top_joints2bm_z * t179 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t192 = top_jointax_x * t178 * Real(0.0697564737441253);
+  const Real t198 = Real(1.0) / (top_joints2bm_x * t179 + (Real(0.31) * top_joints1bf1_y - t117));
+  const Real t199 = (top_joints2bm_x * t192 + (q1r0_y * Real(0.31) + t108)) * t198;
+  const Real t208 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t192 - t189 * t199);
+  const Real t209 = tie_rods0bm_x * t198;
+  const Real t214 = Real(1.0) / (t185 * t199 - (top_joints2bm_y * t192 - (t108 - q1r0_x * Real(0.31))));
+  const Real t215 = (t185 * t209 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t214;
+  const Real t220 = Real(1.0) / (t208 * t215 + (t189 * t209 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t222 = top_jointbx1_y + top_jointbx1_x * t179;
+  const Real t225 = top_jointbx1_x * t192 - t199 * t222;
+  const Real t231 = t220 * (t215 * t225 + (t209 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t234 = t214 * (t225 - t208 * t231);
+  const Real t239 = t198 * (t189 * t231 - (t222 + t185 * t234));
+  const Real t246 = t178 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
+      top_joints2bm_x * t239)));
+  const Real t252 = tie_rods0at * t220;
+  const Real t254 = t214 * (t208 * t252);
+  const Real t258 = t198 * (t185 * t254 + t189 * t252);
+  const Real t265 = t239 * state.z[0] + t258;
+  const Real t266 = t234 * state.z[0] - t254;
+  const Real t267 = t231 * state.z[0] + t252;
+  const Real t268 = t246 * state.z[0] + t178 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
+      top_joints2bm_y * t254));
+  const Real top_jointam2t_y = top_jointax_x * t268;
+  const Real t271 = Real(0.03) * t267;
+  const Real top_jointbm1t_x = Real(0.31) * t266 - t271;
+  const Real top_jointbm1t_y = t271 - Real(0.31) * t265;
+  const Real top_jointbm1t_z = Real(0.03) * (t265 - t266);
+  const Real top_jointam2t_x = top_jointax_y * t268;
+  const Real top_jointam2a_y = t268 * top_jointam2t_x;
+  const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
+  const Real top_jointbm1a_x = t266 * top_jointbm1t_z - t267 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t265 * top_jointbm1t_z - t267 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t265 * top_jointbm1t_y - t266 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z - (q1r1_x * top_jointbm1t_x - q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z + (q1r2_x * top_jointbm1t_x + q1r2_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
+  const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
+  const Real top_jointam2a_x = t268 * top_jointam2t_y;
+  const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z - (q1r1_x * top_jointbm1a_x + q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z + (q1r2_x * top_jointbm1a_x - q1r2_y *
+      top_jointbm1a_y);
+  const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
+  const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
+  const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
+  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
+      * top_jointbm1app_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t266 - Real(0.02) * t267;
+  const Real tie_rodbm1t_y = Real(0.14) * t267 - Real(0.07) * t265;
+  const Real tie_rodbm1t_z = Real(0.14) * t266 - Real(0.02) * t265;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
+  const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
+  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
+  const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm0t_x - (derivative - tie_rodbm1vp_x);
+  const Real derivative_2 = c * model.c3;
+  const Real tie_rodbm1a_x = t266 * tie_rodbm1t_z + t267 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t265 * tie_rodbm1t_z + t267 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t265 * tie_rodbm1t_y - t266 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x + q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x - q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x + q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t421 = t179 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t428 = t199 * t421 - (t192 * top_jointda_z + (q1r0_z * top_jointbm1a_z + (q1r0_y *
+      top_jointbm1a_y - (top_jointam2app_x - q1r0_x * top_jointbm1a_x))));
+  const Real t439 = t220 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
+      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t209 * t421 - t215 * t428));
+  const Real t442 = t214 * (t428 - t208 * t439);
+  const Real t447 = t198 * (t189 * t439 + (t421 - t185 * t442));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -1009,22 +480,22 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real kK1_x = w1p_x * Real(0.65);
   const Real kK1_y = w1p_y * Real(0.33) + w1p_z * Real(0.192);
   const Real kK1_z = w1p_z * Real(1.1108) + w1p_y * Real(0.192);
-  const Real ku1_x = t589 + Real(2.0) * w1p_x;
-  const Real ku1_y = t590 + Real(2.0) * w1p_y;
-  const Real ku1_z = t591 + Real(2.0) * w1p_z;
+  const Real ku1_x = t265 - Real(2.0) * w1p_x;
+  const Real ku1_y = t266 + Real(2.0) * w1p_y;
+  const Real ku1_z = t267 - Real(2.0) * w1p_z;
   const Real kSu1_x = Real(0.65) * ku1_x;
-  const Real kSu1_y = Real(0.33) * ku1_y + Real(0.192) * ku1_z;
-  const Real kSu1_z = Real(1.1108) * ku1_z + Real(0.192) * ku1_y;
-  const Real kuh1 = Real(1.6) * ku1_y + Real(3.84) * ku1_z;
-  const Real kuw1 = t591 * ku1_z + (t589 * ku1_x + t590 * ku1_y);
-  const Real kdf1_x = t589 * kuh1;
-  const Real kdf1_y = Real(1.6) * kuw1 - t590 * kuh1;
-  const Real kdf1_z = Real(3.84) * kuw1 - t591 * kuh1;
-  const Real kdn1_x = t590 * kSu1_z - t591 * kSu1_y;
-  const Real kdn1_y = t589 * kSu1_z - t591 * kSu1_x;
-  const Real kdn1_z = t589 * kSu1_y - t590 * kSu1_x;
-  const Real kf1p_x = q1r1_z * kdf1_z + (q1r1_x * kdf1_x - q1r1_y * kdf1_y);
-  const Real kf1p_y = q1r2_z * kdf1_z - (q1r2_x * kdf1_x + q1r2_y * kdf1_y);
+  const Real kSu1_y = Real(0.33) * ku1_y - Real(0.192) * ku1_z;
+  const Real kSu1_z = Real(1.1108) * ku1_z - Real(0.192) * ku1_y;
+  const Real kuh1 = Real(1.6) * ku1_y - Real(3.84) * ku1_z;
+  const Real kuw1 = t267 * ku1_z + (t265 * ku1_x + t266 * ku1_y);
+  const Real kdf1_x = t265 * kuh1;
+  const Real kdf1_y = Real(1.6) * kuw1 - t266 * kuh1;
+  const Real kdf1_z = Real(3.84) * kuw1 + t267 * kuh1;
+  const Real kdn1_x = t266 * kSu1_z - t267 * kSu1_y;
+  const Real kdn1_y = t265 * kSu1_z - t267 * kSu1_x;
+  const Real kdn1_z = t265 * kSu1_y - t266 * kSu1_x;
+  const Real kf1p_x = q1r1_z * kdf1_z - (q1r1_x * kdf1_x + q1r1_y * kdf1_y);
+  const Real kf1p_y = q1r2_z * kdf1_z + (q1r2_x * kdf1_x - q1r2_y * kdf1_y);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
   const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
@@ -1032,12 +503,13 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
       Real(1.3056)));
   const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
       Real(0.544)));
-  k[0] = -(t512 * t1202 * Real(0.0505) + (t516 * (t1206 * Real(0.98) - (t1210 * Real(0.192) - (kdn1_z - (w1p_y
-      * kK1_x - (ka1_x * Real(1.6) + w1p_x * kK1_y))))) - (t520 * (t1206 * Real(0.192) - (t1210 * Real(1.7608)
-      - (kdn1_y - (w1p_z * kK1_x - (ka1_x * Real(3.84) + w1p_x * kK1_z))))) - (t524 * (t1214 * Real(1.4408) +
-      (kdn1_x - (w1p_z * kK1_y - (w1p_y * kK1_z + (ka1_z * Real(1.6) + ka1_y * Real(3.84)))))) + (t1206 *
-      p_3_1n_z + (t1210 * p_2_1n_z + (t1214 * p_1_1n_z + (Real(0.34) * kf1p_y - (Real(0.02) * kf1p_x - (q1r0_z
-      * kdn1_z + (q1r0_x * kdn1_x - q1r0_y * kdn1_y)))))))))));
+  k[0] = -(t246 * (t178 * (top_joints2bm_z * t439 - (top_joints2bm_y * t442 - (top_jointda_z - top_joints2bm_x
+      * t447)))) * Real(0.0505) + (t231 * (t439 * Real(0.98) + (t442 * Real(0.192) + (kdn1_z + (w1p_y * kK1_x
+      - (ka1_x * Real(1.6) + w1p_x * kK1_y))))) + (t234 * (t439 * Real(0.192) + (t442 * Real(1.7608) - (kdn1_y
+      - (w1p_z * kK1_x - (ka1_x * Real(3.84) + w1p_x * kK1_z))))) + (t239 * (t447 * Real(1.4408) + (kdn1_x +
+      (w1p_z * kK1_y - (w1p_y * kK1_z + (ka1_z * Real(1.6) + ka1_y * Real(3.84)))))) - (t439 * p_3_1n_z -
+      (t442 * p_2_1n_z - (t447 * p_1_1n_z - (Real(0.34) * kf1p_y - (Real(0.02) * kf1p_x + (q1r0_z * kdn1_z +
+      (q1r0_x * kdn1_x + q1r0_y * kdn1_y)))))))))));
 }
 
 template <class Real>
@@ -1074,184 +546,58 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
   const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
   const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const Real expression = state.t * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
   const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real t87 = c0 * tie_rodbx1p_x;
-  const Real t88 = s0 * tie_rodbx1p_y;
-  const Real t89 = c0 * tie_rodbx1p_y;
-  const Real t90 = s0 * tie_rodbx1p_x;
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
       Real(0.13);
-  const Real tie_rodd_y = t88 + (t87 + (Real(0.36) - (expression_3 + Real(0.36))));
-  const Real tie_rodd_z = t90 - (t89 - Real(0.21)) - Real(0.27);
-  const Real t108 = state.y[1] * Real(0.5);
-  const Real t109 = state.y[2] * Real(0.5);
-  const Real t110 = state.y[3] * Real(0.5);
-  const Real t111 = state.y[4] * Real(0.5);
-  const Real t115 = Real(2.0) * t111;
-  const Real t116 = Real(2.0) * t108;
-  const Real t117 = Real(2.0) * t109;
-  const Real t118 = q1d2 * t111;
-  const Real t119 = q1d2 * t108;
-  const Real t120 = q1d2 * t109;
-  const Real t121 = q1d3 * t111;
-  const Real t122 = q1d3 * t108;
-  const Real t123 = q1d3 * t109;
-  const Real t125 = t118 + state.y[3] * t115;
-  const Real t126 = state.y[3] * t116;
-  const Real t127 = t119 + t126;
-  const Real t128 = state.y[3] * t117;
-  const Real t129 = t120 + t128;
-  const Real t130 = state.y[2] * t115;
-  const Real t131 = state.y[2] * t116;
-  const Real t132 = state.y[2] * t117;
-  const Real t133 = state.y[1] * t115;
-  const Real t134 = state.y[1] * t116;
-  const Real t135 = state.y[1] * t117;
-  const Real t136 = Real(2.0) * t110;
-  const Real t137 = q1d3 * t110;
-  const Real t139 = t137 + state.y[4] * t136;
-  const Real t141 = t123 + state.y[4] * t117;
-  const Real t143 = t122 + state.y[4] * t116;
-  const Real t144 = state.y[2] * t136;
-  const Real t145 = state.y[1] * t136;
-  const Real t147 = t121 - state.y[3] * t136;
-  const Real t148 = t122 + t128;
-  const Real t149 = t123 - t126;
-  const Real t150 = t119 + t130;
-  const Real t151 = t118 - t131;
-  const Real t152 = q1d2 * t110;
-  const Real t153 = t132 - t152;
-  const Real t154 = t122 - t144;
-  const Real t155 = t121 - t132;
-  const Real t156 = t131 + t137;
-  const Real t158 = q1d1 * t111;
-  const Real t159 = q1d1 * t110;
-  const Real t160 = t120 - t133;
-  const Real t161 = t134 - t152;
-  const Real t162 = t118 + t135;
-  const Real t163 = t123 + t145;
-  const Real t164 = t135 - t137;
-  const Real t165 = t121 - t134;
-  const Real t167 = t154 - t160;
-  const Real t168 = t155 - t161;
-  const Real t169 = t156 - t162;
-  const Real t170 = t154 + t160;
-  const Real t171 = t155 + t161;
-  const Real t172 = t156 + t162;
-  const Real t173 = t150 + t163;
-  const Real t174 = t151 + t164;
-  const Real t175 = t153 - t165;
-  const Real t176 = t150 - t163;
-  const Real t177 = t151 - t164;
-  const Real t178 = t153 + t165;
-  const Real t179 = t125 - t139;
-  const Real t180 = t127 + t141;
-  const Real t181 = t129 - t143;
-  const Real t195 = top_jointax_x * Real(0.0697564737441253);
-  const Real t197 = top_jointax_x * Real(0.9975640502598242);
-  const Real t200 = Real(0.31) * t167 - Real(0.03) * (t173 - t179);
-  const Real t203 = Real(0.31) * t168 - Real(0.03) * (t174 + t180);
-  const Real t206 = Real(0.31) * t169 + Real(0.03) * (t175 - t181);
-  const Real t207 = t131 + q1d1 * t108;
-  const Real t208 = t130 + t158;
-  const Real t209 = t144 + t159;
-  const Real t210 = t134 - q1d1 * t109;
-  const Real t211 = t133 + t159;
-  const Real t212 = t145 - t158;
-  const Real t213 = t147 - t210;
-  const Real t214 = t148 + t211;
-  const Real t215 = t149 + t212;
-  const Real t216 = t147 + t210;
-  const Real t217 = t148 - t211;
-  const Real t218 = t149 - t212;
-  const Real t222 = t139 - t207;
-  const Real t223 = t141 - t208;
-  const Real t224 = t143 + t209;
-  const Real t225 = t125 + t207;
-  const Real t226 = t127 - t208;
-  const Real t227 = t129 - t209;
-  const Real t251 = Real(0.31) * t213 - Real(0.03) * (t176 + t222);
-  const Real t254 = Real(0.31) * t214 + Real(0.03) * (t177 + t223);
-  const Real t257 = Real(0.31) * t215 - Real(0.03) * (t178 + t224);
-  const Real t266 = Real(0.31) * t225 + Real(0.03) * (t170 + t216);
-  const Real t269 = Real(0.31) * t226 - Real(0.03) * (t171 - t217);
-  const Real t272 = Real(0.31) * t227 - Real(0.03) * (t172 - t218);
-  const Real t274 = (tie_rodd_z + tie_rodd_z) * Real(1.5617376188860606);
-  const Real t275 = (tie_rodd_y + tie_rodd_y) * Real(1.5617376188860606);
-  const Real t276 = (tie_rodd_x + tie_rodd_x) * Real(1.5617376188860606);
-  const Real t280 = c0 * t274 - s0 * t275;
-  const Real t282 = s0 * t274 + c0 * t275;
-  const Real t287 = t274 * (t87 + t88) + t275 * (t89 - t90);
-  const Real t298 = t276 * (Real(0.14) * t179 - (Real(0.02) * t173 - Real(0.07) * t167)) + (t280 * (Real(0.14)
-      * t170 + (Real(0.02) * t216 + Real(0.07) * t225)) + t282 * (Real(0.14) * t176 + (Real(0.02) * t222 -
-      Real(0.07) * t213)));
-  const Real t309 = t276 * (Real(0.14) * t180 + (Real(0.02) * t174 - Real(0.07) * t168)) - (t280 * (Real(0.14)
-      * t171 - (Real(0.02) * t217 + Real(0.07) * t226)) + t282 * (Real(0.14) * t177 + (Real(0.02) * t223 +
-      Real(0.07) * t214)));
-  const Real t320 = t276 * (Real(0.14) * t181 - (Real(0.02) * t175 + Real(0.07) * t169)) - (t280 * (Real(0.14)
-      * t172 - (Real(0.02) * t218 + Real(0.07) * t227)) - t282 * (Real(0.14) * t178 + (Real(0.02) * t224 -
-      Real(0.07) * t215)));
-  const Real t322 = c0 * t251 + s0 * t266;
-  const Real t324 = c0 * t254 + s0 * t269;
-  const Real t326 = c0 * t257 + s0 * t272;
-  const Real t328 = s0 * t251 - c0 * t266;
-  const Real t330 = s0 * t254 - c0 * t269;
-  const Real t332 = s0 * t257 - c0 * t272;
-  const Real t340 = Real(1.0) / (t298 * t298 + (t328 * t328 + (t200 * t200 + t322 * t322)));
-  const Real t348 = t340 * (t298 * t309 + (t328 * t330 - (t200 * t203 - t322 * t324)));
-  const Real t350 = t203 + t200 * t348;
-  const Real t352 = t324 - t322 * t348;
-  const Real t354 = t330 - t328 * t348;
-  const Real t356 = t309 - t298 * t348;
-  const Real t364 = Real(1.0) / (t356 * t356 + (t354 * t354 + (t350 * t350 + t352 * t352)));
-  const Real t372 = t340 * (t298 * t320 + (t328 * t332 - (t200 * t206 - t322 * t326)));
-  const Real t374 = t206 + t200 * t372;
-  const Real t376 = t326 - t322 * t372;
-  const Real t378 = t332 - t328 * t372;
-  const Real t380 = t320 - t298 * t372;
-  const Real t388 = t364 * (t356 * t380 + (t354 * t378 + (t350 * t374 + t352 * t376)));
-  const Real t390 = t374 - t350 * t388;
-  const Real t392 = t376 - t352 * t388;
-  const Real t394 = t378 - t354 * t388;
-  const Real t396 = t380 - t356 * t388;
-  const Real t404 = Real(1.0) / (t396 * t396 + (t394 * t394 + (t390 * t390 + t392 * t392)));
-  const Real t410 = t340 * (t197 * t328 - (t195 * t200 - top_jointax_y * t322));
-  const Real t412 = t195 + t200 * t410;
-  const Real t414 = top_jointax_y - t322 * t410;
-  const Real t416 = t197 - t328 * t410;
-  const Real t417 = t298 * t410;
-  const Real t425 = t364 * (t356 * t417 - (t354 * t416 + (t350 * t412 + t352 * t414)));
-  const Real t427 = t412 + t350 * t425;
-  const Real t429 = t414 + t352 * t425;
-  const Real t431 = t416 + t354 * t425;
-  const Real t433 = t417 - t356 * t425;
-  const Real t441 = t404 * (t396 * t433 - (t394 * t431 + (t390 * t427 + t392 * t429)));
-  const Real t443 = t427 + t390 * t441;
-  const Real t445 = t429 + t392 * t441;
-  const Real t447 = t431 + t394 * t441;
-  const Real t449 = t433 - t396 * t441;
-  const Real t463 = t340 * (t287 * t298 - (top_jointbx1_y * t322 - top_jointbx1_x * t328));
-  const Real t464 = t200 * t463;
-  const Real t466 = top_jointbx1_y + t322 * t463;
-  const Real t468 = top_jointbx1_x - t328 * t463;
-  const Real t470 = t287 - t298 * t463;
-  const Real t478 = t364 * (t356 * t470 + (t354 * t468 + (t350 * t464 - t352 * t466)));
-  const Real t480 = t464 - t350 * t478;
-  const Real t482 = t466 + t352 * t478;
-  const Real t484 = t468 - t354 * t478;
-  const Real t486 = t470 - t356 * t478;
-  const Real t494 = t404 * (t396 * t486 + (t394 * t484 + (t390 * t480 - t392 * t482)));
-  const Real t510 = Real(1.0) / (t449 * t449 + (t447 * t447 + (t443 * t443 + t445 * t445))) * (t449 * (t486 -
-      t396 * t494) - (t447 * (t484 - t394 * t494) + (t443 * (t480 - t390 * t494) - t445 * (t482 + t392 *
-      t494))));
-  const Real t514 = t494 - t441 * t510;
-  const Real t518 = t388 * t514 - (t478 - t425 * t510);
+  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
+  const Real t107 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t116 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t128 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t128;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t128 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real t173 = Real(1.0) / top_joints2am_z;
+  const Real t174 = top_jointax_y * t173;
+  const Real t180 = top_joints2bm_y * t174 + (t116 + Real(0.31) * top_joints1bf1_x);
+  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
+  const Real t193 = Real(1.0) / (top_joints2bm_x * t174 + (Real(0.31) * top_joints1bf1_y - t116));
+  const Real t194 = (top_joints2bm_x * t187 + (q1r0_y * Real(0.31) + t107)) * t193;
+  const Real t203 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t187 - t184 * t194);
+  const Real t204 = tie_rods0bm_x * t193;
+  const Real t209 = Real(1.0) / (t180 * t194 - (top_joints2bm_y * t187 - (t107 - q1r0_x * Real(0.31))));
+  const Real t210 = (t180 * t204 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t209;
+  const Real t218 = top_jointbx1_x * t174 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
+  const Real t221 = top_jointbx1_x * t187 - t194 * t218;
+  const Real t227 = Real(1.0) / (t203 * t210 + (t184 * t204 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x))) * (t210 * t221 + (t204 * t218 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t230 = t209 * (t221 - t203 * t227);
+  const Real t235 = t193 * (t184 * t227 - (t218 + t180 * t230));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84) - Real(11.73);
   const Real h1c_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84) - Real(0.64);
@@ -1295,10 +641,10 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q_1 = Real(3.84) * g1_y - (tyre_forcem_x - Real(1.6) * g1_z);
   const Real q_2 = tyre_forcem_y - Real(3.84) * g1_x;
   const Real q_3 = tyre_forcem_z + Real(1.6) * g1_x;
-  q[0] = -(t510 * h2b_x * Real(9.786103333048876) - (t514 * q_3 + (t518 * q_2 + ((t348 * t518 - (t372 * t514 -
-      (t463 + t410 * t510))) * q_1 - (h0b_x * Real(9.81) - (Real(0.34) * qloadf1p_y - (Real(0.02) * qloadf1p_x
-      + (q1r0_z * tyre_forcem_z + (q1r0_y * tyre_forcem_y - (q1r0_x * tyre_forcem_x + (strutbx_x * strutf_z -
-      strutbx_y * strutf_y)))))))))));
+  q[0] = -(t173 * (top_joints2bm_z * t227 - (top_joints2bm_y * t230 + (top_jointbx1_x + top_joints2bm_x *
+      t235))) * h2b_x * Real(9.786103333048876) - (t227 * q_3 - (t230 * q_2 - (t235 * q_1 - (h0b_x *
+      Real(9.81) - (Real(0.34) * qloadf1p_y - (Real(0.02) * qloadf1p_x + (q1r0_z * tyre_forcem_z + (q1r0_y *
+      tyre_forcem_y - (q1r0_x * tyre_forcem_x + (strutbx_x * strutf_z - strutbx_y * strutf_y)))))))))));
 }
 
 template <class Real>
@@ -1337,8 +683,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
   const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const Real expression = state.t * model.rate;
-  Real t112, c;
-  detail::sine_cosine(expression, t112, c);
+  Real s, c;
+  detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
   const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
@@ -1349,395 +695,121 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t108 = state.y[1] * Real(0.5);
-  const Real t109 = state.y[2] * Real(0.5);
-  const Real t110 = state.y[3] * Real(0.5);
-  const Real t111 = state.y[4] * Real(0.5);
-  const Real t113 = tie_rodd_x + tie_rodd_x;
-  const Real t114 = tie_rodd_y + tie_rodd_y;
-  const Real t115 = tie_rodd_z + tie_rodd_z;
-  const Real t116 = Real(2.0) * t111;
-  const Real t117 = Real(2.0) * t108;
-  const Real t118 = Real(2.0) * t109;
-  const Real t119 = q1d2 * t111;
-  const Real t120 = q1d2 * t108;
-  const Real t121 = q1d2 * t109;
-  const Real t122 = q1d3 * t111;
-  const Real t123 = q1d3 * t108;
-  const Real t124 = q1d3 * t109;
-  const Real t126 = t119 + state.y[3] * t116;
-  const Real t127 = state.y[3] * t117;
-  const Real t128 = t120 + t127;
-  const Real t129 = state.y[3] * t118;
-  const Real t130 = t121 + t129;
-  const Real t131 = state.y[2] * t116;
-  const Real t132 = state.y[2] * t117;
-  const Real t133 = state.y[2] * t118;
-  const Real t134 = state.y[1] * t116;
-  const Real t135 = state.y[1] * t117;
-  const Real t136 = state.y[1] * t118;
-  const Real t137 = Real(2.0) * t110;
-  const Real t138 = q1d3 * t110;
-  const Real t140 = t138 + state.y[4] * t137;
-  const Real t142 = t124 + state.y[4] * t118;
-  const Real t144 = t123 + state.y[4] * t117;
-  const Real t145 = state.y[2] * t137;
-  const Real t146 = state.y[1] * t137;
-  const Real t148 = t122 - state.y[3] * t137;
-  const Real t149 = t123 + t129;
-  const Real t150 = t124 - t127;
-  const Real t151 = t120 + t131;
-  const Real t152 = t119 - t132;
-  const Real t153 = q1d2 * t110;
-  const Real t154 = t133 - t153;
-  const Real t155 = t123 - t145;
-  const Real t156 = t122 - t133;
-  const Real t157 = t132 + t138;
-  const Real t159 = q1d1 * t111;
-  const Real t160 = q1d1 * t110;
-  const Real t161 = t121 - t134;
-  const Real t162 = t135 - t153;
-  const Real t163 = t119 + t136;
-  const Real t164 = t124 + t146;
-  const Real t165 = t136 - t138;
-  const Real t166 = t122 - t135;
-  const Real t168 = t155 - t161;
-  const Real t169 = t156 - t162;
-  const Real t170 = t157 - t163;
-  const Real t171 = t155 + t161;
-  const Real t172 = t156 + t162;
-  const Real t173 = t157 + t163;
-  const Real t174 = t151 + t164;
-  const Real t175 = t152 + t165;
-  const Real t176 = t154 - t166;
-  const Real t177 = t151 - t164;
-  const Real t178 = t152 - t165;
-  const Real t179 = t154 + t166;
-  const Real t180 = t126 - t140;
-  const Real t181 = t128 + t142;
-  const Real t182 = t130 - t144;
-  const Real t183 = Real(0.14) * t180;
-  const Real t184 = Real(0.14) * t181;
-  const Real t185 = Real(0.14) * t182;
-  const Real t186 = Real(0.02) * t174;
-  const Real t187 = Real(0.02) * t175;
-  const Real t188 = Real(0.02) * t176;
-  const Real t192 = Real(0.07) * t168;
-  const Real t193 = Real(0.07) * t169;
-  const Real t194 = Real(0.07) * t170;
-  const Real t196 = top_jointax_x * Real(0.0697564737441253);
-  const Real t198 = top_jointax_x * Real(0.9975640502598242);
-  const Real t201 = Real(0.31) * t168 - Real(0.03) * (t174 - t180);
-  const Real t204 = Real(0.31) * t169 - Real(0.03) * (t175 + t181);
-  const Real t207 = Real(0.31) * t170 + Real(0.03) * (t176 - t182);
-  const Real t208 = t132 + q1d1 * t108;
-  const Real t209 = t131 + t159;
-  const Real t210 = t145 + t160;
-  const Real t211 = t135 - q1d1 * t109;
-  const Real t212 = t134 + t160;
-  const Real t213 = t146 - t159;
-  const Real t214 = t148 - t211;
-  const Real t215 = t149 + t212;
-  const Real t216 = t150 + t213;
-  const Real t217 = t148 + t211;
-  const Real t218 = t149 - t212;
-  const Real t219 = t150 - t213;
-  const Real t220 = Real(0.14) * t177;
-  const Real t221 = Real(0.14) * t178;
-  const Real t222 = Real(0.14) * t179;
-  const Real t223 = t140 - t208;
-  const Real t224 = t142 - t209;
-  const Real t225 = t144 + t210;
-  const Real t226 = t126 + t208;
-  const Real t227 = t128 - t209;
-  const Real t228 = t130 - t210;
-  const Real t229 = Real(0.02) * t223;
-  const Real t230 = Real(0.02) * t224;
-  const Real t231 = Real(0.02) * t225;
-  const Real t235 = Real(0.07) * t214;
-  const Real t236 = Real(0.07) * t215;
-  const Real t237 = Real(0.07) * t216;
-  const Real t238 = Real(0.14) * t171;
-  const Real t239 = Real(0.14) * t172;
-  const Real t240 = Real(0.14) * t173;
-  const Real t241 = Real(0.02) * t217;
-  const Real t242 = Real(0.02) * t218;
-  const Real t243 = Real(0.02) * t219;
-  const Real t247 = Real(0.07) * t226;
-  const Real t248 = Real(0.07) * t227;
-  const Real t249 = Real(0.07) * t228;
-  const Real t252 = Real(0.31) * t214 - Real(0.03) * (t177 + t223);
-  const Real t255 = Real(0.31) * t215 + Real(0.03) * (t178 + t224);
-  const Real t258 = Real(0.31) * t216 - Real(0.03) * (t179 + t225);
-  const Real t267 = Real(0.31) * t226 + Real(0.03) * (t171 + t217);
-  const Real t270 = Real(0.31) * t227 - Real(0.03) * (t172 - t218);
-  const Real t273 = Real(0.31) * t228 - Real(0.03) * (t173 - t219);
-  const Real t275 = t115 * Real(1.5617376188860606);
-  const Real t276 = t114 * Real(1.5617376188860606);
-  const Real t277 = t113 * Real(1.5617376188860606);
-  const Real t281 = c0 * t275 + s0 * t276;
-  const Real t283 = s0 * t275 - c0 * t276;
-  const Real t286 = tie_rodbx1_x * t275 - tie_rodbx1_y * t276;
-  const Real t297 = t277 * (t183 - (t186 - t192)) - (t281 * (t238 + (t241 + t247)) + t283 * (t220 + (t229 -
-      t235)));
-  const Real t308 = t277 * (t184 + (t187 - t193)) + (t281 * (t239 - (t242 + t248)) + t283 * (t221 + (t230 +
-      t236)));
-  const Real t319 = t277 * (t185 - (t188 + t194)) + (t281 * (t240 - (t243 + t249)) - t283 * (t222 + (t231 -
-      t237)));
-  const Real t322 = t112 * t276 * model.c2;
-  const Real t324 = c0 * t252 + s0 * t267;
-  const Real t326 = c0 * t255 + s0 * t270;
-  const Real t328 = c0 * t258 + s0 * t273;
-  const Real t330 = s0 * t252 - c0 * t267;
-  const Real t332 = s0 * t255 - c0 * t270;
-  const Real t334 = s0 * t258 - c0 * t273;
-  const Real t342 = Real(1.0) / (t297 * t297 + (t330 * t330 + (t201 * t201 + t324 * t324)));
-  const Real t350 = t342 * (t297 * t308 + (t330 * t332 - (t201 * t204 - t324 * t326)));
-  const Real t352 = t204 + t201 * t350;
-  const Real t354 = t326 - t324 * t350;
-  const Real t356 = t332 - t330 * t350;
-  const Real t358 = t308 - t297 * t350;
-  const Real t366 = Real(1.0) / (t358 * t358 + (t356 * t356 + (t352 * t352 + t354 * t354)));
-  const Real t374 = t342 * (t297 * t319 + (t330 * t334 - (t201 * t207 - t324 * t328)));
-  const Real t376 = t207 + t201 * t374;
-  const Real t378 = t328 - t324 * t374;
-  const Real t380 = t334 - t330 * t374;
-  const Real t382 = t319 - t297 * t374;
-  const Real t390 = t366 * (t358 * t382 + (t356 * t380 + (t352 * t376 + t354 * t378)));
-  const Real t392 = t376 - t352 * t390;
-  const Real t394 = t378 - t354 * t390;
-  const Real t396 = t380 - t356 * t390;
-  const Real t398 = t382 - t358 * t390;
-  const Real t406 = Real(1.0) / (t398 * t398 + (t396 * t396 + (t392 * t392 + t394 * t394)));
-  const Real t412 = t342 * (t198 * t330 - (t196 * t201 - top_jointax_y * t324));
-  const Real t414 = t196 + t201 * t412;
-  const Real t416 = top_jointax_y - t324 * t412;
-  const Real t418 = t198 - t330 * t412;
-  const Real t419 = t297 * t412;
-  const Real t427 = t366 * (t358 * t419 - (t356 * t418 + (t352 * t414 + t354 * t416)));
-  const Real t429 = t414 + t352 * t427;
-  const Real t431 = t416 + t354 * t427;
-  const Real t433 = t418 + t356 * t427;
-  const Real t435 = t419 - t358 * t427;
-  const Real t443 = t406 * (t398 * t435 - (t396 * t433 + (t392 * t429 + t394 * t431)));
-  const Real t445 = t429 + t392 * t443;
-  const Real t447 = t431 + t394 * t443;
-  const Real t449 = t433 + t396 * t443;
-  const Real t451 = t435 - t398 * t443;
-  const Real t459 = Real(1.0) / (t451 * t451 + (t449 * t449 + (t445 * t445 + t447 * t447)));
-  const Real t465 = t342 * (t286 * t297 + (top_jointbx1_y * t324 - top_jointbx1_x * t330));
-  const Real t466 = t201 * t465;
-  const Real t468 = top_jointbx1_y - t324 * t465;
-  const Real t470 = top_jointbx1_x + t330 * t465;
-  const Real t472 = t286 - t297 * t465;
-  const Real t480 = t366 * (t358 * t472 - (t356 * t470 - (t352 * t466 + t354 * t468)));
-  const Real t482 = t466 - t352 * t480;
-  const Real t484 = t468 - t354 * t480;
-  const Real t486 = t470 + t356 * t480;
-  const Real t488 = t472 - t358 * t480;
-  const Real t496 = t406 * (t398 * t488 - (t396 * t486 - (t392 * t482 + t394 * t484)));
-  const Real t512 = t459 * (t451 * (t488 - t398 * t496) + (t449 * (t486 + t396 * t496) - (t445 * (t482 - t392
-      * t496) + t447 * (t484 - t394 * t496))));
-  const Real t516 = t496 - t443 * t512;
-  const Real t520 = t390 * t516 - (t480 - t427 * t512);
-  const Real t524 = t350 * t520 - (t374 * t516 - (t465 + t412 * t512));
-  const Real t531 = t342 * (t297 * t322);
-  const Real t532 = t201 * t531;
-  const Real t533 = t324 * t531;
-  const Real t534 = t330 * t531;
-  const Real t536 = t322 - t297 * t531;
-  const Real t544 = t366 * (t358 * t536 - (t356 * t534 - (t352 * t532 - t354 * t533)));
-  const Real t546 = t532 - t352 * t544;
-  const Real t548 = t533 + t354 * t544;
-  const Real t550 = t534 + t356 * t544;
-  const Real t552 = t536 - t358 * t544;
-  const Real t560 = t406 * (t398 * t552 - (t396 * t550 - (t392 * t546 - t394 * t548)));
-  const Real t576 = t459 * (t451 * (t552 - t398 * t560) + (t449 * (t550 + t396 * t560) - (t445 * (t546 - t392
-      * t560) - t447 * (t548 + t394 * t560))));
-  const Real t580 = t560 - t443 * t576;
-  const Real t584 = t390 * t580 - (t544 - t427 * t576);
-  const Real t589 = t350 * t584 - (t374 * t580 - (t412 * t576 + (t524 * state.z[0] + t531)));
-  const Real t590 = t520 * state.z[0] + t584;
-  const Real t591 = t516 * state.z[0] + t580;
-  const Real t592 = t512 * state.z[0] + t576;
-  const Real t594 = t112 * model.c3;
-  const Real t596 = t235 - (t220 + t229);
-  const Real t598 = t236 + (t221 + t230);
-  const Real t600 = t237 - (t222 + t231);
-  const Real t608 = t247 + (t238 + t241);
-  const Real t610 = t248 - (t239 - t242);
-  const Real t612 = t249 - (t240 - t243);
-  const Real t635 = t111 * t591 - (t109 * t589 - t110 * t590);
-  const Real t640 = t110 * t591 - (t108 * t589 + t111 * t590);
-  const Real t645 = t109 * t591 + (t111 * t589 - t108 * t590);
-  const Real t650 = t108 * t591 + (t110 * t589 + t109 * t590);
-  const Real t651 = Real(2.0) * t645;
-  const Real t654 = Real(0.5) * t645;
-  const Real t660 = q1d2 * t645 + state.y[3] * t651;
-  const Real t667 = Real(2.0) * t650;
-  const Real t669 = Real(0.5) * t650;
-  const Real t674 = q1d3 * t650 + state.y[4] * t667;
-  const Real t678 = q1d3 * t645 - state.y[3] * t667;
-  const Real t684 = state.y[2] * t651 - q1d2 * t640;
-  const Real t686 = state.y[2] * t667 + q1d3 * t640;
-  const Real t687 = Real(2.0) * t640;
-  const Real t689 = Real(0.5) * t640;
-  const Real t695 = state.y[1] * t651 + q1d2 * t635;
-  const Real t697 = state.y[1] * t667 - q1d3 * t635;
-  const Real t699 = Real(0.5) * t635;
-  const Real t705 = t686 + t695;
-  const Real t707 = t684 - t697;
-  const Real t712 = s2 * t592;
-  const Real t713 = c2 * t592;
-  const Real t720 = s0 * state.z[0];
-  const Real t721 = c0 * state.z[0];
-  const Real t755 = q1d1 * t640 + state.y[2] * t687;
-  const Real t757 = q1d1 * t635 - state.y[1] * t687;
-  const Real t762 = t678 - t757;
-  const Real t763 = t678 + t757;
-  const Real t765 = t674 + t755;
-  const Real t766 = t660 - t755;
-  const Real t777 = Real(0.31) * t762 - Real(0.03) * (t707 + t765);
-  const Real t782 = Real(0.31) * t766 - Real(0.03) * (t705 - t763);
-  const Real t794 = Real(0.07) * t762 - (Real(0.14) * t707 + Real(0.02) * t765);
-  const Real t798 = Real(0.07) * t766 - (Real(0.14) * t705 - Real(0.02) * t763);
-  const Real t805 = s0 * t798 - (tie_rodbx1p_y * t721 - (tie_rodbx1p_x * t720 + c0 * t794));
-  const Real t809 = c0 * t798 + (tie_rodbx1p_y * t720 + (tie_rodbx1p_x * t721 - s0 * t794));
-  const Real t812 = Real(2.0) * (Real(0.07) * (t686 - t695) - (Real(0.14) * (t660 - t674) - Real(0.02) * (t684
-      + t697)));
-  const Real t813 = Real(2.0) * (t594 + t805);
-  const Real t814 = Real(2.0) * t809;
-  const Real t815 = Real(2.0) * t699;
-  const Real t817 = t108 * t651 + q1d2 * t699;
-  const Real t819 = t108 * t667 - q1d3 * t699;
-  const Real t821 = Real(2.0) * t689;
-  const Real t823 = t109 * t651 - q1d2 * t689;
-  const Real t825 = t109 * t667 + q1d3 * t689;
-  const Real t827 = Real(2.0) * t654;
-  const Real t829 = t110 * t667 - q1d3 * t654;
-  const Real t831 = t110 * t651 + q1d2 * t654;
-  const Real t833 = t110 * t687 - q1d1 * t654;
-  const Real t834 = Real(2.0) * t669;
-  const Real t836 = t111 * t651 - q1d2 * t669;
-  const Real t838 = t111 * t667 + q1d3 * t669;
-  const Real t840 = t111 * t687 + q1d1 * t669;
-  const Real t855 = t116 * t640 + state.y[2] * t834;
-  const Real t857 = t116 * t635 - state.y[1] * t834;
-  const Real t859 = t117 * t645 + state.y[3] * t815;
-  const Real t861 = t117 * t640 - state.y[2] * t815;
-  const Real t863 = t117 * t635 + state.y[1] * t815;
-  const Real t866 = t118 * t645 - state.y[3] * t821;
-  const Real t868 = t118 * t640 + state.y[2] * t821;
-  const Real t870 = t118 * t635 - state.y[1] * t821;
-  const Real t873 = state.y[3] * t834 - (t116 * t645 + t836);
-  const Real t874 = t817 + t859;
-  const Real t875 = t825 + t859;
-  const Real t876 = t823 + t866;
-  const Real t877 = t819 - t866;
-  const Real t878 = t817 - t855;
-  const Real t879 = t836 + t861;
-  const Real t880 = t838 - t868;
-  const Real t881 = t823 - t857;
-  const Real t882 = t838 + t863;
-  const Real t883 = t836 + t870;
-  const Real t886 = t137 * t640 - state.y[2] * t827;
-  const Real t888 = t137 * t635 + state.y[1] * t827;
-  const Real t890 = t829 + t861;
-  const Real t891 = t829 + t870;
-  const Real t893 = state.y[4] * t827 - (t137 * t650 + t829);
-  const Real t894 = t873 + t893;
-  const Real t896 = state.y[4] * t821 + (t118 * t650 + t825);
-  const Real t897 = t874 - t896;
-  const Real t899 = state.y[4] * t815 - (t117 * t650 + t819);
-  const Real t900 = t876 - t899;
-  const Real t901 = t819 - t886;
-  const Real t902 = t825 - t888;
-  const Real t904 = state.y[3] * t827 + (t137 * t645 + t838);
-  const Real t905 = t831 + t868;
-  const Real t906 = t831 - t863;
-  const Real t908 = t861 + (t108 * t687 - q1d1 * t699);
-  const Real t909 = t840 + t855;
-  const Real t910 = t840 + t888;
-  const Real t911 = t833 + t886;
-  const Real t912 = t833 - t857;
-  const Real t913 = t881 + t901;
-  const Real t914 = t881 - t901;
-  const Real t915 = t880 - t906;
-  const Real t916 = t880 + t906;
-  const Real t917 = t883 + t890;
-  const Real t918 = t883 - t890;
-  const Real t919 = t878 - t902;
-  const Real t920 = t878 + t902;
-  const Real t921 = t879 + t891;
-  const Real t922 = t879 - t891;
-  const Real t923 = t882 - t905;
-  const Real t924 = t882 + t905;
-  const Real t926 = t863 + (t109 * t687 + q1d1 * t689);
-  const Real t945 = t592 * (Real(0.24) * t712 + Real(0.03132205098267723) * t713);
-  const Real t960 = t893 + t908;
-  const Real t961 = t873 + t908;
-  const Real t962 = t896 - t909;
-  const Real t963 = t874 + t909;
-  const Real t964 = t899 - t911;
-  const Real t965 = t876 + t911;
-  const Real t966 = t904 + t926;
-  const Real t967 = t904 - t926;
-  const Real t968 = t877 + t912;
-  const Real t969 = t877 - t912;
-  const Real t970 = t875 - t910;
-  const Real t971 = t875 + t910;
-  const Real t992 = Real(0.31) * t966 + Real(0.03) * (t920 + t960);
-  const Real t995 = Real(0.31) * t968 - Real(0.03) * (t922 - t962);
-  const Real t998 = Real(0.31) * t970 - Real(0.03) * (t924 - t964);
-  const Real t1007 = Real(0.31) * t961 - Real(0.03) * (t914 - t967);
-  const Real t1010 = Real(0.31) * t963 + Real(0.03) * (t916 - t969);
-  const Real t1013 = Real(0.31) * t965 - Real(0.03) * (t918 + t971);
-  const Real t1049 = Real(0.07) * t966 + (Real(0.14) * t920 + Real(0.02) * t960);
-  const Real t1051 = Real(0.07) * t968 - (Real(0.14) * t922 - Real(0.02) * t962);
-  const Real t1053 = Real(0.07) * t970 - (Real(0.14) * t924 - Real(0.02) * t964);
-  const Real t1061 = Real(0.07) * t961 - (Real(0.14) * t914 - Real(0.02) * t967);
-  const Real t1063 = Real(0.07) * t963 + (Real(0.14) * t916 - Real(0.02) * t969);
-  const Real t1065 = Real(0.07) * t965 - (Real(0.14) * t918 + Real(0.02) * t971);
-  const Real t1134 = t590 * (Real(0.31) * t915 + Real(0.03) * (t897 + t921)) + (t589 * (Real(0.31) * t913 +
-      Real(0.03) * (t894 + t919)) + (Real(0.0697564737441253) * t945 - t591 * (Real(0.31) * t917 + Real(0.03)
-      * (t900 - t923))));
-  const Real t1138 = t589 * (s0 * t1007 + (t267 * t721 - (t252 * t720 - c0 * t992))) + (state.z[0] * (c0 *
-      t782 + (top_jointbx1p_y * t720 - (top_jointbx1p_x * t721 + s0 * t777))) + (t590 * (s0 * t1010 - (t270 *
-      t721 - (t255 * t720 - c0 * t995))) + (t592 * (Real(0.03132205098267723) * t712 - Real(0.24) * t713) -
-      t591 * (s0 * t1013 - (t273 * t721 - (t258 * t720 - c0 * t998))))));
-  const Real t1142 = t589 * (c0 * t1007 - (t267 * t720 + (t252 * t721 + s0 * t992))) - (state.z[0] * (s0 *
-      t782 - (top_jointbx1p_y * t721 + (top_jointbx1p_x * t720 - c0 * t777))) - (t590 * (c0 * t1010 + (t270 *
-      t720 + (t255 * t721 + s0 * t995))) + (Real(0.9975640502598242) * t945 - t591 * (c0 * t1013 + (t273 *
-      t720 + (t258 * t721 + s0 * t998))))));
-  const Real t1146 = Real(1.5617376188860606) * (t589 * (t114 * (s0 * t1061 + (t608 * t721 - (t596 * t720 - c0
-      * t1049))) - ((c0 * t596 + s0 * t608) * t813 + (t113 * (Real(0.14) * t894 + (Real(0.07) * t913 +
-      Real(0.02) * t919)) - ((t192 + (t183 - t186)) * t812 + ((s0 * t596 - c0 * t608) * t814 + t115 * (c0 *
-      t1061 - (t608 * t720 + (t596 * t721 + s0 * t1049))))))))) - (Real(1.5617376188860606) * (state.z[0] *
-      (tie_rodbx1_x * t814 + (t115 * t805 - (t114 * t809 + tie_rodbx1_y * t813)))) - (Real(1.5617376188860606)
-      * (t590 * (t114 * (s0 * t1063 - (t610 * t721 - (t598 * t720 - c0 * t1051))) + ((c0 * t598 + s0 * t610) *
-      t813 - (t113 * (Real(0.14) * t897 + (Real(0.07) * t915 + Real(0.02) * t921)) - ((t193 - (t184 + t187)) *
-      t812 - ((s0 * t598 - c0 * t610) * t814 - t115 * (c0 * t1063 + (t610 * t720 + (t598 * t721 + s0 *
-      t1051))))))))) - (Real(1.5617376188860606) * (t594 * t813 - c * t114 * model.c4) +
-      Real(1.5617376188860606) * (t591 * (t114 * (s0 * t1065 - (t612 * t721 - (t600 * t720 - c0 * t1053))) +
-      ((c0 * t600 + s0 * t612) * t813 - (t113 * (Real(0.14) * t900 + (Real(0.07) * t917 - Real(0.02) * t923))
-      - ((t194 - (t185 - t188)) * t812 - ((s0 * t600 - c0 * t612) * t814 - t115 * (c0 * t1065 + (t612 * t720 +
-      (t600 * t721 + s0 * t1053))))))))))));
-  const Real t1154 = t342 * (t297 * t1146 + (t330 * t1142 - (t201 * t1134 + t324 * t1138)));
-  const Real t1156 = t1134 + t201 * t1154;
-  const Real t1158 = t1138 + t324 * t1154;
-  const Real t1160 = t1142 - t330 * t1154;
-  const Real t1162 = t1146 - t297 * t1154;
-  const Real t1170 = t366 * (t358 * t1162 + (t356 * t1160 + (t352 * t1156 - t354 * t1158)));
-  const Real t1172 = t1156 - t352 * t1170;
-  const Real t1174 = t1158 + t354 * t1170;
-  const Real t1176 = t1160 - t356 * t1170;
-  const Real t1178 = t1162 - t358 * t1170;
-  const Real t1186 = t406 * (t398 * t1178 + (t396 * t1176 + (t392 * t1172 - t394 * t1174)));
-  const Real t1202 = t459 * (t451 * (t1178 - t398 * t1186) - (t449 * (t1176 - t396 * t1186) + (t445 * (t1172 -
-      t392 * t1186) - t447 * (t1174 + t394 * t1186))));
-  const Real t1206 = t1186 - t443 * t1202;
-  const Real t1210 = t390 * t1206 - (t1170 - t427 * t1202);
-  const Real t1214 = t350 * t1210 - (t374 * t1206 - (t1154 + t412 * t1202));
+  const Real t108 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t117 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t129 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t129;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t129 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real derivative = s * model.c2;
+  const Real tie_rods0at = tie_rods0bf0_x * derivative;
+  const Real t178 = Real(1.0) / top_joints2am_z;
+  const Real t179 = top_jointax_y * t178;
+  const Real t185 = top_joints2bm_y * t179 + (t117 + Real(0.31) * top_joints1bf1_x);
+  const Real t189 = top_joints2bm_z * t179 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t192 = top_jointax_x * t178 * Real(0.0697564737441253);
+  const Real t198 = Real(1.0) / (top_joints2bm_x * t179 + (Real(0.31) * top_joints1bf1_y - t117));
+  const Real t199 = (top_joints2bm_x * t192 + (q1r0_y * Real(0.31) + t108)) * t198;
+  const Real t208 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t192 - t189 * t199);
+  const Real t209 = tie_rods0bm_x * t198;
+  const Real t214 = Real(1.0) / (t185 * t199 - (top_joints2bm_y * t192 - (t108 - q1r0_x * Real(0.31))));
+  const Real t215 = (t185 * t209 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t214;
+  const Real t220 = Real(1.0) / (t208 * t215 + (t189 * t209 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t222 = top_jointbx1_y + top_jointbx1_x * t179;
+  const Real t225 = top_jointbx1_x * t192 - t199 * t222;
+  const Real t231 = t220 * (t215 * t225 + (t209 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t234 = t214 * (t225 - t208 * t231);
+  const Real t239 = t198 * (t189 * t231 - (t222 + t185 * t234));
+  const Real t246 = t178 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
+      top_joints2bm_x * t239)));
+  const Real t252 = tie_rods0at * t220;
+  const Real t254 = t214 * (t208 * t252);
+  const Real t258 = t198 * (t185 * t254 + t189 * t252);
+  const Real t265 = t239 * state.z[0] + t258;
+  const Real t266 = t234 * state.z[0] - t254;
+  const Real t267 = t231 * state.z[0] + t252;
+  const Real t268 = t246 * state.z[0] + t178 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
+      top_joints2bm_y * t254));
+  const Real top_jointam2t_y = top_jointax_x * t268;
+  const Real t271 = Real(0.03) * t267;
+  const Real top_jointbm1t_x = Real(0.31) * t266 - t271;
+  const Real top_jointbm1t_y = t271 - Real(0.31) * t265;
+  const Real top_jointbm1t_z = Real(0.03) * (t265 - t266);
+  const Real top_jointam2t_x = top_jointax_y * t268;
+  const Real top_jointam2a_y = t268 * top_jointam2t_x;
+  const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
+  const Real top_jointbm1a_x = t266 * top_jointbm1t_z - t267 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t265 * top_jointbm1t_z - t267 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t265 * top_jointbm1t_y - t266 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z - (q1r1_x * top_jointbm1t_x - q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z + (q1r2_x * top_jointbm1t_x + q1r2_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
+  const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
+  const Real top_jointam2a_x = t268 * top_jointam2t_y;
+  const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z - (q1r1_x * top_jointbm1a_x + q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z + (q1r2_x * top_jointbm1a_x - q1r2_y *
+      top_jointbm1a_y);
+  const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
+  const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
+  const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
+  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
+      * top_jointbm1app_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t266 - Real(0.02) * t267;
+  const Real tie_rodbm1t_y = Real(0.14) * t267 - Real(0.07) * t265;
+  const Real tie_rodbm1t_z = Real(0.14) * t266 - Real(0.02) * t265;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
+  const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
+  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
+  const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm0t_x - (derivative - tie_rodbm1vp_x);
+  const Real derivative_2 = c * model.c3;
+  const Real tie_rodbm1a_x = t266 * tie_rodbm1t_z + t267 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t265 * tie_rodbm1t_z + t267 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t265 * tie_rodbm1t_y - t266 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x + q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x - q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x + q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t421 = t179 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t428 = t199 * t421 - (t192 * top_jointda_z + (q1r0_z * top_jointbm1a_z + (q1r0_y *
+      top_jointbm1a_y - (top_jointam2app_x - q1r0_x * top_jointbm1a_x))));
+  const Real t439 = t220 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
+      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t209 * t421 - t215 * t428));
+  const Real t442 = t214 * (t428 - t208 * t439);
+  const Real t447 = t198 * (t189 * t439 + (t421 - t185 * t442));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -1796,38 +868,39 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real ru1_x = t589 + Real(2.0) * w1p_x;
-  const Real ru1_y = t590 + Real(2.0) * w1p_y;
-  const Real ru1_z = t591 + Real(2.0) * w1p_z;
+  const Real ru1_x = t265 - Real(2.0) * w1p_x;
+  const Real ru1_y = t266 + Real(2.0) * w1p_y;
+  const Real ru1_z = t267 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
-  const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
-  const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
-  const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ruw1 = t591 * ru1_z + (t589 * ru1_x + t590 * ru1_y);
+  const Real rSu1_y = Real(0.33) * ru1_y - Real(0.192) * ru1_z;
+  const Real rSu1_z = Real(1.1108) * ru1_z - Real(0.192) * ru1_y;
+  const Real ruh1 = Real(1.6) * ru1_y - Real(3.84) * ru1_z;
+  const Real ruw1 = t267 * ru1_z + (t265 * ru1_x + t266 * ru1_y);
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t1202 * Real(0.0505);
-  const Real ref1_x = t589 * ruh1 - (t1210 * Real(3.84) - (tyre_forcef1_x + t1206 * Real(1.6)));
-  const Real ref1_y = t590 * ruh1 + (t1214 * Real(3.84) + (tyre_forcef1_y - Real(1.6) * ruw1));
-  const Real ref1_z = t591 * ruh1 - (Real(3.84) * ruw1 + (tyre_forcef1_z + t1214 * Real(1.6)));
-  const Real ren1_x = t591 * rSu1_y - (t590 * rSu1_z + (t1214 * Real(1.4408) + (Real(0.12) * tyre_forcef1_y +
+  const Real rdn2_z = t178 * (top_joints2bm_z * t439 - (top_joints2bm_y * t442 - (top_jointda_z -
+      top_joints2bm_x * t447))) * Real(0.0505);
+  const Real ref1_x = t265 * ruh1 + (t442 * Real(3.84) - (tyre_forcef1_x - t439 * Real(1.6)));
+  const Real ref1_y = t266 * ruh1 - (t447 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * ruw1));
+  const Real ref1_z = t267 * ruh1 + (Real(3.84) * ruw1 + (tyre_forcef1_z - t447 * Real(1.6)));
+  const Real ren1_x = t267 * rSu1_y - (t266 * rSu1_z + (t447 * Real(1.4408) - (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real ren1_y = t591 * rSu1_x - (t589 * rSu1_z - (t1210 * Real(1.7608) - (t1206 * Real(0.192) +
+  const Real ren1_y = t267 * rSu1_x - (t265 * rSu1_z - (t442 * Real(1.7608) + (t439 * Real(0.192) -
       (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real ren1_z = t590 * rSu1_x - (t589 * rSu1_y + (t1206 * Real(0.98) - (t1210 * Real(0.192) +
-      (Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
-  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x + q1r1_y * ref1_y);
-  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real rQ1_0 = ren1_x + (w1p_z * rK1_y - (w1p_y * rK1_z - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
+  const Real ren1_z = t266 * rSu1_x - (t265 * rSu1_y + (t439 * Real(0.98) + (t442 * Real(0.192) + (Real(0.01)
+      * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
+  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x - q1r1_y * ref1_y);
+  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x + q1r2_y * ref1_y);
+  const Real rQ1_0 = ren1_x - (w1p_z * rK1_y - (w1p_y * rK1_z - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
   const Real rQ1_1 = ren1_y + (w1p_z * rK1_x + (Real(3.84) * ra1_x - w1p_x * rK1_z));
-  const Real rQ1_2 = ren1_z + (w1p_y * rK1_x + (Real(1.6) * ra1_x - w1p_x * rK1_y));
-  const Real rQ2_0 = rQp2 + rdn2_z;
-  zdot[0] = -(Real(1.0) / (t516 * (p_3_1n_z + (t516 * Real(0.98) + (p_3_1n_z - t520 * Real(0.192)))) + (t520 *
-      (p_2_1n_z - (t516 * Real(0.192) - (p_2_1n_z + t520 * Real(1.7608)))) + (t524 * (p_1_1n_z + (p_1_1n_z +
-      t524 * Real(1.4408))) + (t512 * t512 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z +
+  const Real rQ1_2 = ren1_z - (w1p_y * rK1_x + (Real(1.6) * ra1_x - w1p_x * rK1_y));
+  const Real rQ2_0 = rQp2 - rdn2_z;
+  zdot[0] = -(Real(1.0) / (t231 * (p_3_1n_z - (t231 * Real(0.98) - (p_3_1n_z - t234 * Real(0.192)))) - (t234 *
+      (p_2_1n_z + (t231 * Real(0.192) + (p_2_1n_z + t234 * Real(1.7608)))) - (t239 * (p_1_1n_z + (p_1_1n_z -
+      t239 * Real(1.4408))) - (t246 * t246 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z +
       (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z +
       (q1r1_x * q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) - Real(3.8987000000000007)))) +
-      Real(0.017799999999999996))))))) * (t512 * rQ2_0 - (t516 * rQ1_2 - (t520 * rQ1_1 - (t524 * rQ1_0 +
-      (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x +
+      Real(0.017799999999999996))))))) * (t246 * rQ2_0 + (t231 * rQ1_2 - (t234 * rQ1_1 - (t239 * rQ1_0 -
+      (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x - (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x -
       (rQp0 - (strutbx_x * strutf_z - strutbx_y * strutf_y))))))))))));
 }
 
@@ -1867,8 +940,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
   const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const Real expression = state.t * model.rate;
-  Real t112, c;
-  detail::sine_cosine(expression, t112, c);
+  Real s, c;
+  detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
   const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
@@ -1879,397 +952,124 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t108 = state.y[1] * Real(0.5);
-  const Real t109 = state.y[2] * Real(0.5);
-  const Real t110 = state.y[3] * Real(0.5);
-  const Real t111 = state.y[4] * Real(0.5);
-  const Real t113 = tie_rodd_x + tie_rodd_x;
-  const Real t114 = tie_rodd_y + tie_rodd_y;
-  const Real t115 = tie_rodd_z + tie_rodd_z;
-  const Real t116 = Real(2.0) * t111;
-  const Real t117 = Real(2.0) * t108;
-  const Real t118 = Real(2.0) * t109;
-  const Real t119 = q1d2 * t111;
-  const Real t120 = q1d2 * t108;
-  const Real t121 = q1d2 * t109;
-  const Real t122 = q1d3 * t111;
-  const Real t123 = q1d3 * t108;
-  const Real t124 = q1d3 * t109;
-  const Real t126 = t119 + state.y[3] * t116;
-  const Real t127 = state.y[3] * t117;
-  const Real t128 = t120 + t127;
-  const Real t129 = state.y[3] * t118;
-  const Real t130 = t121 + t129;
-  const Real t131 = state.y[2] * t116;
-  const Real t132 = state.y[2] * t117;
-  const Real t133 = state.y[2] * t118;
-  const Real t134 = state.y[1] * t116;
-  const Real t135 = state.y[1] * t117;
-  const Real t136 = state.y[1] * t118;
-  const Real t137 = Real(2.0) * t110;
-  const Real t138 = q1d3 * t110;
-  const Real t140 = t138 + state.y[4] * t137;
-  const Real t142 = t124 + state.y[4] * t118;
-  const Real t144 = t123 + state.y[4] * t117;
-  const Real t145 = state.y[2] * t137;
-  const Real t146 = state.y[1] * t137;
-  const Real t148 = t122 - state.y[3] * t137;
-  const Real t149 = t123 + t129;
-  const Real t150 = t124 - t127;
-  const Real t151 = t120 + t131;
-  const Real t152 = t119 - t132;
-  const Real t153 = q1d2 * t110;
-  const Real t154 = t133 - t153;
-  const Real t155 = t123 - t145;
-  const Real t156 = t122 - t133;
-  const Real t157 = t132 + t138;
-  const Real t159 = q1d1 * t111;
-  const Real t160 = q1d1 * t110;
-  const Real t161 = t121 - t134;
-  const Real t162 = t135 - t153;
-  const Real t163 = t119 + t136;
-  const Real t164 = t124 + t146;
-  const Real t165 = t136 - t138;
-  const Real t166 = t122 - t135;
-  const Real t168 = t155 - t161;
-  const Real t169 = t156 - t162;
-  const Real t170 = t157 - t163;
-  const Real t171 = t155 + t161;
-  const Real t172 = t156 + t162;
-  const Real t173 = t157 + t163;
-  const Real t174 = t151 + t164;
-  const Real t175 = t152 + t165;
-  const Real t176 = t154 - t166;
-  const Real t177 = t151 - t164;
-  const Real t178 = t152 - t165;
-  const Real t179 = t154 + t166;
-  const Real t180 = t126 - t140;
-  const Real t181 = t128 + t142;
-  const Real t182 = t130 - t144;
-  const Real t183 = Real(0.14) * t180;
-  const Real t184 = Real(0.14) * t181;
-  const Real t185 = Real(0.14) * t182;
-  const Real t186 = Real(0.02) * t174;
-  const Real t187 = Real(0.02) * t175;
-  const Real t188 = Real(0.02) * t176;
-  const Real t192 = Real(0.07) * t168;
-  const Real t193 = Real(0.07) * t169;
-  const Real t194 = Real(0.07) * t170;
-  const Real t196 = top_jointax_x * Real(0.0697564737441253);
-  const Real t198 = top_jointax_x * Real(0.9975640502598242);
-  const Real t201 = Real(0.31) * t168 - Real(0.03) * (t174 - t180);
-  const Real t204 = Real(0.31) * t169 - Real(0.03) * (t175 + t181);
-  const Real t207 = Real(0.31) * t170 + Real(0.03) * (t176 - t182);
-  const Real t208 = t132 + q1d1 * t108;
-  const Real t209 = t131 + t159;
-  const Real t210 = t145 + t160;
-  const Real t211 = t135 - q1d1 * t109;
-  const Real t212 = t134 + t160;
-  const Real t213 = t146 - t159;
-  const Real t214 = t148 - t211;
-  const Real t215 = t149 + t212;
-  const Real t216 = t150 + t213;
-  const Real t217 = t148 + t211;
-  const Real t218 = t149 - t212;
-  const Real t219 = t150 - t213;
-  const Real t220 = Real(0.14) * t177;
-  const Real t221 = Real(0.14) * t178;
-  const Real t222 = Real(0.14) * t179;
-  const Real t223 = t140 - t208;
-  const Real t224 = t142 - t209;
-  const Real t225 = t144 + t210;
-  const Real t226 = t126 + t208;
-  const Real t227 = t128 - t209;
-  const Real t228 = t130 - t210;
-  const Real t229 = Real(0.02) * t223;
-  const Real t230 = Real(0.02) * t224;
-  const Real t231 = Real(0.02) * t225;
-  const Real t235 = Real(0.07) * t214;
-  const Real t236 = Real(0.07) * t215;
-  const Real t237 = Real(0.07) * t216;
-  const Real t238 = Real(0.14) * t171;
-  const Real t239 = Real(0.14) * t172;
-  const Real t240 = Real(0.14) * t173;
-  const Real t241 = Real(0.02) * t217;
-  const Real t242 = Real(0.02) * t218;
-  const Real t243 = Real(0.02) * t219;
-  const Real t247 = Real(0.07) * t226;
-  const Real t248 = Real(0.07) * t227;
-  const Real t249 = Real(0.07) * t228;
-  const Real t252 = Real(0.31) * t214 - Real(0.03) * (t177 + t223);
-  const Real t255 = Real(0.31) * t215 + Real(0.03) * (t178 + t224);
-  const Real t258 = Real(0.31) * t216 - Real(0.03) * (t179 + t225);
-  const Real t267 = Real(0.31) * t226 + Real(0.03) * (t171 + t217);
-  const Real t270 = Real(0.31) * t227 - Real(0.03) * (t172 - t218);
-  const Real t273 = Real(0.31) * t228 - Real(0.03) * (t173 - t219);
-  const Real t275 = t115 * Real(1.5617376188860606);
-  const Real t276 = t114 * Real(1.5617376188860606);
-  const Real t277 = t113 * Real(1.5617376188860606);
-  const Real t281 = c0 * t275 + s0 * t276;
-  const Real t283 = s0 * t275 - c0 * t276;
-  const Real t286 = tie_rodbx1_x * t275 - tie_rodbx1_y * t276;
-  const Real t297 = t277 * (t183 - (t186 - t192)) - (t281 * (t238 + (t241 + t247)) + t283 * (t220 + (t229 -
-      t235)));
-  const Real t308 = t277 * (t184 + (t187 - t193)) + (t281 * (t239 - (t242 + t248)) + t283 * (t221 + (t230 +
-      t236)));
-  const Real t319 = t277 * (t185 - (t188 + t194)) + (t281 * (t240 - (t243 + t249)) - t283 * (t222 + (t231 -
-      t237)));
-  const Real t322 = t112 * t276 * model.c2;
-  const Real t324 = c0 * t252 + s0 * t267;
-  const Real t326 = c0 * t255 + s0 * t270;
-  const Real t328 = c0 * t258 + s0 * t273;
-  const Real t330 = s0 * t252 - c0 * t267;
-  const Real t332 = s0 * t255 - c0 * t270;
-  const Real t334 = s0 * t258 - c0 * t273;
-  const Real t342 = Real(1.0) / (t297 * t297 + (t330 * t330 + (t201 * t201 + t324 * t324)));
-  const Real t350 = t342 * (t297 * t308 + (t330 * t332 - (t201 * t204 - t324 * t326)));
-  const Real t352 = t204 + t201 * t350;
-  const Real t354 = t326 - t324 * t350;
-  const Real t356 = t332 - t330 * t350;
-  const Real t358 = t308 - t297 * t350;
-  const Real t366 = Real(1.0) / (t358 * t358 + (t356 * t356 + (t352 * t352 + t354 * t354)));
-  const Real t374 = t342 * (t297 * t319 + (t330 * t334 - (t201 * t207 - t324 * t328)));
-  const Real t376 = t207 + t201 * t374;
-  const Real t378 = t328 - t324 * t374;
-  const Real t380 = t334 - t330 * t374;
-  const Real t382 = t319 - t297 * t374;
-  const Real t390 = t366 * (t358 * t382 + (t356 * t380 + (t352 * t376 + t354 * t378)));
-  const Real t392 = t376 - t352 * t390;
-  const Real t394 = t378 - t354 * t390;
-  const Real t396 = t380 - t356 * t390;
-  const Real t398 = t382 - t358 * t390;
-  const Real t406 = Real(1.0) / (t398 * t398 + (t396 * t396 + (t392 * t392 + t394 * t394)));
-  const Real t412 = t342 * (t198 * t330 - (t196 * t201 - top_jointax_y * t324));
-  const Real t414 = t196 + t201 * t412;
-  const Real t416 = top_jointax_y - t324 * t412;
-  const Real t418 = t198 - t330 * t412;
-  const Real t419 = t297 * t412;
-  const Real t427 = t366 * (t358 * t419 - (t356 * t418 + (t352 * t414 + t354 * t416)));
-  const Real t429 = t414 + t352 * t427;
-  const Real t431 = t416 + t354 * t427;
-  const Real t433 = t418 + t356 * t427;
-  const Real t435 = t419 - t358 * t427;
-  const Real t443 = t406 * (t398 * t435 - (t396 * t433 + (t392 * t429 + t394 * t431)));
-  const Real t445 = t429 + t392 * t443;
-  const Real t447 = t431 + t394 * t443;
-  const Real t449 = t433 + t396 * t443;
-  const Real t451 = t435 - t398 * t443;
-  const Real t459 = Real(1.0) / (t451 * t451 + (t449 * t449 + (t445 * t445 + t447 * t447)));
-  const Real t465 = t342 * (t286 * t297 + (top_jointbx1_y * t324 - top_jointbx1_x * t330));
-  const Real t466 = t201 * t465;
-  const Real t468 = top_jointbx1_y - t324 * t465;
-  const Real t470 = top_jointbx1_x + t330 * t465;
-  const Real t472 = t286 - t297 * t465;
-  const Real t480 = t366 * (t358 * t472 - (t356 * t470 - (t352 * t466 + t354 * t468)));
-  const Real t482 = t466 - t352 * t480;
-  const Real t484 = t468 - t354 * t480;
-  const Real t486 = t470 + t356 * t480;
-  const Real t488 = t472 - t358 * t480;
-  const Real t496 = t406 * (t398 * t488 - (t396 * t486 - (t392 * t482 + t394 * t484)));
-  const Real t512 = t459 * (t451 * (t488 - t398 * t496) + (t449 * (t486 + t396 * t496) - (t445 * (t482 - t392
-      * t496) + t447 * (t484 - t394 * t496))));
-  const Real t516 = t496 - t443 * t512;
-  const Real t520 = t390 * t516 - (t480 - t427 * t512);
-  const Real t524 = t350 * t520 - (t374 * t516 - (t465 + t412 * t512));
-  const Real t531 = t342 * (t297 * t322);
-  const Real t532 = t201 * t531;
-  const Real t533 = t324 * t531;
-  const Real t534 = t330 * t531;
-  const Real t536 = t322 - t297 * t531;
-  const Real t544 = t366 * (t358 * t536 - (t356 * t534 - (t352 * t532 - t354 * t533)));
-  const Real t546 = t532 - t352 * t544;
-  const Real t548 = t533 + t354 * t544;
-  const Real t550 = t534 + t356 * t544;
-  const Real t552 = t536 - t358 * t544;
-  const Real t560 = t406 * (t398 * t552 - (t396 * t550 - (t392 * t546 - t394 * t548)));
-  const Real t576 = t459 * (t451 * (t552 - t398 * t560) + (t449 * (t550 + t396 * t560) - (t445 * (t546 - t392
-      * t560) - t447 * (t548 + t394 * t560))));
-  const Real t580 = t560 - t443 * t576;
-  const Real t584 = t390 * t580 - (t544 - t427 * t576);
-  const Real t589 = t350 * t584 - (t374 * t580 - (t412 * t576 + (t524 * state.z[0] + t531)));
-  const Real t590 = t520 * state.z[0] + t584;
-  const Real t591 = t516 * state.z[0] + t580;
-  const Real t592 = t512 * state.z[0] + t576;
-  const Real t594 = t112 * model.c3;
-  const Real t596 = t235 - (t220 + t229);
-  const Real t598 = t236 + (t221 + t230);
-  const Real t600 = t237 - (t222 + t231);
-  const Real t608 = t247 + (t238 + t241);
-  const Real t610 = t248 - (t239 - t242);
-  const Real t612 = t249 - (t240 - t243);
-  const Real t635 = t111 * t591 - (t109 * t589 - t110 * t590);
-  const Real t640 = t110 * t591 - (t108 * t589 + t111 * t590);
-  const Real t645 = t109 * t591 + (t111 * t589 - t108 * t590);
-  const Real t650 = t108 * t591 + (t110 * t589 + t109 * t590);
-  const Real t651 = Real(2.0) * t645;
-  const Real t654 = Real(0.5) * t645;
-  const Real t660 = q1d2 * t645 + state.y[3] * t651;
-  const Real t667 = Real(2.0) * t650;
-  const Real t669 = Real(0.5) * t650;
-  const Real t674 = q1d3 * t650 + state.y[4] * t667;
-  const Real t678 = q1d3 * t645 - state.y[3] * t667;
-  const Real t684 = state.y[2] * t651 - q1d2 * t640;
-  const Real t686 = state.y[2] * t667 + q1d3 * t640;
-  const Real t687 = Real(2.0) * t640;
-  const Real t689 = Real(0.5) * t640;
-  const Real t695 = state.y[1] * t651 + q1d2 * t635;
-  const Real t697 = state.y[1] * t667 - q1d3 * t635;
-  const Real t699 = Real(0.5) * t635;
-  const Real t705 = t686 + t695;
-  const Real t707 = t684 - t697;
-  const Real t712 = s2 * t592;
-  const Real t713 = c2 * t592;
-  const Real t720 = s0 * state.z[0];
-  const Real t721 = c0 * state.z[0];
-  const Real t755 = q1d1 * t640 + state.y[2] * t687;
-  const Real t757 = q1d1 * t635 - state.y[1] * t687;
-  const Real t762 = t678 - t757;
-  const Real t763 = t678 + t757;
-  const Real t765 = t674 + t755;
-  const Real t766 = t660 - t755;
-  const Real t777 = Real(0.31) * t762 - Real(0.03) * (t707 + t765);
-  const Real t782 = Real(0.31) * t766 - Real(0.03) * (t705 - t763);
-  const Real t794 = Real(0.07) * t762 - (Real(0.14) * t707 + Real(0.02) * t765);
-  const Real t798 = Real(0.07) * t766 - (Real(0.14) * t705 - Real(0.02) * t763);
-  const Real t805 = s0 * t798 - (tie_rodbx1p_y * t721 - (tie_rodbx1p_x * t720 + c0 * t794));
-  const Real t809 = c0 * t798 + (tie_rodbx1p_y * t720 + (tie_rodbx1p_x * t721 - s0 * t794));
-  const Real t812 = Real(2.0) * (Real(0.07) * (t686 - t695) - (Real(0.14) * (t660 - t674) - Real(0.02) * (t684
-      + t697)));
-  const Real t813 = Real(2.0) * (t594 + t805);
-  const Real t814 = Real(2.0) * t809;
-  const Real t815 = Real(2.0) * t699;
-  const Real t817 = t108 * t651 + q1d2 * t699;
-  const Real t819 = t108 * t667 - q1d3 * t699;
-  const Real t821 = Real(2.0) * t689;
-  const Real t823 = t109 * t651 - q1d2 * t689;
-  const Real t825 = t109 * t667 + q1d3 * t689;
-  const Real t827 = Real(2.0) * t654;
-  const Real t829 = t110 * t667 - q1d3 * t654;
-  const Real t831 = t110 * t651 + q1d2 * t654;
-  const Real t833 = t110 * t687 - q1d1 * t654;
-  const Real t834 = Real(2.0) * t669;
-  const Real t836 = t111 * t651 - q1d2 * t669;
-  const Real t838 = t111 * t667 + q1d3 * t669;
-  const Real t840 = t111 * t687 + q1d1 * t669;
-  const Real t855 = t116 * t640 + state.y[2] * t834;
-  const Real t857 = t116 * t635 - state.y[1] * t834;
-  const Real t859 = t117 * t645 + state.y[3] * t815;
-  const Real t861 = t117 * t640 - state.y[2] * t815;
-  const Real t863 = t117 * t635 + state.y[1] * t815;
-  const Real t866 = t118 * t645 - state.y[3] * t821;
-  const Real t868 = t118 * t640 + state.y[2] * t821;
-  const Real t870 = t118 * t635 - state.y[1] * t821;
-  const Real t873 = state.y[3] * t834 - (t116 * t645 + t836);
-  const Real t874 = t817 + t859;
-  const Real t875 = t825 + t859;
-  const Real t876 = t823 + t866;
-  const Real t877 = t819 - t866;
-  const Real t878 = t817 - t855;
-  const Real t879 = t836 + t861;
-  const Real t880 = t838 - t868;
-  const Real t881 = t823 - t857;
-  const Real t882 = t838 + t863;
-  const Real t883 = t836 + t870;
-  const Real t886 = t137 * t640 - state.y[2] * t827;
-  const Real t888 = t137 * t635 + state.y[1] * t827;
-  const Real t890 = t829 + t861;
-  const Real t891 = t829 + t870;
-  const Real t893 = state.y[4] * t827 - (t137 * t650 + t829);
-  const Real t894 = t873 + t893;
-  const Real t896 = state.y[4] * t821 + (t118 * t650 + t825);
-  const Real t897 = t874 - t896;
-  const Real t899 = state.y[4] * t815 - (t117 * t650 + t819);
-  const Real t900 = t876 - t899;
-  const Real t901 = t819 - t886;
-  const Real t902 = t825 - t888;
-  const Real t904 = state.y[3] * t827 + (t137 * t645 + t838);
-  const Real t905 = t831 + t868;
-  const Real t906 = t831 - t863;
-  const Real t908 = t861 + (t108 * t687 - q1d1 * t699);
-  const Real t909 = t840 + t855;
-  const Real t910 = t840 + t888;
-  const Real t911 = t833 + t886;
-  const Real t912 = t833 - t857;
-  const Real t913 = t881 + t901;
-  const Real t914 = t881 - t901;
-  const Real t915 = t880 - t906;
-  const Real t916 = t880 + t906;
-  const Real t917 = t883 + t890;
-  const Real t918 = t883 - t890;
-  const Real t919 = t878 - t902;
-  const Real t920 = t878 + t902;
-  const Real t921 = t879 + t891;
-  const Real t922 = t879 - t891;
-  const Real t923 = t882 - t905;
-  const Real t924 = t882 + t905;
-  const Real t926 = t863 + (t109 * t687 + q1d1 * t689);
-  const Real t945 = t592 * (Real(0.24) * t712 + Real(0.03132205098267723) * t713);
-  const Real t960 = t893 + t908;
-  const Real t961 = t873 + t908;
-  const Real t962 = t896 - t909;
-  const Real t963 = t874 + t909;
-  const Real t964 = t899 - t911;
-  const Real t965 = t876 + t911;
-  const Real t966 = t904 + t926;
-  const Real t967 = t904 - t926;
-  const Real t968 = t877 + t912;
-  const Real t969 = t877 - t912;
-  const Real t970 = t875 - t910;
-  const Real t971 = t875 + t910;
-  const Real t992 = Real(0.31) * t966 + Real(0.03) * (t920 + t960);
-  const Real t995 = Real(0.31) * t968 - Real(0.03) * (t922 - t962);
-  const Real t998 = Real(0.31) * t970 - Real(0.03) * (t924 - t964);
-  const Real t1007 = Real(0.31) * t961 - Real(0.03) * (t914 - t967);
-  const Real t1010 = Real(0.31) * t963 + Real(0.03) * (t916 - t969);
-  const Real t1013 = Real(0.31) * t965 - Real(0.03) * (t918 + t971);
-  const Real t1049 = Real(0.07) * t966 + (Real(0.14) * t920 + Real(0.02) * t960);
-  const Real t1051 = Real(0.07) * t968 - (Real(0.14) * t922 - Real(0.02) * t962);
-  const Real t1053 = Real(0.07) * t970 - (Real(0.14) * t924 - Real(0.02) * t964);
-  const Real t1061 = Real(0.07) * t961 - (Real(0.14) * t914 - Real(0.02) * t967);
-  const Real t1063 = Real(0.07) * t963 + (Real(0.14) * t916 - Real(0.02) * t969);
-  const Real t1065 = Real(0.07) * t965 - (Real(0.14) * t918 + Real(0.02) * t971);
-  const Real t1134 = t590 * (Real(0.31) * t915 + Real(0.03) * (t897 + t921)) + (t589 * (Real(0.31) * t913 +
-      Real(0.03) * (t894 + t919)) + (Real(0.0697564737441253) * t945 - t591 * (Real(0.31) * t917 + Real(0.03)
-      * (t900 - t923))));
-  const Real t1138 = t589 * (s0 * t1007 + (t267 * t721 - (t252 * t720 - c0 * t992))) + (state.z[0] * (c0 *
-      t782 + (top_jointbx1p_y * t720 - (top_jointbx1p_x * t721 + s0 * t777))) + (t590 * (s0 * t1010 - (t270 *
-      t721 - (t255 * t720 - c0 * t995))) + (t592 * (Real(0.03132205098267723) * t712 - Real(0.24) * t713) -
-      t591 * (s0 * t1013 - (t273 * t721 - (t258 * t720 - c0 * t998))))));
-  const Real t1142 = t589 * (c0 * t1007 - (t267 * t720 + (t252 * t721 + s0 * t992))) - (state.z[0] * (s0 *
-      t782 - (top_jointbx1p_y * t721 + (top_jointbx1p_x * t720 - c0 * t777))) - (t590 * (c0 * t1010 + (t270 *
-      t720 + (t255 * t721 + s0 * t995))) + (Real(0.9975640502598242) * t945 - t591 * (c0 * t1013 + (t273 *
-      t720 + (t258 * t721 + s0 * t998))))));
-  const Real t1146 = Real(1.5617376188860606) * (t589 * (t114 * (s0 * t1061 + (t608 * t721 - (t596 * t720 - c0
-      * t1049))) - ((c0 * t596 + s0 * t608) * t813 + (t113 * (Real(0.14) * t894 + (Real(0.07) * t913 +
-      Real(0.02) * t919)) - ((t192 + (t183 - t186)) * t812 + ((s0 * t596 - c0 * t608) * t814 + t115 * (c0 *
-      t1061 - (t608 * t720 + (t596 * t721 + s0 * t1049))))))))) - (Real(1.5617376188860606) * (state.z[0] *
-      (tie_rodbx1_x * t814 + (t115 * t805 - (t114 * t809 + tie_rodbx1_y * t813)))) - (Real(1.5617376188860606)
-      * (t590 * (t114 * (s0 * t1063 - (t610 * t721 - (t598 * t720 - c0 * t1051))) + ((c0 * t598 + s0 * t610) *
-      t813 - (t113 * (Real(0.14) * t897 + (Real(0.07) * t915 + Real(0.02) * t921)) - ((t193 - (t184 + t187)) *
-      t812 - ((s0 * t598 - c0 * t610) * t814 - t115 * (c0 * t1063 + (t610 * t720 + (t598 * t721 + s0 *
-      t1051))))))))) - (Real(1.5617376188860606) * (t594 * t813 - c * t114 * model.c4) +
-      Real(1.5617376188860606) * (t591 * (t114 * (s0 * t1065 - (t612 * t721 - (t600 * t720 - c0 * t1053))) +
-      ((c0 * t600 + s0 * t612) * t813 - (t113 * (Real(0.14) * t900 + (Real(0.07) * t917 - Real(0.02) * t923))
-      - ((t194 - (t185 - t188)) * t812 - ((s0 * t600 - c0 * t612) * t814 - t115 * (c0 * t1065 + (t612 * t720 +
-      (t600 * t721 + s0 * t1053))))))))))));
-  const Real t1154 = t342 * (t297 * t1146 + (t330 * t1142 - (t201 * t1134 + t324 * t1138)));
-  const Real t1156 = t1134 + t201 * t1154;
-  const Real t1158 = t1138 + t324 * t1154;
-  const Real t1160 = t1142 - t330 * t1154;
-  const Real t1162 = t1146 - t297 * t1154;
-  const Real t1170 = t366 * (t358 * t1162 + (t356 * t1160 + (t352 * t1156 - t354 * t1158)));
-  const Real t1172 = t1156 - t352 * t1170;
-  const Real t1174 = t1158 + t354 * t1170;
-  const Real t1176 = t1160 - t356 * t1170;
-  const Real t1178 = t1162 - t358 * t1170;
-  const Real t1186 = t406 * (t398 * t1178 + (t396 * t1176 + (t392 * t1172 - t394 * t1174)));
-  const Real t1202 = t459 * (t451 * (t1178 - t398 * t1186) - (t449 * (t1176 - t396 * t1186) + (t445 * (t1172 -
-      t392 * t1186) - t447 * (t1174 + t394 * t1186))));
-  const Real t1206 = t1186 - t443 * t1202;
-  const Real t1210 = t390 * t1206 - (t1170 - t427 * t1202);
-  const Real t1217 = t524 * zdot[0] + (t350 * t1210 - (t374 * t1206 - (t1154 + t412 * t1202)));
-  const Real t1219 = t1210 + t520 * zdot[0];
-  const Real t1221 = t1206 + t516 * zdot[0];
+  const Real t108 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t117 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t129 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t129;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t129 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real derivative = s * model.c2;
+  const Real tie_rods0at = tie_rods0bf0_x * derivative;
+  const Real t178 = Real(1.0) / top_joints2am_z;
+  const Real t179 = top_jointax_y * t178;
+  const Real t185 = top_joints2bm_y * t179 + (t117 + Real(0.31) * top_joints1bf1_x);
+  const Real t189 = top_joints2bm_z * t179 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t192 = top_jointax_x * t178 * Real(0.0697564737441253);
+  const Real t198 = Real(1.0) / (top_joints2bm_x * t179 + (Real(0.31) * top_joints1bf1_y - t117));
+  const Real t199 = (top_joints2bm_x * t192 + (q1r0_y * Real(0.31) + t108)) * t198;
+  const Real t208 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t192 - t189 * t199);
+  const Real t209 = tie_rods0bm_x * t198;
+  const Real t214 = Real(1.0) / (t185 * t199 - (top_joints2bm_y * t192 - (t108 - q1r0_x * Real(0.31))));
+  const Real t215 = (t185 * t209 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t214;
+  const Real t220 = Real(1.0) / (t208 * t215 + (t189 * t209 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t222 = top_jointbx1_y + top_jointbx1_x * t179;
+  const Real t225 = top_jointbx1_x * t192 - t199 * t222;
+  const Real t231 = t220 * (t215 * t225 + (t209 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t234 = t214 * (t225 - t208 * t231);
+  const Real t239 = t198 * (t189 * t231 - (t222 + t185 * t234));
+  const Real t246 = t178 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
+      top_joints2bm_x * t239)));
+  const Real t252 = tie_rods0at * t220;
+  const Real t254 = t214 * (t208 * t252);
+  const Real t258 = t198 * (t185 * t254 + t189 * t252);
+  const Real t265 = t239 * state.z[0] + t258;
+  const Real t266 = t234 * state.z[0] - t254;
+  const Real t267 = t231 * state.z[0] + t252;
+  const Real t268 = t246 * state.z[0] + t178 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
+      top_joints2bm_y * t254));
+  const Real top_jointam2t_y = top_jointax_x * t268;
+  const Real t271 = Real(0.03) * t267;
+  const Real top_jointbm1t_x = Real(0.31) * t266 - t271;
+  const Real top_jointbm1t_y = t271 - Real(0.31) * t265;
+  const Real top_jointbm1t_z = Real(0.03) * (t265 - t266);
+  const Real top_jointam2t_x = top_jointax_y * t268;
+  const Real top_jointam2a_y = t268 * top_jointam2t_x;
+  const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
+  const Real top_jointbm1a_x = t266 * top_jointbm1t_z - t267 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t265 * top_jointbm1t_z - t267 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t265 * top_jointbm1t_y - t266 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z - (q1r1_x * top_jointbm1t_x - q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z + (q1r2_x * top_jointbm1t_x + q1r2_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
+  const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
+  const Real top_jointam2a_x = t268 * top_jointam2t_y;
+  const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z - (q1r1_x * top_jointbm1a_x + q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z + (q1r2_x * top_jointbm1a_x - q1r2_y *
+      top_jointbm1a_y);
+  const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
+  const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
+  const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
+  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
+      * top_jointbm1app_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t266 - Real(0.02) * t267;
+  const Real tie_rodbm1t_y = Real(0.14) * t267 - Real(0.07) * t265;
+  const Real tie_rodbm1t_z = Real(0.14) * t266 - Real(0.02) * t265;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
+  const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
+  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
+  const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm0t_x - (derivative - tie_rodbm1vp_x);
+  const Real derivative_2 = c * model.c3;
+  const Real tie_rodbm1a_x = t266 * tie_rodbm1t_z + t267 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t265 * tie_rodbm1t_z + t267 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t265 * tie_rodbm1t_y - t266 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x + q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x - q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x + q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t421 = t179 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t428 = t199 * t421 - (t192 * top_jointda_z + (q1r0_z * top_jointbm1a_z + (q1r0_y *
+      top_jointbm1a_y - (top_jointam2app_x - q1r0_x * top_jointbm1a_x))));
+  const Real t439 = t220 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
+      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t209 * t421 - t215 * t428));
+  const Real t442 = t214 * (t428 - t208 * t439);
+  const Real t447 = t198 * (t189 * t439 + (t421 - t185 * t442));
+  const Real t457 = t447 + t239 * zdot[0];
+  const Real t459 = t442 + t234 * zdot[0];
+  const Real t461 = t439 + t231 * zdot[0];
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
@@ -2327,41 +1127,491 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aK1_x = Real(0.65) * w1p_x;
   const Real aK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real aK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real au1_x = t589 + Real(2.0) * w1p_x;
-  const Real au1_y = t590 + Real(2.0) * w1p_y;
-  const Real au1_z = t591 + Real(2.0) * w1p_z;
+  const Real au1_x = t265 - Real(2.0) * w1p_x;
+  const Real au1_y = t266 + Real(2.0) * w1p_y;
+  const Real au1_z = t267 - Real(2.0) * w1p_z;
   const Real aSu1_x = Real(0.65) * au1_x;
-  const Real aSu1_y = Real(0.33) * au1_y + Real(0.192) * au1_z;
-  const Real aSu1_z = Real(1.1108) * au1_z + Real(0.192) * au1_y;
-  const Real auh1 = Real(1.6) * au1_y + Real(3.84) * au1_z;
-  const Real auw1 = t591 * au1_z + (t589 * au1_x + t590 * au1_y);
+  const Real aSu1_y = Real(0.33) * au1_y - Real(0.192) * au1_z;
+  const Real aSu1_z = Real(1.1108) * au1_z - Real(0.192) * au1_y;
+  const Real auh1 = Real(1.6) * au1_y - Real(3.84) * au1_z;
+  const Real auw1 = t267 * au1_z + (t265 * au1_x + t266 * au1_y);
   const Real aQp2 = h2b_x * Real(9.786103333048876);
-  const Real adn2_z = (t1202 + t512 * zdot[0]) * Real(0.0505);
-  const Real aef1_x = t589 * auh1 - (t1219 * Real(3.84) - (tyre_forcef1_x + t1221 * Real(1.6)));
-  const Real aef1_y = t590 * auh1 + (t1217 * Real(3.84) + (tyre_forcef1_y - Real(1.6) * auw1));
-  const Real aef1_z = t591 * auh1 - (Real(3.84) * auw1 + (tyre_forcef1_z + t1217 * Real(1.6)));
-  const Real aen1_x = t591 * aSu1_y - (t590 * aSu1_z + (t1217 * Real(1.4408) + (Real(0.12) * tyre_forcef1_y +
+  const Real adn2_z = (t178 * (top_joints2bm_z * t439 - (top_joints2bm_y * t442 - (top_jointda_z -
+      top_joints2bm_x * t447))) + t246 * zdot[0]) * Real(0.0505);
+  const Real aef1_x = t265 * auh1 + (t459 * Real(3.84) - (tyre_forcef1_x - t461 * Real(1.6)));
+  const Real aef1_y = t266 * auh1 - (t457 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * auw1));
+  const Real aef1_z = t267 * auh1 + (Real(3.84) * auw1 + (tyre_forcef1_z - t457 * Real(1.6)));
+  const Real aen1_x = t267 * aSu1_y - (t266 * aSu1_z + (t457 * Real(1.4408) - (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real aen1_y = t591 * aSu1_x - (t589 * aSu1_z - (t1219 * Real(1.7608) - (t1221 * Real(0.192) +
+  const Real aen1_y = t267 * aSu1_x - (t265 * aSu1_z - (t459 * Real(1.7608) + (t461 * Real(0.192) -
       (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real aen1_z = t590 * aSu1_x - (t589 * aSu1_y + (t1221 * Real(0.98) - (t1219 * Real(0.192) +
-      (Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
-  const Real af1p_x = q1r1_z * aef1_z - (q1r1_x * aef1_x + q1r1_y * aef1_y);
-  const Real af1p_y = q1r2_z * aef1_z + (q1r2_x * aef1_x - q1r2_y * aef1_y);
-  const Real aQ1_0 = aen1_x + (w1p_z * aK1_y - (w1p_y * aK1_z + (Real(3.84) * aa1_y + (aal1_x * Real(1.4408) +
+  const Real aen1_z = t266 * aSu1_x - (t265 * aSu1_y + (t461 * Real(0.98) + (t459 * Real(0.192) + (Real(0.01)
+      * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
+  const Real af1p_x = q1r1_z * aef1_z - (q1r1_x * aef1_x - q1r1_y * aef1_y);
+  const Real af1p_y = q1r2_z * aef1_z + (q1r2_x * aef1_x + q1r2_y * aef1_y);
+  const Real aQ1_0 = aen1_x - (w1p_z * aK1_y - (w1p_y * aK1_z + (Real(3.84) * aa1_y + (aal1_x * Real(1.4408) +
       Real(1.6) * aa1_z))));
   const Real aQ1_1 = aen1_y + (w1p_z * aK1_x - (w1p_x * aK1_z + (Real(3.84) * aa1_x + (Real(0.192) * aal1_z -
       aal1_y * Real(1.7608)))));
-  const Real aQ1_2 = aen1_z + (w1p_y * aK1_x - (w1p_x * aK1_y + (aal1_z * Real(0.98) - (Real(0.192) * aal1_y -
+  const Real aQ1_2 = aen1_z - (w1p_y * aK1_x - (w1p_x * aK1_y + (aal1_z * Real(0.98) - (Real(0.192) * aal1_y -
       Real(1.6) * aa1_x))));
-  const Real aQ2_0 = aQp2 + adn2_z;
-  tau[0] = t512 * aQ2_0 - (t516 * aQ1_2 - (t520 * aQ1_1 - (t524 * aQ1_0 + (Real(0.34) * af1p_y - (Real(0.02) *
-      af1p_x - (q1r0_z * aen1_z - (q1r0_y * aen1_y - (q1r0_x * aen1_x + (adn0_z + (aQp0 - (strutbx_x *
-      strutf_z - strutbx_y * strutf_y)))))))))));
+  const Real aQ2_0 = aQp2 - adn2_z;
+  tau[0] = -(t246 * aQ2_0 + (t231 * aQ1_2 - (t234 * aQ1_1 - (t239 * aQ1_0 - (Real(0.34) * af1p_y - (Real(0.02)
+      * af1p_x - (q1r0_z * aen1_z + (q1r0_y * aen1_y + (q1r0_x * aen1_x - (adn0_z + (aQp0 - (strutbx_x *
+      strutf_z - strutbx_y * strutf_y))))))))))));
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
+  const Real q1d2 = state.y[3] * Real(2.0);
+  const Real q1d3 = Real(2.0) * state.y[4];
+  const Real q122 = state.y[3] * q1d2;
+  const Real q133 = state.y[4] * q1d3;
+  const Real q112 = q1d2 * state.y[2];
+  const Real q113 = q1d3 * state.y[2];
+  const Real q102 = q1d2 * state.y[1];
+  const Real q103 = q1d3 * state.y[1];
+  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_y = q112 - q103;
+  const Real q1r0_z = q113 + q102;
+  Real s2, c2;
+  detail::sine_cosine(state.y[5], s2, c2);
+  const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
+  Real s0, c0;
+  detail::sine_cosine(state.y[0], s0, c0);
+  const Real q1d1 = Real(2.0) * state.y[2];
+  const Real q111 = state.y[2] * q1d1;
+  const Real q123 = state.y[3] * q1d3;
+  const Real q101 = state.y[1] * q1d1;
+  const Real q1r1_x = q112 + q103;
+  const Real t34 = Real(1.0) - q111;
+  const Real q1r1_y = q133 - t34;
+  const Real q1r1_z = q123 - q101;
+  const Real q1r2_x = q113 - q102;
+  const Real q1r2_y = q123 + q101;
+  const Real q1r2_z = q122 - t34;
+  const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real expression = state.t * model.rate;
+  Real s, c;
+  detail::sine_cosine(expression, s, c);
+  const Real expression_2 = Real(1.0) - c;
+  const Real expression_3 = expression_2 * model.c1;
+  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
+  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
+      Real(0.13);
+  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
+  const Real t107 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t116 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t128 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t128;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t128 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real derivative = s * model.c2;
+  const Real tie_rods0at = tie_rods0bf0_x * derivative;
+  const Real t177 = Real(1.0) / top_joints2am_z;
+  const Real t178 = top_jointax_y * t177;
+  const Real t184 = top_joints2bm_y * t178 + (t116 + Real(0.31) * top_joints1bf1_x);
+  const Real t188 = top_joints2bm_z * t178 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t191 = top_jointax_x * t177 * Real(0.0697564737441253);
+  const Real t197 = Real(1.0) / (top_joints2bm_x * t178 + (Real(0.31) * top_joints1bf1_y - t116));
+  const Real t198 = (top_joints2bm_x * t191 + (q1r0_y * Real(0.31) + t107)) * t197;
+  const Real t207 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t191 - t188 * t198);
+  const Real t208 = tie_rods0bm_x * t197;
+  const Real t213 = Real(1.0) / (t184 * t198 - (top_joints2bm_y * t191 - (t107 - q1r0_x * Real(0.31))));
+  const Real t214 = (t184 * t208 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t213;
+  const Real t219 = Real(1.0) / (t207 * t214 + (t188 * t208 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t222 = top_jointbx1_x * t178 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
+  const Real t225 = top_jointbx1_x * t191 - t198 * t222;
+  const Real t231 = t219 * (t214 * t225 + (t208 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t234 = t213 * (t225 - t207 * t231);
+  const Real t239 = t197 * (t188 * t231 - (t222 + t184 * t234));
+  const Real t252 = tie_rods0at * t219;
+  const Real t254 = t213 * (t207 * t252);
+  const Real t258 = t197 * (t184 * t254 + t188 * t252);
+  const Real t265 = t239 * state.z[0] + t258;
+  const Real t266 = t234 * state.z[0] - t254;
+  const Real t267 = t231 * state.z[0] + t252;
+  const Real t268 = t177 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
+      top_joints2bm_x * t239))) * state.z[0] + t177 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
+      top_joints2bm_y * t254));
+  const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
+  const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
+  const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
+  const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
+  const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
+  const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
+  const Real S0b_zz = h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x
+      * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y *
+      S1at1r0_y)) - Real(3.8987000000000007)))) + Real(0.017799999999999996));
+  const Real w1p_x = q1r0_x * state.z[0];
+  const Real w1p_y = q1r0_y * state.z[0];
+  const Real w1p_z = q1r0_z * state.z[0];
+  const Real v0L_z = state.z[0] * S0b_zz;
+  const Real v1o_x = Real(0.02) * state.z[0];
+  const Real v1o_y = Real(0.34) * state.z[0];
+  const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
+  const Real v1_y = q1r1_y * v1o_x - q1r2_y * v1o_y;
+  const Real v1_z = q1r1_z * v1o_x - q1r2_z * v1o_y;
+  const Real v1P_x = t267 * Real(1.6) + t266 * Real(3.84);
+  const Real v1L_x = t265 * Real(1.4408);
+  const Real v1L_y = t267 * Real(0.192) + t266 * Real(1.7608);
+  const Real v1L_z = t266 * Real(0.192) + t267 * Real(0.98);
+  const Real T3 = (derivative * derivative * Real(3.0) + (t268 * t268 * Real(0.0505) - (state.z[0] * v0L_z -
+      (t267 * v1L_z + (t265 * v1L_x + t266 * v1L_y))))) * Real(0.5) + (Real(1.6) * (t265 * v1_z) + (Real(3.84)
+      * (t265 * v1_y) + (v1_x * v1P_x - (w1p_z * v1L_z + (w1p_x * v1L_x - w1p_y * v1L_y)))));
+  return T3;
+}
+
+template <class Real>
+Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
+  const Real q1d3 = state.y[4] * Real(2.0);
+  const Real q122 = Real(2.0) * (state.y[3] * state.y[3]);
+  const Real q133 = state.y[4] * q1d3;
+  Real s2, c2;
+  detail::sine_cosine(state.y[5], s2, c2);
+  Real s0, c0;
+  detail::sine_cosine(state.y[0], s0, c0);
+  const Real q1d1 = Real(2.0) * state.y[2];
+  const Real q111 = state.y[2] * q1d1;
+  const Real q123 = state.y[3] * q1d3;
+  const Real q101 = state.y[1] * q1d1;
+  const Real t20 = q111 - Real(1.0);
+  const Real q1r1_y = q133 + t20;
+  const Real q1r1_z = q123 - q101;
+  const Real q1r2_y = q123 + q101;
+  const Real q1r2_z = q122 + t20;
+  const Real h2b_y = s2 * Real(0.275) + c2 * Real(0.025);
+  const Real h1c_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84) - Real(11.73);
+  const Real h1c_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84) - Real(0.64);
+  const Real hg3_z = h2b_y * Real(0.9975640502598242) + (c0 * h1c_y - s0 * h1c_x + Real(8.943256088156396)) +
+      Real(0.81);
+  const Real strutbx_x = c0 * Real(0.22);
+  const Real strutbx_y = s0 * Real(0.22);
+  const Real strutd_y = strutbx_x + Real(0.36) - Real(0.46);
+  const Real strutd_z = strutbx_y + Real(0.21) - Real(0.62);
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_l = detail::square_root(strut_ll);
+  const Real strut_e = strut_l - model.free_length;
+  const Real V = hg3_z * Real(9.81) + strut_e * strut_e * model.c8;
+  return V;
+}
+
+template <class Real>
+void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
+    {
+  const Real q1d2 = state.y[3] * Real(2.0);
+  const Real q1d3 = Real(2.0) * state.y[4];
+  const Real q122 = state.y[3] * q1d2;
+  const Real q133 = state.y[4] * q1d3;
+  const Real q112 = q1d2 * state.y[2];
+  const Real q113 = q1d3 * state.y[2];
+  const Real q102 = q1d2 * state.y[1];
+  const Real q103 = q1d3 * state.y[1];
+  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_y = q112 - q103;
+  const Real q1r0_z = q113 + q102;
+  Real s0, c0;
+  detail::sine_cosine(state.y[0], s0, c0);
+  const Real q1d1 = Real(2.0) * state.y[2];
+  const Real q111 = state.y[2] * q1d1;
+  const Real q123 = state.y[3] * q1d3;
+  const Real q101 = state.y[1] * q1d1;
+  const Real q1r1_x = q112 + q103;
+  const Real t26 = Real(1.0) - q111;
+  const Real q1r1_y = q133 - t26;
+  const Real q1r1_z = q123 - q101;
+  const Real q1r2_x = q113 - q102;
+  const Real q1r2_y = q123 + q101;
+  const Real q1r2_z = q122 - t26;
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) - (q1r1_x * Real(0.01) -
+      Real(0.34)));
+  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (q1r2_x * Real(0.01) +
+      Real(0.02)));
+  const Real wheel_centerx0_z = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + Real(0.21));
+  const Real wheel_centerx1p_z = q1r0_y * Real(0.06) + (q1r0_z * Real(0.12) + (Real(0.01) + q1r0_x *
+      Real(0.01)));
+  const Real wheel_centerx0_y = s0 * wheel_centerx1p_y + (c0 * wheel_centerx1p_x - Real(0.36));
+  const Real expression = wheel_centerx0_z + Real(0.31);
+  result.wheel.position[0] = wheel_centerx1p_z;
+  result.wheel.position[1] = -wheel_centerx0_y;
+  result.wheel.position[2] = -wheel_centerx0_z;
+  result.wheel.rotation[0][0] = -q1r0_x;
+  result.wheel.rotation[0][1] = q1r0_y;
+  result.wheel.rotation[0][2] = q1r0_z;
+  result.wheel.rotation[1][0] = top_joints1bf1_x;
+  result.wheel.rotation[1][1] = -top_joints1bf1_y;
+  result.wheel.rotation[1][2] = top_joints1bf1_z;
+  result.wheel.rotation[2][0] = top_joints2bf1_x;
+  result.wheel.rotation[2][1] = top_joints2bf1_y;
+  result.wheel.rotation[2][2] = -top_joints2bf1_z;
+  result.wheel_travel = -expression;
+}
+
+template <class Real>
+void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
+  State<Real> closed = state;
+  Real t1, t2;
+  detail::sine_cosine(state.y[0], t1, t2);
+  const Real t9 = t2 * Real(0.34) + t1 * Real(0.02) + Real(0.36);
+  const Real t11 = t9 - Real(0.43);
+  const Real t16 = t2 * Real(0.02) - t1 * Real(0.34) - Real(0.21);
+  const Real t18 = t16 + Real(0.4687542479592758);
+  const Real t22 = detail::cosine(state.t * model.rate);
+  const Real t28 = (t22 - Real(1.0)) * model.c1 - (Real(0.36) - t9);
+  const Real t30 = t16 + Real(0.27);
+  const Real t43 = (t11 * t11 + (t18 * t18 + Real(0.058581070877761425)) + Real(0.0007736789075518939) -
+      Real(0.0979)) * Real(0.5);
+  const Real t50 = t18 * Real(0.031245752040724203) - t11 * Real(0.24) + Real(6.077361763854758e-05);
+  const Real t57 = t18 * Real(0.2394153720623578) + t11 * Real(0.03132205098267723) +
+      Real(0.00046566772531332867);
+  const Real t60 = t57 * t57 + t50 * t50;
+  const Real t61 = t43 * t43;
+  const Real t63 = detail::square_root(t60 - t61);
+  const Real t72 = (t57 * t63 - t43 * t50) / t60;
+  const Real t73 = (t50 * t63 + t43 * t57) / t60;
+  const Real t84 = t72 * Real(0.0021849158269852784) - (t73 * Real(0.01674155369859007) -
+      Real(0.027815084173014717));
+  const Real t86 = Real(0.24) * t72 - (t11 - Real(0.03132205098267723) * t73);
+  const Real t88 = Real(0.031245752040724203) * t72 + (t18 - Real(0.2394153720623578) * t73);
+  const Real t93 = t1 * t88 + t2 * t86;
+  const Real t94 = t2 * t88 - t1 * t86;
+  const Real t99 = t1 * t30 - t2 * t28;
+  const Real t100 = t2 * t30 + t1 * t28;
+  const Real t114 = t84 * Real(0.14) + (t94 * t100 + t93 * t99);
+  const Real t116 = t114 * Real(10.214504596527068);
+  const Real t120 = Real(0.14) - t84 * t116;
+  const Real t121 = t99 - t93 * t116;
+  const Real t122 = t100 - t94 * t116;
+  const Real t128 = Real(1.0) / (t120 * t120 + (t122 * t122 + t121 * t121));
+  const Real t131 = Real(0.5) * (t28 * t28 + (t30 * t30 + Real(0.024900000000000005) +
+      Real(0.019600000000000003)) - Real(0.10250000000000001)) - t114 * Real(0.27068437180796734);
+  const Real t132 = t128 * t131;
+  const Real t148 = Real(10.214504596527068) * (t128 * (t131 * t132 - Real(0.017726864147088867)));
+  const Real t153 = t84 * Real(3.196013860502965);
+  const Real t154 = t93 * Real(3.196013860502965);
+  const Real t155 = t94 * Real(3.196013860502965);
+  const Real t157 = detail::square_root(-t148) * Real(7.5107627169405085);
+  const Real t161 = t132 * Real(7.5107627169405085);
+  const Real t165 = (t94 * t121 - t93 * t122) * t157 - t120 * t161;
+  const Real t166 = (t84 * t122 - t94 * t120) * t157 - t121 * t161;
+  const Real t167 = (t93 * t120 - t84 * t121) * t157 - t122 * t161;
+  const Real t178 = detail::square_root(t153 * t166 - (t154 * t165 - (t153 + (Real(1.0) + t166))));
+  const Real t180 = Real(0.5) * (Real(1.0) / t178);
+  const Real t182 = t180 * (t154 - t165);
+  const Real t185 = t180 * (t154 * t167 - (t155 + t155 * t166));
+  const Real t188 = t180 * (t155 * t165 - (t167 + t153 * t167));
+  const Real t189 = Real(0.5) * t178;
+  const Real t208 = t182 * Real(0.5195574227588697) + (t185 * Real(0.4267550545085747) + (t189 *
+      Real(0.5227505978949085) + t188 * Real(0.524091614422574)));
+  const Real t211 = t182 * Real(0.5227505978949085) + (t188 * Real(0.4267550545085747) - (t185 *
+      Real(0.524091614422574) + t189 * Real(0.5195574227588697)));
+  const Real t214 = t182 * Real(0.524091614422574) - (t189 * Real(0.4267550545085747) + (t188 *
+      Real(0.5195574227588697) - t185 * Real(0.5227505978949085)));
+  const Real t221 = t182 * Real(0.4267550545085747) - (t185 * Real(0.5195574227588697) - (t189 *
+      Real(0.524091614422574) - t188 * Real(0.5227505978949085)));
+  Real t224, t223;
+  detail::sine_cosine(state.y[5], t224, t223);
+  const Real t234 = state.y[5] + detail::arctangent2(-(t72 * t224 + t73 * t223), -(t73 * t224 - t72 * t223));
+  const Real t235 = state.y[5] - t234;
+  const Real t238 = t221 - state.y[1];
+  const Real t241 = t208 + state.y[2];
+  const Real t244 = t211 - state.y[3];
+  const Real t247 = t214 + state.y[4];
+  closed.y[5] = t234;
+  closed.y[1] = t221;
+  closed.y[2] = -t208;
+  closed.y[3] = t211;
+  closed.y[4] = -t214;
+  closed.regularity = -((Real(1.0) - t61 / t60) * (t148 / (t128 * Real(0.18107113531245012))));
+  closed.opening = t247 * t247 + (t244 * t244 + (t241 * t241 + (t235 * t235 + t238 * t238)));
+  state = closed;
+}
+
+template <class Real>
+void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
+    noexcept {
+  const Real q1d2 = state.y[3] * Real(2.0);
+  const Real q1d3 = Real(2.0) * state.y[4];
+  const Real q122 = state.y[3] * q1d2;
+  const Real q133 = state.y[4] * q1d3;
+  const Real q112 = q1d2 * state.y[2];
+  const Real q113 = q1d3 * state.y[2];
+  const Real q102 = q1d2 * state.y[1];
+  const Real q103 = q1d3 * state.y[1];
+  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_y = q112 - q103;
+  const Real q1r0_z = q113 + q102;
+  Real s2, c2;
+  detail::sine_cosine(state.y[5], s2, c2);
+  const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
+  const Real t31 = q1r0_x * Real(0.03);
+  const Real t32 = q1r0_y * Real(0.03);
+  const Real top_jointd_x = t32 - (t31 + (q1r0_z * Real(0.31) + (top_jointax_y * Real(0.0697564737441253) +
+      Real(0.01781508417301472)) + Real(0.01)));
+  Real s0, c0;
+  detail::sine_cosine(state.y[0], s0, c0);
+  const Real q1d1 = Real(2.0) * state.y[2];
+  const Real q111 = state.y[2] * q1d1;
+  const Real q123 = state.y[3] * q1d3;
+  const Real q101 = state.y[1] * q1d1;
+  const Real q1r1_x = q112 + q103;
+  const Real t48 = Real(1.0) - q111;
+  const Real q1r1_y = q133 - t48;
+  const Real q1r1_z = q123 - q101;
+  const Real q1r2_x = q113 - q102;
+  const Real q1r2_y = q123 + q101;
+  const Real q1r2_z = q122 - t48;
+  const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
+  const Real top_jointbx1p_x = Real(0.03) * (q1r1_x - q1r1_y) - (Real(0.31) * q1r1_z + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (Real(0.31) * q1r2_z + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointd_y = top_jointbx1_x - (top_jointax_x - Real(0.43)) - Real(0.36);
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
+  const Real top_jointd_z = top_jointbx1_y + (top_jointax_y * Real(0.9975640502598242) +
+      Real(0.4687542479592758)) - Real(0.21);
+  const Real expression = state.t * model.rate;
+  Real s, c;
+  detail::sine_cosine(expression, s, c);
+  const Real expression_2 = Real(1.0) - c;
+  const Real expression_3 = expression_2 * model.c1;
+  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
+  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
+      Real(0.13);
+  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
+  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
+  const Real tie_rodll = tie_rodd_z * tie_rodd_z + (tie_rodd_x * tie_rodd_x + tie_rodd_y * tie_rodd_y);
+  const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
+  const Real t138 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t147 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t159 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t159;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t159 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real derivative = s * model.c2;
+  const Real tie_rods0at = tie_rods0bf0_x * derivative;
+  const Real t207 = Real(1.0) / top_joints2am_z;
+  const Real t208 = top_jointax_y * t207;
+  const Real t214 = top_joints2bm_y * t208 + (t147 + Real(0.31) * top_joints1bf1_x);
+  const Real t218 = top_joints2bm_z * t208 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t220 = Real(0.0697564737441253) * (top_jointax_x * t207);
+  const Real t226 = Real(1.0) / (top_joints2bm_x * t208 + (Real(0.31) * top_joints1bf1_y - t147));
+  const Real t227 = (top_joints2bm_x * t220 + (q1r0_y * Real(0.31) + t138)) * t226;
+  const Real t235 = t218 * t227 - (top_joints2bm_z * t220 + (t31 + t32));
+  const Real t236 = tie_rods0bm_x * t226;
+  const Real t241 = Real(1.0) / (t214 * t227 - (top_joints2bm_y * t220 - (t138 - q1r0_x * Real(0.31))));
+  const Real t242 = (t214 * t236 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t241;
+  const Real t247 = Real(1.0) / (t235 * t242 - (t218 * t236 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t249 = top_jointbx1_y + top_jointbx1_x * t208;
+  const Real t252 = top_jointbx1_x * t220 - t227 * t249;
+  const Real t258 = t247 * (t242 * t252 + (t236 * t249 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t261 = t241 * (t252 - t235 * t258);
+  const Real t266 = t226 * (t218 * t258 + (t249 + t214 * t261));
+  const Real t279 = tie_rods0at * t247;
+  const Real t281 = t241 * (t235 * t279);
+  const Real t285 = t226 * (t214 * t281 - t218 * t279);
+  const Real t292 = t266 * state.z[0] + t285;
+  const Real t293 = t261 * state.z[0] + t281;
+  const Real t294 = t258 * state.z[0] - t279;
+  const Real t295 = t207 * (top_joints2bm_z * t258 + (top_joints2bm_y * t261 + (top_jointbx1_x -
+      top_joints2bm_x * t266))) * state.z[0] - t207 * (top_joints2bm_z * t279 + (top_joints2bm_x * t285 -
+      top_joints2bm_y * t281));
+  const Real top_jointam2t_y = top_jointax_x * t295;
+  const Real top_jointam2vpp_x = Real(0.0697564737441253) * top_jointam2t_y;
+  const Real t299 = Real(0.03) * t294;
+  const Real top_jointbm1t_x = Real(0.31) * t293 + t299;
+  const Real top_jointbm1t_y = t299 - Real(0.31) * t292;
+  const Real top_jointbm1t_z = Real(0.03) * (t292 + t293);
+  const Real top_jointdv_x = q1r0_z * top_jointbm1t_z - (q1r0_y * top_jointbm1t_y + (top_jointam2vpp_x +
+      q1r0_x * top_jointbm1t_x));
+  const Real top_jointam2t_x = top_jointax_y * t295;
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z + (q1r1_x * top_jointbm1t_x + q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z - (q1r2_x * top_jointbm1t_x - q1r2_y *
+      top_jointbm1t_y);
+  const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
+  const Real top_jointdv_y = top_jointbm0t_x + (s0 * top_jointbm1vpp_y + (top_jointam2t_x + c0 *
+      top_jointbm1vpp_x));
+  const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
+  const Real top_jointam2vpp_z = Real(0.9975640502598242) * top_jointam2t_y;
+  const Real top_jointdv_z = top_jointbm0t_y - (s0 * top_jointbm1vpp_x - (c0 * top_jointbm1vpp_y -
+      top_jointam2vpp_z));
+  const Real tie_rodbm1t_x = Real(0.07) * t293 + Real(0.02) * t294;
+  const Real tie_rodbm1t_y = Real(0.14) * t294 - Real(0.07) * t292;
+  const Real tie_rodbm1t_z = Real(0.14) * t293 + Real(0.02) * t292;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
+  const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
+  const Real tie_rodbm0v_y = tie_rodbm0t_y - (c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x);
+  const Real tie_roddv_y = tie_rodbm0t_x + (s0 * tie_rodbm1vpp_y - (derivative - c0 * tie_rodbm1vpp_x));
+  const Real tie_rodlv = Real(3.123475237772121) * (tie_rodd_y * tie_roddv_y - (tie_rodd_x * tie_rodbm1vpp_z -
+      tie_rodd_z * tie_rodbm0v_y));
+  g[0] = -top_jointd_x;
+  g[1] = -top_jointd_y;
+  g[2] = -top_jointd_z;
+  g[3] = g_tie_rod;
+  g_rate[0] = top_jointdv_x;
+  g_rate[1] = top_jointdv_y;
+  g_rate[2] = -top_jointdv_z;
+  g_rate[3] = tie_rodlv;
+}
+
+template <class Real>
+void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
+    (&lambda)[4]) noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -2401,1502 +1651,129 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real expression_3 = expression_2 * model.c1;
   const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real t87 = c0 * tie_rodbx1p_x;
-  const Real t88 = s0 * tie_rodbx1p_y;
-  const Real t89 = c0 * tie_rodbx1p_y;
-  const Real t90 = s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = t88 + (t87 + (Real(0.36) - (expression_3 + Real(0.36))));
-  const Real tie_rodd_z = t90 - (t89 - Real(0.21)) - Real(0.27);
-  const Real t108 = state.y[1] * Real(0.5);
-  const Real t109 = state.y[2] * Real(0.5);
-  const Real t110 = state.y[3] * Real(0.5);
-  const Real t111 = state.y[4] * Real(0.5);
-  const Real t116 = Real(2.0) * t111;
-  const Real t117 = Real(2.0) * t108;
-  const Real t118 = Real(2.0) * t109;
-  const Real t119 = q1d2 * t111;
-  const Real t120 = q1d2 * t108;
-  const Real t121 = q1d2 * t109;
-  const Real t122 = q1d3 * t111;
-  const Real t123 = q1d3 * t108;
-  const Real t124 = q1d3 * t109;
-  const Real t126 = t119 + state.y[3] * t116;
-  const Real t127 = state.y[3] * t117;
-  const Real t128 = t120 + t127;
-  const Real t129 = state.y[3] * t118;
-  const Real t130 = t121 + t129;
-  const Real t131 = state.y[2] * t116;
-  const Real t132 = state.y[2] * t117;
-  const Real t133 = state.y[2] * t118;
-  const Real t134 = state.y[1] * t116;
-  const Real t135 = state.y[1] * t117;
-  const Real t136 = state.y[1] * t118;
-  const Real t137 = Real(2.0) * t110;
-  const Real t138 = q1d3 * t110;
-  const Real t140 = t138 + state.y[4] * t137;
-  const Real t142 = t124 + state.y[4] * t118;
-  const Real t144 = t123 + state.y[4] * t117;
-  const Real t145 = state.y[2] * t137;
-  const Real t146 = state.y[1] * t137;
-  const Real t148 = t122 - state.y[3] * t137;
-  const Real t149 = t123 + t129;
-  const Real t150 = t124 - t127;
-  const Real t151 = t120 + t131;
-  const Real t152 = t119 - t132;
-  const Real t153 = q1d2 * t110;
-  const Real t154 = t133 - t153;
-  const Real t155 = t123 - t145;
-  const Real t156 = t122 - t133;
-  const Real t157 = t132 + t138;
-  const Real t159 = q1d1 * t111;
-  const Real t160 = q1d1 * t110;
-  const Real t161 = t121 - t134;
-  const Real t162 = t135 - t153;
-  const Real t163 = t119 + t136;
-  const Real t164 = t124 + t146;
-  const Real t165 = t136 - t138;
-  const Real t166 = t122 - t135;
-  const Real t168 = t155 - t161;
-  const Real t169 = t156 - t162;
-  const Real t170 = t157 - t163;
-  const Real t171 = t155 + t161;
-  const Real t172 = t156 + t162;
-  const Real t173 = t157 + t163;
-  const Real t174 = t151 + t164;
-  const Real t175 = t152 + t165;
-  const Real t176 = t154 - t166;
-  const Real t177 = t151 - t164;
-  const Real t178 = t152 - t165;
-  const Real t179 = t154 + t166;
-  const Real t180 = t126 - t140;
-  const Real t181 = t128 + t142;
-  const Real t182 = t130 - t144;
-  const Real t196 = top_jointax_x * Real(0.0697564737441253);
-  const Real t198 = top_jointax_x * Real(0.9975640502598242);
-  const Real t201 = Real(0.31) * t168 - Real(0.03) * (t174 - t180);
-  const Real t204 = Real(0.31) * t169 - Real(0.03) * (t175 + t181);
-  const Real t207 = Real(0.31) * t170 + Real(0.03) * (t176 - t182);
-  const Real t208 = t132 + q1d1 * t108;
-  const Real t209 = t131 + t159;
-  const Real t210 = t145 + t160;
-  const Real t211 = t135 - q1d1 * t109;
-  const Real t212 = t134 + t160;
-  const Real t213 = t146 - t159;
-  const Real t214 = t148 - t211;
-  const Real t215 = t149 + t212;
-  const Real t216 = t150 + t213;
-  const Real t217 = t148 + t211;
-  const Real t218 = t149 - t212;
-  const Real t219 = t150 - t213;
-  const Real t223 = t140 - t208;
-  const Real t224 = t142 - t209;
-  const Real t225 = t144 + t210;
-  const Real t226 = t126 + t208;
-  const Real t227 = t128 - t209;
-  const Real t228 = t130 - t210;
-  const Real t252 = Real(0.31) * t214 - Real(0.03) * (t177 + t223);
-  const Real t255 = Real(0.31) * t215 + Real(0.03) * (t178 + t224);
-  const Real t258 = Real(0.31) * t216 - Real(0.03) * (t179 + t225);
-  const Real t267 = Real(0.31) * t226 + Real(0.03) * (t171 + t217);
-  const Real t270 = Real(0.31) * t227 - Real(0.03) * (t172 - t218);
-  const Real t273 = Real(0.31) * t228 - Real(0.03) * (t173 - t219);
-  const Real t275 = (tie_rodd_z + tie_rodd_z) * Real(1.5617376188860606);
-  const Real t276 = (tie_rodd_y + tie_rodd_y) * Real(1.5617376188860606);
-  const Real t277 = (tie_rodd_x + tie_rodd_x) * Real(1.5617376188860606);
-  const Real t281 = c0 * t275 - s0 * t276;
-  const Real t283 = s0 * t275 + c0 * t276;
-  const Real t288 = t275 * (t87 + t88) + t276 * (t89 - t90);
-  const Real t299 = t277 * (Real(0.14) * t180 - (Real(0.02) * t174 - Real(0.07) * t168)) + (t281 * (Real(0.14)
-      * t171 + (Real(0.02) * t217 + Real(0.07) * t226)) + t283 * (Real(0.14) * t177 + (Real(0.02) * t223 -
-      Real(0.07) * t214)));
-  const Real t310 = t277 * (Real(0.14) * t181 + (Real(0.02) * t175 - Real(0.07) * t169)) - (t281 * (Real(0.14)
-      * t172 - (Real(0.02) * t218 + Real(0.07) * t227)) + t283 * (Real(0.14) * t178 + (Real(0.02) * t224 +
-      Real(0.07) * t215)));
-  const Real t321 = t277 * (Real(0.14) * t182 - (Real(0.02) * t176 + Real(0.07) * t170)) - (t281 * (Real(0.14)
-      * t173 - (Real(0.02) * t219 + Real(0.07) * t228)) - t283 * (Real(0.14) * t179 + (Real(0.02) * t225 -
-      Real(0.07) * t216)));
-  const Real t324 = s * t276 * model.c2;
-  const Real t326 = c0 * t252 + s0 * t267;
-  const Real t328 = c0 * t255 + s0 * t270;
-  const Real t330 = c0 * t258 + s0 * t273;
-  const Real t332 = s0 * t252 - c0 * t267;
-  const Real t334 = s0 * t255 - c0 * t270;
-  const Real t336 = s0 * t258 - c0 * t273;
-  const Real t344 = Real(1.0) / (t299 * t299 + (t332 * t332 + (t201 * t201 + t326 * t326)));
-  const Real t352 = t344 * (t299 * t310 + (t332 * t334 - (t201 * t204 - t326 * t328)));
-  const Real t354 = t204 + t201 * t352;
-  const Real t356 = t328 - t326 * t352;
-  const Real t358 = t334 - t332 * t352;
-  const Real t360 = t310 - t299 * t352;
-  const Real t368 = Real(1.0) / (t360 * t360 + (t358 * t358 + (t354 * t354 + t356 * t356)));
-  const Real t376 = t344 * (t299 * t321 + (t332 * t336 - (t201 * t207 - t326 * t330)));
-  const Real t378 = t207 + t201 * t376;
-  const Real t380 = t330 - t326 * t376;
-  const Real t382 = t336 - t332 * t376;
-  const Real t384 = t321 - t299 * t376;
-  const Real t392 = t368 * (t360 * t384 + (t358 * t382 + (t354 * t378 + t356 * t380)));
-  const Real t394 = t378 - t354 * t392;
-  const Real t396 = t380 - t356 * t392;
-  const Real t398 = t382 - t358 * t392;
-  const Real t400 = t384 - t360 * t392;
-  const Real t408 = Real(1.0) / (t400 * t400 + (t398 * t398 + (t394 * t394 + t396 * t396)));
-  const Real t414 = t344 * (t198 * t332 - (t196 * t201 - top_jointax_y * t326));
-  const Real t416 = t196 + t201 * t414;
-  const Real t418 = top_jointax_y - t326 * t414;
-  const Real t420 = t198 - t332 * t414;
-  const Real t421 = t299 * t414;
-  const Real t429 = t368 * (t360 * t421 - (t358 * t420 + (t354 * t416 + t356 * t418)));
-  const Real t431 = t416 + t354 * t429;
-  const Real t433 = t418 + t356 * t429;
-  const Real t435 = t420 + t358 * t429;
-  const Real t437 = t421 - t360 * t429;
-  const Real t445 = t408 * (t400 * t437 - (t398 * t435 + (t394 * t431 + t396 * t433)));
-  const Real t447 = t431 + t394 * t445;
-  const Real t449 = t433 + t396 * t445;
-  const Real t451 = t435 + t398 * t445;
-  const Real t453 = t437 - t400 * t445;
-  const Real t461 = Real(1.0) / (t453 * t453 + (t451 * t451 + (t447 * t447 + t449 * t449)));
-  const Real t467 = t344 * (t288 * t299 - (top_jointbx1_y * t326 - top_jointbx1_x * t332));
-  const Real t468 = t201 * t467;
-  const Real t470 = top_jointbx1_y + t326 * t467;
-  const Real t472 = top_jointbx1_x - t332 * t467;
-  const Real t474 = t288 - t299 * t467;
-  const Real t482 = t368 * (t360 * t474 + (t358 * t472 + (t354 * t468 - t356 * t470)));
-  const Real t484 = t468 - t354 * t482;
-  const Real t486 = t470 + t356 * t482;
-  const Real t488 = t472 - t358 * t482;
-  const Real t490 = t474 - t360 * t482;
-  const Real t498 = t408 * (t400 * t490 + (t398 * t488 + (t394 * t484 - t396 * t486)));
-  const Real t514 = t461 * (t453 * (t490 - t400 * t498) - (t451 * (t488 - t398 * t498) + (t447 * (t484 - t394
-      * t498) - t449 * (t486 + t396 * t498))));
-  const Real t518 = t498 - t445 * t514;
-  const Real t522 = t392 * t518 - (t482 - t429 * t514);
-  const Real t533 = t344 * (t299 * t324);
-  const Real t534 = t201 * t533;
-  const Real t535 = t326 * t533;
-  const Real t536 = t332 * t533;
-  const Real t538 = t324 - t299 * t533;
-  const Real t546 = t368 * (t360 * t538 - (t358 * t536 - (t354 * t534 - t356 * t535)));
-  const Real t548 = t534 - t354 * t546;
-  const Real t550 = t535 + t356 * t546;
-  const Real t552 = t536 + t358 * t546;
-  const Real t554 = t538 - t360 * t546;
-  const Real t562 = t408 * (t400 * t554 - (t398 * t552 - (t394 * t548 - t396 * t550)));
-  const Real t578 = t461 * (t453 * (t554 - t400 * t562) + (t451 * (t552 + t398 * t562) - (t447 * (t548 - t394
-      * t562) - t449 * (t550 + t396 * t562))));
-  const Real t582 = t562 - t445 * t578;
-  const Real t586 = t392 * t582 - (t546 - t429 * t578);
-  const Real t591 = t352 * t586 - (t376 * t582 - (t414 * t578 - ((t352 * t522 - (t376 * t518 - (t467 + t414 *
-      t514))) * state.z[0] - t533)));
-  const Real t592 = t522 * state.z[0] - t586;
-  const Real t593 = t518 * state.z[0] - t582;
-  const Real t594 = t514 * state.z[0] - t578;
-  const Real derivative = s * model.c3;
-  const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
-  const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
-  const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
-  const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
-  const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
-  const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
-  const Real S0b_zz = h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x
-      * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y *
-      S1at1r0_y)) - Real(3.8987000000000007)))) + Real(0.017799999999999996));
-  const Real w1p_x = q1r0_x * state.z[0];
-  const Real w1p_y = q1r0_y * state.z[0];
-  const Real w1p_z = q1r0_z * state.z[0];
-  const Real v0L_z = state.z[0] * S0b_zz;
-  const Real v1o_x = Real(0.02) * state.z[0];
-  const Real v1o_y = Real(0.34) * state.z[0];
-  const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
-  const Real v1_y = q1r1_y * v1o_x - q1r2_y * v1o_y;
-  const Real v1_z = q1r1_z * v1o_x - q1r2_z * v1o_y;
-  const Real v1P_x = t593 * Real(1.6) - t592 * Real(3.84);
-  const Real v1L_x = t591 * Real(1.4408);
-  const Real v1L_y = t593 * Real(0.192) - t592 * Real(1.7608);
-  const Real v1L_z = t592 * Real(0.192) - t593 * Real(0.98);
-  const Real T3 = Real(0.5) * (derivative * derivative * Real(3.0) + (t594 * t594 * Real(0.0505) - (state.z[0]
-      * v0L_z + (t593 * v1L_z - (t591 * v1L_x - t592 * v1L_y))))) - (Real(1.6) * (t591 * v1_z) + (Real(3.84) *
-      (t591 * v1_y) - (v1_x * v1P_x + (w1p_z * v1L_z + (w1p_x * v1L_x + w1p_y * v1L_y)))));
-  return T3;
-}
-
-template <class Real>
-Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real q1d3 = state.y[4] * Real(2.0);
-  const Real q122 = Real(2.0) * (state.y[3] * state.y[3]);
-  const Real q133 = state.y[4] * q1d3;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  const Real q1d1 = Real(2.0) * state.y[2];
-  const Real q111 = state.y[2] * q1d1;
-  const Real q123 = state.y[3] * q1d3;
-  const Real q101 = state.y[1] * q1d1;
-  const Real t20 = q111 - Real(1.0);
-  const Real q1r1_y = q133 + t20;
-  const Real q1r1_z = q123 - q101;
-  const Real q1r2_y = q123 + q101;
-  const Real q1r2_z = q122 + t20;
-  const Real h2b_y = s2 * Real(0.275) + c2 * Real(0.025);
-  const Real h1c_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84) - Real(11.73);
-  const Real h1c_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84) - Real(0.64);
-  const Real hg3_z = h2b_y * Real(0.9975640502598242) + (c0 * h1c_y - s0 * h1c_x + Real(8.943256088156396)) +
-      Real(0.81);
-  const Real strutbx_x = c0 * Real(0.22);
-  const Real strutbx_y = s0 * Real(0.22);
-  const Real strutd_y = strutbx_x + Real(0.36) - Real(0.46);
-  const Real strutd_z = strutbx_y + Real(0.21) - Real(0.62);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
-  const Real strut_l = detail::square_root(strut_ll);
-  const Real strut_e = strut_l - model.free_length;
-  const Real V = hg3_z * Real(9.81) + strut_e * strut_e * model.c9;
-  return V;
-}
-
-template <class Real>
-void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
-    {
-  const Real q1d2 = state.y[3] * Real(2.0);
-  const Real q1d3 = Real(2.0) * state.y[4];
-  const Real q122 = state.y[3] * q1d2;
-  const Real q133 = state.y[4] * q1d3;
-  const Real q112 = q1d2 * state.y[2];
-  const Real q113 = q1d3 * state.y[2];
-  const Real q102 = q1d2 * state.y[1];
-  const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
-  const Real q1r0_y = q112 - q103;
-  const Real q1r0_z = q113 + q102;
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  const Real q1d1 = Real(2.0) * state.y[2];
-  const Real q111 = state.y[2] * q1d1;
-  const Real q123 = state.y[3] * q1d3;
-  const Real q101 = state.y[1] * q1d1;
-  const Real q1r1_x = q112 + q103;
-  const Real t26 = Real(1.0) - q111;
-  const Real q1r1_y = q133 - t26;
-  const Real q1r1_z = q123 - q101;
-  const Real q1r2_x = q113 - q102;
-  const Real q1r2_y = q123 + q101;
-  const Real q1r2_z = q122 - t26;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) - (q1r1_x * Real(0.01) -
-      Real(0.34)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (q1r2_x * Real(0.01) +
-      Real(0.02)));
-  const Real wheel_centerx0_z = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + Real(0.21));
-  const Real wheel_centerx1p_z = q1r0_y * Real(0.06) + (q1r0_z * Real(0.12) + (Real(0.01) + q1r0_x *
-      Real(0.01)));
-  const Real wheel_centerx0_y = s0 * wheel_centerx1p_y + (c0 * wheel_centerx1p_x - Real(0.36));
-  const Real wheel_centere11_x = c0 * q1r1_x - s0 * q1r2_x;
-  const Real wheel_centere11_y = c0 * q1r1_y + s0 * q1r2_y;
-  const Real wheel_centere11_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real wheel_centere21_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real wheel_centere21_y = c0 * q1r2_y - s0 * q1r1_y;
-  const Real wheel_centere21_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real expression = wheel_centerx0_z + Real(0.31);
-  result.wheel.position[0] = wheel_centerx1p_z;
-  result.wheel.position[1] = -wheel_centerx0_y;
-  result.wheel.position[2] = -wheel_centerx0_z;
-  result.wheel.rotation[0][0] = -q1r0_x;
-  result.wheel.rotation[0][1] = q1r0_y;
-  result.wheel.rotation[0][2] = q1r0_z;
-  result.wheel.rotation[1][0] = wheel_centere11_x;
-  result.wheel.rotation[1][1] = -wheel_centere11_y;
-  result.wheel.rotation[1][2] = wheel_centere11_z;
-  result.wheel.rotation[2][0] = wheel_centere21_x;
-  result.wheel.rotation[2][1] = wheel_centere21_y;
-  result.wheel.rotation[2][2] = -wheel_centere21_z;
-  result.wheel_travel = -expression;
-}
-
-template <class Real>
-void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
-  State<Real> closed = state;
-  const Real q1d2 = state.y[3] * Real(2.0);
-  const Real q1d3 = state.y[4] * Real(2.0);
-  const Real q122 = state.y[3] * q1d2;
-  const Real q133 = state.y[4] * q1d3;
-  const Real q112 = state.y[2] * q1d2;
-  const Real q113 = state.y[2] * q1d3;
-  const Real q102 = state.y[1] * q1d2;
-  const Real q103 = state.y[1] * q1d3;
-  const Real q1r0_x = q122 + q133 - Real(1.0);
-  const Real q1r0_y = q112 - q103;
-  const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
-  const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  const Real top_jointd_x = (q1r0_x - q1r0_y) * Real(0.03) + (q1r0_z * Real(0.31) + (top_jointax_y *
-      Real(0.0697564737441253) + Real(0.01781508417301472)) + Real(0.01));
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  const Real q1d1 = state.y[2] * Real(2.0);
-  const Real q111 = state.y[2] * q1d1;
-  const Real q123 = state.y[3] * q1d3;
-  const Real q101 = state.y[1] * q1d1;
-  const Real q1r1_x = q112 + q103;
-  const Real t47 = Real(1.0) - q111;
-  const Real q1r1_y = q133 - t47;
-  const Real q1r1_z = q123 - q101;
-  const Real q1r2_x = q113 - q102;
-  const Real q1r2_y = q123 + q101;
-  const Real q1r2_z = q122 - t47;
-  const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = Real(0.03) * (q1r1_x - q1r1_y) - (Real(0.31) * q1r1_z + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (Real(0.31) * q1r2_z + Real(0.02));
-  const Real top_jointd_y = s0 * top_jointbx1p_y - (c0 * top_jointbx1p_x - (top_jointax_x - Real(0.43))) +
-      Real(0.36);
-  const Real top_jointd_z = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + (top_jointax_y *
-      Real(0.9975640502598242) + Real(0.4687542479592758))) - Real(0.21);
-  const Real expression = state.t * model.rate;
-  const Real c = detail::cosine(expression);
-  const Real expression_2 = Real(1.0) - c;
-  const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodax3_y = Real(0.36) + expression_3;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real t120 = Real(0.36) - tie_rodax3_y;
-  const Real tie_rodd_y = s0 * tie_rodbx1p_y + (c0 * tie_rodbx1p_x + t120);
-  const Real tie_rodd_z = s0 * tie_rodbx1p_x + (Real(0.21) - c0 * tie_rodbx1p_y) - Real(0.27);
-  const Real tie_rodll = tie_rodd_z * tie_rodd_z + (tie_rodd_x * tie_rodd_x + tie_rodd_y * tie_rodd_y);
-  const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
-  const Real t137 = state.y[1] * Real(0.5);
-  const Real t138 = state.y[2] * Real(0.5);
-  const Real t139 = state.y[3] * Real(0.5);
-  const Real t140 = state.y[4] * Real(0.5);
-  const Real t144 = Real(2.0) * t140;
-  const Real t145 = Real(2.0) * t137;
-  const Real t146 = Real(2.0) * t138;
-  const Real t147 = q1d2 * t140;
-  const Real t148 = q1d2 * t137;
-  const Real t149 = q1d2 * t138;
-  const Real t150 = q1d3 * t140;
-  const Real t151 = q1d3 * t137;
-  const Real t152 = q1d3 * t138;
-  const Real t154 = t147 + state.y[3] * t144;
-  const Real t155 = state.y[3] * t145;
-  const Real t156 = t148 + t155;
-  const Real t157 = state.y[3] * t146;
-  const Real t158 = t149 + t157;
-  const Real t159 = state.y[2] * t144;
-  const Real t160 = state.y[2] * t145;
-  const Real t161 = state.y[2] * t146;
-  const Real t162 = state.y[1] * t144;
-  const Real t163 = state.y[1] * t145;
-  const Real t164 = state.y[1] * t146;
-  const Real t165 = Real(2.0) * t139;
-  const Real t166 = q1d3 * t139;
-  const Real t168 = t166 + state.y[4] * t165;
-  const Real t170 = t152 + state.y[4] * t146;
-  const Real t172 = t151 + state.y[4] * t145;
-  const Real t173 = state.y[2] * t165;
-  const Real t174 = state.y[1] * t165;
-  const Real t176 = t150 - state.y[3] * t165;
-  const Real t177 = t151 + t157;
-  const Real t178 = t152 - t155;
-  const Real t179 = t148 + t159;
-  const Real t180 = t147 - t160;
-  const Real t181 = q1d2 * t139;
-  const Real t182 = t161 - t181;
-  const Real t183 = t151 - t173;
-  const Real t184 = t150 - t161;
-  const Real t185 = t160 + t166;
-  const Real t187 = q1d1 * t140;
-  const Real t188 = q1d1 * t139;
-  const Real t189 = t149 - t162;
-  const Real t190 = t163 - t181;
-  const Real t191 = t147 + t164;
-  const Real t192 = t152 + t174;
-  const Real t193 = t164 - t166;
-  const Real t194 = t150 - t163;
-  const Real t196 = t183 - t189;
-  const Real t197 = t184 - t190;
-  const Real t198 = t185 - t191;
-  const Real t199 = t183 + t189;
-  const Real t200 = t184 + t190;
-  const Real t201 = t185 + t191;
-  const Real t202 = t179 + t192;
-  const Real t203 = t180 + t193;
-  const Real t204 = t182 - t194;
-  const Real t205 = t179 - t192;
-  const Real t206 = t180 - t193;
-  const Real t207 = t182 + t194;
-  const Real t208 = t154 - t168;
-  const Real t209 = t156 + t170;
-  const Real t210 = t158 - t172;
-  const Real t223 = Real(0.0697564737441253) * top_jointax_x;
-  const Real t224 = top_jointax_x * Real(0.9975640502598242);
-  const Real t227 = Real(0.31) * t196 - Real(0.03) * (t202 - t208);
-  const Real t230 = Real(0.31) * t197 - Real(0.03) * (t203 + t209);
-  const Real t233 = Real(0.31) * t198 + Real(0.03) * (t204 - t210);
-  const Real t234 = t160 + q1d1 * t137;
-  const Real t235 = t159 + t187;
-  const Real t236 = t173 + t188;
-  const Real t237 = t163 - q1d1 * t138;
-  const Real t238 = t162 + t188;
-  const Real t239 = t174 - t187;
-  const Real t240 = t176 - t237;
-  const Real t241 = t177 + t238;
-  const Real t242 = t178 + t239;
-  const Real t243 = t176 + t237;
-  const Real t244 = t177 - t238;
-  const Real t245 = t178 - t239;
-  const Real t249 = t168 - t234;
-  const Real t250 = t170 - t235;
-  const Real t251 = t172 + t236;
-  const Real t252 = t154 + t234;
-  const Real t253 = t156 - t235;
-  const Real t254 = t158 - t236;
-  const Real t278 = Real(0.31) * t240 - Real(0.03) * (t205 + t249);
-  const Real t281 = Real(0.31) * t241 + Real(0.03) * (t206 + t250);
-  const Real t284 = Real(0.31) * t242 - Real(0.03) * (t207 + t251);
-  const Real t293 = Real(0.31) * t252 + Real(0.03) * (t199 + t243);
-  const Real t296 = Real(0.31) * t253 - Real(0.03) * (t200 - t244);
-  const Real t299 = Real(0.31) * t254 - Real(0.03) * (t201 - t245);
-  const Real t300 = Real(1.5617376188860606) * (tie_rodd_z + tie_rodd_z);
-  const Real t301 = Real(1.5617376188860606) * (tie_rodd_y + tie_rodd_y);
-  const Real t302 = Real(1.5617376188860606) * (tie_rodd_x + tie_rodd_x);
-  const Real t306 = c0 * t300 - s0 * t301;
-  const Real t308 = s0 * t300 + c0 * t301;
-  const Real t319 = t302 * (Real(0.14) * t208 - (Real(0.02) * t202 - Real(0.07) * t196)) + (t306 * (Real(0.14)
-      * t199 + (Real(0.02) * t243 + Real(0.07) * t252)) + t308 * (Real(0.14) * t205 + (Real(0.02) * t249 -
-      Real(0.07) * t240)));
-  const Real t330 = t302 * (Real(0.14) * t209 + (Real(0.02) * t203 - Real(0.07) * t197)) - (t306 * (Real(0.14)
-      * t200 - (Real(0.02) * t244 + Real(0.07) * t253)) + t308 * (Real(0.14) * t206 + (Real(0.02) * t250 +
-      Real(0.07) * t241)));
-  const Real t341 = t302 * (Real(0.14) * t210 - (Real(0.02) * t204 + Real(0.07) * t198)) - (t306 * (Real(0.14)
-      * t201 - (Real(0.02) * t245 + Real(0.07) * t254)) - t308 * (Real(0.14) * t207 + (Real(0.02) * t251 -
-      Real(0.07) * t242)));
-  const Real t343 = c0 * t278 + s0 * t293;
-  const Real t345 = c0 * t281 + s0 * t296;
-  const Real t347 = c0 * t284 + s0 * t299;
-  const Real t349 = s0 * t278 - c0 * t293;
-  const Real t351 = s0 * t281 - c0 * t296;
-  const Real t353 = s0 * t284 - c0 * t299;
-  const Real t361 = Real(1.0) / (t319 * t319 + (t349 * t349 + (t227 * t227 + t343 * t343)));
-  const Real t369 = t361 * (t319 * t330 + (t349 * t351 - (t227 * t230 - t343 * t345)));
-  const Real t371 = t230 + t227 * t369;
-  const Real t373 = t345 - t343 * t369;
-  const Real t375 = t351 - t349 * t369;
-  const Real t377 = t330 - t319 * t369;
-  const Real t385 = Real(1.0) / (t377 * t377 + (t375 * t375 + (t371 * t371 + t373 * t373)));
-  const Real t393 = t361 * (t319 * t341 + (t349 * t353 - (t227 * t233 - t343 * t347)));
-  const Real t395 = t233 + t227 * t393;
-  const Real t397 = t347 - t343 * t393;
-  const Real t399 = t353 - t349 * t393;
-  const Real t401 = t341 - t319 * t393;
-  const Real t409 = t385 * (t377 * t401 + (t375 * t399 + (t371 * t395 + t373 * t397)));
-  const Real t411 = t395 - t371 * t409;
-  const Real t413 = t397 - t373 * t409;
-  const Real t415 = t399 - t375 * t409;
-  const Real t417 = t401 - t377 * t409;
-  const Real t425 = Real(1.0) / (t417 * t417 + (t415 * t415 + (t411 * t411 + t413 * t413)));
-  const Real t431 = t361 * (t224 * t349 - (t223 * t227 - top_jointax_y * t343));
-  const Real t433 = t223 + t227 * t431;
-  const Real t435 = top_jointax_y - t343 * t431;
-  const Real t437 = t224 - t349 * t431;
-  const Real t438 = t319 * t431;
-  const Real t446 = t385 * (t377 * t438 - (t375 * t437 + (t371 * t433 + t373 * t435)));
-  const Real t448 = t433 + t371 * t446;
-  const Real t450 = t435 + t373 * t446;
-  const Real t452 = t437 + t375 * t446;
-  const Real t454 = t438 - t377 * t446;
-  const Real t462 = t425 * (t417 * t454 - (t415 * t452 + (t411 * t448 + t413 * t450)));
-  const Real t464 = t448 + t411 * t462;
-  const Real t466 = t450 + t413 * t462;
-  const Real t468 = t452 + t415 * t462;
-  const Real t470 = t454 - t417 * t462;
-  const Real t486 = t361 * (g_tie_rod * t319 + (top_jointd_z * t349 - (top_jointd_x * t227 + top_jointd_y *
-      t343)));
-  const Real t488 = top_jointd_x + t227 * t486;
-  const Real t490 = top_jointd_y + t343 * t486;
-  const Real t492 = top_jointd_z - t349 * t486;
-  const Real t494 = g_tie_rod - t319 * t486;
-  const Real t502 = t385 * (t377 * t494 + (t375 * t492 + (t371 * t488 - t373 * t490)));
-  const Real t504 = t488 - t371 * t502;
-  const Real t506 = t490 + t373 * t502;
-  const Real t508 = t492 - t375 * t502;
-  const Real t510 = t494 - t377 * t502;
-  const Real t518 = t425 * (t417 * t510 + (t415 * t508 + (t411 * t504 - t413 * t506)));
-  const Real t534 = Real(1.0) / (t470 * t470 + (t468 * t468 + (t464 * t464 + t466 * t466))) * (t470 * (t510 -
-      t417 * t518) - (t468 * (t508 - t415 * t518) + (t464 * (t504 - t411 * t518) - t466 * (t506 + t413 *
-      t518))));
-  const Real t538 = t518 - t462 * t534;
-  const Real t542 = t409 * t538 - (t502 - t446 * t534);
-  const Real t546 = t369 * t542 - (t393 * t538 - (t486 + t431 * t534));
-  const Real t547 = Real(0.5) * t546;
-  const Real t548 = Real(0.5) * t542;
-  const Real t549 = Real(0.5) * t538;
-  const Real t556 = state.y[4] * t548 - (state.y[3] * t549 - (state.y[2] + state.y[1] * t547));
-  const Real t563 = state.y[2] * t549 + (state.y[4] * t547 + (state.y[3] - state.y[1] * t548));
-  const Real t567 = state.y[4] * t549 + (state.y[3] * t548 + (state.y[1] - state.y[2] * t547));
-  const Real t573 = state.y[3] * t547 + (state.y[2] * t548 - (state.y[4] - state.y[1] * t549));
-  const Real t582 = Real(1.0) / detail::square_root(t573 * t573 + (t563 * t563 + (t567 * t567 + t556 *
-      t556)));
-  const Real t583 = t567 * t582;
-  const Real t584 = t556 * t582;
-  const Real t585 = t563 * t582;
-  const Real t586 = t573 * t582;
-  const Real q1d2_2 = Real(2.0) * t585;
-  const Real q1d3_2 = Real(2.0) * t586;
-  const Real q122_2 = t585 * q1d2_2;
-  const Real q133_2 = t586 * q1d3_2;
-  const Real q112_2 = t584 * q1d2_2;
-  const Real q113_2 = t584 * q1d3_2;
-  const Real q102_2 = t583 * q1d2_2;
-  const Real q103_2 = t583 * q1d3_2;
-  const Real q1r0_x_2 = q122_2 - (Real(1.0) - q133_2);
-  const Real q1r0_y_2 = q112_2 + q103_2;
-  const Real q1r0_z_2 = q113_2 - q102_2;
-  Real t606, t607;
-  detail::sine_cosine(t534, t606, t607);
-  const Real s2_2 = c2 * t606 - s2 * t607;
-  const Real c2_2 = s2 * t606 + c2 * t607;
-  const Real top_jointax_y_2 = Real(0.03132205098267723) * c2_2 - Real(0.24) * s2_2;
-  const Real top_jointd_x_2 = Real(0.03) * (q1r0_x_2 - q1r0_y_2) - (Real(0.31) * q1r0_z_2 - (Real(0.01) +
-      (Real(0.01781508417301472) + Real(0.0697564737441253) * top_jointax_y_2)));
-  const Real q1d1_2 = Real(2.0) * t584;
-  const Real q111_2 = t584 * q1d1_2;
-  const Real q123_2 = t585 * q1d3_2;
-  const Real q101_2 = t583 * q1d1_2;
-  const Real q1r1_x_2 = q112_2 - q103_2;
-  const Real t630 = Real(1.0) - q111_2;
-  const Real q1r1_y_2 = q133_2 - t630;
-  const Real q1r1_z_2 = q123_2 + q101_2;
-  const Real q1r2_x_2 = q113_2 + q102_2;
-  const Real q1r2_y_2 = q123_2 - q101_2;
-  const Real q1r2_z_2 = q122_2 - t630;
-  const Real top_jointax_x_2 = Real(0.03132205098267723) * s2_2 + Real(0.24) * c2_2;
-  const Real top_jointbx1p_x_2 = Real(0.03) * (q1r1_x_2 - q1r1_y_2) - (Real(0.34) - Real(0.31) * q1r1_z_2);
-  const Real top_jointbx1p_y_2 = Real(0.03) * (q1r2_x_2 + q1r2_y_2) - (Real(0.02) + Real(0.31) * q1r2_z_2);
-  const Real top_jointd_y_2 = s0 * top_jointbx1p_y_2 + (c0 * top_jointbx1p_x_2 - (Real(0.36) - (Real(0.43) +
-      top_jointax_x_2)));
-  const Real top_jointd_z_2 = s0 * top_jointbx1p_x_2 - (c0 * top_jointbx1p_y_2 + (Real(0.21) -
-      (Real(0.4687542479592758) + Real(0.9975640502598242) * top_jointax_y_2)));
-  const Real tie_rodbx1p_x_2 = Real(0.02) * q1r1_y_2 - (Real(0.07) * q1r1_z_2 - (Real(0.34) - Real(0.14) *
-      q1r1_x_2));
-  const Real tie_rodbx1p_y_2 = Real(0.02) * q1r2_y_2 - (Real(0.07) * q1r2_z_2 + (Real(0.02) - Real(0.14) *
-      q1r2_x_2));
-  const Real tie_rodd_x_2 = Real(0.02) * q1r0_y_2 + (Real(0.07) * q1r0_z_2 - (Real(0.14) + Real(0.14) *
-      q1r0_x_2));
-  const Real tie_rodd_y_2 = s0 * tie_rodbx1p_y_2 - (t120 + c0 * tie_rodbx1p_x_2);
-  const Real tie_rodd_z_2 = s0 * tie_rodbx1p_x_2 + (c0 * tie_rodbx1p_y_2 - Real(0.060000000000000026));
-  const Real tie_rodll_2 = tie_rodd_z_2 * tie_rodd_z_2 + (tie_rodd_x_2 * tie_rodd_x_2 + tie_rodd_y_2 *
-      tie_rodd_y_2);
-  const Real g_tie_rod_2 = Real(0.16007810593582122) - Real(1.5617376188860606) * tie_rodll_2;
-  const Real t696 = Real(0.5) * t583;
-  const Real t697 = Real(0.5) * t584;
-  const Real t698 = Real(0.5) * t585;
-  const Real t699 = Real(0.5) * t586;
-  const Real t703 = Real(2.0) * t699;
-  const Real t704 = Real(2.0) * t696;
-  const Real t705 = Real(2.0) * t697;
-  const Real t706 = q1d2_2 * t699;
-  const Real t707 = q1d2_2 * t696;
-  const Real t708 = q1d2_2 * t697;
-  const Real t709 = q1d3_2 * t699;
-  const Real t710 = q1d3_2 * t696;
-  const Real t711 = q1d3_2 * t697;
-  const Real t713 = t706 + t585 * t703;
-  const Real t714 = t585 * t704;
-  const Real t715 = t707 + t714;
-  const Real t716 = t585 * t705;
-  const Real t717 = t708 + t716;
-  const Real t718 = t584 * t703;
-  const Real t719 = t584 * t704;
-  const Real t720 = t584 * t705;
-  const Real t721 = t583 * t703;
-  const Real t722 = t583 * t704;
-  const Real t723 = t583 * t705;
-  const Real t724 = Real(2.0) * t698;
-  const Real t725 = q1d3_2 * t698;
-  const Real t727 = t725 + t586 * t724;
-  const Real t729 = t711 + t586 * t705;
-  const Real t731 = t710 + t586 * t704;
-  const Real t732 = t584 * t724;
-  const Real t733 = t583 * t724;
-  const Real t735 = t709 - t585 * t724;
-  const Real t736 = t710 - t716;
-  const Real t737 = t711 + t714;
-  const Real t738 = t707 - t718;
-  const Real t739 = t706 + t719;
-  const Real t740 = q1d2_2 * t698;
-  const Real t741 = t720 - t740;
-  const Real t742 = t710 + t732;
-  const Real t743 = t709 - t720;
-  const Real t744 = t719 - t725;
-  const Real t746 = q1d1_2 * t699;
-  const Real t747 = q1d1_2 * t698;
-  const Real t748 = t708 + t721;
-  const Real t749 = t722 - t740;
-  const Real t750 = t706 - t723;
-  const Real t751 = t711 - t733;
-  const Real t752 = t723 + t725;
-  const Real t753 = t709 - t722;
-  const Real t755 = t742 + t748;
-  const Real t756 = t743 - t749;
-  const Real t757 = t744 + t750;
-  const Real t758 = t742 - t748;
-  const Real t759 = t743 + t749;
-  const Real t760 = t744 - t750;
-  const Real t761 = t738 - t751;
-  const Real t762 = t739 - t752;
-  const Real t763 = t741 - t753;
-  const Real t764 = t738 + t751;
-  const Real t765 = t739 + t752;
-  const Real t766 = t741 + t753;
-  const Real t767 = t713 - t727;
-  const Real t768 = t715 - t729;
-  const Real t769 = t717 + t731;
-  const Real t782 = Real(0.0697564737441253) * top_jointax_x_2;
-  const Real t783 = Real(0.9975640502598242) * top_jointax_x_2;
-  const Real t786 = Real(0.31) * t755 + Real(0.03) * (t761 + t767);
-  const Real t789 = Real(0.31) * t756 + Real(0.03) * (t762 - t768);
-  const Real t792 = Real(0.31) * t757 + Real(0.03) * (t763 - t769);
-  const Real t793 = t719 + q1d1_2 * t696;
-  const Real t794 = t718 + t746;
-  const Real t795 = t732 + t747;
-  const Real t796 = t722 - q1d1_2 * t697;
-  const Real t797 = t721 - t747;
-  const Real t798 = t733 + t746;
-  const Real t799 = t735 - t796;
-  const Real t800 = t736 + t797;
-  const Real t801 = t737 - t798;
-  const Real t802 = t735 + t796;
-  const Real t803 = t736 - t797;
-  const Real t804 = t737 + t798;
-  const Real t808 = t727 + t793;
-  const Real t809 = t729 - t794;
-  const Real t810 = t731 - t795;
-  const Real t811 = t713 - t793;
-  const Real t812 = t715 + t794;
-  const Real t813 = t717 - t795;
-  const Real t837 = Real(0.31) * t799 - Real(0.03) * (t764 - t808);
-  const Real t840 = Real(0.31) * t800 + Real(0.03) * (t765 + t809);
-  const Real t843 = Real(0.31) * t801 + Real(0.03) * (t766 - t810);
-  const Real t852 = Real(0.31) * t811 + Real(0.03) * (t758 - t802);
-  const Real t855 = Real(0.31) * t812 - Real(0.03) * (t759 + t803);
-  const Real t858 = Real(0.31) * t813 - Real(0.03) * (t760 + t804);
-  const Real t859 = Real(1.5617376188860606) * (tie_rodd_z_2 + tie_rodd_z_2);
-  const Real t860 = Real(1.5617376188860606) * (tie_rodd_y_2 + tie_rodd_y_2);
-  const Real t861 = Real(1.5617376188860606) * (tie_rodd_x_2 + tie_rodd_x_2);
-  const Real t865 = c0 * t859 + s0 * t860;
-  const Real t867 = s0 * t859 - c0 * t860;
-  const Real t878 = t861 * (Real(0.14) * t767 + (Real(0.02) * t761 + Real(0.07) * t755)) + (t865 * (Real(0.14)
-      * t758 - (Real(0.02) * t802 - Real(0.07) * t811)) - t867 * (Real(0.14) * t764 - (Real(0.02) * t808 +
-      Real(0.07) * t799)));
-  const Real t889 = t861 * (Real(0.14) * t768 - (Real(0.02) * t762 + Real(0.07) * t756)) - (t865 * (Real(0.14)
-      * t759 + (Real(0.02) * t803 - Real(0.07) * t812)) - t867 * (Real(0.14) * t765 + (Real(0.02) * t809 +
-      Real(0.07) * t800)));
-  const Real t900 = t861 * (Real(0.14) * t769 - (Real(0.02) * t763 + Real(0.07) * t757)) - (t865 * (Real(0.14)
-      * t760 + (Real(0.02) * t804 - Real(0.07) * t813)) - t867 * (Real(0.14) * t766 - (Real(0.02) * t810 -
-      Real(0.07) * t801)));
-  const Real t902 = c0 * t837 - s0 * t852;
-  const Real t904 = c0 * t840 - s0 * t855;
-  const Real t906 = c0 * t843 - s0 * t858;
-  const Real t908 = s0 * t837 + c0 * t852;
-  const Real t910 = s0 * t840 + c0 * t855;
-  const Real t912 = s0 * t843 + c0 * t858;
-  const Real t920 = Real(1.0) / (t878 * t878 + (t908 * t908 + (t786 * t786 + t902 * t902)));
-  const Real t928 = t920 * (t878 * t889 + (t908 * t910 - (t786 * t789 - t902 * t904)));
-  const Real t930 = t789 + t786 * t928;
-  const Real t932 = t904 - t902 * t928;
-  const Real t934 = t910 - t908 * t928;
-  const Real t936 = t889 - t878 * t928;
-  const Real t944 = Real(1.0) / (t936 * t936 + (t934 * t934 + (t930 * t930 + t932 * t932)));
-  const Real t952 = t920 * (t878 * t900 + (t908 * t912 - (t786 * t792 - t902 * t906)));
-  const Real t954 = t792 + t786 * t952;
-  const Real t956 = t906 - t902 * t952;
-  const Real t958 = t912 - t908 * t952;
-  const Real t960 = t900 - t878 * t952;
-  const Real t968 = t944 * (t936 * t960 + (t934 * t958 + (t930 * t954 + t932 * t956)));
-  const Real t970 = t954 - t930 * t968;
-  const Real t972 = t956 - t932 * t968;
-  const Real t974 = t958 - t934 * t968;
-  const Real t976 = t960 - t936 * t968;
-  const Real t984 = Real(1.0) / (t976 * t976 + (t974 * t974 + (t970 * t970 + t972 * t972)));
-  const Real t990 = t920 * (t783 * t908 + (t782 * t786 - top_jointax_y_2 * t902));
-  const Real t992 = t782 - t786 * t990;
-  const Real t994 = top_jointax_y_2 + t902 * t990;
-  const Real t996 = t783 - t908 * t990;
-  const Real t997 = t878 * t990;
-  const Real t1005 = t944 * (t936 * t997 - (t934 * t996 - (t930 * t992 + t932 * t994)));
-  const Real t1007 = t992 - t930 * t1005;
-  const Real t1009 = t994 - t932 * t1005;
-  const Real t1011 = t996 + t934 * t1005;
-  const Real t1013 = t997 - t936 * t1005;
-  const Real t1021 = t984 * (t976 * t1013 - (t974 * t1011 - (t970 * t1007 + t972 * t1009)));
-  const Real t1023 = t1007 - t970 * t1021;
-  const Real t1025 = t1009 - t972 * t1021;
-  const Real t1027 = t1011 + t974 * t1021;
-  const Real t1029 = t1013 - t976 * t1021;
-  const Real t1037 = Real(1.0) / (t1029 * t1029 + (t1027 * t1027 + (t1023 * t1023 + t1025 * t1025)));
-  const Real t1045 = t920 * (g_tie_rod_2 * t878 + (top_jointd_z_2 * t908 + (top_jointd_x_2 * t786 +
-      top_jointd_y_2 * t902)));
-  const Real t1047 = top_jointd_x_2 - t786 * t1045;
-  const Real t1049 = top_jointd_y_2 - t902 * t1045;
-  const Real t1051 = top_jointd_z_2 - t908 * t1045;
-  const Real t1053 = g_tie_rod_2 - t878 * t1045;
-  const Real t1061 = t944 * (t936 * t1053 + (t934 * t1051 - (t930 * t1047 - t932 * t1049)));
-  const Real t1063 = t1047 + t930 * t1061;
-  const Real t1065 = t1049 - t932 * t1061;
-  const Real t1067 = t1051 - t934 * t1061;
-  const Real t1069 = t1053 - t936 * t1061;
-  const Real t1077 = t984 * (t976 * t1069 + (t974 * t1067 - (t970 * t1063 - t972 * t1065)));
-  const Real t1093 = t1037 * (t1029 * (t1069 - t976 * t1077) - (t1027 * (t1067 - t974 * t1077) + (t1023 *
-      (t1063 + t970 * t1077) - t1025 * (t1065 - t972 * t1077))));
-  const Real t1097 = t1077 - t1021 * t1093;
-  const Real t1101 = t968 * t1097 - (t1061 - t1005 * t1093);
-  const Real t1108 = Real(0.5) * (t928 * t1101 - (t952 * t1097 - (t1045 + t990 * t1093)));
-  const Real t1109 = Real(0.5) * t1101;
-  const Real t1110 = Real(0.5) * t1097;
-  const Real t1117 = t586 * t1109 + (t585 * t1110 + (t584 + t583 * t1108));
-  const Real t1124 = t584 * t1110 + (t586 * t1108 - (t585 + t583 * t1109));
-  const Real t1128 = t586 * t1110 - (t585 * t1109 - (t583 - t584 * t1108));
-  const Real t1134 = t585 * t1108 - (t584 * t1109 - (t586 - t583 * t1110));
-  const Real t1143 = Real(1.0) / detail::square_root(t1134 * t1134 + (t1124 * t1124 + (t1128 * t1128 + t1117 *
-      t1117)));
-  closed.regularity = Real(1.0) / (t1037 * (t984 * (t920 * t944))) * Real(102167.90561709629);
-  closed.opening = t534 * t534 + (t538 * t538 + (t546 * t546 + t542 * t542));
-  closed.y[5] = t1093 + (state.y[5] - t534);
-  closed.y[1] = t1128 * t1143;
-  closed.y[2] = t1117 * t1143;
-  closed.y[3] = -(t1124 * t1143);
-  closed.y[4] = -(t1134 * t1143);
-  state = closed;
-}
-
-template <class Real>
-void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
-    noexcept {
-  const Real q1d2 = state.y[3] * Real(2.0);
-  const Real q1d3 = Real(2.0) * state.y[4];
-  const Real q122 = state.y[3] * q1d2;
-  const Real q133 = state.y[4] * q1d3;
-  const Real q112 = q1d2 * state.y[2];
-  const Real q113 = q1d3 * state.y[2];
-  const Real q102 = q1d2 * state.y[1];
-  const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
-  const Real q1r0_y = q112 - q103;
-  const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
-  const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  const Real top_jointd_x = (q1r0_x - q1r0_y) * Real(0.03) + (q1r0_z * Real(0.31) + (top_jointax_y *
-      Real(0.0697564737441253) + Real(0.01781508417301472)) + Real(0.01));
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  const Real q1d1 = Real(2.0) * state.y[2];
-  const Real q111 = state.y[2] * q1d1;
-  const Real q123 = state.y[3] * q1d3;
-  const Real q101 = state.y[1] * q1d1;
-  const Real q1r1_x = q112 + q103;
-  const Real t47 = Real(1.0) - q111;
-  const Real q1r1_y = q133 - t47;
-  const Real q1r1_z = q123 - q101;
-  const Real q1r2_x = q113 - q102;
-  const Real q1r2_y = q123 + q101;
-  const Real q1r2_z = q122 - t47;
-  const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = Real(0.03) * (q1r1_x - q1r1_y) - (Real(0.31) * q1r1_z + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (Real(0.31) * q1r2_z + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointd_y = top_jointbx1_x - (top_jointax_x - Real(0.43)) - Real(0.36);
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
-  const Real top_jointd_z = top_jointbx1_y + (top_jointax_y * Real(0.9975640502598242) +
-      Real(0.4687542479592758)) - Real(0.21);
-  const Real expression = state.t * model.rate;
-  Real t141, c;
-  detail::sine_cosine(expression, t141, c);
-  const Real expression_2 = Real(1.0) - c;
-  const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
-  const Real tie_rodll = tie_rodd_z * tie_rodd_z + (tie_rodd_x * tie_rodd_x + tie_rodd_y * tie_rodd_y);
-  const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
-  const Real t137 = state.y[1] * Real(0.5);
-  const Real t138 = state.y[2] * Real(0.5);
-  const Real t139 = state.y[3] * Real(0.5);
-  const Real t140 = state.y[4] * Real(0.5);
-  const Real t142 = tie_rodd_x + tie_rodd_x;
-  const Real t143 = tie_rodd_y + tie_rodd_y;
-  const Real t144 = tie_rodd_z + tie_rodd_z;
-  const Real t145 = Real(2.0) * t140;
-  const Real t146 = Real(2.0) * t137;
-  const Real t147 = Real(2.0) * t138;
-  const Real t148 = q1d2 * t140;
-  const Real t149 = q1d2 * t137;
-  const Real t150 = q1d2 * t138;
-  const Real t151 = q1d3 * t140;
-  const Real t152 = q1d3 * t137;
-  const Real t153 = q1d3 * t138;
-  const Real t155 = t148 + state.y[3] * t145;
-  const Real t156 = state.y[3] * t146;
-  const Real t157 = t149 + t156;
-  const Real t158 = state.y[3] * t147;
-  const Real t159 = t150 + t158;
-  const Real t160 = state.y[2] * t145;
-  const Real t161 = state.y[2] * t146;
-  const Real t162 = state.y[2] * t147;
-  const Real t163 = state.y[1] * t145;
-  const Real t164 = state.y[1] * t146;
-  const Real t165 = state.y[1] * t147;
-  const Real t166 = Real(2.0) * t139;
-  const Real t167 = q1d3 * t139;
-  const Real t169 = t167 + state.y[4] * t166;
-  const Real t171 = t153 + state.y[4] * t147;
-  const Real t173 = t152 + state.y[4] * t146;
-  const Real t174 = state.y[2] * t166;
-  const Real t175 = state.y[1] * t166;
-  const Real t177 = t151 - state.y[3] * t166;
-  const Real t178 = t152 + t158;
-  const Real t179 = t153 - t156;
-  const Real t180 = t149 + t160;
-  const Real t181 = t148 - t161;
-  const Real t182 = q1d2 * t139;
-  const Real t183 = t162 - t182;
-  const Real t184 = t152 - t174;
-  const Real t185 = t151 - t162;
-  const Real t186 = t161 + t167;
-  const Real t188 = q1d1 * t140;
-  const Real t189 = q1d1 * t139;
-  const Real t190 = t150 - t163;
-  const Real t191 = t164 - t182;
-  const Real t192 = t148 + t165;
-  const Real t193 = t153 + t175;
-  const Real t194 = t165 - t167;
-  const Real t195 = t151 - t164;
-  const Real t197 = t184 - t190;
-  const Real t198 = t185 - t191;
-  const Real t199 = t186 - t192;
-  const Real t200 = t184 + t190;
-  const Real t201 = t185 + t191;
-  const Real t202 = t186 + t192;
-  const Real t203 = t180 + t193;
-  const Real t204 = t181 + t194;
-  const Real t205 = t183 - t195;
-  const Real t206 = t180 - t193;
-  const Real t207 = t181 - t194;
-  const Real t208 = t183 + t195;
-  const Real t209 = t155 - t169;
-  const Real t210 = t157 + t171;
-  const Real t211 = t159 - t173;
-  const Real t212 = Real(0.14) * t209;
-  const Real t213 = Real(0.14) * t210;
-  const Real t214 = Real(0.14) * t211;
-  const Real t215 = Real(0.02) * t203;
-  const Real t216 = Real(0.02) * t204;
-  const Real t217 = Real(0.02) * t205;
-  const Real t221 = Real(0.07) * t197;
-  const Real t222 = Real(0.07) * t198;
-  const Real t223 = Real(0.07) * t199;
-  const Real t224 = Real(0.0697564737441253) * top_jointax_x;
-  const Real t225 = top_jointax_x * Real(0.9975640502598242);
-  const Real t228 = Real(0.31) * t197 - Real(0.03) * (t203 - t209);
-  const Real t231 = Real(0.31) * t198 - Real(0.03) * (t204 + t210);
-  const Real t234 = Real(0.31) * t199 + Real(0.03) * (t205 - t211);
-  const Real t235 = t161 + q1d1 * t137;
-  const Real t236 = t160 + t188;
-  const Real t237 = t174 + t189;
-  const Real t238 = t164 - q1d1 * t138;
-  const Real t239 = t163 + t189;
-  const Real t240 = t175 - t188;
-  const Real t241 = t177 - t238;
-  const Real t242 = t178 + t239;
-  const Real t243 = t179 + t240;
-  const Real t244 = t177 + t238;
-  const Real t245 = t178 - t239;
-  const Real t246 = t179 - t240;
-  const Real t247 = Real(0.14) * t206;
-  const Real t248 = Real(0.14) * t207;
-  const Real t249 = Real(0.14) * t208;
-  const Real t250 = t169 - t235;
-  const Real t251 = t171 - t236;
-  const Real t252 = t173 + t237;
-  const Real t253 = t155 + t235;
-  const Real t254 = t157 - t236;
-  const Real t255 = t159 - t237;
-  const Real t256 = Real(0.02) * t250;
-  const Real t257 = Real(0.02) * t251;
-  const Real t258 = Real(0.02) * t252;
-  const Real t262 = Real(0.07) * t241;
-  const Real t263 = Real(0.07) * t242;
-  const Real t264 = Real(0.07) * t243;
-  const Real t265 = Real(0.14) * t200;
-  const Real t266 = Real(0.14) * t201;
-  const Real t267 = Real(0.14) * t202;
-  const Real t268 = Real(0.02) * t244;
-  const Real t269 = Real(0.02) * t245;
-  const Real t270 = Real(0.02) * t246;
-  const Real t274 = Real(0.07) * t253;
-  const Real t275 = Real(0.07) * t254;
-  const Real t276 = Real(0.07) * t255;
-  const Real t279 = Real(0.31) * t241 - Real(0.03) * (t206 + t250);
-  const Real t282 = Real(0.31) * t242 + Real(0.03) * (t207 + t251);
-  const Real t285 = Real(0.31) * t243 - Real(0.03) * (t208 + t252);
-  const Real t294 = Real(0.31) * t253 + Real(0.03) * (t200 + t244);
-  const Real t297 = Real(0.31) * t254 - Real(0.03) * (t201 - t245);
-  const Real t300 = Real(0.31) * t255 - Real(0.03) * (t202 - t246);
-  const Real t301 = Real(1.5617376188860606) * t144;
-  const Real t302 = Real(1.5617376188860606) * t143;
-  const Real t303 = Real(1.5617376188860606) * t142;
-  const Real t307 = c0 * t301 - s0 * t302;
-  const Real t309 = s0 * t301 + c0 * t302;
-  const Real t312 = tie_rodbx1_x * t301 + tie_rodbx1_y * t302;
-  const Real t323 = t303 * (t212 - (t215 - t221)) + (t307 * (t265 + (t268 + t274)) + t309 * (t247 + (t256 -
-      t262)));
-  const Real t334 = t303 * (t213 + (t216 - t222)) - (t307 * (t266 - (t269 + t275)) + t309 * (t248 + (t257 +
-      t263)));
-  const Real t345 = t303 * (t214 - (t217 + t223)) - (t307 * (t267 - (t270 + t276)) - t309 * (t249 + (t258 -
-      t264)));
-  const Real t348 = t141 * t302 * model.c2;
-  const Real t350 = c0 * t279 + s0 * t294;
-  const Real t352 = c0 * t282 + s0 * t297;
-  const Real t354 = c0 * t285 + s0 * t300;
-  const Real t356 = s0 * t279 - c0 * t294;
-  const Real t358 = s0 * t282 - c0 * t297;
-  const Real t360 = s0 * t285 - c0 * t300;
-  const Real t368 = Real(1.0) / (t323 * t323 + (t356 * t356 + (t228 * t228 + t350 * t350)));
-  const Real t376 = t368 * (t323 * t334 + (t356 * t358 - (t228 * t231 - t350 * t352)));
-  const Real t378 = t231 + t228 * t376;
-  const Real t380 = t352 - t350 * t376;
-  const Real t382 = t358 - t356 * t376;
-  const Real t384 = t334 - t323 * t376;
-  const Real t392 = Real(1.0) / (t384 * t384 + (t382 * t382 + (t378 * t378 + t380 * t380)));
-  const Real t400 = t368 * (t323 * t345 + (t356 * t360 - (t228 * t234 - t350 * t354)));
-  const Real t402 = t234 + t228 * t400;
-  const Real t404 = t354 - t350 * t400;
-  const Real t406 = t360 - t356 * t400;
-  const Real t408 = t345 - t323 * t400;
-  const Real t416 = t392 * (t384 * t408 + (t382 * t406 + (t378 * t402 + t380 * t404)));
-  const Real t418 = t402 - t378 * t416;
-  const Real t420 = t404 - t380 * t416;
-  const Real t422 = t406 - t382 * t416;
-  const Real t424 = t408 - t384 * t416;
-  const Real t432 = Real(1.0) / (t424 * t424 + (t422 * t422 + (t418 * t418 + t420 * t420)));
-  const Real t438 = t368 * (t225 * t356 - (t224 * t228 - top_jointax_y * t350));
-  const Real t440 = t224 + t228 * t438;
-  const Real t442 = top_jointax_y - t350 * t438;
-  const Real t444 = t225 - t356 * t438;
-  const Real t445 = t323 * t438;
-  const Real t453 = t392 * (t384 * t445 - (t382 * t444 + (t378 * t440 + t380 * t442)));
-  const Real t455 = t440 + t378 * t453;
-  const Real t457 = t442 + t380 * t453;
-  const Real t459 = t444 + t382 * t453;
-  const Real t461 = t445 - t384 * t453;
-  const Real t469 = t432 * (t424 * t461 - (t422 * t459 + (t418 * t455 + t420 * t457)));
-  const Real t471 = t455 + t418 * t469;
-  const Real t473 = t457 + t420 * t469;
-  const Real t475 = t459 + t422 * t469;
-  const Real t477 = t461 - t424 * t469;
-  const Real t485 = Real(1.0) / (t477 * t477 + (t475 * t475 + (t471 * t471 + t473 * t473)));
-  const Real t491 = t368 * (t312 * t323 - (top_jointbx1_y * t350 - top_jointbx1_x * t356));
-  const Real t492 = t228 * t491;
-  const Real t494 = top_jointbx1_y + t350 * t491;
-  const Real t496 = top_jointbx1_x - t356 * t491;
-  const Real t498 = t312 - t323 * t491;
-  const Real t506 = t392 * (t384 * t498 + (t382 * t496 + (t378 * t492 - t380 * t494)));
-  const Real t508 = t492 - t378 * t506;
-  const Real t510 = t494 + t380 * t506;
-  const Real t512 = t496 - t382 * t506;
-  const Real t514 = t498 - t384 * t506;
-  const Real t522 = t432 * (t424 * t514 + (t422 * t512 + (t418 * t508 - t420 * t510)));
-  const Real t538 = t485 * (t477 * (t514 - t424 * t522) - (t475 * (t512 - t422 * t522) + (t471 * (t508 - t418
-      * t522) - t473 * (t510 + t420 * t522))));
-  const Real t542 = t522 - t469 * t538;
-  const Real t546 = t416 * t542 - (t506 - t453 * t538);
-  const Real t557 = t368 * (t323 * t348);
-  const Real t558 = t228 * t557;
-  const Real t559 = t350 * t557;
-  const Real t560 = t356 * t557;
-  const Real t562 = t348 - t323 * t557;
-  const Real t570 = t392 * (t384 * t562 - (t382 * t560 - (t378 * t558 - t380 * t559)));
-  const Real t572 = t558 - t378 * t570;
-  const Real t574 = t559 + t380 * t570;
-  const Real t576 = t560 + t382 * t570;
-  const Real t578 = t562 - t384 * t570;
-  const Real t586 = t432 * (t424 * t578 - (t422 * t576 - (t418 * t572 - t420 * t574)));
-  const Real t602 = t485 * (t477 * (t578 - t424 * t586) + (t475 * (t576 + t422 * t586) - (t471 * (t572 - t418
-      * t586) - t473 * (t574 + t420 * t586))));
-  const Real t606 = t586 - t469 * t602;
-  const Real t610 = t416 * t606 - (t570 - t453 * t602);
-  const Real t615 = t376 * t610 - (t400 * t606 - (t438 * t602 - ((t376 * t546 - (t400 * t542 - (t491 + t438 *
-      t538))) * state.z[0] - t557)));
-  const Real t616 = t546 * state.z[0] - t610;
-  const Real t617 = t542 * state.z[0] - t606;
-  const Real t618 = t538 * state.z[0] - t602;
-  const Real t620 = t262 - (t247 + t256);
-  const Real t622 = t263 + (t248 + t257);
-  const Real t624 = t264 - (t249 + t258);
-  const Real t632 = t274 + (t265 + t268);
-  const Real t634 = t275 - (t266 - t269);
-  const Real t636 = t276 - (t267 - t270);
-  g[0] = top_jointd_x;
-  g[1] = -top_jointd_y;
-  g[2] = -top_jointd_z;
-  g[3] = g_tie_rod;
-  g_rate[0] = t224 * t618 - (t234 * t617 + (t228 * t615 - t231 * t616));
-  g_rate[1] = -(top_jointax_y * t618 - (t354 * t617 - (t352 * t616 - (top_jointbx1_y * state.z[0] - t350 *
-      t615))));
-  g_rate[2] = -(t225 * t618 - (t360 * t617 - (t358 * t616 + (top_jointbx1_x * state.z[0] + t356 * t615))));
-  g_rate[3] = Real(1.5617376188860606) * (t617 * (t143 * (c0 * t624 + s0 * t636) + (t142 * (t223 - (t214 -
-      t217)) + t144 * (s0 * t624 - c0 * t636)))) - (Real(1.5617376188860606) * (t616 * (t143 * (c0 * t622 + s0
-      * t634) + (t142 * (t222 - (t213 + t216)) + t144 * (s0 * t622 - c0 * t634)))) + (Real(1.5617376188860606)
-      * (t615 * (t143 * (c0 * t620 + s0 * t632) - (t142 * (t221 + (t212 - t215)) - t144 * (s0 * t620 - c0 *
-      t632)))) + (t141 * t143 * model.c10 - Real(1.5617376188860606) * (state.z[0] * (tie_rodbx1_y * t143 +
-      tie_rodbx1_x * t144)))));
-}
-
-template <class Real>
-void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
-    (&lambda)[4]) noexcept {
-  const Real q1d2 = state.y[3] * Real(2.0);
-  const Real q1d3 = Real(2.0) * state.y[4];
-  const Real q122 = state.y[3] * q1d2;
-  const Real q133 = state.y[4] * q1d3;
-  const Real q112 = q1d2 * state.y[2];
-  const Real q113 = q1d3 * state.y[2];
-  const Real q102 = q1d2 * state.y[1];
-  const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
-  const Real q1r0_y = q112 - q103;
-  const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
-  const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  const Real q1d1 = Real(2.0) * state.y[2];
-  const Real q111 = state.y[2] * q1d1;
-  const Real q123 = state.y[3] * q1d3;
-  const Real q101 = state.y[1] * q1d1;
-  const Real q1r1_x = q112 + q103;
-  const Real t34 = Real(1.0) - q111;
-  const Real q1r1_y = q133 - t34;
-  const Real q1r1_z = q123 - q101;
-  const Real q1r2_x = q113 - q102;
-  const Real q1r2_y = q123 + q101;
-  const Real q1r2_z = q122 - t34;
-  const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
-  const Real expression = state.t * model.rate;
-  Real t112, c;
-  detail::sine_cosine(expression, t112, c);
-  const Real expression_2 = Real(1.0) - c;
-  const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t108 = state.y[1] * Real(0.5);
-  const Real t109 = state.y[2] * Real(0.5);
-  const Real t110 = state.y[3] * Real(0.5);
-  const Real t111 = state.y[4] * Real(0.5);
-  const Real t113 = tie_rodd_x + tie_rodd_x;
-  const Real t114 = tie_rodd_y + tie_rodd_y;
-  const Real t115 = tie_rodd_z + tie_rodd_z;
-  const Real t116 = Real(2.0) * t111;
-  const Real t117 = Real(2.0) * t108;
-  const Real t118 = Real(2.0) * t109;
-  const Real t119 = q1d2 * t111;
-  const Real t120 = q1d2 * t108;
-  const Real t121 = q1d2 * t109;
-  const Real t122 = q1d3 * t111;
-  const Real t123 = q1d3 * t108;
-  const Real t124 = q1d3 * t109;
-  const Real t126 = t119 + state.y[3] * t116;
-  const Real t127 = state.y[3] * t117;
-  const Real t128 = t120 + t127;
-  const Real t129 = state.y[3] * t118;
-  const Real t130 = t121 + t129;
-  const Real t131 = state.y[2] * t116;
-  const Real t132 = state.y[2] * t117;
-  const Real t133 = state.y[2] * t118;
-  const Real t134 = state.y[1] * t116;
-  const Real t135 = state.y[1] * t117;
-  const Real t136 = state.y[1] * t118;
-  const Real t137 = Real(2.0) * t110;
-  const Real t138 = q1d3 * t110;
-  const Real t140 = t138 + state.y[4] * t137;
-  const Real t142 = t124 + state.y[4] * t118;
-  const Real t144 = t123 + state.y[4] * t117;
-  const Real t145 = state.y[2] * t137;
-  const Real t146 = state.y[1] * t137;
-  const Real t148 = t122 - state.y[3] * t137;
-  const Real t149 = t123 + t129;
-  const Real t150 = t124 - t127;
-  const Real t151 = t120 + t131;
-  const Real t152 = t119 - t132;
-  const Real t153 = q1d2 * t110;
-  const Real t154 = t133 - t153;
-  const Real t155 = t123 - t145;
-  const Real t156 = t122 - t133;
-  const Real t157 = t132 + t138;
-  const Real t159 = q1d1 * t111;
-  const Real t160 = q1d1 * t110;
-  const Real t161 = t121 - t134;
-  const Real t162 = t135 - t153;
-  const Real t163 = t119 + t136;
-  const Real t164 = t124 + t146;
-  const Real t165 = t136 - t138;
-  const Real t166 = t122 - t135;
-  const Real t168 = t155 - t161;
-  const Real t169 = t156 - t162;
-  const Real t170 = t157 - t163;
-  const Real t171 = t155 + t161;
-  const Real t172 = t156 + t162;
-  const Real t173 = t157 + t163;
-  const Real t174 = t151 + t164;
-  const Real t175 = t152 + t165;
-  const Real t176 = t154 - t166;
-  const Real t177 = t151 - t164;
-  const Real t178 = t152 - t165;
-  const Real t179 = t154 + t166;
-  const Real t180 = t126 - t140;
-  const Real t181 = t128 + t142;
-  const Real t182 = t130 - t144;
-  const Real t183 = Real(0.14) * t180;
-  const Real t184 = Real(0.14) * t181;
-  const Real t185 = Real(0.14) * t182;
-  const Real t186 = Real(0.02) * t174;
-  const Real t187 = Real(0.02) * t175;
-  const Real t188 = Real(0.02) * t176;
-  const Real t192 = Real(0.07) * t168;
-  const Real t193 = Real(0.07) * t169;
-  const Real t194 = Real(0.07) * t170;
-  const Real t196 = top_jointax_x * Real(0.0697564737441253);
-  const Real t198 = top_jointax_x * Real(0.9975640502598242);
-  const Real t201 = Real(0.31) * t168 - Real(0.03) * (t174 - t180);
-  const Real t204 = Real(0.31) * t169 - Real(0.03) * (t175 + t181);
-  const Real t207 = Real(0.31) * t170 + Real(0.03) * (t176 - t182);
-  const Real t208 = t132 + q1d1 * t108;
-  const Real t209 = t131 + t159;
-  const Real t210 = t145 + t160;
-  const Real t211 = t135 - q1d1 * t109;
-  const Real t212 = t134 + t160;
-  const Real t213 = t146 - t159;
-  const Real t214 = t148 - t211;
-  const Real t215 = t149 + t212;
-  const Real t216 = t150 + t213;
-  const Real t217 = t148 + t211;
-  const Real t218 = t149 - t212;
-  const Real t219 = t150 - t213;
-  const Real t220 = Real(0.14) * t177;
-  const Real t221 = Real(0.14) * t178;
-  const Real t222 = Real(0.14) * t179;
-  const Real t223 = t140 - t208;
-  const Real t224 = t142 - t209;
-  const Real t225 = t144 + t210;
-  const Real t226 = t126 + t208;
-  const Real t227 = t128 - t209;
-  const Real t228 = t130 - t210;
-  const Real t229 = Real(0.02) * t223;
-  const Real t230 = Real(0.02) * t224;
-  const Real t231 = Real(0.02) * t225;
-  const Real t235 = Real(0.07) * t214;
-  const Real t236 = Real(0.07) * t215;
-  const Real t237 = Real(0.07) * t216;
-  const Real t238 = Real(0.14) * t171;
-  const Real t239 = Real(0.14) * t172;
-  const Real t240 = Real(0.14) * t173;
-  const Real t241 = Real(0.02) * t217;
-  const Real t242 = Real(0.02) * t218;
-  const Real t243 = Real(0.02) * t219;
-  const Real t247 = Real(0.07) * t226;
-  const Real t248 = Real(0.07) * t227;
-  const Real t249 = Real(0.07) * t228;
-  const Real t252 = Real(0.31) * t214 - Real(0.03) * (t177 + t223);
-  const Real t255 = Real(0.31) * t215 + Real(0.03) * (t178 + t224);
-  const Real t258 = Real(0.31) * t216 - Real(0.03) * (t179 + t225);
-  const Real t267 = Real(0.31) * t226 + Real(0.03) * (t171 + t217);
-  const Real t270 = Real(0.31) * t227 - Real(0.03) * (t172 - t218);
-  const Real t273 = Real(0.31) * t228 - Real(0.03) * (t173 - t219);
-  const Real t275 = t115 * Real(1.5617376188860606);
-  const Real t276 = t114 * Real(1.5617376188860606);
-  const Real t277 = t113 * Real(1.5617376188860606);
-  const Real t281 = c0 * t275 + s0 * t276;
-  const Real t283 = s0 * t275 - c0 * t276;
-  const Real t286 = tie_rodbx1_x * t275 - tie_rodbx1_y * t276;
-  const Real t297 = t277 * (t183 - (t186 - t192)) - (t281 * (t238 + (t241 + t247)) + t283 * (t220 + (t229 -
-      t235)));
-  const Real t308 = t277 * (t184 + (t187 - t193)) + (t281 * (t239 - (t242 + t248)) + t283 * (t221 + (t230 +
-      t236)));
-  const Real t319 = t277 * (t185 - (t188 + t194)) + (t281 * (t240 - (t243 + t249)) - t283 * (t222 + (t231 -
-      t237)));
-  const Real t322 = t112 * t276 * model.c2;
-  const Real t324 = c0 * t252 + s0 * t267;
-  const Real t326 = c0 * t255 + s0 * t270;
-  const Real t328 = c0 * t258 + s0 * t273;
-  const Real t330 = s0 * t252 - c0 * t267;
-  const Real t332 = s0 * t255 - c0 * t270;
-  const Real t334 = s0 * t258 - c0 * t273;
-  const Real t342 = Real(1.0) / (t297 * t297 + (t330 * t330 + (t201 * t201 + t324 * t324)));
-  const Real t350 = t342 * (t297 * t308 + (t330 * t332 - (t201 * t204 - t324 * t326)));
-  const Real t352 = t204 + t201 * t350;
-  const Real t354 = t326 - t324 * t350;
-  const Real t356 = t332 - t330 * t350;
-  const Real t358 = t308 - t297 * t350;
-  const Real t366 = Real(1.0) / (t358 * t358 + (t356 * t356 + (t352 * t352 + t354 * t354)));
-  const Real t374 = t342 * (t297 * t319 + (t330 * t334 - (t201 * t207 - t324 * t328)));
-  const Real t376 = t207 + t201 * t374;
-  const Real t378 = t328 - t324 * t374;
-  const Real t380 = t334 - t330 * t374;
-  const Real t382 = t319 - t297 * t374;
-  const Real t390 = t366 * (t358 * t382 + (t356 * t380 + (t352 * t376 + t354 * t378)));
-  const Real t392 = t376 - t352 * t390;
-  const Real t394 = t378 - t354 * t390;
-  const Real t396 = t380 - t356 * t390;
-  const Real t398 = t382 - t358 * t390;
-  const Real t406 = Real(1.0) / (t398 * t398 + (t396 * t396 + (t392 * t392 + t394 * t394)));
-  const Real t412 = t342 * (t198 * t330 - (t196 * t201 - top_jointax_y * t324));
-  const Real t414 = t196 + t201 * t412;
-  const Real t416 = top_jointax_y - t324 * t412;
-  const Real t418 = t198 - t330 * t412;
-  const Real t419 = t297 * t412;
-  const Real t427 = t366 * (t358 * t419 - (t356 * t418 + (t352 * t414 + t354 * t416)));
-  const Real t429 = t414 + t352 * t427;
-  const Real t431 = t416 + t354 * t427;
-  const Real t433 = t418 + t356 * t427;
-  const Real t435 = t419 - t358 * t427;
-  const Real t443 = t406 * (t398 * t435 - (t396 * t433 + (t392 * t429 + t394 * t431)));
-  const Real t445 = t429 + t392 * t443;
-  const Real t447 = t431 + t394 * t443;
-  const Real t449 = t433 + t396 * t443;
-  const Real t451 = t435 - t398 * t443;
-  const Real t459 = Real(1.0) / (t451 * t451 + (t449 * t449 + (t445 * t445 + t447 * t447)));
-  const Real t465 = t342 * (t286 * t297 + (top_jointbx1_y * t324 - top_jointbx1_x * t330));
-  const Real t466 = t201 * t465;
-  const Real t468 = top_jointbx1_y - t324 * t465;
-  const Real t470 = top_jointbx1_x + t330 * t465;
-  const Real t472 = t286 - t297 * t465;
-  const Real t480 = t366 * (t358 * t472 - (t356 * t470 - (t352 * t466 + t354 * t468)));
-  const Real t482 = t466 - t352 * t480;
-  const Real t484 = t468 - t354 * t480;
-  const Real t486 = t470 + t356 * t480;
-  const Real t488 = t472 - t358 * t480;
-  const Real t496 = t406 * (t398 * t488 - (t396 * t486 - (t392 * t482 + t394 * t484)));
-  const Real t512 = t459 * (t451 * (t488 - t398 * t496) + (t449 * (t486 + t396 * t496) - (t445 * (t482 - t392
-      * t496) + t447 * (t484 - t394 * t496))));
-  const Real t516 = t496 - t443 * t512;
-  const Real t520 = t390 * t516 - (t480 - t427 * t512);
-  const Real t524 = t350 * t520 - (t374 * t516 - (t465 + t412 * t512));
-  const Real t531 = t342 * (t297 * t322);
-  const Real t532 = t201 * t531;
-  const Real t533 = t324 * t531;
-  const Real t534 = t330 * t531;
-  const Real t536 = t322 - t297 * t531;
-  const Real t544 = t366 * (t358 * t536 - (t356 * t534 - (t352 * t532 - t354 * t533)));
-  const Real t546 = t532 - t352 * t544;
-  const Real t548 = t533 + t354 * t544;
-  const Real t550 = t534 + t356 * t544;
-  const Real t552 = t536 - t358 * t544;
-  const Real t560 = t406 * (t398 * t552 - (t396 * t550 - (t392 * t546 - t394 * t548)));
-  const Real t576 = t459 * (t451 * (t552 - t398 * t560) + (t449 * (t550 + t396 * t560) - (t445 * (t546 - t392
-      * t560) - t447 * (t548 + t394 * t560))));
-  const Real t580 = t560 - t443 * t576;
-  const Real t584 = t390 * t580 - (t544 - t427 * t576);
-  const Real t589 = t350 * t584 - (t374 * t580 - (t412 * t576 + (t524 * state.z[0] + t531)));
-  const Real t590 = t520 * state.z[0] + t584;
-  const Real t591 = t516 * state.z[0] + t580;
-  const Real t592 = t512 * state.z[0] + t576;
-  const Real t594 = t112 * model.c3;
-  const Real t596 = t235 - (t220 + t229);
-  const Real t598 = t236 + (t221 + t230);
-  const Real t600 = t237 - (t222 + t231);
-  const Real t608 = t247 + (t238 + t241);
-  const Real t610 = t248 - (t239 - t242);
-  const Real t612 = t249 - (t240 - t243);
-  const Real t635 = t111 * t591 - (t109 * t589 - t110 * t590);
-  const Real t640 = t110 * t591 - (t108 * t589 + t111 * t590);
-  const Real t645 = t109 * t591 + (t111 * t589 - t108 * t590);
-  const Real t650 = t108 * t591 + (t110 * t589 + t109 * t590);
-  const Real t651 = Real(2.0) * t645;
-  const Real t654 = Real(0.5) * t645;
-  const Real t660 = q1d2 * t645 + state.y[3] * t651;
-  const Real t667 = Real(2.0) * t650;
-  const Real t669 = Real(0.5) * t650;
-  const Real t674 = q1d3 * t650 + state.y[4] * t667;
-  const Real t678 = q1d3 * t645 - state.y[3] * t667;
-  const Real t684 = state.y[2] * t651 - q1d2 * t640;
-  const Real t686 = state.y[2] * t667 + q1d3 * t640;
-  const Real t687 = Real(2.0) * t640;
-  const Real t689 = Real(0.5) * t640;
-  const Real t695 = state.y[1] * t651 + q1d2 * t635;
-  const Real t697 = state.y[1] * t667 - q1d3 * t635;
-  const Real t699 = Real(0.5) * t635;
-  const Real t705 = t686 + t695;
-  const Real t707 = t684 - t697;
-  const Real t712 = s2 * t592;
-  const Real t713 = c2 * t592;
-  const Real t720 = s0 * state.z[0];
-  const Real t721 = c0 * state.z[0];
-  const Real t755 = q1d1 * t640 + state.y[2] * t687;
-  const Real t757 = q1d1 * t635 - state.y[1] * t687;
-  const Real t762 = t678 - t757;
-  const Real t763 = t678 + t757;
-  const Real t765 = t674 + t755;
-  const Real t766 = t660 - t755;
-  const Real t777 = Real(0.31) * t762 - Real(0.03) * (t707 + t765);
-  const Real t782 = Real(0.31) * t766 - Real(0.03) * (t705 - t763);
-  const Real t794 = Real(0.07) * t762 - (Real(0.14) * t707 + Real(0.02) * t765);
-  const Real t798 = Real(0.07) * t766 - (Real(0.14) * t705 - Real(0.02) * t763);
-  const Real t805 = s0 * t798 - (tie_rodbx1p_y * t721 - (tie_rodbx1p_x * t720 + c0 * t794));
-  const Real t809 = c0 * t798 + (tie_rodbx1p_y * t720 + (tie_rodbx1p_x * t721 - s0 * t794));
-  const Real t812 = Real(2.0) * (Real(0.07) * (t686 - t695) - (Real(0.14) * (t660 - t674) - Real(0.02) * (t684
-      + t697)));
-  const Real t813 = Real(2.0) * (t594 + t805);
-  const Real t814 = Real(2.0) * t809;
-  const Real t815 = Real(2.0) * t699;
-  const Real t817 = t108 * t651 + q1d2 * t699;
-  const Real t819 = t108 * t667 - q1d3 * t699;
-  const Real t821 = Real(2.0) * t689;
-  const Real t823 = t109 * t651 - q1d2 * t689;
-  const Real t825 = t109 * t667 + q1d3 * t689;
-  const Real t827 = Real(2.0) * t654;
-  const Real t829 = t110 * t667 - q1d3 * t654;
-  const Real t831 = t110 * t651 + q1d2 * t654;
-  const Real t833 = t110 * t687 - q1d1 * t654;
-  const Real t834 = Real(2.0) * t669;
-  const Real t836 = t111 * t651 - q1d2 * t669;
-  const Real t838 = t111 * t667 + q1d3 * t669;
-  const Real t840 = t111 * t687 + q1d1 * t669;
-  const Real t855 = t116 * t640 + state.y[2] * t834;
-  const Real t857 = t116 * t635 - state.y[1] * t834;
-  const Real t859 = t117 * t645 + state.y[3] * t815;
-  const Real t861 = t117 * t640 - state.y[2] * t815;
-  const Real t863 = t117 * t635 + state.y[1] * t815;
-  const Real t866 = t118 * t645 - state.y[3] * t821;
-  const Real t868 = t118 * t640 + state.y[2] * t821;
-  const Real t870 = t118 * t635 - state.y[1] * t821;
-  const Real t873 = state.y[3] * t834 - (t116 * t645 + t836);
-  const Real t874 = t817 + t859;
-  const Real t875 = t825 + t859;
-  const Real t876 = t823 + t866;
-  const Real t877 = t819 - t866;
-  const Real t878 = t817 - t855;
-  const Real t879 = t836 + t861;
-  const Real t880 = t838 - t868;
-  const Real t881 = t823 - t857;
-  const Real t882 = t838 + t863;
-  const Real t883 = t836 + t870;
-  const Real t886 = t137 * t640 - state.y[2] * t827;
-  const Real t888 = t137 * t635 + state.y[1] * t827;
-  const Real t890 = t829 + t861;
-  const Real t891 = t829 + t870;
-  const Real t893 = state.y[4] * t827 - (t137 * t650 + t829);
-  const Real t894 = t873 + t893;
-  const Real t896 = state.y[4] * t821 + (t118 * t650 + t825);
-  const Real t897 = t874 - t896;
-  const Real t899 = state.y[4] * t815 - (t117 * t650 + t819);
-  const Real t900 = t876 - t899;
-  const Real t901 = t819 - t886;
-  const Real t902 = t825 - t888;
-  const Real t904 = state.y[3] * t827 + (t137 * t645 + t838);
-  const Real t905 = t831 + t868;
-  const Real t906 = t831 - t863;
-  const Real t908 = t861 + (t108 * t687 - q1d1 * t699);
-  const Real t909 = t840 + t855;
-  const Real t910 = t840 + t888;
-  const Real t911 = t833 + t886;
-  const Real t912 = t833 - t857;
-  const Real t913 = t881 + t901;
-  const Real t914 = t881 - t901;
-  const Real t915 = t880 - t906;
-  const Real t916 = t880 + t906;
-  const Real t917 = t883 + t890;
-  const Real t918 = t883 - t890;
-  const Real t919 = t878 - t902;
-  const Real t920 = t878 + t902;
-  const Real t921 = t879 + t891;
-  const Real t922 = t879 - t891;
-  const Real t923 = t882 - t905;
-  const Real t924 = t882 + t905;
-  const Real t926 = t863 + (t109 * t687 + q1d1 * t689);
-  const Real t945 = t592 * (Real(0.24) * t712 + Real(0.03132205098267723) * t713);
-  const Real t960 = t893 + t908;
-  const Real t961 = t873 + t908;
-  const Real t962 = t896 - t909;
-  const Real t963 = t874 + t909;
-  const Real t964 = t899 - t911;
-  const Real t965 = t876 + t911;
-  const Real t966 = t904 + t926;
-  const Real t967 = t904 - t926;
-  const Real t968 = t877 + t912;
-  const Real t969 = t877 - t912;
-  const Real t970 = t875 - t910;
-  const Real t971 = t875 + t910;
-  const Real t992 = Real(0.31) * t966 + Real(0.03) * (t920 + t960);
-  const Real t995 = Real(0.31) * t968 - Real(0.03) * (t922 - t962);
-  const Real t998 = Real(0.31) * t970 - Real(0.03) * (t924 - t964);
-  const Real t1007 = Real(0.31) * t961 - Real(0.03) * (t914 - t967);
-  const Real t1010 = Real(0.31) * t963 + Real(0.03) * (t916 - t969);
-  const Real t1013 = Real(0.31) * t965 - Real(0.03) * (t918 + t971);
-  const Real t1049 = Real(0.07) * t966 + (Real(0.14) * t920 + Real(0.02) * t960);
-  const Real t1051 = Real(0.07) * t968 - (Real(0.14) * t922 - Real(0.02) * t962);
-  const Real t1053 = Real(0.07) * t970 - (Real(0.14) * t924 - Real(0.02) * t964);
-  const Real t1061 = Real(0.07) * t961 - (Real(0.14) * t914 - Real(0.02) * t967);
-  const Real t1063 = Real(0.07) * t963 + (Real(0.14) * t916 - Real(0.02) * t969);
-  const Real t1065 = Real(0.07) * t965 - (Real(0.14) * t918 + Real(0.02) * t971);
-  const Real t1134 = t590 * (Real(0.31) * t915 + Real(0.03) * (t897 + t921)) + (t589 * (Real(0.31) * t913 +
-      Real(0.03) * (t894 + t919)) + (Real(0.0697564737441253) * t945 - t591 * (Real(0.31) * t917 + Real(0.03)
-      * (t900 - t923))));
-  const Real t1138 = t589 * (s0 * t1007 + (t267 * t721 - (t252 * t720 - c0 * t992))) + (state.z[0] * (c0 *
-      t782 + (top_jointbx1p_y * t720 - (top_jointbx1p_x * t721 + s0 * t777))) + (t590 * (s0 * t1010 - (t270 *
-      t721 - (t255 * t720 - c0 * t995))) + (t592 * (Real(0.03132205098267723) * t712 - Real(0.24) * t713) -
-      t591 * (s0 * t1013 - (t273 * t721 - (t258 * t720 - c0 * t998))))));
-  const Real t1142 = t589 * (c0 * t1007 - (t267 * t720 + (t252 * t721 + s0 * t992))) - (state.z[0] * (s0 *
-      t782 - (top_jointbx1p_y * t721 + (top_jointbx1p_x * t720 - c0 * t777))) - (t590 * (c0 * t1010 + (t270 *
-      t720 + (t255 * t721 + s0 * t995))) + (Real(0.9975640502598242) * t945 - t591 * (c0 * t1013 + (t273 *
-      t720 + (t258 * t721 + s0 * t998))))));
-  const Real t1146 = Real(1.5617376188860606) * (t589 * (t114 * (s0 * t1061 + (t608 * t721 - (t596 * t720 - c0
-      * t1049))) - ((c0 * t596 + s0 * t608) * t813 + (t113 * (Real(0.14) * t894 + (Real(0.07) * t913 +
-      Real(0.02) * t919)) - ((t192 + (t183 - t186)) * t812 + ((s0 * t596 - c0 * t608) * t814 + t115 * (c0 *
-      t1061 - (t608 * t720 + (t596 * t721 + s0 * t1049))))))))) - (Real(1.5617376188860606) * (state.z[0] *
-      (tie_rodbx1_x * t814 + (t115 * t805 - (t114 * t809 + tie_rodbx1_y * t813)))) - (Real(1.5617376188860606)
-      * (t590 * (t114 * (s0 * t1063 - (t610 * t721 - (t598 * t720 - c0 * t1051))) + ((c0 * t598 + s0 * t610) *
-      t813 - (t113 * (Real(0.14) * t897 + (Real(0.07) * t915 + Real(0.02) * t921)) - ((t193 - (t184 + t187)) *
-      t812 - ((s0 * t598 - c0 * t610) * t814 - t115 * (c0 * t1063 + (t610 * t720 + (t598 * t721 + s0 *
-      t1051))))))))) - (Real(1.5617376188860606) * (t594 * t813 - c * t114 * model.c4) +
-      Real(1.5617376188860606) * (t591 * (t114 * (s0 * t1065 - (t612 * t721 - (t600 * t720 - c0 * t1053))) +
-      ((c0 * t600 + s0 * t612) * t813 - (t113 * (Real(0.14) * t900 + (Real(0.07) * t917 - Real(0.02) * t923))
-      - ((t194 - (t185 - t188)) * t812 - ((s0 * t600 - c0 * t612) * t814 - t115 * (c0 * t1065 + (t612 * t720 +
-      (t600 * t721 + s0 * t1053))))))))))));
-  const Real t1154 = t342 * (t297 * t1146 + (t330 * t1142 - (t201 * t1134 + t324 * t1138)));
-  const Real t1156 = t1134 + t201 * t1154;
-  const Real t1158 = t1138 + t324 * t1154;
-  const Real t1160 = t1142 - t330 * t1154;
-  const Real t1162 = t1146 - t297 * t1154;
-  const Real t1170 = t366 * (t358 * t1162 + (t356 * t1160 + (t352 * t1156 - t354 * t1158)));
-  const Real t1172 = t1156 - t352 * t1170;
-  const Real t1174 = t1158 + t354 * t1170;
-  const Real t1176 = t1160 - t356 * t1170;
-  const Real t1178 = t1162 - t358 * t1170;
-  const Real t1186 = t406 * (t398 * t1178 + (t396 * t1176 + (t392 * t1172 - t394 * t1174)));
-  const Real t1202 = t459 * (t451 * (t1178 - t398 * t1186) - (t449 * (t1176 - t396 * t1186) + (t445 * (t1172 -
-      t392 * t1186) - t447 * (t1174 + t394 * t1186))));
-  const Real t1206 = t1186 - t443 * t1202;
-  const Real t1210 = t390 * t1206 - (t1170 - t427 * t1202);
-  const Real t1214 = t350 * t1210 - (t374 * t1206 - (t1154 + t412 * t1202));
+  const Real t108 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t117 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t129 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t129;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t129 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
+  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real derivative = s * model.c2;
+  const Real tie_rods0at = tie_rods0bf0_x * derivative;
+  const Real t178 = Real(1.0) / top_joints2am_z;
+  const Real t179 = top_jointax_y * t178;
+  const Real t185 = top_joints2bm_y * t179 + (t117 + Real(0.31) * top_joints1bf1_x);
+  const Real t189 = top_joints2bm_z * t179 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t192 = top_jointax_x * t178 * Real(0.0697564737441253);
+  const Real t198 = Real(1.0) / (top_joints2bm_x * t179 + (Real(0.31) * top_joints1bf1_y - t117));
+  const Real t199 = (top_joints2bm_x * t192 + (q1r0_y * Real(0.31) + t108)) * t198;
+  const Real t208 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t192 - t189 * t199);
+  const Real t209 = tie_rods0bm_x * t198;
+  const Real t214 = Real(1.0) / (t185 * t199 - (top_joints2bm_y * t192 - (t108 - q1r0_x * Real(0.31))));
+  const Real t215 = (t185 * t209 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t214;
+  const Real t220 = Real(1.0) / (t208 * t215 + (t189 * t209 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t222 = top_jointbx1_y + top_jointbx1_x * t179;
+  const Real t225 = top_jointbx1_x * t192 - t199 * t222;
+  const Real t231 = t220 * (t215 * t225 + (t209 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t234 = t214 * (t225 - t208 * t231);
+  const Real t239 = t198 * (t189 * t231 - (t222 + t185 * t234));
+  const Real t246 = t178 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
+      top_joints2bm_x * t239)));
+  const Real t252 = tie_rods0at * t220;
+  const Real t254 = t214 * (t208 * t252);
+  const Real t258 = t198 * (t185 * t254 + t189 * t252);
+  const Real t265 = t239 * state.z[0] + t258;
+  const Real t266 = t234 * state.z[0] - t254;
+  const Real t267 = t231 * state.z[0] + t252;
+  const Real t268 = t246 * state.z[0] + t178 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
+      top_joints2bm_y * t254));
+  const Real top_jointam2t_y = top_jointax_x * t268;
+  const Real t271 = Real(0.03) * t267;
+  const Real top_jointbm1t_x = Real(0.31) * t266 - t271;
+  const Real top_jointbm1t_y = t271 - Real(0.31) * t265;
+  const Real top_jointbm1t_z = Real(0.03) * (t265 - t266);
+  const Real top_jointam2t_x = top_jointax_y * t268;
+  const Real top_jointam2a_y = t268 * top_jointam2t_x;
+  const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
+  const Real top_jointbm1a_x = t266 * top_jointbm1t_z - t267 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t265 * top_jointbm1t_z - t267 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t265 * top_jointbm1t_y - t266 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z - (q1r1_x * top_jointbm1t_x - q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z + (q1r2_x * top_jointbm1t_x + q1r2_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
+  const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
+  const Real top_jointam2a_x = t268 * top_jointam2t_y;
+  const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z - (q1r1_x * top_jointbm1a_x + q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z + (q1r2_x * top_jointbm1a_x - q1r2_y *
+      top_jointbm1a_y);
+  const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
+  const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
+  const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
+  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
+      * top_jointbm1app_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t266 - Real(0.02) * t267;
+  const Real tie_rodbm1t_y = Real(0.14) * t267 - Real(0.07) * t265;
+  const Real tie_rodbm1t_z = Real(0.14) * t266 - Real(0.02) * t265;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
+  const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
+  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
+  const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm0t_x - (derivative - tie_rodbm1vp_x);
+  const Real derivative_2 = c * model.c3;
+  const Real tie_rodbm1a_x = t266 * tie_rodbm1t_z + t267 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t265 * tie_rodbm1t_z + t267 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t265 * tie_rodbm1t_y - t266 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x + q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x - q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x + q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t421 = t179 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t428 = t199 * t421 - (t192 * top_jointda_z + (q1r0_z * top_jointbm1a_z + (q1r0_y *
+      top_jointbm1a_y - (top_jointam2app_x - q1r0_x * top_jointbm1a_x))));
+  const Real t439 = t220 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
+      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t209 * t421 - t215 * t428));
+  const Real t442 = t214 * (t428 - t208 * t439);
+  const Real t447 = t198 * (t189 * t439 + (t421 - t185 * t442));
+  const Real t454 = t178 * (top_joints2bm_z * t439 - (top_joints2bm_y * t442 - (top_jointda_z -
+      top_joints2bm_x * t447)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -3958,73 +1835,74 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real t1437 = w1p_y * rK1_z;
-  const Real t1438 = w1p_z * rK1_y;
-  const Real t1440 = w1p_x * rK1_z;
-  const Real t1441 = w1p_z * rK1_x;
-  const Real t1443 = w1p_x * rK1_y;
-  const Real t1444 = w1p_y * rK1_x;
-  const Real ru1_x = t589 + Real(2.0) * w1p_x;
-  const Real ru1_y = t590 + Real(2.0) * w1p_y;
-  const Real ru1_z = t591 + Real(2.0) * w1p_z;
+  const Real t677 = w1p_y * rK1_z;
+  const Real t678 = w1p_z * rK1_y;
+  const Real t680 = w1p_x * rK1_z;
+  const Real t681 = w1p_z * rK1_x;
+  const Real t683 = w1p_x * rK1_y;
+  const Real t684 = w1p_y * rK1_x;
+  const Real ru1_x = t265 - Real(2.0) * w1p_x;
+  const Real ru1_y = t266 + Real(2.0) * w1p_y;
+  const Real ru1_z = t267 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
-  const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
-  const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
-  const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ruw1 = t591 * ru1_z + (t589 * ru1_x + t590 * ru1_y);
-  const Real t1476 = t590 * rSu1_z;
-  const Real t1477 = t591 * rSu1_y;
-  const Real t1480 = t589 * rSu1_z;
-  const Real t1481 = t591 * rSu1_x;
-  const Real t1484 = t589 * rSu1_y;
-  const Real t1485 = t590 * rSu1_x;
+  const Real rSu1_y = Real(0.33) * ru1_y - Real(0.192) * ru1_z;
+  const Real rSu1_z = Real(1.1108) * ru1_z - Real(0.192) * ru1_y;
+  const Real ruh1 = Real(1.6) * ru1_y - Real(3.84) * ru1_z;
+  const Real ruw1 = t267 * ru1_z + (t265 * ru1_x + t266 * ru1_y);
+  const Real t716 = t266 * rSu1_z;
+  const Real t717 = t267 * rSu1_y;
+  const Real t720 = t265 * rSu1_z;
+  const Real t721 = t267 * rSu1_x;
+  const Real t724 = t265 * rSu1_y;
+  const Real t725 = t266 * rSu1_x;
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t1202 * Real(0.0505);
-  const Real ref1_x = t589 * ruh1 - (t1210 * Real(3.84) - (tyre_forcef1_x + t1206 * Real(1.6)));
-  const Real ref1_y = t590 * ruh1 + (t1214 * Real(3.84) + (tyre_forcef1_y - Real(1.6) * ruw1));
-  const Real ref1_z = t591 * ruh1 - (Real(3.84) * ruw1 + (tyre_forcef1_z + t1214 * Real(1.6)));
-  const Real ren1_x = t1477 - (t1476 + (tyre_forcem_x + t1214 * Real(1.4408)));
-  const Real ren1_y = t1481 - (t1480 - (t1210 * Real(1.7608) - (tyre_forcem_y + t1206 * Real(0.192))));
-  const Real ren1_z = t1485 - (t1484 + (t1206 * Real(0.98) - (tyre_forcem_z + t1210 * Real(0.192))));
-  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x + q1r1_y * ref1_y);
-  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real rQ1_0 = ren1_x + (t1438 - (t1437 - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
-  const Real rQ1_1 = ren1_y + (t1441 + (Real(3.84) * ra1_x - t1440));
-  const Real rQ1_2 = ren1_z + (t1444 + (Real(1.6) * ra1_x - t1443));
-  const Real rQ2_0 = rQp2 + rdn2_z;
-  const Real t1550 = Real(1.0) / (t516 * (p_3_1n_z + (t516 * Real(0.98) + (p_3_1n_z - t520 * Real(0.192)))) +
-      (t520 * (p_2_1n_z - (t516 * Real(0.192) - (p_2_1n_z + t520 * Real(1.7608)))) + (t524 * (p_1_1n_z +
-      (p_1_1n_z + t524 * Real(1.4408))) + (t512 * t512 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z *
+  const Real rdn2_z = t454 * Real(0.0505);
+  const Real ref1_x = t265 * ruh1 + (t442 * Real(3.84) - (tyre_forcef1_x - t439 * Real(1.6)));
+  const Real ref1_y = t266 * ruh1 - (t447 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * ruw1));
+  const Real ref1_z = t267 * ruh1 + (Real(3.84) * ruw1 + (tyre_forcef1_z - t447 * Real(1.6)));
+  const Real ren1_x = t717 - (t716 - (tyre_forcem_x - t447 * Real(1.4408)));
+  const Real ren1_y = t721 - (t720 - (t442 * Real(1.7608) - (tyre_forcem_y - t439 * Real(0.192))));
+  const Real ren1_z = t725 - (t724 + (t439 * Real(0.98) + (tyre_forcem_z + t442 * Real(0.192))));
+  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x - q1r1_y * ref1_y);
+  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x + q1r2_y * ref1_y);
+  const Real rQ1_0 = ren1_x - (t678 - (t677 - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
+  const Real rQ1_1 = ren1_y + (t681 + (Real(3.84) * ra1_x - t680));
+  const Real rQ1_2 = ren1_z - (t684 + (Real(1.6) * ra1_x - t683));
+  const Real rQ2_0 = rQp2 - rdn2_z;
+  const Real t790 = Real(1.0) / (t231 * (p_3_1n_z - (t231 * Real(0.98) - (p_3_1n_z - t234 * Real(0.192)))) -
+      (t234 * (p_2_1n_z + (t231 * Real(0.192) + (p_2_1n_z + t234 * Real(1.7608)))) - (t239 * (p_1_1n_z +
+      (p_1_1n_z - t239 * Real(1.4408))) - (t246 * t246 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z *
       S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z *
       S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) - Real(3.8987000000000007)))) +
-      Real(0.017799999999999996))))))) * (t512 * rQ2_0 - (t516 * rQ1_2 - (t520 * rQ1_1 - (t524 * rQ1_0 +
-      (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x +
+      Real(0.017799999999999996))))))) * (t246 * rQ2_0 + (t231 * rQ1_2 - (t234 * rQ1_1 - (t239 * rQ1_0 -
+      (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x - (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x -
       (rQp0 - (strutbx_x * strutf_z - strutbx_y * strutf_y)))))))))));
-  const Real ral1_x = q1r0_x * t1550;
-  const Real ral1_y = q1r0_y * t1550;
-  const Real ral1_z = q1r0_z * t1550;
-  const Real ra1o_x_2 = ra1o_x - Real(0.02) * t1550;
-  const Real ra1o_y_2 = ra1o_y - Real(0.34) * t1550;
+  const Real ral1_x = q1r0_x * t790;
+  const Real ral1_y = q1r0_y * t790;
+  const Real ral1_z = q1r0_z * t790;
+  const Real ra1o_x_2 = ra1o_x - Real(0.02) * t790;
+  const Real ra1o_y_2 = ra1o_y - Real(0.34) * t790;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real rdn2_z_2 = Real(0.0505) * (t1202 - t512 * t1550);
-  const Real rQ1_0_2 = Real(1.4408) * (t1214 - t524 * t1550 - ral1_x) + (t1476 - (t1477 - (tyre_forcem_x -
-      (Real(3.84) * ra1_y_2 + (Real(1.6) * ra1_z_2 - (t1437 - t1438))))));
-  const Real t1590 = t1206 - t516 * t1550 - ral1_z;
-  const Real t1592 = t1210 - t520 * t1550 - ral1_y;
-  const Real t1601 = Real(0.192) * t1590 - (Real(1.7608) * t1592 + (t350 * rQ1_0_2 - (t1480 - (t1481 -
-      (tyre_forcem_y - (Real(3.84) * ra1_x_2 - (t1440 - t1441)))))));
-  const Real t1614 = Real(0.192) * t1592 - (Real(0.98) * t1590 - (t390 * t1601 + (t374 * rQ1_0_2 - (t1484 -
-      (t1485 + (tyre_forcem_z + (Real(1.6) * ra1_x_2 - (t1443 - t1444))))))));
-  const Real t1622 = t342 * rQ1_0_2;
-  const Real t1627 = t366 * t1601;
-  const Real t1632 = t406 * t1614;
-  const Real t1637 = t459 * (t443 * t1614 - (t427 * t1601 - (t412 * rQ1_0_2 + (rQp2 + rdn2_z_2))));
-  lambda[0] = t445 * t1637 + (t392 * t1632 + (t201 * t1622 - t352 * t1627));
-  lambda[1] = -(t447 * t1637 + (t394 * t1632 - (t324 * t1622 + t354 * t1627)));
-  lambda[2] = -(t449 * t1637 + (t396 * t1632 - (t330 * t1622 + t356 * t1627)));
-  lambda[3] = -(t451 * t1637 - (t398 * t1632 - (t297 * t1622 + t358 * t1627)));
+  const Real rdn2_z_2 = Real(0.0505) * (t454 - t246 * t790);
+  const Real rQ2_0_2 = rQp2 - rdn2_z_2;
+  const Real t821 = t178 * rQ2_0_2;
+  const Real t833 = t198 * (Real(1.4408) * (t447 - t239 * t790 + ral1_x) + (top_joints2bm_x * t821 + (t716 -
+      (t717 + (tyre_forcem_x - (Real(3.84) * ra1_y_2 + (Real(1.6) * ra1_z_2 - (t677 - t678))))))));
+  const Real t836 = t439 - t231 * t790 + ral1_z;
+  const Real t838 = t442 - t234 * t790 - ral1_y;
+  const Real t849 = t214 * (Real(0.192) * t836 + (Real(1.7608) * t838 - (t185 * t833 - (top_joints2bm_y * t821
+      - (t720 - (t721 - (tyre_forcem_y - (Real(3.84) * ra1_x_2 - (t680 - t681)))))))));
+  const Real t865 = t220 * (Real(0.192) * t838 + (Real(0.98) * t836 - (t208 * t849 - (t189 * t833 -
+      (top_joints2bm_z * t821 - (t724 - (t725 - (tyre_forcem_z + (Real(1.6) * ra1_x_2 - (t683 -
+      t684))))))))));
+  const Real t867 = t849 + t215 * t865;
+  const Real t871 = t209 * t865 - (t833 + t199 * t867);
+  lambda[0] = -t867;
+  lambda[1] = t871;
+  lambda[2] = -(t192 * t867 + (t821 + t179 * t871));
+  lambda[3] = -t865;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

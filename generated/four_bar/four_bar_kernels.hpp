@@ -159,24 +159,32 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real t38 = t30 * (pinbx_x * pinbx1_y + pinbx1_x * pinbx_y);
   const Real t40 = t34 * state.z[0];
   const Real t41 = t38 * state.z[0];
-  const Real w1_z = state.z[0] - t40;
-  const Real t49 = Real(0.24) * t41;
-  const Real t56 = Real(0.12) * (state.z[0] * (c0 * state.z[0])) - (c2 * t41 * t49 + Real(0.36) * (w1_z * (c1
-      * w1_z)));
-  const Real t63 = s2 * t41 * t49 - (Real(0.12) * (state.z[0] * (s0 * state.z[0])) + Real(0.36) * (w1_z * (s1
-      * w1_z)));
-  const Real t67 = t30 * (pinax_x * t56 - pinax_y * t63);
+  const Real pinam2t_x = pinax_y * t41;
+  const Real pinbm1t_x = pinbx_y * t40;
+  const Real pinbm0t_x = pinbx1_y * state.z[0];
+  const Real pinam2t_y = pinax_x * t41;
+  const Real pinam2a_x = t41 * pinam2t_y;
+  const Real pinbm1t_y = pinbx_x * t40;
+  const Real pinbm1a_x = t40 * pinbm1t_y;
+  const Real pinbm0t_y = pinbx1_x * state.z[0];
+  const Real pinbm0b_y = pinbm0t_y + pinbm1t_y * Real(2.0);
+  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
+  const Real pinam2a_y = t41 * pinam2t_x;
+  const Real pinbm1a_y = t40 * pinbm1t_x;
+  const Real pinbm0b_x = pinbm0t_x - pinbm1t_x * Real(2.0);
+  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
+  const Real t66 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y);
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
-  const Real zw_1 = t40 * (state.z[0] + w1_z);
+  const Real zw_1 = t40 * (t40 - (state.z[0] + state.z[0]));
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
   const Real E1 = r1_x * h1b_x - r1_y * h1b_y - Real(0.031103999999999996);
-  k[0] = -(t38 * (t30 * (pinbx_x * t56 + pinbx_y * t63)) * Real(0.009215999999999998) + (t34 * (t67 *
-      Real(0.031103999999999996) - (h1b_x * ka1o_y + h1b_y * ka1o_x)) + (t67 * E1 + (r1_x * kdf1_y + r1_y *
+  k[0] = -(t38 * (t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y)) * Real(0.009215999999999998) + (t34 * (t66 *
+      Real(0.031103999999999996) - (h1b_x * ka1o_y + h1b_y * ka1o_x)) + (t66 * E1 - (r1_x * kdf1_y + r1_y *
       kdf1_x))));
 }
 
@@ -234,13 +242,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t38 = t30 * (pinbx_x * pinbx1_y + pinbx1_x * pinbx_y);
   const Real t40 = t34 * state.z[0];
   const Real t41 = t38 * state.z[0];
-  const Real w1_z = state.z[0] - t40;
-  const Real t49 = Real(0.24) * t41;
-  const Real t56 = Real(0.12) * (state.z[0] * (c0 * state.z[0])) - (c2 * t41 * t49 + Real(0.36) * (w1_z * (c1
-      * w1_z)));
-  const Real t63 = s2 * t41 * t49 - (Real(0.12) * (state.z[0] * (s0 * state.z[0])) + Real(0.36) * (w1_z * (s1
-      * w1_z)));
-  const Real t67 = t30 * (pinax_x * t56 - pinax_y * t63);
+  const Real pinam2t_x = pinax_y * t41;
+  const Real pinbm1t_x = pinbx_y * t40;
+  const Real pinbm0t_x = pinbx1_y * state.z[0];
+  const Real pinam2t_y = pinax_x * t41;
+  const Real pinam2a_x = t41 * pinam2t_y;
+  const Real pinbm1t_y = pinbx_x * t40;
+  const Real pinbm1a_x = t40 * pinbm1t_y;
+  const Real pinbm0t_y = pinbx1_x * state.z[0];
+  const Real pinbm0b_y = pinbm0t_y + pinbm1t_y * Real(2.0);
+  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
+  const Real pinam2a_y = t41 * pinam2t_x;
+  const Real pinbm1a_y = t40 * pinbm1t_x;
+  const Real pinbm0b_x = pinbm0t_x - pinbm1t_x * Real(2.0);
+  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
+  const Real t66 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y);
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
@@ -257,15 +273,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = Real(9.81) - r1_y * rW0w22;
-  const Real zw_1 = t40 * (state.z[0] + w1_z);
-  const Real rdf1_x = t67 * h1b_y - h1b_x * zw_1;
-  const Real rdf1_y = t67 * h1b_x + h1b_y * zw_1;
-  const Real rdn1_z = t67 * Real(0.031103999999999996);
+  const Real zw_1 = t40 * (t40 - (state.z[0] + state.z[0]));
+  const Real rdf1_x = t66 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t66 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t66 * Real(0.031103999999999996);
   const Real rQp2 = c2 * Real(0.565056);
-  const Real rdn2_z = t30 * (pinbx_x * t56 + pinbx_y * t63) * Real(0.009215999999999998);
+  const Real rdn2_z = t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y) * Real(0.009215999999999998);
   const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
   const Real tau_2_0 = rdn2_z + (push2_0 + rQp2);
-  zdot[0] = -(Real(1.0) / (T2 * Real(2.0)) * (t38 * tau_2_0 + (t34 * rQ1_0 - (input.u[0] + (r1_y * rdf1_x -
+  zdot[0] = -(Real(1.0) / (Real(2.0) * T2) * (t38 * tau_2_0 + (t34 * rQ1_0 - (input.u[0] + (r1_y * rdf1_x -
       (r1_x * rdf1_y - (rQp0 + rdn1_z)))))));
 }
 
@@ -293,13 +309,21 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t38 = t30 * (pinbx_x * pinbx1_y + pinbx1_x * pinbx_y);
   const Real t40 = t34 * state.z[0];
   const Real t41 = t38 * state.z[0];
-  const Real w1_z = state.z[0] - t40;
-  const Real t49 = Real(0.24) * t41;
-  const Real t56 = Real(0.12) * (state.z[0] * (c0 * state.z[0])) - (c2 * t41 * t49 + Real(0.36) * (w1_z * (c1
-      * w1_z)));
-  const Real t63 = s2 * t41 * t49 - (Real(0.12) * (state.z[0] * (s0 * state.z[0])) + Real(0.36) * (w1_z * (s1
-      * w1_z)));
-  const Real t74 = t30 * (pinax_x * t56 - pinax_y * t63) + t34 * zdot[0];
+  const Real pinam2t_x = pinax_y * t41;
+  const Real pinbm1t_x = pinbx_y * t40;
+  const Real pinbm0t_x = pinbx1_y * state.z[0];
+  const Real pinam2t_y = pinax_x * t41;
+  const Real pinam2a_x = t41 * pinam2t_y;
+  const Real pinbm1t_y = pinbx_x * t40;
+  const Real pinbm1a_x = t40 * pinbm1t_y;
+  const Real pinbm0t_y = pinbx1_x * state.z[0];
+  const Real pinbm0b_y = pinbm0t_y + pinbm1t_y * Real(2.0);
+  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
+  const Real pinam2a_y = t41 * pinam2t_x;
+  const Real pinbm1a_y = t40 * pinbm1t_x;
+  const Real pinbm0b_x = pinbm0t_x - pinbm1t_x * Real(2.0);
+  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
+  const Real t73 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y) + t34 * zdot[0];
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
@@ -312,12 +336,13 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_y * zdot[0] + r1_x * aW0w22;
   const Real aa1o_y = r1_y * aW0w22 - (Real(9.81) + r1_x * zdot[0]);
-  const Real zw_1 = t40 * (state.z[0] + w1_z);
-  const Real adf1_x = t74 * h1b_y - h1b_x * zw_1;
-  const Real adf1_y = t74 * h1b_x + h1b_y * zw_1;
-  const Real adn1_z = t74 * Real(0.031103999999999996);
+  const Real zw_1 = t40 * (t40 - (state.z[0] + state.z[0]));
+  const Real adf1_x = t73 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t73 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t73 * Real(0.031103999999999996);
   const Real aQp2 = c2 * Real(0.565056);
-  const Real adn2_z = (t30 * (pinbx_x * t56 + pinbx_y * t63) + t38 * zdot[0]) * Real(0.009215999999999998);
+  const Real adn2_z = (t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y) + t38 * zdot[0]) *
+      Real(0.009215999999999998);
   const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.031103999999999996) + h1b_x * aa1o_y));
   const Real tau_2_0 = adn2_z + (push2_0 + aQp2);
   tau[0] = t38 * tau_2_0 + (t34 * aQ1_0 - (r1_y * adf1_x - (r1_x * adf1_y - (adn0_z + (aQp0 + adn1_z)))));
@@ -469,10 +494,18 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real t34 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
   const Real t44 = t34 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y) * state.z[0];
   const Real t45 = t34 * (pinbx_x * pinbx1_y + pinbx1_x * pinbx_y) * state.z[0];
+  const Real pinam2t_x = pinax_y * t45;
+  const Real pinbm1t_x = pinbx_y * t44;
+  const Real pinbm0t_x = pinbx1_y * state.z[0];
+  const Real pindv_x = pinbm0t_x - (pinam2t_x + pinbm1t_x);
+  const Real pinam2t_y = pinax_x * t45;
+  const Real pinbm1t_y = pinbx_x * t44;
+  const Real pinbm0t_y = pinbx1_x * state.z[0];
+  const Real pindv_y = pinbm0t_y - (pinam2t_y - pinbm1t_y);
   g[0] = pind_x;
   g[1] = -pind_y;
-  g_rate[0] = pinax_y * t45 - (pinbx1_y * state.z[0] - pinbx_y * t44);
-  g_rate[1] = -(pinax_x * t45 - (pinbx1_x * state.z[0] + pinbx_x * t44));
+  g_rate[0] = -pindv_x;
+  g_rate[1] = pindv_y;
 }
 
 template <class Real>
@@ -499,14 +532,22 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t38 = t30 * (pinbx_x * pinbx1_y + pinbx1_x * pinbx_y);
   const Real t40 = t34 * state.z[0];
   const Real t41 = t38 * state.z[0];
-  const Real w1_z = state.z[0] - t40;
-  const Real t49 = Real(0.24) * t41;
-  const Real t56 = Real(0.12) * (state.z[0] * (c0 * state.z[0])) - (c2 * t41 * t49 + Real(0.36) * (w1_z * (c1
-      * w1_z)));
-  const Real t63 = s2 * t41 * t49 - (Real(0.12) * (state.z[0] * (s0 * state.z[0])) + Real(0.36) * (w1_z * (s1
-      * w1_z)));
-  const Real t67 = t30 * (pinax_x * t56 - pinax_y * t63);
-  const Real t71 = t30 * (pinbx_x * t56 + pinbx_y * t63);
+  const Real pinam2t_x = pinax_y * t41;
+  const Real pinbm1t_x = pinbx_y * t40;
+  const Real pinbm0t_x = pinbx1_y * state.z[0];
+  const Real pinam2t_y = pinax_x * t41;
+  const Real pinam2a_x = t41 * pinam2t_y;
+  const Real pinbm1t_y = pinbx_x * t40;
+  const Real pinbm1a_x = t40 * pinbm1t_y;
+  const Real pinbm0t_y = pinbx1_x * state.z[0];
+  const Real pinbm0b_y = pinbm0t_y + pinbm1t_y * Real(2.0);
+  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
+  const Real pinam2a_y = t41 * pinam2t_x;
+  const Real pinbm1a_y = t40 * pinbm1t_x;
+  const Real pinbm0b_x = pinbm0t_x - pinbm1t_x * Real(2.0);
+  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
+  const Real t66 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y);
+  const Real t70 = t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y);
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
@@ -523,23 +564,23 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = Real(9.81) - r1_y * rW0w22;
-  const Real zw_1 = t40 * (state.z[0] + w1_z);
-  const Real rdf1_x = t67 * h1b_y - h1b_x * zw_1;
-  const Real rdf1_y = t67 * h1b_x + h1b_y * zw_1;
-  const Real rdn1_z = t67 * Real(0.031103999999999996);
+  const Real zw_1 = t40 * (t40 - (state.z[0] + state.z[0]));
+  const Real rdf1_x = t66 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t66 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t66 * Real(0.031103999999999996);
   const Real rQp2 = c2 * Real(0.565056);
-  const Real rdn2_z = t71 * Real(0.009215999999999998);
+  const Real rdn2_z = t70 * Real(0.009215999999999998);
   const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real t132 = push2_0 + rQp2;
-  const Real tau_2_0 = rdn2_z + t132;
-  const Real t142 = Real(1.0) / (T2 * Real(2.0)) * (t38 * tau_2_0 + (t34 * rQ1_0 - (input.u[0] + (r1_y *
+  const Real t131 = push2_0 + rQp2;
+  const Real tau_2_0 = rdn2_z + t131;
+  const Real t141 = Real(1.0) / (Real(2.0) * T2) * (t38 * tau_2_0 + (t34 * rQ1_0 - (input.u[0] + (r1_y *
       rdf1_x - (r1_x * rdf1_y - (rQp0 + rdn1_z))))));
-  const Real ra1o_x_2 = ra1o_x - r1_y * t142;
-  const Real ra1o_y_2 = ra1o_y - r1_x * t142;
-  const Real rdn2_z_2 = Real(0.009215999999999998) * (t71 - t38 * t142);
-  const Real rQ1_0_2 = Real(0.031103999999999996) * (t142 + (t67 - t34 * t142)) + (h1b_x * ra1o_y_2 - h1b_y *
+  const Real ra1o_x_2 = ra1o_x - r1_y * t141;
+  const Real ra1o_y_2 = ra1o_y - r1_x * t141;
+  const Real rdn2_z_2 = Real(0.009215999999999998) * (t70 - t38 * t141);
+  const Real rQ1_0_2 = Real(0.031103999999999996) * (t141 + (t66 - t34 * t141)) + (h1b_x * ra1o_y_2 - h1b_y *
       ra1o_x_2);
-  const Real tau_2_0_2 = t132 + rdn2_z_2;
+  const Real tau_2_0_2 = t131 + rdn2_z_2;
   lambda[0] = -(t30 * (pinax_x * rQ1_0_2 + pinbx_x * tau_2_0_2));
   lambda[1] = -(t30 * (pinax_y * rQ1_0_2 - pinbx_y * tau_2_0_2));
 }

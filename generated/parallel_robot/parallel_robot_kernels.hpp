@@ -436,59 +436,61 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = Real(0.19485571585149872) * c3 + Real(0.11249999999999999) * s3;
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_x = r2_x + pin2ax_x;
+  const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = Real(0.19485571585149872) * c4 - Real(0.11249999999999999) * s4;
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = Real(0.19485571585149872) * s3 - Real(0.11249999999999999) * c3;
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_y = r2_y - pin2ax_y;
+  const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = Real(0.19485571585149872) * s4 + Real(0.11249999999999999) * c4;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
-  Real t71, t72;
-  detail::sine_cosine(state.y[6], t71, t72);
-  const Real s6 = c5 * t71 + s5 * t72;
-  const Real c6 = s5 * t71 - c5 * t72;
+  Real t77, t78;
+  detail::sine_cosine(state.y[6], t77, t78);
+  const Real s6 = c5 * t77 + s5 * t78;
+  const Real c6 = s5 * t77 - c5 * t78;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
+  const Real pin3ax2_x = r2_x + pin3ax_x;
+  const Real pin3ax1_x = r1_x - pin3ax2_x;
   const Real pin3bx_x = s6 * Real(0.225);
   const Real pin3bx6_x = r6_x + pin3bx_x;
   const Real r6_y = c5 * Real(0.225);
   const Real pin3ax_y = s2 * Real(0.06928203230275509) + c2 * Real(0.12);
+  const Real pin3ax2_y = r2_y - pin3ax_y;
+  const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t94 = r4_y + pin2bx_y;
-  const Real t95 = r4_x - pin2bx_x;
-  const Real t96 = r2_y - pin2ax_y;
-  const Real t97 = r2_x + pin2ax_x;
-  const Real t98 = r2_y - pin3ax_y;
-  const Real t99 = r2_x + pin3ax_x;
-  const Real t100 = r1_y + t96;
-  const Real t101 = r1_x - t97;
-  const Real t102 = r1_y + t98;
-  const Real t103 = r1_x - t99;
-  const Real t112 = Real(1.0) / (t99 * t99 + (t98 * t98 + (t96 * t96 + t97 * t97)));
-  const Real t120 = t112 * (pin3ax_x * t99 - (pin3ax_y * t98 + (pin2ax_y * t96 - pin2ax_x * t97)));
-  const Real t122 = pin2ax_y + t96 * t120;
-  const Real t124 = pin2ax_x - t97 * t120;
-  const Real t126 = pin3ax_y + t98 * t120;
-  const Real t128 = pin3ax_x - t99 * t120;
+  const Real t112 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
+      pin2ax2_x * pin2ax2_x)));
+  const Real t120 = t112 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
+      pin2ax2_x)));
+  const Real t122 = pin2ax_y + pin2ax2_y * t120;
+  const Real t124 = pin2ax_x - pin2ax2_x * t120;
+  const Real t126 = pin3ax_y + pin3ax2_y * t120;
+  const Real t128 = pin3ax_x - pin3ax2_x * t120;
   const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
-  const Real t140 = t112 * (pin2bx_y * t96 + pin2bx_x * t97);
-  const Real t142 = pin2bx_y - t96 * t140;
-  const Real t144 = pin2bx_x - t97 * t140;
-  const Real t145 = t98 * t140;
-  const Real t146 = t99 * t140;
+  const Real t140 = t112 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t142 = pin2bx_y - pin2ax2_y * t140;
+  const Real t144 = pin2bx_x - pin2ax2_x * t140;
+  const Real t145 = pin3ax2_y * t140;
+  const Real t146 = pin3ax2_x * t140;
   const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
   const Real t156 = t142 - t122 * t154;
   const Real t158 = t144 + t124 * t154;
   const Real t160 = t145 + t126 * t154;
   const Real t162 = t146 - t128 * t154;
   const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
-  const Real t174 = t112 * (pin3bx_y * t98 - pin3bx_x * t99);
-  const Real t175 = t96 * t174;
-  const Real t176 = t97 * t174;
-  const Real t178 = pin3bx_y - t98 * t174;
-  const Real t180 = pin3bx_x + t99 * t174;
+  const Real t174 = t112 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t175 = pin2ax2_y * t174;
+  const Real t176 = pin2ax2_x * t174;
+  const Real t178 = pin3bx_y - pin3ax2_y * t174;
+  const Real t180 = pin3bx_x + pin3ax2_x * t174;
   const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
@@ -500,11 +502,12 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real t210 = t194 + t160 * t204;
   const Real t212 = t196 - t162 * t204;
   const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (t99 * t103 - (t98 * t102 + (t96 * t100 - t97 * t101)));
-  const Real t230 = t100 + t96 * t228;
-  const Real t232 = t101 - t97 * t228;
-  const Real t234 = t102 + t98 * t228;
-  const Real t236 = t103 - t99 * t228;
+  const Real t228 = t112 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
+      pin2ax2_x * pin2ax1_x)));
+  const Real t230 = pin2ax1_y + pin2ax2_y * t228;
+  const Real t232 = pin2ax1_x - pin2ax2_x * t228;
+  const Real t234 = pin3ax1_y + pin3ax2_y * t228;
+  const Real t236 = pin3ax1_x - pin3ax2_x * t228;
   const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
@@ -516,11 +519,11 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real t280 = t260 - t204 * t276;
   const Real t284 = t154 * t280 - (t244 - t188 * t276);
   const Real t288 = t120 * t284 + (t140 * t280 + (t228 + t174 * t276));
-  const Real t297 = t112 * (t94 * t96 - t95 * t97);
-  const Real t299 = t94 - t96 * t297;
-  const Real t301 = t95 + t97 * t297;
-  const Real t302 = t98 * t297;
-  const Real t303 = t99 * t297;
+  const Real t297 = t112 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t299 = pin2bx4_y - pin2ax2_y * t297;
+  const Real t301 = pin2bx4_x + pin2ax2_x * t297;
+  const Real t302 = pin3ax2_y * t297;
+  const Real t303 = pin3ax2_x * t297;
   const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
@@ -532,11 +535,11 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real t347 = t327 - t204 * t343;
   const Real t351 = t154 * t347 - (t311 - t188 * t343);
   const Real t355 = t120 * t351 + (t140 * t347 - (t297 - t174 * t343));
-  const Real t364 = t112 * (pin3bx6_y * t98 + pin3bx6_x * t99);
-  const Real t365 = t96 * t364;
-  const Real t366 = t97 * t364;
-  const Real t368 = pin3bx6_y - t98 * t364;
-  const Real t370 = pin3bx6_x - t99 * t364;
+  const Real t364 = t112 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t365 = pin2ax2_y * t364;
+  const Real t366 = pin2ax2_x * t364;
+  const Real t368 = pin3bx6_y - pin3ax2_y * t364;
+  const Real t370 = pin3bx6_x - pin3ax2_x * t364;
   const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
   const Real t380 = t365 - t122 * t378;
   const Real t382 = t366 + t124 * t378;
@@ -552,57 +555,75 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
   const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
   const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
-  const Real w1_z = state.z[0] - t426;
-  const Real w2_z = t429 + w1_z;
-  const Real t442 = s2 * w2_z;
-  const Real t443 = c2 * w2_z;
-  const Real t452 = s3 * state.z[1];
-  const Real t453 = c3 * state.z[1];
-  const Real w4_z = state.z[1] + t432;
-  const Real t459 = s4 * w4_z;
-  const Real t460 = c4 * w4_z;
-  const Real t466 = state.z[0] * (s0 * state.z[0]);
-  const Real t468 = state.z[0] * (c0 * state.z[0]);
-  const Real t470 = w1_z * (s1 * w1_z);
-  const Real t472 = w1_z * (c1 * w1_z);
-  const Real w6_z = state.z[2] - t435;
-  const Real t475 = Real(0.225) * w6_z;
-  const Real t476 = Real(0.225) * state.z[2];
-  const Real t477 = s6 * t475;
-  const Real t479 = c6 * t475;
-  const Real t491 = Real(0.11249999999999999) * t472 - (Real(0.19485571585149872) * t470 +
-      (Real(0.19485571585149872) * t466 + Real(0.11249999999999999) * t468));
-  const Real t494 = w2_z * (Real(0.06928203230275509) * t442 + Real(0.12) * t443) + (state.z[2] * (t479 - c5 *
-      t476) - (t435 * t479 - t491));
-  const Real t495 = Real(0.11249999999999999) * t470;
-  const Real t496 = Real(0.19485571585149872) * t472;
-  const Real t497 = Real(0.11249999999999999) * t466;
-  const Real t498 = Real(0.19485571585149872) * t468;
-  const Real t510 = state.z[1] * (Real(0.11249999999999999) * t452 + Real(0.19485571585149872) * t453) - (w2_z
-      * (Real(1.0546217409559561e-17) * t442 + Real(0.13856406460551018) * t443) - (w4_z *
-      (Real(0.11249999999999999) * t459 - Real(0.19485571585149872) * t460) + (t498 - (t497 + (t495 +
-      t496)))));
-  const Real t518 = w2_z * (Real(0.12) * t442 - Real(0.06928203230275509) * t443) + (t498 - (t497 + (t496 +
-      (t495 - (t435 * t477 - state.z[2] * (t477 + s5 * t476))))));
-  const Real t526 = state.z[1] * (Real(0.19485571585149872) * t452 - Real(0.11249999999999999) * t453) + (w4_z
-      * (Real(0.19485571585149872) * t459 + Real(0.11249999999999999) * t460) - (t491 + w2_z *
-      (Real(0.13856406460551018) * t442 - Real(1.0546217409559561e-17) * t443)));
-  const Real t534 = t112 * (t99 * t494 - (t98 * t518 + (t96 * t510 + t97 * t526)));
-  const Real t536 = t510 + t96 * t534;
-  const Real t538 = t526 + t97 * t534;
-  const Real t540 = t518 + t98 * t534;
-  const Real t542 = t494 - t99 * t534;
-  const Real t550 = t136 * (t128 * t542 + (t126 * t540 + (t122 * t536 - t124 * t538)));
-  const Real t552 = t536 - t122 * t550;
-  const Real t554 = t538 + t124 * t550;
-  const Real t556 = t540 - t126 * t550;
-  const Real t558 = t542 - t128 * t550;
-  const Real t566 = t170 * (t162 * t558 - (t160 * t556 - (t156 * t552 + t158 * t554)));
-  const Real t582 = t220 * (t212 * (t558 - t162 * t566) + (t210 * (t556 + t160 * t566) - (t206 * (t552 - t156
-      * t566) + t208 * (t554 - t158 * t566))));
-  const Real t586 = t566 - t204 * t582;
-  const Real t590 = t154 * t586 - (t550 - t188 * t582);
-  const Real t594 = t120 * t590 + (t140 * t586 + (t534 + t174 * t582));
+  const Real pin2am2t_x = pin2ax_y * t429;
+  const Real pin2am1t_x = pin2ax2_y * t426;
+  const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
+  const Real pin2am0t_x = pin2ax1_y * state.z[0];
+  const Real pin2bm4t_x = pin2bx_y * t432;
+  const Real pin2bm3t_x = pin2bx4_y * state.z[1];
+  const Real pin2am2t_y = pin2ax_x * t429;
+  const Real pin2am2a_x = t429 * pin2am2t_y;
+  const Real pin2am1t_y = pin2ax2_x * t426;
+  const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
+  const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
+  const Real pin2am0t_y = pin2ax1_x * state.z[0];
+  const Real pin2am0b_y = pin2am0t_y - Real(2.0) * pin2am1v_y;
+  const Real pin2bm4t_y = pin2bx_x * t432;
+  const Real pin2bm4a_x = t432 * pin2bm4t_y;
+  const Real pin2bm3t_y = pin2bx4_x * state.z[1];
+  const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
+  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t426
+      * pin2am1b_y)));
+  const Real pin2am2a_y = t429 * pin2am2t_x;
+  const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x - pin2am1v_x * Real(2.0);
+  const Real pin2bm4a_y = t432 * pin2bm4t_x;
+  const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
+  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t426
+      * pin2am1b_x)));
+  const Real pin3am2t_x = pin3ax_y * t429;
+  const Real pin3am1t_x = pin3ax2_y * t426;
+  const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
+  const Real pin3am0t_x = pin3ax1_y * state.z[0];
+  const Real pin3bm6t_x = pin3bx_y * t435;
+  const Real pin3bm5t_x = pin3bx6_y * state.z[2];
+  const Real pin3am2t_y = pin3ax_x * t429;
+  const Real pin3am2a_x = t429 * pin3am2t_y;
+  const Real pin3am1t_y = pin3ax2_x * t426;
+  const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
+  const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
+  const Real pin3am0t_y = pin3ax1_x * state.z[0];
+  const Real pin3am0b_y = pin3am0t_y - Real(2.0) * pin3am1v_y;
+  const Real pin3bm6t_y = pin3bx_x * t435;
+  const Real pin3bm6a_x = t435 * pin3bm6t_y;
+  const Real pin3bm5t_y = pin3bx6_x * state.z[2];
+  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t426
+      * pin3am1b_y)));
+  const Real pin3am2a_y = t429 * pin3am2t_x;
+  const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
+  const Real pin3am0b_x = pin3am0t_x - Real(2.0) * pin3am1v_x;
+  const Real pin3bm6a_y = t435 * pin3bm6t_x;
+  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t426
+      * pin3am1b_x)));
+  const Real t528 = t112 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
+      pin2da_y)));
+  const Real t530 = pin2da_x - pin2ax2_y * t528;
+  const Real t532 = pin2da_y - pin2ax2_x * t528;
+  const Real t534 = pin3da_x + pin3ax2_y * t528;
+  const Real t536 = pin3da_y - pin3ax2_x * t528;
+  const Real t544 = t136 * (t128 * t536 + (t126 * t534 - (t122 * t530 - t124 * t532)));
+  const Real t546 = t530 + t122 * t544;
+  const Real t548 = t532 - t124 * t544;
+  const Real t550 = t534 - t126 * t544;
+  const Real t552 = t536 - t128 * t544;
+  const Real t560 = t170 * (t162 * t552 - (t160 * t550 + (t156 * t546 + t158 * t548)));
+  const Real t576 = t220 * (t212 * (t552 - t162 * t560) + (t210 * (t550 + t160 * t560) + (t206 * (t546 + t156
+      * t560) + t208 * (t548 + t158 * t560))));
+  const Real t580 = t560 - t204 * t576;
+  const Real t584 = t154 * t580 - (t544 - t188 * t576);
+  const Real t588 = t120 * t584 + (t140 * t580 + (t528 + t174 * t576));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
@@ -611,6 +632,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
   const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
+  const Real w1_z = state.z[0] - t426;
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
@@ -620,19 +642,19 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real kW1w22 = w1_z * w1_z;
   const Real ka2o_x = ka1o_x - r2_x * kW1w22;
   const Real ka2o_y = ka1o_y + r2_y * kW1w22;
-  const Real zw_2 = t429 * (w1_z + w2_z);
+  const Real zw_2 = t429 * (w1_z + (t429 + w1_z));
   const Real kdf2_x = h2b_x * zw_2;
   const Real kdf2_y = h2b_y * zw_2;
   const Real kW3w22 = state.z[1] * state.z[1];
   const Real ka4o_x = r4_x * kW3w22;
   const Real ka4o_y = r4_y * kW3w22;
-  const Real zw_4 = t432 * (state.z[1] + w4_z);
+  const Real zw_4 = t432 * (t432 + (state.z[1] + state.z[1]));
   const Real kdf4_x = h4b_x * zw_4;
   const Real kdf4_y = h4b_y * zw_4;
   const Real kW5w22 = state.z[2] * state.z[2];
   const Real ka6o_x = r6_x * kW5w22;
   const Real ka6o_y = r6_y * kW5w22;
-  const Real zw_6 = t435 * (state.z[2] + w6_z);
+  const Real zw_6 = t435 * (t435 - (state.z[2] + state.z[2]));
   const Real kdf6_x = h6b_x * zw_6;
   const Real kdf6_y = h6b_y * zw_6;
   const Real kf2c_x = kdf1_x - kdf2_x;
@@ -646,16 +668,16 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
       Real(0.0012656249999999998);
   const Real E1 = r1_y * h1_y - (J1 - r1_x * h1_x);
   const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t717 = t590 * E2 - (t594 * J1 - (kn2c_z - (h1_x * ka1o_y - h1_y * ka1o_x)));
-  const Real t720 = t590 * model.S2b_zz - (t594 * E2 + (h2b_x * ka2o_y - h2b_y * ka2o_x));
-  const Real t722 = t586 * Real(0.0050625) + (h4b_x * ka4o_y - h4b_y * ka4o_x);
-  const Real t724 = t582 * Real(0.0050625) + (h6b_x * ka6o_y + h6b_y * ka6o_x);
-  k[0] = -(t276 * t724 + (t280 * t722 + (t284 * t720 - (t288 * t717 - (t590 * p_2_1n_z - (t594 * E1 - (r1_y *
-      kf2c_x - (kn2c_z + r1_x * kf2c_y))))))));
-  k[1] = -(t343 * t724 + (t347 * t722 + (t351 * t720 - (t355 * t717 + (t586 * E4 + (r4_x * kdf4_y - r4_y *
-      kdf4_x))))));
-  k[2] = t410 * t724 + (t414 * t722 + (t418 * t720 - (t422 * t717 + (t582 * E6 + (r6_x * kdf6_y + r6_y *
-      kdf6_x)))));
+  const Real t715 = t584 * E2 - (t588 * J1 + (kn2c_z - (h1_x * ka1o_y - h1_y * ka1o_x)));
+  const Real t718 = t584 * model.S2b_zz - (t588 * E2 - (h2b_x * ka2o_y - h2b_y * ka2o_x));
+  const Real t720 = t580 * Real(0.0050625) - (h4b_x * ka4o_y - h4b_y * ka4o_x);
+  const Real t722 = t576 * Real(0.0050625) - (h6b_x * ka6o_y + h6b_y * ka6o_x);
+  k[0] = t276 * t722 + (t280 * t720 + (t284 * t718 - (t288 * t715 - (t584 * p_2_1n_z - (t588 * E1 + (r1_y *
+      kf2c_x - (kn2c_z + r1_x * kf2c_y)))))));
+  k[1] = t343 * t722 + (t347 * t720 + (t351 * t718 - (t355 * t715 + (t580 * E4 - (r4_x * kdf4_y - r4_y *
+      kdf4_x)))));
+  k[2] = -(t410 * t722 + (t414 * t720 + (t418 * t718 - (t422 * t715 + (t576 * E6 + (r6_x * kdf6_y + r6_y *
+      kdf6_x))))));
 }
 
 template <class Real>
@@ -691,59 +713,61 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = Real(0.19485571585149872) * c3 + Real(0.11249999999999999) * s3;
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_x = r2_x + pin2ax_x;
+  const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = Real(0.19485571585149872) * c4 - Real(0.11249999999999999) * s4;
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = Real(0.19485571585149872) * s3 - Real(0.11249999999999999) * c3;
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_y = r2_y - pin2ax_y;
+  const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = Real(0.19485571585149872) * s4 + Real(0.11249999999999999) * c4;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
-  Real t71, t72;
-  detail::sine_cosine(state.y[6], t71, t72);
-  const Real s6 = c5 * t71 + s5 * t72;
-  const Real c6 = s5 * t71 - c5 * t72;
+  Real t77, t78;
+  detail::sine_cosine(state.y[6], t77, t78);
+  const Real s6 = c5 * t77 + s5 * t78;
+  const Real c6 = s5 * t77 - c5 * t78;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
+  const Real pin3ax2_x = r2_x + pin3ax_x;
+  const Real pin3ax1_x = r1_x - pin3ax2_x;
   const Real pin3bx_x = s6 * Real(0.225);
   const Real pin3bx6_x = r6_x + pin3bx_x;
   const Real r6_y = c5 * Real(0.225);
   const Real pin3ax_y = s2 * Real(0.06928203230275509) + c2 * Real(0.12);
+  const Real pin3ax2_y = r2_y - pin3ax_y;
+  const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t94 = r4_y + pin2bx_y;
-  const Real t95 = r4_x - pin2bx_x;
-  const Real t96 = r2_y - pin2ax_y;
-  const Real t97 = r2_x + pin2ax_x;
-  const Real t98 = r2_y - pin3ax_y;
-  const Real t99 = r2_x + pin3ax_x;
-  const Real t100 = r1_y + t96;
-  const Real t101 = r1_x - t97;
-  const Real t102 = r1_y + t98;
-  const Real t103 = r1_x - t99;
-  const Real t112 = Real(1.0) / (t99 * t99 + (t98 * t98 + (t96 * t96 + t97 * t97)));
-  const Real t120 = t112 * (pin3ax_x * t99 - (pin3ax_y * t98 + (pin2ax_y * t96 - pin2ax_x * t97)));
-  const Real t122 = pin2ax_y + t96 * t120;
-  const Real t124 = pin2ax_x - t97 * t120;
-  const Real t126 = pin3ax_y + t98 * t120;
-  const Real t128 = pin3ax_x - t99 * t120;
+  const Real t112 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
+      pin2ax2_x * pin2ax2_x)));
+  const Real t120 = t112 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
+      pin2ax2_x)));
+  const Real t122 = pin2ax_y + pin2ax2_y * t120;
+  const Real t124 = pin2ax_x - pin2ax2_x * t120;
+  const Real t126 = pin3ax_y + pin3ax2_y * t120;
+  const Real t128 = pin3ax_x - pin3ax2_x * t120;
   const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
-  const Real t140 = t112 * (pin2bx_y * t96 + pin2bx_x * t97);
-  const Real t142 = pin2bx_y - t96 * t140;
-  const Real t144 = pin2bx_x - t97 * t140;
-  const Real t145 = t98 * t140;
-  const Real t146 = t99 * t140;
+  const Real t140 = t112 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t142 = pin2bx_y - pin2ax2_y * t140;
+  const Real t144 = pin2bx_x - pin2ax2_x * t140;
+  const Real t145 = pin3ax2_y * t140;
+  const Real t146 = pin3ax2_x * t140;
   const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
   const Real t156 = t142 - t122 * t154;
   const Real t158 = t144 + t124 * t154;
   const Real t160 = t145 + t126 * t154;
   const Real t162 = t146 - t128 * t154;
   const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
-  const Real t174 = t112 * (pin3bx_y * t98 - pin3bx_x * t99);
-  const Real t175 = t96 * t174;
-  const Real t176 = t97 * t174;
-  const Real t178 = pin3bx_y - t98 * t174;
-  const Real t180 = pin3bx_x + t99 * t174;
+  const Real t174 = t112 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t175 = pin2ax2_y * t174;
+  const Real t176 = pin2ax2_x * t174;
+  const Real t178 = pin3bx_y - pin3ax2_y * t174;
+  const Real t180 = pin3bx_x + pin3ax2_x * t174;
   const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
@@ -755,11 +779,12 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t210 = t194 + t160 * t204;
   const Real t212 = t196 - t162 * t204;
   const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (t99 * t103 - (t98 * t102 + (t96 * t100 - t97 * t101)));
-  const Real t230 = t100 + t96 * t228;
-  const Real t232 = t101 - t97 * t228;
-  const Real t234 = t102 + t98 * t228;
-  const Real t236 = t103 - t99 * t228;
+  const Real t228 = t112 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
+      pin2ax2_x * pin2ax1_x)));
+  const Real t230 = pin2ax1_y + pin2ax2_y * t228;
+  const Real t232 = pin2ax1_x - pin2ax2_x * t228;
+  const Real t234 = pin3ax1_y + pin3ax2_y * t228;
+  const Real t236 = pin3ax1_x - pin3ax2_x * t228;
   const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
@@ -771,11 +796,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t280 = t260 - t204 * t276;
   const Real t284 = t154 * t280 - (t244 - t188 * t276);
   const Real t288 = t120 * t284 + (t140 * t280 + (t228 + t174 * t276));
-  const Real t297 = t112 * (t94 * t96 - t95 * t97);
-  const Real t299 = t94 - t96 * t297;
-  const Real t301 = t95 + t97 * t297;
-  const Real t302 = t98 * t297;
-  const Real t303 = t99 * t297;
+  const Real t297 = t112 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t299 = pin2bx4_y - pin2ax2_y * t297;
+  const Real t301 = pin2bx4_x + pin2ax2_x * t297;
+  const Real t302 = pin3ax2_y * t297;
+  const Real t303 = pin3ax2_x * t297;
   const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
@@ -787,11 +812,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t347 = t327 - t204 * t343;
   const Real t351 = t154 * t347 - (t311 - t188 * t343);
   const Real t355 = t120 * t351 + (t140 * t347 - (t297 - t174 * t343));
-  const Real t364 = t112 * (pin3bx6_y * t98 + pin3bx6_x * t99);
-  const Real t365 = t96 * t364;
-  const Real t366 = t97 * t364;
-  const Real t368 = pin3bx6_y - t98 * t364;
-  const Real t370 = pin3bx6_x - t99 * t364;
+  const Real t364 = t112 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t365 = pin2ax2_y * t364;
+  const Real t366 = pin2ax2_x * t364;
+  const Real t368 = pin3bx6_y - pin3ax2_y * t364;
+  const Real t370 = pin3bx6_x - pin3ax2_x * t364;
   const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
   const Real t380 = t365 - t122 * t378;
   const Real t382 = t366 + t124 * t378;
@@ -807,57 +832,75 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
   const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
   const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
-  const Real w1_z = state.z[0] - t426;
-  const Real w2_z = t429 + w1_z;
-  const Real t442 = s2 * w2_z;
-  const Real t443 = c2 * w2_z;
-  const Real t452 = s3 * state.z[1];
-  const Real t453 = c3 * state.z[1];
-  const Real w4_z = state.z[1] + t432;
-  const Real t459 = s4 * w4_z;
-  const Real t460 = c4 * w4_z;
-  const Real t466 = state.z[0] * (s0 * state.z[0]);
-  const Real t468 = state.z[0] * (c0 * state.z[0]);
-  const Real t470 = w1_z * (s1 * w1_z);
-  const Real t472 = w1_z * (c1 * w1_z);
-  const Real w6_z = state.z[2] - t435;
-  const Real t475 = Real(0.225) * w6_z;
-  const Real t476 = Real(0.225) * state.z[2];
-  const Real t477 = s6 * t475;
-  const Real t479 = c6 * t475;
-  const Real t491 = Real(0.11249999999999999) * t472 - (Real(0.19485571585149872) * t470 +
-      (Real(0.19485571585149872) * t466 + Real(0.11249999999999999) * t468));
-  const Real t494 = w2_z * (Real(0.06928203230275509) * t442 + Real(0.12) * t443) + (state.z[2] * (t479 - c5 *
-      t476) - (t435 * t479 - t491));
-  const Real t495 = Real(0.11249999999999999) * t470;
-  const Real t496 = Real(0.19485571585149872) * t472;
-  const Real t497 = Real(0.11249999999999999) * t466;
-  const Real t498 = Real(0.19485571585149872) * t468;
-  const Real t510 = state.z[1] * (Real(0.11249999999999999) * t452 + Real(0.19485571585149872) * t453) - (w2_z
-      * (Real(1.0546217409559561e-17) * t442 + Real(0.13856406460551018) * t443) - (w4_z *
-      (Real(0.11249999999999999) * t459 - Real(0.19485571585149872) * t460) + (t498 - (t497 + (t495 +
-      t496)))));
-  const Real t518 = w2_z * (Real(0.12) * t442 - Real(0.06928203230275509) * t443) + (t498 - (t497 + (t496 +
-      (t495 - (t435 * t477 - state.z[2] * (t477 + s5 * t476))))));
-  const Real t526 = state.z[1] * (Real(0.19485571585149872) * t452 - Real(0.11249999999999999) * t453) + (w4_z
-      * (Real(0.19485571585149872) * t459 + Real(0.11249999999999999) * t460) - (t491 + w2_z *
-      (Real(0.13856406460551018) * t442 - Real(1.0546217409559561e-17) * t443)));
-  const Real t534 = t112 * (t99 * t494 - (t98 * t518 + (t96 * t510 + t97 * t526)));
-  const Real t536 = t510 + t96 * t534;
-  const Real t538 = t526 + t97 * t534;
-  const Real t540 = t518 + t98 * t534;
-  const Real t542 = t494 - t99 * t534;
-  const Real t550 = t136 * (t128 * t542 + (t126 * t540 + (t122 * t536 - t124 * t538)));
-  const Real t552 = t536 - t122 * t550;
-  const Real t554 = t538 + t124 * t550;
-  const Real t556 = t540 - t126 * t550;
-  const Real t558 = t542 - t128 * t550;
-  const Real t566 = t170 * (t162 * t558 - (t160 * t556 - (t156 * t552 + t158 * t554)));
-  const Real t582 = t220 * (t212 * (t558 - t162 * t566) + (t210 * (t556 + t160 * t566) - (t206 * (t552 - t156
-      * t566) + t208 * (t554 - t158 * t566))));
-  const Real t586 = t566 - t204 * t582;
-  const Real t590 = t154 * t586 - (t550 - t188 * t582);
-  const Real ral1o_z = t120 * t590 + (t140 * t586 + (t534 + t174 * t582));
+  const Real pin2am2t_x = pin2ax_y * t429;
+  const Real pin2am1t_x = pin2ax2_y * t426;
+  const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
+  const Real pin2am0t_x = pin2ax1_y * state.z[0];
+  const Real pin2bm4t_x = pin2bx_y * t432;
+  const Real pin2bm3t_x = pin2bx4_y * state.z[1];
+  const Real pin2am2t_y = pin2ax_x * t429;
+  const Real pin2am2a_x = t429 * pin2am2t_y;
+  const Real pin2am1t_y = pin2ax2_x * t426;
+  const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
+  const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
+  const Real pin2am0t_y = pin2ax1_x * state.z[0];
+  const Real pin2am0b_y = pin2am0t_y - Real(2.0) * pin2am1v_y;
+  const Real pin2bm4t_y = pin2bx_x * t432;
+  const Real pin2bm4a_x = t432 * pin2bm4t_y;
+  const Real pin2bm3t_y = pin2bx4_x * state.z[1];
+  const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
+  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t426
+      * pin2am1b_y)));
+  const Real pin2am2a_y = t429 * pin2am2t_x;
+  const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x - pin2am1v_x * Real(2.0);
+  const Real pin2bm4a_y = t432 * pin2bm4t_x;
+  const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
+  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t426
+      * pin2am1b_x)));
+  const Real pin3am2t_x = pin3ax_y * t429;
+  const Real pin3am1t_x = pin3ax2_y * t426;
+  const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
+  const Real pin3am0t_x = pin3ax1_y * state.z[0];
+  const Real pin3bm6t_x = pin3bx_y * t435;
+  const Real pin3bm5t_x = pin3bx6_y * state.z[2];
+  const Real pin3am2t_y = pin3ax_x * t429;
+  const Real pin3am2a_x = t429 * pin3am2t_y;
+  const Real pin3am1t_y = pin3ax2_x * t426;
+  const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
+  const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
+  const Real pin3am0t_y = pin3ax1_x * state.z[0];
+  const Real pin3am0b_y = pin3am0t_y - Real(2.0) * pin3am1v_y;
+  const Real pin3bm6t_y = pin3bx_x * t435;
+  const Real pin3bm6a_x = t435 * pin3bm6t_y;
+  const Real pin3bm5t_y = pin3bx6_x * state.z[2];
+  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t426
+      * pin3am1b_y)));
+  const Real pin3am2a_y = t429 * pin3am2t_x;
+  const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
+  const Real pin3am0b_x = pin3am0t_x - Real(2.0) * pin3am1v_x;
+  const Real pin3bm6a_y = t435 * pin3bm6t_x;
+  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t426
+      * pin3am1b_x)));
+  const Real t528 = t112 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
+      pin2da_y)));
+  const Real t530 = pin2da_x - pin2ax2_y * t528;
+  const Real t532 = pin2da_y - pin2ax2_x * t528;
+  const Real t534 = pin3da_x + pin3ax2_y * t528;
+  const Real t536 = pin3da_y - pin3ax2_x * t528;
+  const Real t544 = t136 * (t128 * t536 + (t126 * t534 - (t122 * t530 - t124 * t532)));
+  const Real t546 = t530 + t122 * t544;
+  const Real t548 = t532 - t124 * t544;
+  const Real t550 = t534 - t126 * t544;
+  const Real t552 = t536 - t128 * t544;
+  const Real t560 = t170 * (t162 * t552 - (t160 * t550 + (t156 * t546 + t158 * t548)));
+  const Real t576 = t220 * (t212 * (t552 - t162 * t560) + (t210 * (t550 + t160 * t560) + (t206 * (t546 + t156
+      * t560) + t208 * (t548 + t158 * t560))));
+  const Real t580 = t560 - t204 * t576;
+  const Real t584 = t154 * t580 - (t544 - t188 * t576);
+  const Real ral1o_z = t120 * t584 + (t140 * t580 + (t528 + t174 * t576));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
@@ -877,26 +920,27 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
   const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t671 = t355 * J1 - t351 * E2;
-  const Real t674 = t355 * E2 - t351 * model.S2b_zz;
-  const Real t676 = E4 - t347 * Real(0.0050625);
-  const Real t677 = t343 * Real(0.0050625);
-  const Real t689 = t422 * J1 - t418 * E2;
-  const Real t692 = t422 * E2 - t418 * model.S2b_zz;
-  const Real t694 = t414 * Real(0.0050625);
-  const Real t696 = E6 - t410 * Real(0.0050625);
-  const Real t705 = t276 * t696 - (t280 * t694 - (t284 * t692 - (t288 * t689 + (t422 * E1 + t418 *
+  const Real t665 = t355 * J1 - t351 * E2;
+  const Real t668 = t355 * E2 - t351 * model.S2b_zz;
+  const Real t670 = E4 - t347 * Real(0.0050625);
+  const Real t671 = t343 * Real(0.0050625);
+  const Real t683 = t422 * J1 - t418 * E2;
+  const Real t686 = t422 * E2 - t418 * model.S2b_zz;
+  const Real t688 = t414 * Real(0.0050625);
+  const Real t690 = E6 - t410 * Real(0.0050625);
+  const Real t699 = t276 * t690 - (t280 * t688 - (t284 * t686 - (t288 * t683 + (t422 * E1 + t418 *
       p_2_1n_z))));
-  const Real t713 = t343 * t696 - (t347 * t694 - (t351 * t692 + (t414 * E4 - t355 * t689)));
-  const Real t728 = Real(1.0) / (t410 * (E6 + t696) - (t414 * t694 - (t418 * t692 - (t422 * t689 + (D6 + E6 +
+  const Real t707 = t343 * t690 - (t347 * t688 - (t351 * t686 + (t414 * E4 - t355 * t683)));
+  const Real t722 = Real(1.0) / (t410 * (E6 + t690) - (t414 * t688 - (t418 * t686 - (t422 * t683 + (D6 + E6 +
       Real(0.021937500000000002) + Real(0.002))))));
-  const Real t729 = t713 * t728;
-  const Real t747 = t705 * t729 + (t276 * t677 - (t280 * t676 + (t284 * t674 - (t288 * t671 + (t355 * E1 +
+  const Real t723 = t707 * t722;
+  const Real t741 = t699 * t723 + (t276 * t671 - (t280 * t670 + (t284 * t668 - (t288 * t665 + (t355 * E1 +
       t351 * p_2_1n_z)))));
-  const Real t748 = t705 * t728;
-  const Real t750 = Real(1.0) / (t347 * (E4 + t676) - (t713 * t729 + (t343 * t677 - (t351 * t674 - (t355 *
-      t671 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
-  const Real t751 = t747 * t750;
+  const Real t742 = t699 * t722;
+  const Real t744 = Real(1.0) / (t347 * (E4 + t670) - (t707 * t723 + (t343 * t671 - (t351 * t668 - (t355 *
+      t665 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
+  const Real t745 = t741 * t744;
+  const Real w1_z = state.z[0] - t426;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
@@ -906,46 +950,46 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real zw_1 = t426 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
   const Real rW1w22 = w1_z * w1_z;
-  const Real ra2o_x = r2_y * ral1o_z + (ra1o_x - r2_x * rW1w22);
-  const Real ra2o_y = r2_y * rW1w22 + (ra1o_y + r2_x * ral1o_z);
-  const Real zw_2 = t429 * (w1_z + w2_z);
-  const Real rdf2_x = t590 * h2b_y - h2b_x * zw_2;
-  const Real rdf2_y = t590 * h2b_x + h2b_y * zw_2;
-  const Real rdn2_z = t590 * model.S2b_zz;
+  const Real ra2o_x = r2_y * ral1o_z - (ra1o_x - r2_x * rW1w22);
+  const Real ra2o_y = r2_y * rW1w22 + (ra1o_y - r2_x * ral1o_z);
+  const Real zw_2 = t429 * (w1_z + (t429 + w1_z));
+  const Real rdf2_x = t584 * h2b_y + h2b_x * zw_2;
+  const Real rdf2_y = t584 * h2b_x - h2b_y * zw_2;
+  const Real rdn2_z = t584 * model.S2b_zz;
   const Real rW3w22 = state.z[1] * state.z[1];
   const Real ra4o_x = r4_x * rW3w22;
   const Real ra4o_y = r4_y * rW3w22;
-  const Real zw_4 = t432 * (state.z[1] + w4_z);
-  const Real rdf4_x = t586 * h4b_y - h4b_x * zw_4;
-  const Real rdf4_y = t586 * h4b_x + h4b_y * zw_4;
-  const Real rdn4_z = t586 * Real(0.0050625);
+  const Real zw_4 = t432 * (t432 + (state.z[1] + state.z[1]));
+  const Real rdf4_x = t580 * h4b_y + h4b_x * zw_4;
+  const Real rdf4_y = t580 * h4b_x - h4b_y * zw_4;
+  const Real rdn4_z = t580 * Real(0.0050625);
   const Real rW5w22 = state.z[2] * state.z[2];
   const Real ra6o_x = r6_x * rW5w22;
   const Real ra6o_y = r6_y * rW5w22;
-  const Real zw_6 = t435 * (state.z[2] + w6_z);
-  const Real rdf6_x = t582 * h6b_y - h6b_x * zw_6;
-  const Real rdf6_y = t582 * h6b_x + h6b_y * zw_6;
-  const Real rdn6_z = t582 * Real(0.0050625);
-  const Real rf2c_x = rdf2_x - (ral1o_z * h1_y - h1_x * zw_1);
-  const Real rf2c_y = rdf2_y - (ral1o_z * h1_x + h1_y * zw_1);
+  const Real zw_6 = t435 * (t435 - (state.z[2] + state.z[2]));
+  const Real rdf6_x = t576 * h6b_y - h6b_x * zw_6;
+  const Real rdf6_y = t576 * h6b_x + h6b_y * zw_6;
+  const Real rdn6_z = t576 * Real(0.0050625);
+  const Real rf2c_x = rdf2_x - (ral1o_z * h1_y + h1_x * zw_1);
+  const Real rf2c_y = rdf2_y - (ral1o_z * h1_x - h1_y * zw_1);
   const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y - (rdn1_z - rdn2_z));
-  const Real rQ1_0 = rn2c_z + (h1_x * ra1o_y - h1_y * ra1o_x);
-  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz + h2b_x * ra2o_y));
-  const Real rQ4_0 = rdn4_z + (h4b_x * ra4o_y - h4b_y * ra4o_x);
-  const Real rQ6_0 = rdn6_z + (h6b_x * ra6o_y + h6b_y * ra6o_x);
-  const Real t884 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
-      rdf6_y - (push5_0 - rdn6_z))))));
-  const Real t893 = t729 * t884 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
-      rdf4_x + (r4_x * rdf4_y + (push3_0 + rdn4_z)))))));
-  const Real t905 = Real(1.0) / (t284 * (p_2_1n_z + (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 *
-      (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t747 * t751 + (t705 * t748 + (Real(0.0050625) * (t276 * t276) +
+  const Real rQ1_0 = rn2c_z - (h1_x * ra1o_y - h1_y * ra1o_x);
+  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
+  const Real rQ4_0 = rdn4_z - (h4b_x * ra4o_y - h4b_y * ra4o_x);
+  const Real rQ6_0 = rdn6_z - (h6b_x * ra6o_y + h6b_y * ra6o_x);
+  const Real t882 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
+      rdf6_y + (push5_0 + rdn6_z))))));
+  const Real t891 = t723 * t882 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
+      rdf4_x + (r4_x * rdf4_y - (push3_0 - rdn4_z)))))));
+  const Real t903 = Real(1.0) / (t284 * (p_2_1n_z + (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 *
+      (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t741 * t745 + (t699 * t742 + (Real(0.0050625) * (t276 * t276) +
       (Real(0.0050625) * (t280 * t280) + (Real(0.002) - (D1 - E1 - model.S_xx_2 - Real(0.005062500000000001) -
-      model.S_yy_2 - Real(0.0016875))))))))) * (t751 * t893 + (t748 * t884 - (t276 * rQ6_0 + (t280 * rQ4_0 +
-      (t284 * rQ2_0 + (t288 * rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y - (push0_0 - rn2c_z)))))))));
-  const Real t908 = t750 * t893 - t751 * t905;
-  zdot[0] = t905;
-  zdot[1] = -t908;
-  zdot[2] = -(t729 * t908 + (t728 * t884 - t748 * t905));
+      model.S_yy_2 - Real(0.0016875))))))))) * (t745 * t891 + (t742 * t882 - (t276 * rQ6_0 + (t280 * rQ4_0 +
+      (t284 * rQ2_0 + (t288 * rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y + (push0_0 + rn2c_z)))))))));
+  const Real t906 = t744 * t891 - t745 * t903;
+  zdot[0] = -t903;
+  zdot[1] = t906;
+  zdot[2] = t723 * t906 + (t722 * t882 - t742 * t903);
 }
 
 template <class Real>
@@ -971,59 +1015,61 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = Real(0.19485571585149872) * c3 + Real(0.11249999999999999) * s3;
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_x = r2_x + pin2ax_x;
+  const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = Real(0.19485571585149872) * c4 - Real(0.11249999999999999) * s4;
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = Real(0.19485571585149872) * s3 - Real(0.11249999999999999) * c3;
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_y = r2_y - pin2ax_y;
+  const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = Real(0.19485571585149872) * s4 + Real(0.11249999999999999) * c4;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
-  Real t71, t72;
-  detail::sine_cosine(state.y[6], t71, t72);
-  const Real s6 = c5 * t71 + s5 * t72;
-  const Real c6 = s5 * t71 - c5 * t72;
+  Real t77, t78;
+  detail::sine_cosine(state.y[6], t77, t78);
+  const Real s6 = c5 * t77 + s5 * t78;
+  const Real c6 = s5 * t77 - c5 * t78;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
+  const Real pin3ax2_x = r2_x + pin3ax_x;
+  const Real pin3ax1_x = r1_x - pin3ax2_x;
   const Real pin3bx_x = s6 * Real(0.225);
   const Real pin3bx6_x = r6_x + pin3bx_x;
   const Real r6_y = c5 * Real(0.225);
   const Real pin3ax_y = s2 * Real(0.06928203230275509) + c2 * Real(0.12);
+  const Real pin3ax2_y = r2_y - pin3ax_y;
+  const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t94 = r4_y + pin2bx_y;
-  const Real t95 = r4_x - pin2bx_x;
-  const Real t96 = r2_y - pin2ax_y;
-  const Real t97 = r2_x + pin2ax_x;
-  const Real t98 = r2_y - pin3ax_y;
-  const Real t99 = r2_x + pin3ax_x;
-  const Real t100 = r1_y + t96;
-  const Real t101 = r1_x - t97;
-  const Real t102 = r1_y + t98;
-  const Real t103 = r1_x - t99;
-  const Real t112 = Real(1.0) / (t99 * t99 + (t98 * t98 + (t96 * t96 + t97 * t97)));
-  const Real t120 = t112 * (pin3ax_x * t99 - (pin3ax_y * t98 + (pin2ax_y * t96 - pin2ax_x * t97)));
-  const Real t122 = pin2ax_y + t96 * t120;
-  const Real t124 = pin2ax_x - t97 * t120;
-  const Real t126 = pin3ax_y + t98 * t120;
-  const Real t128 = pin3ax_x - t99 * t120;
+  const Real t112 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
+      pin2ax2_x * pin2ax2_x)));
+  const Real t120 = t112 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
+      pin2ax2_x)));
+  const Real t122 = pin2ax_y + pin2ax2_y * t120;
+  const Real t124 = pin2ax_x - pin2ax2_x * t120;
+  const Real t126 = pin3ax_y + pin3ax2_y * t120;
+  const Real t128 = pin3ax_x - pin3ax2_x * t120;
   const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
-  const Real t140 = t112 * (pin2bx_y * t96 + pin2bx_x * t97);
-  const Real t142 = pin2bx_y - t96 * t140;
-  const Real t144 = pin2bx_x - t97 * t140;
-  const Real t145 = t98 * t140;
-  const Real t146 = t99 * t140;
+  const Real t140 = t112 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t142 = pin2bx_y - pin2ax2_y * t140;
+  const Real t144 = pin2bx_x - pin2ax2_x * t140;
+  const Real t145 = pin3ax2_y * t140;
+  const Real t146 = pin3ax2_x * t140;
   const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
   const Real t156 = t142 - t122 * t154;
   const Real t158 = t144 + t124 * t154;
   const Real t160 = t145 + t126 * t154;
   const Real t162 = t146 - t128 * t154;
   const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
-  const Real t174 = t112 * (pin3bx_y * t98 - pin3bx_x * t99);
-  const Real t175 = t96 * t174;
-  const Real t176 = t97 * t174;
-  const Real t178 = pin3bx_y - t98 * t174;
-  const Real t180 = pin3bx_x + t99 * t174;
+  const Real t174 = t112 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t175 = pin2ax2_y * t174;
+  const Real t176 = pin2ax2_x * t174;
+  const Real t178 = pin3bx_y - pin3ax2_y * t174;
+  const Real t180 = pin3bx_x + pin3ax2_x * t174;
   const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
@@ -1035,11 +1081,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t210 = t194 + t160 * t204;
   const Real t212 = t196 - t162 * t204;
   const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (t99 * t103 - (t98 * t102 + (t96 * t100 - t97 * t101)));
-  const Real t230 = t100 + t96 * t228;
-  const Real t232 = t101 - t97 * t228;
-  const Real t234 = t102 + t98 * t228;
-  const Real t236 = t103 - t99 * t228;
+  const Real t228 = t112 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
+      pin2ax2_x * pin2ax1_x)));
+  const Real t230 = pin2ax1_y + pin2ax2_y * t228;
+  const Real t232 = pin2ax1_x - pin2ax2_x * t228;
+  const Real t234 = pin3ax1_y + pin3ax2_y * t228;
+  const Real t236 = pin3ax1_x - pin3ax2_x * t228;
   const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
@@ -1051,11 +1098,11 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t280 = t260 - t204 * t276;
   const Real t284 = t154 * t280 - (t244 - t188 * t276);
   const Real t288 = t120 * t284 + (t140 * t280 + (t228 + t174 * t276));
-  const Real t297 = t112 * (t94 * t96 - t95 * t97);
-  const Real t299 = t94 - t96 * t297;
-  const Real t301 = t95 + t97 * t297;
-  const Real t302 = t98 * t297;
-  const Real t303 = t99 * t297;
+  const Real t297 = t112 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t299 = pin2bx4_y - pin2ax2_y * t297;
+  const Real t301 = pin2bx4_x + pin2ax2_x * t297;
+  const Real t302 = pin3ax2_y * t297;
+  const Real t303 = pin3ax2_x * t297;
   const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
@@ -1067,11 +1114,11 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t347 = t327 - t204 * t343;
   const Real t351 = t154 * t347 - (t311 - t188 * t343);
   const Real t355 = t120 * t351 + (t140 * t347 - (t297 - t174 * t343));
-  const Real t364 = t112 * (pin3bx6_y * t98 + pin3bx6_x * t99);
-  const Real t365 = t96 * t364;
-  const Real t366 = t97 * t364;
-  const Real t368 = pin3bx6_y - t98 * t364;
-  const Real t370 = pin3bx6_x - t99 * t364;
+  const Real t364 = t112 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t365 = pin2ax2_y * t364;
+  const Real t366 = pin2ax2_x * t364;
+  const Real t368 = pin3bx6_y - pin3ax2_y * t364;
+  const Real t370 = pin3bx6_x - pin3ax2_x * t364;
   const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
   const Real t380 = t365 - t122 * t378;
   const Real t382 = t366 + t124 * t378;
@@ -1087,61 +1134,79 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
   const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
   const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
-  const Real w1_z = state.z[0] - t426;
-  const Real w2_z = t429 + w1_z;
-  const Real t442 = s2 * w2_z;
-  const Real t443 = c2 * w2_z;
-  const Real t452 = s3 * state.z[1];
-  const Real t453 = c3 * state.z[1];
-  const Real w4_z = state.z[1] + t432;
-  const Real t459 = s4 * w4_z;
-  const Real t460 = c4 * w4_z;
-  const Real t466 = state.z[0] * (s0 * state.z[0]);
-  const Real t468 = state.z[0] * (c0 * state.z[0]);
-  const Real t470 = w1_z * (s1 * w1_z);
-  const Real t472 = w1_z * (c1 * w1_z);
-  const Real w6_z = state.z[2] - t435;
-  const Real t475 = Real(0.225) * w6_z;
-  const Real t476 = Real(0.225) * state.z[2];
-  const Real t477 = s6 * t475;
-  const Real t479 = c6 * t475;
-  const Real t491 = Real(0.11249999999999999) * t472 - (Real(0.19485571585149872) * t470 +
-      (Real(0.19485571585149872) * t466 + Real(0.11249999999999999) * t468));
-  const Real t494 = w2_z * (Real(0.06928203230275509) * t442 + Real(0.12) * t443) + (state.z[2] * (t479 - c5 *
-      t476) - (t435 * t479 - t491));
-  const Real t495 = Real(0.11249999999999999) * t470;
-  const Real t496 = Real(0.19485571585149872) * t472;
-  const Real t497 = Real(0.11249999999999999) * t466;
-  const Real t498 = Real(0.19485571585149872) * t468;
-  const Real t510 = state.z[1] * (Real(0.11249999999999999) * t452 + Real(0.19485571585149872) * t453) - (w2_z
-      * (Real(1.0546217409559561e-17) * t442 + Real(0.13856406460551018) * t443) - (w4_z *
-      (Real(0.11249999999999999) * t459 - Real(0.19485571585149872) * t460) + (t498 - (t497 + (t495 +
-      t496)))));
-  const Real t518 = w2_z * (Real(0.12) * t442 - Real(0.06928203230275509) * t443) + (t498 - (t497 + (t496 +
-      (t495 - (t435 * t477 - state.z[2] * (t477 + s5 * t476))))));
-  const Real t526 = state.z[1] * (Real(0.19485571585149872) * t452 - Real(0.11249999999999999) * t453) + (w4_z
-      * (Real(0.19485571585149872) * t459 + Real(0.11249999999999999) * t460) - (t491 + w2_z *
-      (Real(0.13856406460551018) * t442 - Real(1.0546217409559561e-17) * t443)));
-  const Real t534 = t112 * (t99 * t494 - (t98 * t518 + (t96 * t510 + t97 * t526)));
-  const Real t536 = t510 + t96 * t534;
-  const Real t538 = t526 + t97 * t534;
-  const Real t540 = t518 + t98 * t534;
-  const Real t542 = t494 - t99 * t534;
-  const Real t550 = t136 * (t128 * t542 + (t126 * t540 + (t122 * t536 - t124 * t538)));
-  const Real t552 = t536 - t122 * t550;
-  const Real t554 = t538 + t124 * t550;
-  const Real t556 = t540 - t126 * t550;
-  const Real t558 = t542 - t128 * t550;
-  const Real t566 = t170 * (t162 * t558 - (t160 * t556 - (t156 * t552 + t158 * t554)));
-  const Real t582 = t220 * (t212 * (t558 - t162 * t566) + (t210 * (t556 + t160 * t566) - (t206 * (t552 - t156
-      * t566) + t208 * (t554 - t158 * t566))));
-  const Real t586 = t566 - t204 * t582;
-  const Real t590 = t154 * t586 - (t550 - t188 * t582);
-  const Real t609 = t422 * zdot[2] - (t355 * zdot[1] + (t288 * zdot[0] + (t120 * t590 + (t140 * t586 + (t534 +
-      t174 * t582)))));
-  const Real t613 = t418 * zdot[2] - (t351 * zdot[1] + (t590 + t284 * zdot[0]));
-  const Real t617 = t414 * zdot[2] - (t347 * zdot[1] + (t586 + t280 * zdot[0]));
-  const Real t621 = t410 * zdot[2] - (t343 * zdot[1] + (t582 + t276 * zdot[0]));
+  const Real pin2am2t_x = pin2ax_y * t429;
+  const Real pin2am1t_x = pin2ax2_y * t426;
+  const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
+  const Real pin2am0t_x = pin2ax1_y * state.z[0];
+  const Real pin2bm4t_x = pin2bx_y * t432;
+  const Real pin2bm3t_x = pin2bx4_y * state.z[1];
+  const Real pin2am2t_y = pin2ax_x * t429;
+  const Real pin2am2a_x = t429 * pin2am2t_y;
+  const Real pin2am1t_y = pin2ax2_x * t426;
+  const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
+  const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
+  const Real pin2am0t_y = pin2ax1_x * state.z[0];
+  const Real pin2am0b_y = pin2am0t_y - Real(2.0) * pin2am1v_y;
+  const Real pin2bm4t_y = pin2bx_x * t432;
+  const Real pin2bm4a_x = t432 * pin2bm4t_y;
+  const Real pin2bm3t_y = pin2bx4_x * state.z[1];
+  const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
+  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t426
+      * pin2am1b_y)));
+  const Real pin2am2a_y = t429 * pin2am2t_x;
+  const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x - pin2am1v_x * Real(2.0);
+  const Real pin2bm4a_y = t432 * pin2bm4t_x;
+  const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
+  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t426
+      * pin2am1b_x)));
+  const Real pin3am2t_x = pin3ax_y * t429;
+  const Real pin3am1t_x = pin3ax2_y * t426;
+  const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
+  const Real pin3am0t_x = pin3ax1_y * state.z[0];
+  const Real pin3bm6t_x = pin3bx_y * t435;
+  const Real pin3bm5t_x = pin3bx6_y * state.z[2];
+  const Real pin3am2t_y = pin3ax_x * t429;
+  const Real pin3am2a_x = t429 * pin3am2t_y;
+  const Real pin3am1t_y = pin3ax2_x * t426;
+  const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
+  const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
+  const Real pin3am0t_y = pin3ax1_x * state.z[0];
+  const Real pin3am0b_y = pin3am0t_y - Real(2.0) * pin3am1v_y;
+  const Real pin3bm6t_y = pin3bx_x * t435;
+  const Real pin3bm6a_x = t435 * pin3bm6t_y;
+  const Real pin3bm5t_y = pin3bx6_x * state.z[2];
+  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t426
+      * pin3am1b_y)));
+  const Real pin3am2a_y = t429 * pin3am2t_x;
+  const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
+  const Real pin3am0b_x = pin3am0t_x - Real(2.0) * pin3am1v_x;
+  const Real pin3bm6a_y = t435 * pin3bm6t_x;
+  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t426
+      * pin3am1b_x)));
+  const Real t528 = t112 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
+      pin2da_y)));
+  const Real t530 = pin2da_x - pin2ax2_y * t528;
+  const Real t532 = pin2da_y - pin2ax2_x * t528;
+  const Real t534 = pin3da_x + pin3ax2_y * t528;
+  const Real t536 = pin3da_y - pin3ax2_x * t528;
+  const Real t544 = t136 * (t128 * t536 + (t126 * t534 - (t122 * t530 - t124 * t532)));
+  const Real t546 = t530 + t122 * t544;
+  const Real t548 = t532 - t124 * t544;
+  const Real t550 = t534 - t126 * t544;
+  const Real t552 = t536 - t128 * t544;
+  const Real t560 = t170 * (t162 * t552 - (t160 * t550 + (t156 * t546 + t158 * t548)));
+  const Real t576 = t220 * (t212 * (t552 - t162 * t560) + (t210 * (t550 + t160 * t560) + (t206 * (t546 + t156
+      * t560) + t208 * (t548 + t158 * t560))));
+  const Real t580 = t560 - t204 * t576;
+  const Real t584 = t154 * t580 - (t544 - t188 * t576);
+  const Real t603 = t422 * zdot[2] - (t355 * zdot[1] + (t288 * zdot[0] - (t120 * t584 + (t140 * t580 + (t528 +
+      t174 * t576)))));
+  const Real t607 = t418 * zdot[2] - (t351 * zdot[1] - (t584 - t284 * zdot[0]));
+  const Real t611 = t414 * zdot[2] - (t347 * zdot[1] - (t580 - t280 * zdot[0]));
+  const Real t615 = t410 * zdot[2] - (t343 * zdot[1] - (t576 - t276 * zdot[0]));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
@@ -1159,35 +1224,36 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(0.0012656249999999998);
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real J0 = D1 - (J1 - D1) - model.S_xx_2 - Real(0.005062500000000001) - model.S_yy_2 - Real(0.0016875);
+  const Real w1_z = state.z[0] - t426;
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_y * zdot[0] + r1_x * aW0w22;
   const Real aa1o_y = r1_x * zdot[0] - r1_y * aW0w22;
   const Real zw_1 = t426 * (state.z[0] + w1_z);
-  const Real adn1_z = t609 * J1;
-  const Real aal1o_z = zdot[0] - t609;
+  const Real adn1_z = t603 * J1;
+  const Real aal1o_z = zdot[0] - t603;
   const Real aW1w22 = w1_z * w1_z;
   const Real aa2o_x = r2_y * aal1o_z + (aa1o_x - r2_x * aW1w22);
   const Real aa2o_y = r2_y * aW1w22 - (aa1o_y - r2_x * aal1o_z);
-  const Real zw_2 = t429 * (w1_z + w2_z);
-  const Real adf2_x = t613 * h2b_y + h2b_x * zw_2;
-  const Real adf2_y = t613 * h2b_x - h2b_y * zw_2;
-  const Real adn2_z = t613 * model.S2b_zz;
+  const Real zw_2 = t429 * (w1_z + (t429 + w1_z));
+  const Real adf2_x = t607 * h2b_y + h2b_x * zw_2;
+  const Real adf2_y = t607 * h2b_x - h2b_y * zw_2;
+  const Real adn2_z = t607 * model.S2b_zz;
   const Real aW3w22 = state.z[1] * state.z[1];
   const Real aa4o_x = r4_y * zdot[1] + r4_x * aW3w22;
   const Real aa4o_y = r4_x * zdot[1] - r4_y * aW3w22;
-  const Real zw_4 = t432 * (state.z[1] + w4_z);
-  const Real adf4_x = t617 * h4b_y + h4b_x * zw_4;
-  const Real adf4_y = t617 * h4b_x - h4b_y * zw_4;
-  const Real adn4_z = t617 * Real(0.0050625);
+  const Real zw_4 = t432 * (t432 + (state.z[1] + state.z[1]));
+  const Real adf4_x = t611 * h4b_y + h4b_x * zw_4;
+  const Real adf4_y = t611 * h4b_x - h4b_y * zw_4;
+  const Real adn4_z = t611 * Real(0.0050625);
   const Real aW5w22 = state.z[2] * state.z[2];
   const Real aa6o_x = r6_y * zdot[2] - r6_x * aW5w22;
   const Real aa6o_y = r6_x * zdot[2] + r6_y * aW5w22;
-  const Real zw_6 = t435 * (state.z[2] + w6_z);
-  const Real adf6_x = t621 * h6b_y + h6b_x * zw_6;
-  const Real adf6_y = t621 * h6b_x - h6b_y * zw_6;
-  const Real adn6_z = t621 * Real(0.0050625);
-  const Real af2c_x = adf2_x - (t609 * h1_y + h1_x * zw_1);
-  const Real af2c_y = adf2_y - (t609 * h1_x - h1_y * zw_1);
+  const Real zw_6 = t435 * (t435 - (state.z[2] + state.z[2]));
+  const Real adf6_x = t615 * h6b_y - h6b_x * zw_6;
+  const Real adf6_y = t615 * h6b_x + h6b_y * zw_6;
+  const Real adn6_z = t615 * Real(0.0050625);
+  const Real af2c_x = adf2_x - (t603 * h1_y + h1_x * zw_1);
+  const Real af2c_y = adf2_y - (t603 * h1_x - h1_y * zw_1);
   const Real an2c_z = r2_y * adf2_x - (r2_x * adf2_y - (adn1_z - adn2_z));
   const Real aQ1_0 = an2c_z + (h1_y * aa1o_x - (zdot[0] * J1 - h1_x * aa1o_y));
   const Real aQ2_0 = adn2_z - (h2b_y * aa2o_x - (model.S2b_zz * aal1o_z + h2b_x * aa2o_y));
@@ -1338,7 +1404,6 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
   const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
   const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
-  const Real w1_z = state.z[0] - t426;
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
@@ -1356,6 +1421,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
       Real(0.0012656249999999998);
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real J0 = D1 - (J1 - D1) - model.S_xx_2 - Real(0.005062500000000001) - model.S_yy_2 - Real(0.0016875);
+  const Real w1_z = state.z[0] - t426;
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
@@ -1819,24 +1885,20 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   detail::sine_cosine(state.y[4], t33, t34);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
-  const Real t41 = Real(0.19485571585149872) * c3;
-  const Real t42 = Real(0.11249999999999999) * s3;
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_x = r2_x + pin2ax_x;
+  const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = Real(0.19485571585149872) * c4 - Real(0.11249999999999999) * s4;
-  const Real pin2d_x = pin2bx_x - (t42 + (t41 - (pin2ax_x - (r1_x - r2_x) + Real(0.3031088913245535)))) +
-      Real(0.30310889132455343);
+  const Real pin2bx4_x = pin2bx_x - (Real(0.19485571585149872) * c3 + Real(0.11249999999999999) * s3);
+  const Real pin2d_x = pin2bx4_x - (pin2ax1_x - Real(0.3031088913245535)) + Real(0.30310889132455343);
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
-  const Real t66 = Real(0.19485571585149872) * s3;
-  const Real t67 = Real(0.11249999999999999) * c3;
-  const Real t68 = s2 * Real(0.13856406460551018);
-  const Real t69 = c2 * Real(1.0546217409559561e-17);
-  const Real pin2ax_y = t68 - t69;
+  const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_y = r2_y - pin2ax_y;
+  const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = Real(0.19485571585149872) * s4 + Real(0.11249999999999999) * c4;
-  const Real t74 = r1_y + r2_y;
-  const Real t75 = pin2ax_y - t74;
-  const Real pin2d_y = pin2bx_y - (t67 - (t66 - (t75 + Real(0.17500000000000002)))) +
-      Real(0.17500000000000016);
+  const Real pin2bx4_y = pin2bx_y + (Real(0.19485571585149872) * s3 - Real(0.11249999999999999) * c3);
+  const Real pin2d_y = pin2bx4_y + (pin2ax1_y - Real(0.17500000000000002)) + Real(0.17500000000000016);
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   Real t87, t88;
@@ -1845,123 +1907,138 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real c6 = s5 * t87 - c5 * t88;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
+  const Real pin3ax2_x = r2_x + pin3ax_x;
+  const Real pin3ax1_x = r1_x - pin3ax2_x;
   const Real pin3bx_x = s6 * Real(0.225);
   const Real pin3bx6_x = r6_x + pin3bx_x;
-  const Real pin3d_x = pin3bx6_x + (pin3ax_x + (r2_x - (r1_x - Real(0.3031088913245535)))) +
-      Real(2.143131898507868e-17);
+  const Real pin3d_x = pin3bx6_x + (Real(0.3031088913245535) - pin3ax1_x) + Real(2.143131898507868e-17);
   const Real r6_y = c5 * Real(0.225);
-  const Real t111 = s2 * Real(0.06928203230275509);
-  const Real t112 = c2 * Real(0.12);
-  const Real pin3ax_y = t111 + t112;
+  const Real pin3ax_y = s2 * Real(0.06928203230275509) + c2 * Real(0.12);
+  const Real pin3ax2_y = r2_y - pin3ax_y;
+  const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real pin3d_y = pin3bx6_y - (pin3ax_y - (r2_y + (r1_y - Real(0.17500000000000002)))) - Real(0.35);
-  const Real t123 = pin2bx_y + (t66 - t67);
-  const Real t125 = pin2bx_x - (t41 + t42);
-  const Real t126 = r2_y - pin2ax_y;
-  const Real t127 = r2_x + pin2ax_x;
-  const Real t128 = r2_y - pin3ax_y;
-  const Real t129 = r2_x + pin3ax_x;
-  const Real t130 = r1_y + t126;
-  const Real t131 = r1_x - t127;
-  const Real t132 = r1_y + t128;
-  const Real t133 = r1_x - t129;
-  const Real t142 = Real(1.0) / (t129 * t129 + (t128 * t128 + (t126 * t126 + t127 * t127)));
-  const Real t150 = t142 * (pin3ax_x * t129 - (pin3ax_y * t128 + (pin2ax_y * t126 - pin2ax_x * t127)));
-  const Real t152 = pin2ax_y + t126 * t150;
-  const Real t154 = pin2ax_x - t127 * t150;
-  const Real t156 = pin3ax_y + t128 * t150;
-  const Real t158 = pin3ax_x - t129 * t150;
-  const Real t166 = Real(1.0) / (t158 * t158 + (t156 * t156 + (t152 * t152 + t154 * t154)));
-  const Real t170 = t142 * (pin2bx_y * t126 + pin2bx_x * t127);
-  const Real t172 = pin2bx_y - t126 * t170;
-  const Real t174 = pin2bx_x - t127 * t170;
-  const Real t175 = t128 * t170;
-  const Real t176 = t129 * t170;
-  const Real t184 = t166 * (t158 * t176 - (t156 * t175 - (t152 * t172 - t154 * t174)));
-  const Real t186 = t172 - t152 * t184;
-  const Real t188 = t174 + t154 * t184;
-  const Real t190 = t175 + t156 * t184;
-  const Real t192 = t176 - t158 * t184;
-  const Real t200 = Real(1.0) / (t192 * t192 + (t190 * t190 + (t186 * t186 + t188 * t188)));
-  const Real t204 = t142 * (pin3bx_y * t128 - pin3bx_x * t129);
-  const Real t205 = t126 * t204;
-  const Real t206 = t127 * t204;
-  const Real t208 = pin3bx_y - t128 * t204;
-  const Real t210 = pin3bx_x + t129 * t204;
-  const Real t218 = t166 * (t158 * t210 + (t156 * t208 - (t152 * t205 - t154 * t206)));
-  const Real t220 = t205 + t152 * t218;
-  const Real t222 = t206 - t154 * t218;
-  const Real t224 = t208 - t156 * t218;
-  const Real t226 = t210 - t158 * t218;
-  const Real t234 = t200 * (t192 * t226 - (t190 * t224 + (t186 * t220 + t188 * t222)));
-  const Real t236 = t220 + t186 * t234;
-  const Real t238 = t222 + t188 * t234;
-  const Real t240 = t224 + t190 * t234;
-  const Real t242 = t226 - t192 * t234;
-  const Real t250 = Real(1.0) / (t242 * t242 + (t240 * t240 + (t236 * t236 + t238 * t238)));
-  const Real t258 = t142 * (t129 * t133 - (t128 * t132 + (t126 * t130 - t127 * t131)));
-  const Real t260 = t130 + t126 * t258;
-  const Real t262 = t131 - t127 * t258;
-  const Real t264 = t132 + t128 * t258;
-  const Real t266 = t133 - t129 * t258;
-  const Real t274 = t166 * (t158 * t266 + (t156 * t264 + (t152 * t260 + t154 * t262)));
-  const Real t276 = t260 - t152 * t274;
-  const Real t278 = t262 - t154 * t274;
-  const Real t280 = t264 - t156 * t274;
-  const Real t282 = t266 - t158 * t274;
-  const Real t290 = t200 * (t192 * t282 - (t190 * t280 - (t186 * t276 - t188 * t278)));
-  const Real t306 = t250 * (t242 * (t282 - t192 * t290) + (t240 * (t280 + t190 * t290) - (t236 * (t276 - t186
-      * t290) - t238 * (t278 + t188 * t290))));
-  const Real t310 = t290 - t234 * t306;
-  const Real t314 = t184 * t310 - (t274 - t218 * t306);
-  const Real t327 = t142 * (t123 * t126 + t125 * t127);
-  const Real t329 = t123 - t126 * t327;
-  const Real t331 = t125 - t127 * t327;
-  const Real t332 = t128 * t327;
-  const Real t333 = t129 * t327;
-  const Real t341 = t166 * (t158 * t333 - (t156 * t332 - (t152 * t329 - t154 * t331)));
-  const Real t343 = t329 - t152 * t341;
-  const Real t345 = t331 + t154 * t341;
-  const Real t347 = t332 + t156 * t341;
-  const Real t349 = t333 - t158 * t341;
-  const Real t357 = t200 * (t192 * t349 + (t190 * t347 + (t186 * t343 + t188 * t345)));
-  const Real t373 = t250 * (t242 * (t349 - t192 * t357) - (t240 * (t347 - t190 * t357) + (t236 * (t343 - t186
-      * t357) + t238 * (t345 - t188 * t357))));
-  const Real t377 = t357 - t234 * t373;
-  const Real t381 = t184 * t377 - (t341 - t218 * t373);
-  const Real t394 = t142 * (pin3bx6_y * t128 + pin3bx6_x * t129);
-  const Real t395 = t126 * t394;
-  const Real t396 = t127 * t394;
-  const Real t398 = pin3bx6_y - t128 * t394;
-  const Real t400 = pin3bx6_x - t129 * t394;
-  const Real t408 = t166 * (t158 * t400 - (t156 * t398 - (t152 * t395 - t154 * t396)));
-  const Real t410 = t395 - t152 * t408;
-  const Real t412 = t396 + t154 * t408;
-  const Real t414 = t398 + t156 * t408;
-  const Real t416 = t400 - t158 * t408;
-  const Real t424 = t200 * (t192 * t416 + (t190 * t414 + (t186 * t410 + t188 * t412)));
-  const Real t440 = t250 * (t242 * (t416 - t192 * t424) - (t240 * (t414 - t190 * t424) + (t236 * (t410 - t186
-      * t424) + t238 * (t412 - t188 * t424))));
-  const Real t444 = t424 - t234 * t440;
-  const Real t448 = t184 * t444 - (t408 - t218 * t440);
-  const Real t456 = (t150 * t448 + (t170 * t444 + (t394 + t204 * t440))) * state.z[2] - ((t150 * t314 + (t170
-      * t310 + (t258 + t204 * t306))) * state.z[0] + (t150 * t381 + (t170 * t377 - (t327 - t204 * t373))) *
+  const Real pin3d_y = pin3bx6_y - (Real(0.17500000000000002) - pin3ax1_y) - Real(0.35);
+  const Real t130 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
+      pin2ax2_x * pin2ax2_x)));
+  const Real t138 = t130 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
+      pin2ax2_x)));
+  const Real t140 = pin2ax_y + pin2ax2_y * t138;
+  const Real t142 = pin2ax_x - pin2ax2_x * t138;
+  const Real t144 = pin3ax_y + pin3ax2_y * t138;
+  const Real t146 = pin3ax_x - pin3ax2_x * t138;
+  const Real t154 = Real(1.0) / (t146 * t146 + (t144 * t144 + (t140 * t140 + t142 * t142)));
+  const Real t158 = t130 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t160 = pin2bx_y - pin2ax2_y * t158;
+  const Real t162 = pin2bx_x - pin2ax2_x * t158;
+  const Real t163 = pin3ax2_y * t158;
+  const Real t164 = pin3ax2_x * t158;
+  const Real t172 = t154 * (t146 * t164 - (t144 * t163 - (t140 * t160 - t142 * t162)));
+  const Real t174 = t160 - t140 * t172;
+  const Real t176 = t162 + t142 * t172;
+  const Real t178 = t163 + t144 * t172;
+  const Real t180 = t164 - t146 * t172;
+  const Real t188 = Real(1.0) / (t180 * t180 + (t178 * t178 + (t174 * t174 + t176 * t176)));
+  const Real t192 = t130 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t193 = pin2ax2_y * t192;
+  const Real t194 = pin2ax2_x * t192;
+  const Real t196 = pin3bx_y - pin3ax2_y * t192;
+  const Real t198 = pin3bx_x + pin3ax2_x * t192;
+  const Real t206 = t154 * (t146 * t198 + (t144 * t196 - (t140 * t193 - t142 * t194)));
+  const Real t208 = t193 + t140 * t206;
+  const Real t210 = t194 - t142 * t206;
+  const Real t212 = t196 - t144 * t206;
+  const Real t214 = t198 - t146 * t206;
+  const Real t222 = t188 * (t180 * t214 - (t178 * t212 + (t174 * t208 + t176 * t210)));
+  const Real t224 = t208 + t174 * t222;
+  const Real t226 = t210 + t176 * t222;
+  const Real t228 = t212 + t178 * t222;
+  const Real t230 = t214 - t180 * t222;
+  const Real t238 = Real(1.0) / (t230 * t230 + (t228 * t228 + (t224 * t224 + t226 * t226)));
+  const Real t246 = t130 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
+      pin2ax2_x * pin2ax1_x)));
+  const Real t248 = pin2ax1_y + pin2ax2_y * t246;
+  const Real t250 = pin2ax1_x - pin2ax2_x * t246;
+  const Real t252 = pin3ax1_y + pin3ax2_y * t246;
+  const Real t254 = pin3ax1_x - pin3ax2_x * t246;
+  const Real t262 = t154 * (t146 * t254 + (t144 * t252 + (t140 * t248 + t142 * t250)));
+  const Real t264 = t248 - t140 * t262;
+  const Real t266 = t250 - t142 * t262;
+  const Real t268 = t252 - t144 * t262;
+  const Real t270 = t254 - t146 * t262;
+  const Real t278 = t188 * (t180 * t270 - (t178 * t268 - (t174 * t264 - t176 * t266)));
+  const Real t294 = t238 * (t230 * (t270 - t180 * t278) + (t228 * (t268 + t178 * t278) - (t224 * (t264 - t174
+      * t278) - t226 * (t266 + t176 * t278))));
+  const Real t298 = t278 - t222 * t294;
+  const Real t302 = t172 * t298 - (t262 - t206 * t294);
+  const Real t315 = t130 * (pin2ax2_y * pin2bx4_y + pin2ax2_x * pin2bx4_x);
+  const Real t317 = pin2bx4_y - pin2ax2_y * t315;
+  const Real t319 = pin2bx4_x - pin2ax2_x * t315;
+  const Real t320 = pin3ax2_y * t315;
+  const Real t321 = pin3ax2_x * t315;
+  const Real t329 = t154 * (t146 * t321 - (t144 * t320 - (t140 * t317 - t142 * t319)));
+  const Real t331 = t317 - t140 * t329;
+  const Real t333 = t319 + t142 * t329;
+  const Real t335 = t320 + t144 * t329;
+  const Real t337 = t321 - t146 * t329;
+  const Real t345 = t188 * (t180 * t337 + (t178 * t335 + (t174 * t331 + t176 * t333)));
+  const Real t361 = t238 * (t230 * (t337 - t180 * t345) - (t228 * (t335 - t178 * t345) + (t224 * (t331 - t174
+      * t345) + t226 * (t333 - t176 * t345))));
+  const Real t365 = t345 - t222 * t361;
+  const Real t369 = t172 * t365 - (t329 - t206 * t361);
+  const Real t382 = t130 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t383 = pin2ax2_y * t382;
+  const Real t384 = pin2ax2_x * t382;
+  const Real t386 = pin3bx6_y - pin3ax2_y * t382;
+  const Real t388 = pin3bx6_x - pin3ax2_x * t382;
+  const Real t396 = t154 * (t146 * t388 - (t144 * t386 - (t140 * t383 - t142 * t384)));
+  const Real t398 = t383 - t140 * t396;
+  const Real t400 = t384 + t142 * t396;
+  const Real t402 = t386 + t144 * t396;
+  const Real t404 = t388 - t146 * t396;
+  const Real t412 = t188 * (t180 * t404 + (t178 * t402 + (t174 * t398 + t176 * t400)));
+  const Real t428 = t238 * (t230 * (t404 - t180 * t412) - (t228 * (t402 - t178 * t412) + (t224 * (t398 - t174
+      * t412) + t226 * (t400 - t176 * t412))));
+  const Real t432 = t412 - t222 * t428;
+  const Real t436 = t172 * t432 - (t396 - t206 * t428);
+  const Real t444 = (t138 * t436 + (t158 * t432 + (t382 + t192 * t428))) * state.z[2] - ((t138 * t302 + (t158
+      * t298 + (t246 + t192 * t294))) * state.z[0] + (t138 * t369 + (t158 * t365 - (t315 - t192 * t361))) *
       state.z[1]);
-  const Real t459 = t448 * state.z[2] - (t314 * state.z[0] + t381 * state.z[1]);
-  const Real t462 = t444 * state.z[2] - (t310 * state.z[0] + t377 * state.z[1]);
-  const Real t465 = t440 * state.z[2] - (t306 * state.z[0] + t373 * state.z[1]);
+  const Real t447 = t436 * state.z[2] - (t302 * state.z[0] + t369 * state.z[1]);
+  const Real t450 = t432 * state.z[2] - (t298 * state.z[0] + t365 * state.z[1]);
+  const Real t453 = t428 * state.z[2] - (t294 * state.z[0] + t361 * state.z[1]);
+  const Real pin2am2t_x = pin2ax_y * t447;
+  const Real pin2am1t_x = pin2ax2_y * t444;
+  const Real pin2am0t_x = pin2ax1_y * state.z[0];
+  const Real pin2bm4t_x = pin2bx_y * t450;
+  const Real pin2bm3t_x = pin2bx4_y * state.z[1];
+  const Real pin2dv_x = pin2bm3t_x + (pin2bm4t_x + (pin2am0t_x - (pin2am2t_x + pin2am1t_x)));
+  const Real pin2am2t_y = pin2ax_x * t447;
+  const Real pin2am1t_y = pin2ax2_x * t444;
+  const Real pin2am0t_y = pin2ax1_x * state.z[0];
+  const Real pin2bm4t_y = pin2bx_x * t450;
+  const Real pin2bm3t_y = pin2bx4_x * state.z[1];
+  const Real pin2dv_y = pin2bm3t_y + (pin2bm4t_y - (pin2am0t_y - (pin2am2t_y - pin2am1t_y)));
+  const Real pin3am2t_x = pin3ax_y * t447;
+  const Real pin3am1t_x = pin3ax2_y * t444;
+  const Real pin3am0t_x = pin3ax1_y * state.z[0];
+  const Real pin3bm6t_x = pin3bx_y * t453;
+  const Real pin3bm5t_x = pin3bx6_y * state.z[2];
+  const Real pin3dv_x = pin3bm5t_x + (pin3bm6t_x + (pin3am0t_x - (pin3am2t_x + pin3am1t_x)));
+  const Real pin3am2t_y = pin3ax_x * t447;
+  const Real pin3am1t_y = pin3ax2_x * t444;
+  const Real pin3am0t_y = pin3ax1_x * state.z[0];
+  const Real pin3bm6t_y = pin3bx_x * t453;
+  const Real pin3bm5t_y = pin3bx6_x * state.z[2];
+  const Real pin3dv_y = pin3bm5t_y - (pin3bm6t_y + (pin3am0t_y - (pin3am2t_y - pin3am1t_y)));
   g[0] = pin2d_x;
   g[1] = -pin2d_y;
   g[2] = pin3d_x;
   g[3] = -pin3d_y;
-  g_rate[0] = pin2bx_y * t462 + (t123 * state.z[1] - (pin2ax_y * t459 + (t75 * state.z[0] + t456 * (t69 +
-      (r2_y - t68)))));
-  g_rate[1] = pin2bx_x * t462 + (t125 * state.z[1] + (pin2ax_x * t459 - (t131 * state.z[0] + t127 * t456)));
-  g_rate[2] = pin3bx_y * t465 + (pin3bx6_y * state.z[2] - (pin3ax_y * t459 - (state.z[0] * (t74 - pin3ax_y) +
-      t456 * (t112 - (r2_y - t111)))));
-  g_rate[3] = -(pin3bx_x * t465 - (pin3bx6_x * state.z[2] + (pin3ax_x * t459 - (t133 * state.z[0] + t129 *
-      t456))));
+  g_rate[0] = pin2dv_x;
+  g_rate[1] = pin2dv_y;
+  g_rate[2] = pin3dv_x;
+  g_rate[3] = pin3dv_y;
 }
 
 template <class Real>
@@ -1987,59 +2064,61 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = Real(0.19485571585149872) * c3 + Real(0.11249999999999999) * s3;
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_x = r2_x + pin2ax_x;
+  const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = Real(0.19485571585149872) * c4 - Real(0.11249999999999999) * s4;
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = Real(0.19485571585149872) * s3 - Real(0.11249999999999999) * c3;
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
+  const Real pin2ax2_y = r2_y - pin2ax_y;
+  const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = Real(0.19485571585149872) * s4 + Real(0.11249999999999999) * c4;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
-  Real t71, t72;
-  detail::sine_cosine(state.y[6], t71, t72);
-  const Real s6 = c5 * t71 + s5 * t72;
-  const Real c6 = s5 * t71 - c5 * t72;
+  Real t77, t78;
+  detail::sine_cosine(state.y[6], t77, t78);
+  const Real s6 = c5 * t77 + s5 * t78;
+  const Real c6 = s5 * t77 - c5 * t78;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
+  const Real pin3ax2_x = r2_x + pin3ax_x;
+  const Real pin3ax1_x = r1_x - pin3ax2_x;
   const Real pin3bx_x = s6 * Real(0.225);
   const Real pin3bx6_x = r6_x + pin3bx_x;
   const Real r6_y = c5 * Real(0.225);
   const Real pin3ax_y = s2 * Real(0.06928203230275509) + c2 * Real(0.12);
+  const Real pin3ax2_y = r2_y - pin3ax_y;
+  const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t94 = r4_y + pin2bx_y;
-  const Real t95 = r4_x - pin2bx_x;
-  const Real t96 = r2_y - pin2ax_y;
-  const Real t97 = r2_x + pin2ax_x;
-  const Real t98 = r2_y - pin3ax_y;
-  const Real t99 = r2_x + pin3ax_x;
-  const Real t100 = r1_y + t96;
-  const Real t101 = r1_x - t97;
-  const Real t102 = r1_y + t98;
-  const Real t103 = r1_x - t99;
-  const Real t112 = Real(1.0) / (t99 * t99 + (t98 * t98 + (t96 * t96 + t97 * t97)));
-  const Real t120 = t112 * (pin3ax_x * t99 - (pin3ax_y * t98 + (pin2ax_y * t96 - pin2ax_x * t97)));
-  const Real t122 = pin2ax_y + t96 * t120;
-  const Real t124 = pin2ax_x - t97 * t120;
-  const Real t126 = pin3ax_y + t98 * t120;
-  const Real t128 = pin3ax_x - t99 * t120;
+  const Real t112 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
+      pin2ax2_x * pin2ax2_x)));
+  const Real t120 = t112 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
+      pin2ax2_x)));
+  const Real t122 = pin2ax_y + pin2ax2_y * t120;
+  const Real t124 = pin2ax_x - pin2ax2_x * t120;
+  const Real t126 = pin3ax_y + pin3ax2_y * t120;
+  const Real t128 = pin3ax_x - pin3ax2_x * t120;
   const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
-  const Real t140 = t112 * (pin2bx_y * t96 + pin2bx_x * t97);
-  const Real t142 = pin2bx_y - t96 * t140;
-  const Real t144 = pin2bx_x - t97 * t140;
-  const Real t145 = t98 * t140;
-  const Real t146 = t99 * t140;
+  const Real t140 = t112 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t142 = pin2bx_y - pin2ax2_y * t140;
+  const Real t144 = pin2bx_x - pin2ax2_x * t140;
+  const Real t145 = pin3ax2_y * t140;
+  const Real t146 = pin3ax2_x * t140;
   const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
   const Real t156 = t142 - t122 * t154;
   const Real t158 = t144 + t124 * t154;
   const Real t160 = t145 + t126 * t154;
   const Real t162 = t146 - t128 * t154;
   const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
-  const Real t174 = t112 * (pin3bx_y * t98 - pin3bx_x * t99);
-  const Real t175 = t96 * t174;
-  const Real t176 = t97 * t174;
-  const Real t178 = pin3bx_y - t98 * t174;
-  const Real t180 = pin3bx_x + t99 * t174;
+  const Real t174 = t112 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t175 = pin2ax2_y * t174;
+  const Real t176 = pin2ax2_x * t174;
+  const Real t178 = pin3bx_y - pin3ax2_y * t174;
+  const Real t180 = pin3bx_x + pin3ax2_x * t174;
   const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
@@ -2051,11 +2130,12 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t210 = t194 + t160 * t204;
   const Real t212 = t196 - t162 * t204;
   const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (t99 * t103 - (t98 * t102 + (t96 * t100 - t97 * t101)));
-  const Real t230 = t100 + t96 * t228;
-  const Real t232 = t101 - t97 * t228;
-  const Real t234 = t102 + t98 * t228;
-  const Real t236 = t103 - t99 * t228;
+  const Real t228 = t112 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
+      pin2ax2_x * pin2ax1_x)));
+  const Real t230 = pin2ax1_y + pin2ax2_y * t228;
+  const Real t232 = pin2ax1_x - pin2ax2_x * t228;
+  const Real t234 = pin3ax1_y + pin3ax2_y * t228;
+  const Real t236 = pin3ax1_x - pin3ax2_x * t228;
   const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
@@ -2067,11 +2147,11 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t280 = t260 - t204 * t276;
   const Real t284 = t154 * t280 - (t244 - t188 * t276);
   const Real t288 = t120 * t284 + (t140 * t280 + (t228 + t174 * t276));
-  const Real t297 = t112 * (t94 * t96 - t95 * t97);
-  const Real t299 = t94 - t96 * t297;
-  const Real t301 = t95 + t97 * t297;
-  const Real t302 = t98 * t297;
-  const Real t303 = t99 * t297;
+  const Real t297 = t112 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t299 = pin2bx4_y - pin2ax2_y * t297;
+  const Real t301 = pin2bx4_x + pin2ax2_x * t297;
+  const Real t302 = pin3ax2_y * t297;
+  const Real t303 = pin3ax2_x * t297;
   const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
@@ -2083,11 +2163,11 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t347 = t327 - t204 * t343;
   const Real t351 = t154 * t347 - (t311 - t188 * t343);
   const Real t355 = t120 * t351 + (t140 * t347 - (t297 - t174 * t343));
-  const Real t364 = t112 * (pin3bx6_y * t98 + pin3bx6_x * t99);
-  const Real t365 = t96 * t364;
-  const Real t366 = t97 * t364;
-  const Real t368 = pin3bx6_y - t98 * t364;
-  const Real t370 = pin3bx6_x - t99 * t364;
+  const Real t364 = t112 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t365 = pin2ax2_y * t364;
+  const Real t366 = pin2ax2_x * t364;
+  const Real t368 = pin3bx6_y - pin3ax2_y * t364;
+  const Real t370 = pin3bx6_x - pin3ax2_x * t364;
   const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
   const Real t380 = t365 - t122 * t378;
   const Real t382 = t366 + t124 * t378;
@@ -2103,57 +2183,75 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
   const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
   const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
-  const Real w1_z = state.z[0] - t426;
-  const Real w2_z = t429 + w1_z;
-  const Real t442 = s2 * w2_z;
-  const Real t443 = c2 * w2_z;
-  const Real t452 = s3 * state.z[1];
-  const Real t453 = c3 * state.z[1];
-  const Real w4_z = state.z[1] + t432;
-  const Real t459 = s4 * w4_z;
-  const Real t460 = c4 * w4_z;
-  const Real t466 = state.z[0] * (s0 * state.z[0]);
-  const Real t468 = state.z[0] * (c0 * state.z[0]);
-  const Real t470 = w1_z * (s1 * w1_z);
-  const Real t472 = w1_z * (c1 * w1_z);
-  const Real w6_z = state.z[2] - t435;
-  const Real t475 = Real(0.225) * w6_z;
-  const Real t476 = Real(0.225) * state.z[2];
-  const Real t477 = s6 * t475;
-  const Real t479 = c6 * t475;
-  const Real t491 = Real(0.11249999999999999) * t472 - (Real(0.19485571585149872) * t470 +
-      (Real(0.19485571585149872) * t466 + Real(0.11249999999999999) * t468));
-  const Real t494 = w2_z * (Real(0.06928203230275509) * t442 + Real(0.12) * t443) + (state.z[2] * (t479 - c5 *
-      t476) - (t435 * t479 - t491));
-  const Real t495 = Real(0.11249999999999999) * t470;
-  const Real t496 = Real(0.19485571585149872) * t472;
-  const Real t497 = Real(0.11249999999999999) * t466;
-  const Real t498 = Real(0.19485571585149872) * t468;
-  const Real t510 = state.z[1] * (Real(0.11249999999999999) * t452 + Real(0.19485571585149872) * t453) - (w2_z
-      * (Real(1.0546217409559561e-17) * t442 + Real(0.13856406460551018) * t443) - (w4_z *
-      (Real(0.11249999999999999) * t459 - Real(0.19485571585149872) * t460) + (t498 - (t497 + (t495 +
-      t496)))));
-  const Real t518 = w2_z * (Real(0.12) * t442 - Real(0.06928203230275509) * t443) + (t498 - (t497 + (t496 +
-      (t495 - (t435 * t477 - state.z[2] * (t477 + s5 * t476))))));
-  const Real t526 = state.z[1] * (Real(0.19485571585149872) * t452 - Real(0.11249999999999999) * t453) + (w4_z
-      * (Real(0.19485571585149872) * t459 + Real(0.11249999999999999) * t460) - (t491 + w2_z *
-      (Real(0.13856406460551018) * t442 - Real(1.0546217409559561e-17) * t443)));
-  const Real t534 = t112 * (t99 * t494 - (t98 * t518 + (t96 * t510 + t97 * t526)));
-  const Real t536 = t510 + t96 * t534;
-  const Real t538 = t526 + t97 * t534;
-  const Real t540 = t518 + t98 * t534;
-  const Real t542 = t494 - t99 * t534;
-  const Real t550 = t136 * (t128 * t542 + (t126 * t540 + (t122 * t536 - t124 * t538)));
-  const Real t552 = t536 - t122 * t550;
-  const Real t554 = t538 + t124 * t550;
-  const Real t556 = t540 - t126 * t550;
-  const Real t558 = t542 - t128 * t550;
-  const Real t566 = t170 * (t162 * t558 - (t160 * t556 - (t156 * t552 + t158 * t554)));
-  const Real t582 = t220 * (t212 * (t558 - t162 * t566) + (t210 * (t556 + t160 * t566) - (t206 * (t552 - t156
-      * t566) + t208 * (t554 - t158 * t566))));
-  const Real t586 = t566 - t204 * t582;
-  const Real t590 = t154 * t586 - (t550 - t188 * t582);
-  const Real ral1o_z = t120 * t590 + (t140 * t586 + (t534 + t174 * t582));
+  const Real pin2am2t_x = pin2ax_y * t429;
+  const Real pin2am1t_x = pin2ax2_y * t426;
+  const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
+  const Real pin2am0t_x = pin2ax1_y * state.z[0];
+  const Real pin2bm4t_x = pin2bx_y * t432;
+  const Real pin2bm3t_x = pin2bx4_y * state.z[1];
+  const Real pin2am2t_y = pin2ax_x * t429;
+  const Real pin2am2a_x = t429 * pin2am2t_y;
+  const Real pin2am1t_y = pin2ax2_x * t426;
+  const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
+  const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
+  const Real pin2am0t_y = pin2ax1_x * state.z[0];
+  const Real pin2am0b_y = pin2am0t_y - Real(2.0) * pin2am1v_y;
+  const Real pin2bm4t_y = pin2bx_x * t432;
+  const Real pin2bm4a_x = t432 * pin2bm4t_y;
+  const Real pin2bm3t_y = pin2bx4_x * state.z[1];
+  const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
+  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t426
+      * pin2am1b_y)));
+  const Real pin2am2a_y = t429 * pin2am2t_x;
+  const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x - pin2am1v_x * Real(2.0);
+  const Real pin2bm4a_y = t432 * pin2bm4t_x;
+  const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
+  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t426
+      * pin2am1b_x)));
+  const Real pin3am2t_x = pin3ax_y * t429;
+  const Real pin3am1t_x = pin3ax2_y * t426;
+  const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
+  const Real pin3am0t_x = pin3ax1_y * state.z[0];
+  const Real pin3bm6t_x = pin3bx_y * t435;
+  const Real pin3bm5t_x = pin3bx6_y * state.z[2];
+  const Real pin3am2t_y = pin3ax_x * t429;
+  const Real pin3am2a_x = t429 * pin3am2t_y;
+  const Real pin3am1t_y = pin3ax2_x * t426;
+  const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
+  const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
+  const Real pin3am0t_y = pin3ax1_x * state.z[0];
+  const Real pin3am0b_y = pin3am0t_y - Real(2.0) * pin3am1v_y;
+  const Real pin3bm6t_y = pin3bx_x * t435;
+  const Real pin3bm6a_x = t435 * pin3bm6t_y;
+  const Real pin3bm5t_y = pin3bx6_x * state.z[2];
+  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t426
+      * pin3am1b_y)));
+  const Real pin3am2a_y = t429 * pin3am2t_x;
+  const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
+  const Real pin3am0b_x = pin3am0t_x - Real(2.0) * pin3am1v_x;
+  const Real pin3bm6a_y = t435 * pin3bm6t_x;
+  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t426
+      * pin3am1b_x)));
+  const Real t528 = t112 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
+      pin2da_y)));
+  const Real t530 = pin2da_x - pin2ax2_y * t528;
+  const Real t532 = pin2da_y - pin2ax2_x * t528;
+  const Real t534 = pin3da_x + pin3ax2_y * t528;
+  const Real t536 = pin3da_y - pin3ax2_x * t528;
+  const Real t544 = t136 * (t128 * t536 + (t126 * t534 - (t122 * t530 - t124 * t532)));
+  const Real t546 = t530 + t122 * t544;
+  const Real t548 = t532 - t124 * t544;
+  const Real t550 = t534 - t126 * t544;
+  const Real t552 = t536 - t128 * t544;
+  const Real t560 = t170 * (t162 * t552 - (t160 * t550 + (t156 * t546 + t158 * t548)));
+  const Real t576 = t220 * (t212 * (t552 - t162 * t560) + (t210 * (t550 + t160 * t560) + (t206 * (t546 + t156
+      * t560) + t208 * (t548 + t158 * t560))));
+  const Real t580 = t560 - t204 * t576;
+  const Real t584 = t154 * t580 - (t544 - t188 * t576);
+  const Real ral1o_z = t120 * t584 + (t140 * t580 + (t528 + t174 * t576));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
@@ -2173,26 +2271,27 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
   const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t671 = t355 * J1 - t351 * E2;
-  const Real t674 = t355 * E2 - t351 * model.S2b_zz;
-  const Real t676 = E4 - t347 * Real(0.0050625);
-  const Real t677 = t343 * Real(0.0050625);
-  const Real t689 = t422 * J1 - t418 * E2;
-  const Real t692 = t422 * E2 - t418 * model.S2b_zz;
-  const Real t694 = t414 * Real(0.0050625);
-  const Real t696 = E6 - t410 * Real(0.0050625);
-  const Real t705 = t276 * t696 - (t280 * t694 - (t284 * t692 - (t288 * t689 + (t422 * E1 + t418 *
+  const Real t665 = t355 * J1 - t351 * E2;
+  const Real t668 = t355 * E2 - t351 * model.S2b_zz;
+  const Real t670 = E4 - t347 * Real(0.0050625);
+  const Real t671 = t343 * Real(0.0050625);
+  const Real t683 = t422 * J1 - t418 * E2;
+  const Real t686 = t422 * E2 - t418 * model.S2b_zz;
+  const Real t688 = t414 * Real(0.0050625);
+  const Real t690 = E6 - t410 * Real(0.0050625);
+  const Real t699 = t276 * t690 - (t280 * t688 - (t284 * t686 - (t288 * t683 + (t422 * E1 + t418 *
       p_2_1n_z))));
-  const Real t713 = t343 * t696 - (t347 * t694 - (t351 * t692 + (t414 * E4 - t355 * t689)));
-  const Real t728 = Real(1.0) / (t410 * (E6 + t696) - (t414 * t694 - (t418 * t692 - (t422 * t689 + (D6 + E6 +
+  const Real t707 = t343 * t690 - (t347 * t688 - (t351 * t686 + (t414 * E4 - t355 * t683)));
+  const Real t722 = Real(1.0) / (t410 * (E6 + t690) - (t414 * t688 - (t418 * t686 - (t422 * t683 + (D6 + E6 +
       Real(0.021937500000000002) + Real(0.002))))));
-  const Real t729 = t713 * t728;
-  const Real t747 = t705 * t729 + (t276 * t677 - (t280 * t676 + (t284 * t674 - (t288 * t671 + (t355 * E1 +
+  const Real t723 = t707 * t722;
+  const Real t741 = t699 * t723 + (t276 * t671 - (t280 * t670 + (t284 * t668 - (t288 * t665 + (t355 * E1 +
       t351 * p_2_1n_z)))));
-  const Real t748 = t705 * t728;
-  const Real t750 = Real(1.0) / (t347 * (E4 + t676) - (t713 * t729 + (t343 * t677 - (t351 * t674 - (t355 *
-      t671 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
-  const Real t751 = t747 * t750;
+  const Real t742 = t699 * t722;
+  const Real t744 = Real(1.0) / (t347 * (E4 + t670) - (t707 * t723 + (t343 * t671 - (t351 * t668 - (t355 *
+      t665 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
+  const Real t745 = t741 * t744;
+  const Real w1_z = state.z[0] - t426;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
@@ -2202,76 +2301,76 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real zw_1 = t426 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
   const Real rW1w22 = w1_z * w1_z;
-  const Real t794 = r2_x * rW1w22;
-  const Real ra2o_x = r2_y * ral1o_z + (ra1o_x - t794);
-  const Real t799 = r2_y * rW1w22;
-  const Real ra2o_y = t799 + (ra1o_y + r2_x * ral1o_z);
-  const Real zw_2 = t429 * (w1_z + w2_z);
-  const Real t808 = h2b_x * zw_2;
-  const Real rdf2_x = t590 * h2b_y - t808;
-  const Real t811 = h2b_y * zw_2;
-  const Real rdf2_y = t590 * h2b_x + t811;
-  const Real rdn2_z = t590 * model.S2b_zz;
+  const Real t789 = r2_x * rW1w22;
+  const Real ra2o_x = r2_y * ral1o_z - (ra1o_x - t789);
+  const Real t794 = r2_y * rW1w22;
+  const Real ra2o_y = t794 + (ra1o_y - r2_x * ral1o_z);
+  const Real zw_2 = t429 * (w1_z + (t429 + w1_z));
+  const Real t804 = h2b_x * zw_2;
+  const Real rdf2_x = t584 * h2b_y + t804;
+  const Real t807 = h2b_y * zw_2;
+  const Real rdf2_y = t584 * h2b_x - t807;
+  const Real rdn2_z = t584 * model.S2b_zz;
   const Real rW3w22 = state.z[1] * state.z[1];
   const Real ra4o_x = r4_x * rW3w22;
   const Real ra4o_y = r4_y * rW3w22;
-  const Real zw_4 = t432 * (state.z[1] + w4_z);
-  const Real rdf4_x = t586 * h4b_y - h4b_x * zw_4;
-  const Real rdf4_y = t586 * h4b_x + h4b_y * zw_4;
-  const Real rdn4_z = t586 * Real(0.0050625);
+  const Real zw_4 = t432 * (t432 + (state.z[1] + state.z[1]));
+  const Real rdf4_x = t580 * h4b_y + h4b_x * zw_4;
+  const Real rdf4_y = t580 * h4b_x - h4b_y * zw_4;
+  const Real rdn4_z = t580 * Real(0.0050625);
   const Real rW5w22 = state.z[2] * state.z[2];
   const Real ra6o_x = r6_x * rW5w22;
   const Real ra6o_y = r6_y * rW5w22;
-  const Real zw_6 = t435 * (state.z[2] + w6_z);
-  const Real rdf6_x = t582 * h6b_y - h6b_x * zw_6;
-  const Real rdf6_y = t582 * h6b_x + h6b_y * zw_6;
-  const Real rdn6_z = t582 * Real(0.0050625);
-  const Real rf2c_x = rdf2_x - (ral1o_z * h1_y - h1_x * zw_1);
-  const Real rf2c_y = rdf2_y - (ral1o_z * h1_x + h1_y * zw_1);
+  const Real zw_6 = t435 * (t435 - (state.z[2] + state.z[2]));
+  const Real rdf6_x = t576 * h6b_y - h6b_x * zw_6;
+  const Real rdf6_y = t576 * h6b_x + h6b_y * zw_6;
+  const Real rdn6_z = t576 * Real(0.0050625);
+  const Real rf2c_x = rdf2_x - (ral1o_z * h1_y + h1_x * zw_1);
+  const Real rf2c_y = rdf2_y - (ral1o_z * h1_x - h1_y * zw_1);
   const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y - (rdn1_z - rdn2_z));
-  const Real rQ1_0 = rn2c_z + (h1_x * ra1o_y - h1_y * ra1o_x);
-  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz + h2b_x * ra2o_y));
-  const Real rQ4_0 = rdn4_z + (h4b_x * ra4o_y - h4b_y * ra4o_x);
-  const Real rQ6_0 = rdn6_z + (h6b_x * ra6o_y + h6b_y * ra6o_x);
-  const Real t884 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
-      rdf6_y - (push5_0 - rdn6_z))))));
-  const Real t893 = t729 * t884 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
-      rdf4_x + (r4_x * rdf4_y + (push3_0 + rdn4_z)))))));
-  const Real t905 = Real(1.0) / (t284 * (p_2_1n_z + (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 *
-      (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t747 * t751 + (t705 * t748 + (Real(0.0050625) * (t276 * t276) +
+  const Real rQ1_0 = rn2c_z - (h1_x * ra1o_y - h1_y * ra1o_x);
+  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
+  const Real rQ4_0 = rdn4_z - (h4b_x * ra4o_y - h4b_y * ra4o_x);
+  const Real rQ6_0 = rdn6_z - (h6b_x * ra6o_y + h6b_y * ra6o_x);
+  const Real t882 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
+      rdf6_y + (push5_0 + rdn6_z))))));
+  const Real t891 = t723 * t882 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
+      rdf4_x + (r4_x * rdf4_y - (push3_0 - rdn4_z)))))));
+  const Real t903 = Real(1.0) / (t284 * (p_2_1n_z + (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 *
+      (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t741 * t745 + (t699 * t742 + (Real(0.0050625) * (t276 * t276) +
       (Real(0.0050625) * (t280 * t280) + (Real(0.002) - (D1 - E1 - model.S_xx_2 - Real(0.005062500000000001) -
-      model.S_yy_2 - Real(0.0016875))))))))) * (t751 * t893 + (t748 * t884 - (t276 * rQ6_0 + (t280 * rQ4_0 +
-      (t284 * rQ2_0 + (t288 * rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y - (push0_0 - rn2c_z)))))))));
-  const Real t908 = t750 * t893 - t751 * t905;
-  const Real t913 = t729 * t908 + (t728 * t884 - t748 * t905);
-  const Real t929 = t418 * t913 - (t351 * t908 - (t590 + t284 * t905));
-  const Real ra1o_x_2 = ra1o_x + r1_y * t905;
-  const Real ra1o_y_2 = ra1o_y - r1_x * t905;
-  const Real ral1o_z_2 = t905 + (t422 * t913 - (t355 * t908 - (ral1o_z + t288 * t905)));
-  const Real ra2o_x_2 = r2_y * ral1o_z_2 - (t794 - ra1o_x_2);
-  const Real ra2o_y_2 = r2_x * ral1o_z_2 + (t799 + ra1o_y_2);
-  const Real rdf2_x_2 = t808 - h2b_y * t929;
-  const Real rdf2_y_2 = t811 + h2b_x * t929;
-  const Real rdn2_z_2 = model.S2b_zz * t929;
-  const Real ra4o_x_2 = ra4o_x - r4_y * t908;
-  const Real ra4o_y_2 = ra4o_y + r4_x * t908;
-  const Real ra6o_x_2 = ra6o_x + r6_y * t913;
-  const Real ra6o_y_2 = ra6o_y - r6_x * t913;
-  const Real rQ1_0_2 = J1 * ral1o_z_2 - (r2_y * rdf2_x_2 + (r2_x * rdf2_y_2 + (rdn2_z_2 - (h1_x * ra1o_y_2 -
+      model.S_yy_2 - Real(0.0016875))))))))) * (t745 * t891 + (t742 * t882 - (t276 * rQ6_0 + (t280 * rQ4_0 +
+      (t284 * rQ2_0 + (t288 * rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y + (push0_0 + rn2c_z)))))))));
+  const Real t906 = t744 * t891 - t745 * t903;
+  const Real t911 = t723 * t906 + (t722 * t882 - t742 * t903);
+  const Real t927 = t418 * t911 - (t351 * t906 - (t584 + t284 * t903));
+  const Real ra1o_x_2 = ra1o_x - r1_y * t903;
+  const Real ra1o_y_2 = ra1o_y + r1_x * t903;
+  const Real ral1o_z_2 = t903 + (t422 * t911 - (t355 * t906 - (ral1o_z + t288 * t903)));
+  const Real ra2o_x_2 = r2_y * ral1o_z_2 + (t789 - ra1o_x_2);
+  const Real ra2o_y_2 = r2_x * ral1o_z_2 - (t794 + ra1o_y_2);
+  const Real rdf2_x_2 = t804 + h2b_y * t927;
+  const Real rdf2_y_2 = t807 - h2b_x * t927;
+  const Real rdn2_z_2 = model.S2b_zz * t927;
+  const Real ra4o_x_2 = ra4o_x + r4_y * t906;
+  const Real ra4o_y_2 = ra4o_y - r4_x * t906;
+  const Real ra6o_x_2 = ra6o_x - r6_y * t911;
+  const Real ra6o_y_2 = ra6o_y + r6_x * t911;
+  const Real rQ1_0_2 = J1 * ral1o_z_2 + (r2_y * rdf2_x_2 + (r2_x * rdf2_y_2 - (rdn2_z_2 + (h1_x * ra1o_y_2 -
       h1_y * ra1o_x_2))));
-  const Real t983 = t120 * rQ1_0_2 + (rdn2_z_2 + (h2b_y * ra2o_x_2 - (model.S2b_zz * ral1o_z_2 + h2b_x *
+  const Real t981 = t120 * rQ1_0_2 + (rdn2_z_2 + (h2b_y * ra2o_x_2 - (model.S2b_zz * ral1o_z_2 + h2b_x *
       ra2o_y_2)));
-  const Real t991 = Real(0.0050625) * (t908 + (t414 * t913 - (t347 * t908 - (t586 + t280 * t905)))) + (t154 *
-      t983 + (t140 * rQ1_0_2 + (h4b_x * ra4o_y_2 - h4b_y * ra4o_x_2)));
-  const Real t1002 = t112 * rQ1_0_2;
-  const Real t1007 = t136 * t983;
-  const Real t1012 = t170 * t991;
-  const Real t1017 = t220 * (Real(0.0050625) * (t913 - (t410 * t913 - (t343 * t908 - (t582 + t276 * t905)))) +
-      (t204 * t991 - (t188 * t983 + (t174 * rQ1_0_2 + (h6b_x * ra6o_y_2 + h6b_y * ra6o_x_2)))));
-  lambda[0] = t206 * t1017 + (t156 * t1012 - (t96 * t1002 + t122 * t1007));
-  lambda[1] = t208 * t1017 + (t158 * t1012 - (t97 * t1002 - t124 * t1007));
-  lambda[2] = -(t210 * t1017 + (t160 * t1012 + (t98 * t1002 + t126 * t1007)));
-  lambda[3] = t212 * t1017 - (t162 * t1012 + (t99 * t1002 - t128 * t1007));
+  const Real t989 = Real(0.0050625) * (t906 + (t414 * t911 - (t347 * t906 - (t580 + t280 * t903)))) + (t154 *
+      t981 + (t140 * rQ1_0_2 - (h4b_x * ra4o_y_2 - h4b_y * ra4o_x_2)));
+  const Real t1000 = t112 * rQ1_0_2;
+  const Real t1005 = t136 * t981;
+  const Real t1010 = t170 * t989;
+  const Real t1015 = t220 * (Real(0.0050625) * (t911 - (t410 * t911 - (t343 * t906 - (t576 + t276 * t903)))) +
+      (t204 * t989 - (t188 * t981 + (t174 * rQ1_0_2 - (h6b_x * ra6o_y_2 + h6b_y * ra6o_x_2)))));
+  lambda[0] = -(t206 * t1015 + (t156 * t1010 - (pin2ax2_y * t1000 + t122 * t1005)));
+  lambda[1] = -(t208 * t1015 + (t158 * t1010 - (pin2ax2_x * t1000 - t124 * t1005)));
+  lambda[2] = t210 * t1015 + (t160 * t1010 + (pin3ax2_y * t1000 + t126 * t1005));
+  lambda[3] = -(t212 * t1015 - (t162 * t1010 + (pin3ax2_x * t1000 - t128 * t1005)));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -26,6 +26,9 @@ constexpr double kAssembled = 1e-6;
 /// Of the change of g over a unit of the dependents: what a wrong form leaves is of size 1.
 constexpr double kResidual = 1e-9;
 
+/// Of a condition's value at the start.
+constexpr double kNearlyDead = 1e-4;
+
 class Closing {
  public:
   explicit Closing(const ClosedFormRequest& request) : request_(request) {
@@ -258,7 +261,9 @@ class Closing {
 
   /// Does the result solve the equation near the initial state, and is that a solution itself?
   std::string check(const Program& close) const {
+    const std::vector<bool> dead = nearly_dead();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (dead[i]) continue;
       ir::LeafValues<double> leaves = samples_[i];
       const std::vector<double> y = ir::interpret(close, leaves);
       for (std::size_t k = 0; k < dependents_.size(); ++k) {
@@ -271,6 +276,22 @@ class Closing {
       if (const std::string failure = check_residual(leaves); !failure.empty()) return failure;
     }
     return "";
+  }
+
+  /// By state: is a condition nearly lost there? Roots and quotients magnify rounding.
+  std::vector<bool> nearly_dead() const {
+    std::vector<Scalar> values;
+    ir::Builder copy = builder_;
+    for (const Requirement& condition : conditions_) values.push_back({&copy, condition.value});
+    const std::vector<std::vector<double>> found = evaluated(values, samples_);
+    std::vector<bool> dead;
+    for (const std::vector<double>& at : found) {
+      bool is_dead = false;
+      for (std::size_t k = 0; k < at.size(); ++k)
+        is_dead = is_dead || !(at[k] > kNearlyDead * found.front()[k]);
+      dead.push_back(is_dead);
+    }
+    return dead;
   }
 
   std::string check_residual(ir::LeafValues<double> leaves) const {

@@ -175,9 +175,8 @@ class RotationSolver {
     return list;
   }
 
-  static Vector3 column(const RotationSolver& solver, const std::vector<Polynomial>& rows,
-                        const Monomial& m) {
-    return {solver.coefficient(rows[0], m), solver.coefficient(rows[1], m), solver.coefficient(rows[2], m)};
+  Vector3 column(const std::vector<Polynomial>& rows, const Monomial& m) const {
+    return {coefficient(rows[0], m), coefficient(rows[1], m), coefficient(rows[2], m)};
   }
 
   /// B R (c + s c′) + w = 0 with w by the scalar unknown, which it solves for.
@@ -194,7 +193,7 @@ class RotationSolver {
     const bool is_turned = is_orthonormal(B);  // then lengths are those of w
     const Matrix3 inverse = is_turned ? Matrix3{{B[0], B[1], B[2]}} : inverse_of_rows(B[0], B[1], B[2]);
     const auto part = [&](const Monomial& m) {
-      const Vector3 w = -column(*this, rows, m);
+      const Vector3 w = -column(rows, m);
       return is_turned ? w : inverse * w;
     };
     const Vector3 d = part(kConstant), by_cos = part(cos_of(0)), by_sin = part(sin_of(0)),
@@ -329,7 +328,7 @@ class RotationSolver {
     const auto factors = factored(coefficients(rows, kConstant));
     if (!factors || !is_orthonormal(factors->left)) return std::nullopt;
     const auto& B = factors->left;
-    const Vector3 p = column(*this, rows, kConstant), t = factors->right;
+    const Vector3 p = column(rows, kConstant), t = factors->right;
     return Held{Matrix3{{B[0], B[1], B[2]}} * p, t, 0.5 * (rod.length * rod.length - dot(p, p) - dot(t, t))};
   }
 

@@ -37,6 +37,7 @@ TEST(LongRuns, KeepTheLoopsClosed) {
   expect_closed("spring_four_bar", spring_four_bar::Model<>(), 1e-2);
   expect_closed("spatial_slider_crank", spatial_slider_crank::Model<>(), 4e-3);
   expect_closed("double_wishbone", double_wishbone::Model<>(), 4e-3);
+  expect_closed("mcpherson_strut", mcpherson_strut::Model<>(), 4e-3);
   expect_closed("parallel_robot", parallel_robot::Model<>(), 4e-3);
 }
 
