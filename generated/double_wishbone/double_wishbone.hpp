@@ -60,6 +60,9 @@ struct State {
   /// Square of the distance that the last closing moved the positions, rad or m. Beyond
   /// Model::greatest_opening loops may be left open: the step was too long.
   Real opening = Real(0.0);
+  /// (y - low) (y - high) after the last closing: positive where a position is outside the range for which
+  /// how loops are closed is proven. lower from -0.3 to 0.3.
+  Real beyond[1] = {};
 };
 
 /// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
@@ -94,9 +97,24 @@ struct Model {
   static constexpr int constraint_count = 4;
   static constexpr double least_regularity = 0.001;  ///< see State
   static constexpr double greatest_opening = 1e-05;  ///< see State
+  static constexpr int range_count = 1;
   static constexpr int parameter_count = 6;
 
   explicit Model(const Parameters& = {}) noexcept;
+
+  /// Did the last closing of the loops go well, by all that State says of it? No where something is not
+  /// finite.
+  static bool loops_closed(const State& state) noexcept {
+    for (const Real& excess : state.beyond)
+      if (!(excess <= Real(0.0))) return false;
+    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
+  }
+  /// Does what is proven of the loops (see above) hold at these parameters? Those that the constraints depend
+  /// on must be in their declared ranges; without one a parameter must have its default value. Elsewhere
+  /// nothing is known.
+  static bool loops_proven(const Parameters& parameters) noexcept {
+    return parameters.steering >= Real(0.04) && parameters.steering <= Real(0.04);
+  }
 
   Real rate;
   Real c1;
@@ -182,7 +200,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 1113 operations (584 mul, 516 add and sub, 11 div), 7 sin and cos.
+/// 1116 operations (585 mul, 518 add and sub, 11 div), 7 sin and cos.
 template <class Real>
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
@@ -202,7 +220,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 9426 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
+/// 9429 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -3169,6 +3169,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   closed.y[2] = t1117 * t1143;
   closed.y[3] = -(t1124 * t1143);
   closed.y[4] = -(t1134 * t1143);
+  closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
 

@@ -94,6 +94,12 @@ struct Model {
 
   explicit Model(const Parameters& = {}) noexcept;
 
+  /// Did the last closing of the loops go well, by all that State says of it? No where something is not
+  /// finite.
+  static bool loops_closed(const State& state) noexcept {
+    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
+  }
+
   Real h_x;
   Real h_y;
   Real S2b_zz;

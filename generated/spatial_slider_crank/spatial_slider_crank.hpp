@@ -87,6 +87,12 @@ struct Model {
   static constexpr int parameter_count = 0;
 
   explicit Model(const Parameters& = {}) noexcept;
+
+  /// Did the last closing of the loops go well, by all that State says of it? No where something is not
+  /// finite.
+  static bool loops_closed(const State& state) noexcept {
+    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
+  }
 };
 
 // Names in order, closed by a null pointer.

@@ -390,6 +390,7 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   closed.opening = t19 * t19 + t44 * t44;
   closed.y[1] = -(pind_y_2 * (Real(1.0) / c1_2) - (state.y[1] + t44));
   closed.y[2] = -(t32 - (state.y[2] - t19));
+  closed.beyond[0] = (state.y[0] - Real(0.5)) * (state.y[0] - Real(2.95));
   state = closed;
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace jourdain::commands {
 
 namespace {
@@ -17,7 +19,7 @@ LoopGuard::LoopGuard(const studies::Flow<double>& flow, const LoadedMechanism& l
 std::string LoopGuard::problem(const studies::Point<double>& point) const {
   const studies::Closing closing = flow_.last_closing();
   if (!flow_.is_regular()) return singular(point.t, closing.regularity);
-  if (const std::string outside = out_of_range(point); !outside.empty()) return outside;
+  if (closing.beyond > 0) return out_of_range(point);
   const double open = flow_.residuals(point).position;
   if (closing.opening <= flow_.table().greatest_opening || open <= kOpen) return "";
   return fmt::format(
@@ -49,21 +51,16 @@ std::string LoopGuard::singular(double t, double regularity) const {
 }
 
 std::string LoopGuard::out_of_range(const studies::Point<double>& point) const {
-  if (!loaded_.plan()->is_reduced()) return "";
-  const model::CoordinateLayout layout = model::lay_out_coordinates(loaded_.mechanism);
-  for (std::size_t j = 0; j < loaded_.mechanism.joints.size(); ++j)
-    for (std::size_t c = 0; c < loaded_.mechanism.joints[j].coordinates.size(); ++c) {
-      const auto& range = loaded_.mechanism.joints[j].coordinates[c].range;
-      const auto entry = layout.joints[j].position[c];
-      if (!range || !entry) continue;
-      const double y = point.x[*entry];
-      if (y < (*range)[0] || y > (*range)[1])
-        return fmt::format(
-            "at t = {:g} s {} = {:.6g} leaves its range [{:g}, {:g}]: how the loops are closed holds only "
-            "there; widen the range, or use treatment = \"multipliers\" in [loops]",
-            point.t, layout.position_names[*entry], y, (*range)[0], (*range)[1]);
-    }
-  return "";
+  const std::vector<loops::ProvenRange>& ranges = loaded_.plan()->proven()->positions;
+  const auto excess = [&point](const loops::ProvenRange& range) {
+    return (point.x[range.index] - range.low) * (point.x[range.index] - range.high);
+  };
+  const auto range = *std::max_element(ranges.begin(), ranges.end(),
+                                       [&](const auto& a, const auto& b) { return excess(a) < excess(b); });
+  return fmt::format(
+      "at t = {:g} s {} = {:.6g} leaves its range [{:g}, {:g}]: how the loops are closed holds only "
+      "there; widen the range, or use treatment = \"multipliers\" in [loops]",
+      point.t, flow_.table().position_names[range.index], point.x[range.index], range.low, range.high);
 }
 
 }  // namespace jourdain::commands

@@ -47,12 +47,13 @@ class Closing {
     }
     ClosedForm result{closing_program()};
     if (const std::string failure = check(result.close); !failure.empty()) return failure;
-    const auto margin =
+    const auto reached =
         smallest_margin({builder_, conditions_, request_.parameters, request_.angular, request_.range,
                          roles_.names, dependents_, request_.parameter_range, request_.parameter_names});
-    if (const auto* failure = std::get_if<std::string>(&margin)) return *failure;
-    result.smallest_margin = std::get<double>(margin);
-    result.at_defaults = at_defaults();
+    if (const auto* failure = std::get_if<std::string>(&reached)) return *failure;
+    result.smallest_margin = std::get<Reached>(reached).margin;
+    result.box.positions = std::get<Reached>(reached).positions;
+    list_parameters(result);
     return result;
   }
 
@@ -80,15 +81,19 @@ class Closing {
     return text;
   }
 
-  std::vector<std::string> at_defaults() const {
+  /// Those that the constraints depend on.
+  void list_parameters(ClosedForm& result) const {
     std::vector<bool> enters(request_.parameter_names.size(), false);
     for (const ir::Node& node : request_.g.nodes)
       if (node.op == ir::Op::kLeaf && node.leaf == LeafKind::kParameter && node.index < enters.size())
-        enters[node.index] = !request_.parameter_range[node.index];
-    std::vector<std::string> names;
-    for (std::size_t k = 0; k < enters.size(); ++k)
-      if (enters[k]) names.push_back(request_.parameter_names[k]);
-    return names;
+        enters[node.index] = true;
+    for (std::size_t k = 0; k < enters.size(); ++k) {
+      if (!enters[k]) continue;
+      const auto& range = request_.parameter_range[k];
+      const double value = request_.parameters[k];
+      result.box.parameters.push_back({k, range ? (*range)[0] : value, range ? (*range)[1] : value});
+      if (!range) result.at_defaults.push_back(request_.parameter_names[k]);
+    }
   }
 
   /// Puts the block's dependents among the known coordinates. Otherwise why not.

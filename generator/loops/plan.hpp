@@ -48,6 +48,8 @@ struct LoopPlan {
 
   /// Calls of close_loops where dependent positions were not integrated along.
   int closings() const { return treatment == model::LoopTreatment::kPartitioned ? 2 : 1; }
+  /// For which positions and parameters the treatment is proven; none: not proven, or nothing to prove.
+  const ProvenBox* proven() const { return closed_form ? &closed_form->box : proof ? &proof->box : nullptr; }
   bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
   /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that were asked for pass
   /// singular configurations straight on: 0.

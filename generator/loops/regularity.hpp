@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "loops/proven_box.hpp"
+
 namespace jourdain::loops {
 
 /// What is proven for all independent coordinates within their ranges (an angle without one: any, however many turns), at all times, for all
@@ -16,7 +18,8 @@ struct RegularityProof {
   double margin = 1;
   std::string region;                    ///< "crank in [0.5, 2.9], any rocker"; empty where nothing varies
   std::vector<std::string> at_defaults;  ///< parameters at whose given values it holds only
-  std::size_t boxes = 0;                 ///< that the region was taken apart into
+  ProvenBox box;
+  std::size_t boxes = 0;  ///< that the region was taken apart into
 
   /// From dependents that are off by `radius` or less, each, the Newton iterations as emitted (block after block, `iterations`
   /// of each) end within `ends_within` of the branch, in exact arithmetic. rad; slides in units of `length`.

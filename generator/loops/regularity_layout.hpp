@@ -29,6 +29,7 @@ struct RegularityLayout {
   std::vector<std::size_t> quaternions;
   std::vector<FreeVariable> free;
   std::vector<std::string> at_defaults;
+  ProvenBox box;
   std::optional<BranchEquations> equations;
   Eigen::VectorXd start;  ///< of the unknowns
 };

@@ -328,6 +328,7 @@ class Proof {
         list.push_back(fmt::format("{} in [{}, {}]", request_.names[k], (*range)[0], (*range)[1]));
     proof.region = fmt::format("{}", fmt::join(list, ", "));
     proof.at_defaults = layout_.at_defaults;
+    proof.box = layout_.box;
     proof.boxes = proven_;
     proof.radius = bounds.radius();
     proof.residual = bounds.residual();

@@ -68,10 +68,11 @@ typedef struct jourdain_model_table {
   void (*constraint_residual)(const double* t, const double* y, const double* z, double* g, double* g_rate);
   /* What steps end with: moves y and z towards the closed loops. */
   void (*correct)(const double* t, double* y, double* z);
-  /* How regular what closes the loops was, and the square of how far it moved the positions (rad, m): the worst of all
-   * steps of the last call of `steps` on this thread. Not to be trusted below and beyond these limits; NaN is beyond. */
+  /* How regular what closes the loops was, the square of how far it moved the positions (rad, m), and whether a position
+   * was outside the range for which something is proven (positive): the worst of all steps of the last call of `steps` on
+   * this thread. Not to be trusted below and beyond these limits; NaN is beyond. */
   double least_regularity, greatest_opening;
-  void (*closing)(double* regularity, double* opening);
+  void (*closing)(double* regularity, double* opening, double* beyond);
 } jourdain_model_table;
 
 #endif

@@ -152,7 +152,7 @@ Point<Real> Flow<Real>::closed(Point<Real> point) const {
 template <class Real>
 Closing Flow<Real>::last_closing() const {
   Closing closing;
-  if (has_loops()) table_.closing(&closing.regularity, &closing.opening);
+  if (has_loops()) table_.closing(&closing.regularity, &closing.opening, &closing.beyond);
   return closing;
 }
 

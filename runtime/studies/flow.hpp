@@ -41,9 +41,10 @@ struct Residuals {
   double position = 0, velocity = 0;
 };
 
-/// How regular what closes loops was, and the square of how far it moved the positions: the worst of some steps.
+/// How regular what closes loops was, the square of how far it moved the positions, and positive where one was outside the range for
+/// which something is proven: the worst of some steps.
 struct Closing {
-  double regularity = INFINITY, opening = 0;
+  double regularity = INFINITY, opening = 0, beyond = -INFINITY;
 };
 
 /// Memory at the start of a trajectory.
