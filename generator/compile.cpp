@@ -83,6 +83,7 @@ void describe_loops(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   text.loops = loops::sentences(mechanism, plan);
   text.least_regularity = plan.least_regularity();
   text.greatest_opening = plan.greatest_opening();
+  text.opening_is_proven = plan.proof.has_value();
   if (const loops::ProvenBox* box = plan.proven()) {
     text.proven_positions = texts_of(box->positions);
     text.proven_parameters = texts_of(box->parameters);

@@ -59,7 +59,8 @@ struct ModelText {
   int closings = 1;                      ///< see SceneShape
   std::vector<std::string> loops;        ///< sentences on how loops are closed
   double least_regularity = 0,
-         greatest_opening = 0;  ///< limits of State's members of these names; with loops
+         greatest_opening = 0;     ///< limits of State's members of these names; with loops
+  bool opening_is_proven = false;  ///< its limit follows from a proof
   std::vector<ProvenText> proven_positions, proven_parameters;
   std::vector<std::string> assumptions;  ///< sentences
   std::vector<std::string> left_out;     ///< sentences

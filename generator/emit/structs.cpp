@@ -35,16 +35,27 @@ std::string output_struct(const ModelText& model) {
   return text + "};\n\n";
 }
 
+namespace {
+
+const char* opening_comment(const ModelText& model) {
+  if (model.opening_is_proven)
+    return "Square of the distance that the first iterations of the last closing moved the positions, rad or "
+           "m. Up to Model::greatest_opening they are proven to end on the branch (see above), where no step "
+           "errs by more than the distance to other solutions. Beyond it nothing is: the step was too long.";
+  return "Square of the distance that the last closing moved the positions, rad or m. Beyond "
+         "Model::greatest_opening loops may be left open: the step was too long.";
+}
+
+}  // namespace
+
 std::string guard_members(const ModelText& model) {
   if (model.constraints.empty()) return "";
   std::string text =
       "  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, "
       "negative beyond.\n"
-      "  /// Below Model::least_regularity do not trust what follows.\n"
-      "  Real regularity = Real(1.0);\n"
-      "  /// Square of the distance that the last closing moved the positions, rad or m. Beyond\n"
-      "  /// Model::greatest_opening loops may be left open: the step was too long.\n"
-      "  Real opening = Real(0.0);\n";
+      "  /// Below Model::least_regularity, or not a number, do not trust what follows.\n"
+      "  Real regularity = Real(1.0);\n" +
+      wrapped_doc(opening_comment(model), 2) + "  Real opening = Real(0.0);\n";
   if (model.proven_positions.empty()) return text;
   std::string ranges;
   for (const ProvenText& range : model.proven_positions)
@@ -66,9 +77,10 @@ std::string guard_limits(const ModelText& model) {
           : fmt::format("  static constexpr int range_count = {};\n", model.proven_positions.size());
   return fmt::format(
       "  static constexpr int constraint_count = {};\n"
-      "  static constexpr double least_regularity = {};  ///< see State\n"
-      "  static constexpr double greatest_opening = {};  ///< see State\n{}",
-      model.constraints.size(), model.least_regularity, model.greatest_opening, ranges);
+      "  static constexpr double least_regularity = {};  ///< see State; chosen\n"
+      "  static constexpr double greatest_opening = {};  ///< see State; {}\n{}",
+      model.constraints.size(), model.least_regularity, model.greatest_opening,
+      model.opening_is_proven ? "proven" : "chosen", ranges);
 }
 
 namespace {

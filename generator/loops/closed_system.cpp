@@ -93,9 +93,9 @@ std::string regularity_text(const LoopPlan& plan) {
       "is "
       "solved for are {:.2g} or more of their rows' sizes. Dependent coordinates that are off by {:.1g} "
       "(rad; "
-      "slides over {:.2g} m) end within {:.1g} of the branch",
+      "slides over {:.2g} m) end within {:.1g} of the branch, no other solution is within {:.1g} of it",
       proof.region.empty() ? "" : " for ", proof.region, at_defaults(proof.at_defaults), proof.margin,
-      proof.radius, proof.length, proof.ends_within);
+      proof.radius, proof.length, proof.ends_within, proof.isolation);
 }
 
 }  // namespace
@@ -136,6 +136,9 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
           fmt::format("G M^-1 G^T is regularised by d = {:.2g}/kg: near singular configurations multipliers "
                       "and accelerations lose a share (d/(s + d))^{}, s its smallest singular value",
                       plan.regularisation, plan.corrections + 1));
+      list.push_back(
+          "a step from one side of a singular configuration of the mechanism to the other goes straight on; "
+          "nothing but State's opening may show it");
       break;
   }
   if (!plan.reason.empty()) list.push_back(fmt::format("why so: {}", plan.reason));

@@ -54,7 +54,8 @@ struct LoopPlan {
   /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that were asked for pass
   /// singular configurations straight on: 0.
   double least_regularity() const;
-  /// Beyond it a state's `opening` says that closing may have left loops open by more than 1e-10 of the scene's length.
+  /// Beyond it a state's `opening` says that closing may have left loops open by more than 1e-10 of the scene's length. Follows from the
+  /// proof where there is one, is chosen otherwise.
   double greatest_opening() const;
 };
 

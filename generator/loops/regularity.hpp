@@ -26,9 +26,10 @@ struct RegularityProof {
   double radius = 0;
   double ends_within = 0;
   double length = 1;  ///< m
-  /// The same where |g| / row_scale is at most this and the dependents are within `radius`.
-  double residual = 0;
-  std::vector<double> row_scale;  ///< by row of g, norms at the start; 0 of rows that are in no block
+  /// Within this of the branch there is no other solution; units as above. Dependents within it are off by `radius` or less where the
+  /// first corrections of all blocks together, the root of the sum of their squares, are at most `first_correction`, rad or m.
+  double isolation = 0;
+  double first_correction = 0;
 };
 
 }  // namespace jourdain::loops

@@ -70,7 +70,6 @@ class Layout {
         JD_CHECK(output != request_.g.outputs.end(), "no row {}", r);
         result_.problem.blocks.back().rows.push_back(rows.outputs.size());
         rows.outputs.push_back(*output);
-        result_.row_of.push_back(r);
       }
     }
     return passes::remove_dead_code(rows);
