@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace jourdain::commands {
 
 namespace {
 
-constexpr double kOpen = 1e-10;  ///< m; what rounding leaves is far below
+/// m; the next closing makes good what is less. What rounding leaves is far below.
+constexpr double kOpen = 1e-9;
 
 }  // namespace
 
@@ -17,15 +19,20 @@ LoopGuard::LoopGuard(const studies::Flow<double>& flow, const LoadedMechanism& l
     : flow_(flow), loaded_(loaded), h_(h) {}
 
 std::string LoopGuard::problem(const studies::Point<double>& point) const {
-  const studies::Closing closing = flow_.last_closing();
-  if (!flow_.is_regular()) return singular(point.t, closing.regularity);
+  const jourdain_closing closing = flow_.last_closing();
+  if (!(closing.regularity >= flow_.table().least_regularity)) return singular(point.t, closing.regularity);
   if (closing.beyond > 0) return out_of_range(point);
-  const double open = flow_.residuals(point).position;
-  if (closing.opening <= flow_.table().greatest_opening || open <= kOpen) return "";
+  if (closing.opening <= flow_.table().greatest_opening) return "";
+  if (!(closing.left_open <= kOpen))
+    return fmt::format(
+        "at t = {:g} s a step of {:g} s is too long: closing the loops leaves them open by {:.2g} m; take "
+        "shorter steps",
+        point.t, h_, closing.left_open);
+  if (!loaded_.plan()->proof) return "";
   return fmt::format(
-      "at t = {:g} s a step of {:g} s is too long: closing the loops leaves them open by {:.2g} m; take "
-      "shorter steps",
-      point.t, h_, open);
+      "at t = {:g} s a step of {:g} s is too long: closing the loops moved positions by {:.2g} (rad, m), "
+      "beyond {:.2g} it is not proven that they end where they should; take shorter steps",
+      point.t, h_, std::sqrt(closing.opening), std::sqrt(flow_.table().greatest_opening));
 }
 
 std::string LoopGuard::singular(double t, double regularity) const {
