@@ -69,6 +69,12 @@ std::vector<emit::OutputDeclaration> output_texts(
   return texts;
 }
 
+std::vector<emit::ProvenText> texts_of(const std::vector<loops::ProvenRange>& ranges) {
+  std::vector<emit::ProvenText> texts;
+  for (const loops::ProvenRange& range : ranges) texts.push_back({range.index, range.low, range.high});
+  return texts;
+}
+
 /// Names, tangent and sentences of a mechanism with loops.
 void describe_loops(const model::Mechanism& mechanism, const loops::LoopPlan& plan, emit::ModelText& text) {
   text.constraints = loops::row_names(mechanism);
@@ -77,6 +83,11 @@ void describe_loops(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   text.loops = loops::sentences(mechanism, plan);
   text.least_regularity = plan.least_regularity();
   text.greatest_opening = plan.greatest_opening();
+  text.opening_is_proven = plan.proof.has_value();
+  if (const loops::ProvenBox* box = plan.proven()) {
+    text.proven_positions = texts_of(box->positions);
+    text.proven_parameters = texts_of(box->parameters);
+  }
   if (!plan.is_reduced()) return;
   text.tangent = loops::independent_tangent(plan, text.tangent);
   const std::vector<std::string> all = std::move(text.velocities);

@@ -1455,6 +1455,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   closed.y[4] = -t214;
   closed.regularity = -((Real(1.0) - t61 / t60) * (t148 / (t128 * Real(0.18107113531245012))));
   closed.opening = t247 * t247 + (t244 * t244 + (t241 * t241 + (t235 * t235 + t238 * t238)));
+  closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
 

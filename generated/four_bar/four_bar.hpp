@@ -46,7 +46,7 @@ struct State {
   Real y[3];
   Real z[1];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
-  /// Below Model::least_regularity do not trust what follows.
+  /// Below Model::least_regularity, or not a number, do not trust what follows.
   Real regularity = Real(1.0);
   /// Square of the distance that the last closing moved the positions, rad or m. Beyond
   /// Model::greatest_opening loops may be left open: the step was too long.
@@ -83,11 +83,17 @@ struct Model {
   static constexpr int input_count = 1;
   static constexpr int output_count = 2;
   static constexpr int constraint_count = 2;
-  static constexpr double least_regularity = 1e-06;  ///< see State
-  static constexpr double greatest_opening = 0.01;  ///< see State
+  static constexpr double least_regularity = 1e-06;  ///< see State; chosen
+  static constexpr double greatest_opening = 0.01;  ///< see State; chosen
   static constexpr int parameter_count = 1;
 
   explicit Model(const Parameters& = {}) noexcept;
+
+  /// Did the last closing of the loops go well, by all that State says of it? No where something is not
+  /// finite.
+  static bool loops_closed(const State& state) noexcept {
+    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
+  }
 
   Real bearing;
 };

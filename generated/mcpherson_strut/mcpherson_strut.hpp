@@ -52,11 +52,14 @@ struct State {
   Real y[5];
   Real z[1];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
-  /// Below Model::least_regularity do not trust what follows.
+  /// Below Model::least_regularity, or not a number, do not trust what follows.
   Real regularity = Real(1.0);
   /// Square of the distance that the last closing moved the positions, rad or m. Beyond
   /// Model::greatest_opening loops may be left open: the step was too long.
   Real opening = Real(0.0);
+  /// (y - low) (y - high) after the last closing: positive where a position is outside the range for which
+  /// how loops are closed is proven. lower from -0.3 to 0.3.
+  Real beyond[1] = {};
 };
 
 /// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
@@ -89,11 +92,27 @@ struct Model {
   static constexpr int input_count = 1;
   static constexpr int output_count = 2;
   static constexpr int constraint_count = 3;
-  static constexpr double least_regularity = 1e-06;  ///< see State
-  static constexpr double greatest_opening = 0.01;  ///< see State
+  static constexpr double least_regularity = 1e-06;  ///< see State; chosen
+  static constexpr double greatest_opening = 0.01;  ///< see State; chosen
+  static constexpr int range_count = 1;
   static constexpr int parameter_count = 6;
 
   explicit Model(const Parameters& = {}) noexcept;
+
+  /// Did the last closing of the loops go well, by all that State says of it? No where something is not
+  /// finite.
+  static bool loops_closed(const State& state) noexcept {
+    for (const Real& excess : state.beyond)
+      if (!(excess <= Real(0.0))) return false;
+    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
+  }
+  /// Does what is proven of the loops (see above) hold at these parameters? Those that the constraints depend
+  /// on must be in their declared ranges; without one a parameter must have its default value. Elsewhere
+  /// nothing is known.
+  static bool loops_proven(const Parameters& parameters) noexcept {
+    return parameters.steering >= Real(0.04) && parameters.steering <= Real(0.04) && parameters.rate >=
+        Real(3.0) && parameters.rate <= Real(3.0);
+  }
 
   Real rate;
   Real c1;
@@ -176,7 +195,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 304 operations (172 mul, 109 add and sub, 17 div), 3 sin and cos.
+/// 307 operations (173 mul, 111 add and sub, 17 div), 3 sin and cos.
 template <class Real>
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
@@ -196,7 +215,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5825 operations. For inputs sampled at the stages include mcpherson_strut_kernels.hpp and pass a function
+/// 5828 operations. For inputs sampled at the stages include mcpherson_strut_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -1791,6 +1791,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   closed.y[4] = t319;
   closed.regularity = -(t140 / (t132 / t104) * (t226 / (t170 * (t202 * t208))));
   closed.opening = t337 * t337 + (t334 * t334 + (t328 * t328 + t331 * t331));
+  closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
 

@@ -12,6 +12,8 @@
 // - multipliers; one projection of positions and velocities at the end of a step
 // - G M^-1 G^T is regularised by d = 3.8e-07/kg: near singular configurations multipliers and accelerations
 //   lose a share (d/(s + d))^3, s its smallest singular value
+// - a step from one side of a singular configuration of the mechanism to the other goes straight on; nothing
+//   but State's opening may show it
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
@@ -45,7 +47,7 @@ struct State {
   Real y[5];
   Real z[5];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
-  /// Below Model::least_regularity do not trust what follows.
+  /// Below Model::least_regularity, or not a number, do not trust what follows.
   Real regularity = Real(1.0);
   /// Square of the distance that the last closing moved the positions, rad or m. Beyond
   /// Model::greatest_opening loops may be left open: the step was too long.
@@ -79,11 +81,17 @@ struct Model {
   static constexpr int input_count = 0;
   static constexpr int output_count = 1;
   static constexpr int constraint_count = 4;
-  static constexpr double least_regularity = 0;  ///< see State
-  static constexpr double greatest_opening = 1e-10;  ///< see State
+  static constexpr double least_regularity = 0;  ///< see State; chosen
+  static constexpr double greatest_opening = 1e-10;  ///< see State; chosen
   static constexpr int parameter_count = 0;
 
   explicit Model(const Parameters& = {}) noexcept;
+
+  /// Did the last closing of the loops go well, by all that State says of it? No where something is not
+  /// finite.
+  static bool loops_closed(const State& state) noexcept {
+    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
+  }
 };
 
 // Names in order, closed by a null pointer.

@@ -47,7 +47,7 @@ struct State {
   Real y[3];
   Real z[1];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
-  /// Below Model::least_regularity do not trust what follows.
+  /// Below Model::least_regularity, or not a number, do not trust what follows.
   Real regularity = Real(1.0);
   /// Square of the distance that the last closing moved the positions, rad or m. Beyond
   /// Model::greatest_opening loops may be left open: the step was too long.
@@ -79,11 +79,17 @@ struct Model {
   static constexpr int input_count = 2;
   static constexpr int output_count = 1;
   static constexpr int constraint_count = 2;
-  static constexpr double least_regularity = 1e-06;  ///< see State
-  static constexpr double greatest_opening = 0.01;  ///< see State
+  static constexpr double least_regularity = 1e-06;  ///< see State; chosen
+  static constexpr double greatest_opening = 0.01;  ///< see State; chosen
   static constexpr int parameter_count = 1;
 
   explicit Model(const Parameters& = {}) noexcept;
+
+  /// Did the last closing of the loops go well, by all that State says of it? No where something is not
+  /// finite.
+  static bool loops_closed(const State& state) noexcept {
+    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
+  }
 
   Real crankshaft_S_xx;
 };
@@ -114,7 +120,7 @@ template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 63 operations (42 mul, 20 add and sub, 1 div), 4 sin and cos.
+/// 61 operations (42 mul, 18 add and sub, 1 div), 4 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
@@ -126,14 +132,14 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 95 operations (56 mul, 37 add and sub, 2 div), 4 sin and cos.
+/// 93 operations (56 mul, 35 add and sub, 2 div), 4 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 88 operations (51 mul, 36 add and sub, 1 div), 4 sin and cos.
+/// 86 operations (51 mul, 34 add and sub, 1 div), 4 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
@@ -169,14 +175,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 115 operations (66 mul, 47 add and sub, 2 div), 4 sin and cos.
+/// 113 operations (66 mul, 45 add and sub, 2 div), 4 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 543 operations. For inputs sampled at the stages include slider_crank_kernels.hpp and pass a function of
+/// 535 operations. For inputs sampled at the stages include slider_crank_kernels.hpp and pass a function of
 /// the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -66,8 +66,8 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& inp
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression = parameters.flywheel * Real(0.5);
-  const Real t11 = Real(0.5) * expression;
-  crankshaft_S_xx = t11 + (expression - t11);
+  const Real t10 = Real(0.5) * expression;
+  crankshaft_S_xx = t10 + (expression - t10);
 }
 
 template <class Real>
@@ -141,32 +141,25 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real t21 = Real(1.0) / piston_pinbx_x;
-  const Real t22 = piston_pinbx1_x * t21;
-  const Real t26 = t22 * state.z[0];
-  const Real piston_pinbm1t_x = piston_pinbx_y * t26;
-  const Real piston_pinbm0t_x = piston_pinbx1_y * state.z[0];
-  const Real piston_pinbm1t_y = piston_pinbx_x * t26;
-  const Real piston_pinbm1a_x = t26 * piston_pinbm1t_y;
-  const Real piston_pinbm0t_y = piston_pinbx1_x * state.z[0];
-  const Real piston_pinbm0b_y = piston_pinbm0t_y - piston_pinbm1t_y * Real(2.0);
-  const Real piston_pinbm1a_y = t26 * piston_pinbm1t_x;
-  const Real piston_pinbm0b_x = piston_pinbm0t_x + piston_pinbm1t_x * Real(2.0);
-  const Real piston_pinbm0a_y = piston_pinbm1a_y + state.z[0] * piston_pinbm0b_x;
-  const Real t41 = t21 * piston_pinbm0a_y;
+  const Real t20 = Real(1.0) / piston_pinbx_x;
+  const Real t21 = piston_pinbx1_x * t20;
+  const Real t26 = t21 * state.z[0];
+  const Real w1_z = state.z[0] + t26;
+  const Real t30 = Real(0.145) * w1_z;
+  const Real t31 = Real(0.045) * state.z[0];
+  const Real t38 = t20 * (s0 * state.z[0] * t31 + w1_z * (s1 * t30));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
-  const Real zw_1 = t26 * (t26 + (state.z[0] + state.z[0]));
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
   const Real E1 = r1_x * h1b_x - r1_y * h1b_y - Real(0.00311375);
-  k[0] = (piston_pinbx1_y + piston_pinbx_y * t22) * (piston_pinbx_y * t41 + (piston_pinbm1a_x - state.z[0] *
-      piston_pinbm0b_y)) * Real(0.48) + (t22 * (t41 * Real(0.00311375) - (h1b_x * ka1o_y + h1b_y * ka1o_x)) -
-      (t41 * E1 - (r1_x * kdf1_y + r1_y * kdf1_x)));
+  k[0] = (piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * (w1_z * (c1 * t30) - (c0 * state.z[0] * t31 -
+      piston_pinbx_y * t38)) * Real(0.48) + (t21 * (t38 * Real(0.00311375) - (h1b_x * ka1o_y + h1b_y *
+      ka1o_x)) - (t38 * E1 - (r1_x * kdf1_y + r1_y * kdf1_x)));
 }
 
 template <class Real>
@@ -205,30 +198,23 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real t21 = Real(1.0) / piston_pinbx_x;
-  const Real t22 = piston_pinbx1_x * t21;
-  const Real t24 = piston_pinbx1_y + piston_pinbx_y * t22;
-  const Real t26 = t22 * state.z[0];
-  const Real piston_pinbm1t_x = piston_pinbx_y * t26;
-  const Real piston_pinbm0t_x = piston_pinbx1_y * state.z[0];
-  const Real piston_pinbm1t_y = piston_pinbx_x * t26;
-  const Real piston_pinbm1a_x = t26 * piston_pinbm1t_y;
-  const Real piston_pinbm0t_y = piston_pinbx1_x * state.z[0];
-  const Real piston_pinbm0b_y = piston_pinbm0t_y - piston_pinbm1t_y * Real(2.0);
-  const Real piston_pinbm1a_y = t26 * piston_pinbm1t_x;
-  const Real piston_pinbm0b_x = piston_pinbm0t_x + piston_pinbm1t_x * Real(2.0);
-  const Real piston_pinbm0a_y = piston_pinbm1a_y + state.z[0] * piston_pinbm0b_x;
-  const Real t41 = t21 * piston_pinbm0a_y;
+  const Real t20 = Real(1.0) / piston_pinbx_x;
+  const Real t21 = piston_pinbx1_x * t20;
+  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
+  const Real t26 = t21 * state.z[0];
+  const Real w1_z = state.z[0] + t26;
+  const Real t30 = Real(0.145) * w1_z;
+  const Real t31 = Real(0.045) * state.z[0];
+  const Real t38 = t20 * (s0 * state.z[0] * t31 + w1_z * (s1 * t30));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
       Real(0.00111375);
-  const Real v1P_x = t22 * h1b_y;
-  const Real v1P_y = t22 * h1b_x;
-  const Real v1L_z = t22 * Real(0.00311375);
-  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t22 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
+  const Real v1P_x = t21 * h1b_y;
+  const Real v1P_y = t21 * h1b_x;
+  const Real v1L_z = t21 * Real(0.00311375);
+  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
       v1P_x));
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
@@ -236,15 +222,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
   const Real ra1o_y = r1_y * rW0w22;
-  const Real zw_1 = t26 * (t26 + (state.z[0] + state.z[0]));
-  const Real rdf1_x = t41 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t41 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t41 * Real(0.00311375);
-  const Real rdf2t_z = (piston_pinbx_y * t41 + (piston_pinbm1a_x - state.z[0] * piston_pinbm0b_y)) *
-      Real(0.48);
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
+  const Real rdf1_x = t38 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t38 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t38 * Real(0.00311375);
+  const Real rdf2t_z = (w1_z * (c1 * t30) - (c0 * state.z[0] * t31 - piston_pinbx_y * t38)) * Real(0.48);
   const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
   const Real tau_2_0 = input.u[0] - (rdf2t_z + Real(4.7088));
-  zdot[0] = -(Real(1.0) / (Real(2.0) * T2) * (t24 * tau_2_0 - (t22 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x -
+  zdot[0] = -(Real(1.0) / (T2 * Real(2.0)) * (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x -
       (r1_x * rdf1_y - (rQp0 + rdn1_z)))))));
 }
 
@@ -262,22 +247,15 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real t21 = Real(1.0) / piston_pinbx_x;
-  const Real t22 = piston_pinbx1_x * t21;
-  const Real t24 = piston_pinbx1_y + piston_pinbx_y * t22;
-  const Real t26 = t22 * state.z[0];
-  const Real piston_pinbm1t_x = piston_pinbx_y * t26;
-  const Real piston_pinbm0t_x = piston_pinbx1_y * state.z[0];
-  const Real piston_pinbm1t_y = piston_pinbx_x * t26;
-  const Real piston_pinbm1a_x = t26 * piston_pinbm1t_y;
-  const Real piston_pinbm0t_y = piston_pinbx1_x * state.z[0];
-  const Real piston_pinbm0b_y = piston_pinbm0t_y - piston_pinbm1t_y * Real(2.0);
-  const Real piston_pinbm1a_y = t26 * piston_pinbm1t_x;
-  const Real piston_pinbm0b_x = piston_pinbm0t_x + piston_pinbm1t_x * Real(2.0);
-  const Real piston_pinbm0a_y = piston_pinbm1a_y + state.z[0] * piston_pinbm0b_x;
-  const Real t41 = t21 * piston_pinbm0a_y;
-  const Real t45 = t41 - t22 * zdot[0];
+  const Real t20 = Real(1.0) / piston_pinbx_x;
+  const Real t21 = piston_pinbx1_x * t20;
+  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
+  const Real t26 = t21 * state.z[0];
+  const Real w1_z = state.z[0] + t26;
+  const Real t30 = Real(0.145) * w1_z;
+  const Real t31 = Real(0.045) * state.z[0];
+  const Real t38 = t20 * (s0 * state.z[0] * t31 + w1_z * (s1 * t30));
+  const Real t42 = t38 - t21 * zdot[0];
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
@@ -290,15 +268,15 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_x * aW0w22 - (Real(9.81) - r1_y * zdot[0]);
   const Real aa1o_y = r1_x * zdot[0] - r1_y * aW0w22;
-  const Real zw_1 = t26 * (t26 + (state.z[0] + state.z[0]));
-  const Real adf1_x = t45 * h1b_y + h1b_x * zw_1;
-  const Real adf1_y = t45 * h1b_x - h1b_y * zw_1;
-  const Real adn1_z = t45 * Real(0.00311375);
-  const Real adf2t_z = (t24 * zdot[0] - (piston_pinbx_y * t41 + (piston_pinbm1a_x - state.z[0] *
-      piston_pinbm0b_y))) * Real(0.48);
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
+  const Real adf1_x = t42 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t42 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t42 * Real(0.00311375);
+  const Real adf2t_z = (w1_z * (c1 * t30) - (t24 * zdot[0] + (c0 * state.z[0] * t31 - piston_pinbx_y * t38)))
+      * Real(0.48);
   const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.00311375) - h1b_x * aa1o_y));
-  const Real aQ2_0 = adf2t_z - Real(4.7088);
-  tau[0] = t24 * aQ2_0 - (t22 * aQ1_0 + (r1_y * adf1_x - (r1_x * adf1_y + (adn0_z - (aQp0 + adn1_z)))));
+  const Real aQ2_0 = adf2t_z + Real(4.7088);
+  tau[0] = -(t24 * aQ2_0 + (t21 * aQ1_0 + (r1_y * adf1_x - (r1_x * adf1_y + (adn0_z - (aQp0 + adn1_z))))));
 }
 
 template <class Real>
@@ -408,16 +386,11 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real piston_pind_y = piston_pinbx1_y - Real(0.006);
   const Real t26 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
   const Real t30 = t26 * state.z[0];
-  const Real piston_pinbm1t_x = piston_pinbx_y * t30;
-  const Real piston_pindv_x = piston_pinbm1t_x + state.z[0] * (piston_pinbx1_y - (piston_pinbx1_y +
-      piston_pinbx_y * t26));
-  const Real piston_pinbm1t_y = piston_pinbx_x * t30;
-  const Real piston_pinbm0t_y = piston_pinbx1_x * state.z[0];
-  const Real piston_pinbm0v_y = piston_pinbm1t_y - piston_pinbm0t_y;
   g[0] = piston_pind_x;
   g[1] = piston_pind_y;
-  g_rate[0] = -piston_pindv_x;
-  g_rate[1] = -piston_pinbm0v_y;
+  g_rate[0] = -(piston_pinbx_y * t30 + state.z[0] * (piston_pinbx1_y - (piston_pinbx1_y + piston_pinbx_y *
+      t26)));
+  g_rate[1] = piston_pinbx1_x * state.z[0] - piston_pinbx_x * t30;
 }
 
 template <class Real>
@@ -434,31 +407,24 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real t21 = Real(1.0) / piston_pinbx_x;
-  const Real t22 = piston_pinbx1_x * t21;
-  const Real t24 = piston_pinbx1_y + piston_pinbx_y * t22;
-  const Real t26 = t22 * state.z[0];
-  const Real piston_pinbm1t_x = piston_pinbx_y * t26;
-  const Real piston_pinbm0t_x = piston_pinbx1_y * state.z[0];
-  const Real piston_pinbm1t_y = piston_pinbx_x * t26;
-  const Real piston_pinbm1a_x = t26 * piston_pinbm1t_y;
-  const Real piston_pinbm0t_y = piston_pinbx1_x * state.z[0];
-  const Real piston_pinbm0b_y = piston_pinbm0t_y - piston_pinbm1t_y * Real(2.0);
-  const Real piston_pinbm1a_y = t26 * piston_pinbm1t_x;
-  const Real piston_pinbm0b_x = piston_pinbm0t_x + piston_pinbm1t_x * Real(2.0);
-  const Real piston_pinbm0a_y = piston_pinbm1a_y + state.z[0] * piston_pinbm0b_x;
-  const Real t41 = t21 * piston_pinbm0a_y;
-  const Real t44 = piston_pinbx_y * t41 + (piston_pinbm1a_x - state.z[0] * piston_pinbm0b_y);
+  const Real t20 = Real(1.0) / piston_pinbx_x;
+  const Real t21 = piston_pinbx1_x * t20;
+  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
+  const Real t26 = t21 * state.z[0];
+  const Real w1_z = state.z[0] + t26;
+  const Real t30 = Real(0.145) * w1_z;
+  const Real t31 = Real(0.045) * state.z[0];
+  const Real t38 = t20 * (s0 * state.z[0] * t31 + w1_z * (s1 * t30));
+  const Real t42 = w1_z * (c1 * t30) - (c0 * state.z[0] * t31 - piston_pinbx_y * t38);
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
       Real(0.00111375);
-  const Real v1P_x = t22 * h1b_y;
-  const Real v1P_y = t22 * h1b_x;
-  const Real v1L_z = t22 * Real(0.00311375);
-  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t22 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
+  const Real v1P_x = t21 * h1b_y;
+  const Real v1P_y = t21 * h1b_x;
+  const Real v1L_z = t21 * Real(0.00311375);
+  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
       v1P_x));
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
@@ -466,21 +432,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
   const Real ra1o_y = r1_y * rW0w22;
-  const Real zw_1 = t26 * (t26 + (state.z[0] + state.z[0]));
-  const Real rdf1_x = t41 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t41 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t41 * Real(0.00311375);
-  const Real rdf2t_z = t44 * Real(0.48);
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
+  const Real rdf1_x = t38 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t38 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t38 * Real(0.00311375);
+  const Real rdf2t_z = t42 * Real(0.48);
   const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
   const Real tau_2_0 = input.u[0] - (rdf2t_z + Real(4.7088));
-  const Real t115 = Real(1.0) / (Real(2.0) * T2) * (t24 * tau_2_0 - (t22 * rQ1_0 + (input.u[1] + (r1_y *
+  const Real t113 = Real(1.0) / (T2 * Real(2.0)) * (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y *
       rdf1_x - (r1_x * rdf1_y - (rQp0 + rdn1_z))))));
-  const Real ra1o_x_2 = ra1o_x + r1_y * t115;
-  const Real ra1o_y_2 = ra1o_y + r1_x * t115;
-  const Real rdf2t_z_2 = Real(0.48) * (t44 + t24 * t115);
+  const Real ra1o_x_2 = ra1o_x + r1_y * t113;
+  const Real ra1o_y_2 = ra1o_y + r1_x * t113;
+  const Real rdf2t_z_2 = Real(0.48) * (t42 + t24 * t113);
   const Real tau_2_0_2 = rdf2t_z_2 - (input.u[0] - Real(4.7088));
   lambda[0] = tau_2_0_2;
-  lambda[1] = -(t21 * (Real(0.00311375) * (t115 + (t41 + t22 * t115)) + (piston_pinbx_y * tau_2_0_2 - (h1b_x *
+  lambda[1] = -(t20 * (Real(0.00311375) * (t113 + (t38 + t21 * t113)) + (piston_pinbx_y * tau_2_0_2 - (h1b_x *
       ra1o_y_2 - h1b_y * ra1o_x_2))));
 }
 

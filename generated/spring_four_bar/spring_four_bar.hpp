@@ -11,8 +11,8 @@
 // - 1 degree of freedom: 3 coordinates of the tree, 2 of 2 constraints are independent
 // - independent: crank; the others by 2 Newton iterations at the end of a step. Proven for crank in [0.5,
 //   2.95]: the branch of the initial state exists, no other one meets it, and determinants of what is solved
-//   for are 0.18 or more of their rows' sizes. Dependent coordinates that are off by 6e-05 (rad; slides over
-//   1 m) end within 4e-16 of the branch
+//   for are 0.18 or more of their rows' sizes. Dependent coordinates that are off by 0.001 (rad; slides over
+//   1 m) end within 2e-10 of the branch, no other solution is within 0.1 of it
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
@@ -50,11 +50,15 @@ struct State {
   Real y[3];
   Real z[1];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
-  /// Below Model::least_regularity do not trust what follows.
+  /// Below Model::least_regularity, or not a number, do not trust what follows.
   Real regularity = Real(1.0);
-  /// Square of the distance that the last closing moved the positions, rad or m. Beyond
-  /// Model::greatest_opening loops may be left open: the step was too long.
+  /// Square of the distance that the first iterations of the last closing moved the positions, rad or m. Up
+  /// to Model::greatest_opening they are proven to end on the branch (see above), where no step errs by more
+  /// than the distance to other solutions. Beyond it nothing is: the step was too long.
   Real opening = Real(0.0);
+  /// (y - low) (y - high) after the last closing: positive where a position is outside the range for which
+  /// how loops are closed is proven. crank from 0.5 to 2.95.
+  Real beyond[1] = {};
 };
 
 /// Inputs: forces of the actuators (N m, N) and what the model's expressions take.
@@ -84,11 +88,20 @@ struct Model {
   static constexpr int input_count = 0;
   static constexpr int output_count = 1;
   static constexpr int constraint_count = 2;
-  static constexpr double least_regularity = 0.001;  ///< see State
-  static constexpr double greatest_opening = 1e-05;  ///< see State
+  static constexpr double least_regularity = 0.001;  ///< see State; chosen
+  static constexpr double greatest_opening = 6.639103270642546e-07;  ///< see State; proven
+  static constexpr int range_count = 1;
   static constexpr int parameter_count = 2;
 
   explicit Model(const Parameters& = {}) noexcept;
+
+  /// Did the last closing of the loops go well, by all that State says of it? No where something is not
+  /// finite.
+  static bool loops_closed(const State& state) noexcept {
+    for (const Real& excess : state.beyond)
+      if (!(excess <= Real(0.0))) return false;
+    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
+  }
 
   Real k;
   Real c;
@@ -121,7 +134,7 @@ template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 69 operations (45 mul, 22 add and sub, 2 div), 6 sin and cos.
+/// 65 operations (43 mul, 20 add and sub, 2 div), 6 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
@@ -133,14 +146,14 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 119 operations (70 mul, 43 add and sub, 5 div), 6 sin and cos.
+/// 115 operations (68 mul, 41 add and sub, 5 div), 6 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 114 operations (65 mul, 44 add and sub, 4 div), 6 sin and cos.
+/// 110 operations (63 mul, 42 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
@@ -163,7 +176,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 53 operations (26 mul, 23 add and sub, 4 div), 12 sin and cos.
+/// 56 operations (27 mul, 25 add and sub, 4 div), 12 sin and cos.
 template <class Real>
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
@@ -176,14 +189,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 139 operations (81 mul, 52 add and sub, 5 div), 6 sin and cos.
+/// 135 operations (79 mul, 50 add and sub, 5 div), 6 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 646 operations.
+/// 633 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

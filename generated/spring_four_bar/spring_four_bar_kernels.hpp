@@ -118,40 +118,28 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t18 = Real(1.0) / s2;
-  const Real t19 = Real(1.0) / c1;
-  const Real t20 = pinbx1_y * t18;
-  const Real t23 = t19 * (pinbx1_x - c2 * t20);
+  const Real t17 = Real(1.0) / s2;
+  const Real t18 = Real(1.0) / c1;
+  const Real t19 = pinbx1_y * t17;
+  const Real t23 = t18 * (c2 * t19 - (c0 - c1));
   const Real t25 = t23 * state.z[0];
-  const Real t26 = t20 * state.z[0];
-  const Real pinam2t_x = s2 * t26;
-  const Real pinbm1t_x = s1 * t25;
-  const Real pinbm0t_x = pinbx1_y * state.z[0];
-  const Real pinam2t_y = c2 * t26;
-  const Real pinam2a_x = t26 * pinam2t_y;
-  const Real pinbm1t_y = c1 * t25;
-  const Real pinbm1a_x = t25 * pinbm1t_y;
-  const Real pinbm0t_y = pinbx1_x * state.z[0];
-  const Real pinbm0b_y = pinbm0t_y - pinbm1t_y * Real(2.0);
-  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
-  const Real pinam2a_y = t26 * pinam2t_x;
-  const Real pinbm1a_y = t25 * pinbm1t_x;
-  const Real pinbm0b_x = pinbm0t_x + pinbm1t_x * Real(2.0);
-  const Real t46 = t18 * pinda_x;
-  const Real t51 = t19 * (c2 * t46 + (state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y)));
+  const Real t26 = t19 * state.z[0];
+  const Real w1_z = state.z[0] - t25;
+  const Real t42 = t17 * (w1_z * (c1 * w1_z) - (state.z[0] * (c0 * state.z[0]) - t26 * (c2 * t26)));
+  const Real t47 = t18 * (c2 * t42 - (w1_z * (s1 * w1_z) + (state.z[0] * (s0 * state.z[0]) - t26 * (s2 *
+      t26))));
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = c0 * kW0w22;
   const Real ka1o_y = s0 * kW0w22;
-  const Real zw_1 = t25 * (t25 + (state.z[0] + state.z[0]));
+  const Real zw_1 = t25 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
   const Real E1 = c0 * h1b_x - s0 * h1b_y - Real(0.3333333333333333);
-  k[0] = -(Real(0.3333333333333333) * (t20 * t46) - (t23 * (t51 * Real(0.3333333333333333) - (h1b_x * ka1o_y +
-      h1b_y * ka1o_x)) - (t51 * E1 - (c0 * kdf1_y + s0 * kdf1_x))));
+  k[0] = Real(0.3333333333333333) * (t19 * t42) + (t23 * (t47 * Real(0.3333333333333333) + (h1b_x * ka1o_y +
+      h1b_y * ka1o_x)) + (t47 * E1 - (c0 * kdf1_y + s0 * kdf1_x)));
 }
 
 template <class Real>
@@ -167,14 +155,14 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real pinbx1_y = s0 * t5 + (s0 + c0 * t4);
   const Real t20 = pinbx1_y * (Real(1.0) / s2);
   const Real t26 = t20 * state.z[0];
-  const Real pinam2t_x = s2 * t26;
-  const Real pinam2t_y = c2 * t26;
+  const Real diagonalbv2_x = s2 * t26;
+  const Real diagonalbv2_y = c2 * t26;
   const Real h1b_x = c1 * Real(0.5);
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
-  const Real diagonal_rate = (s2 * pinam2t_y - pinax2_x * pinam2t_x) / diagonal_l;
+  const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
   const Real diagonal_T = diagonal_e * model.k + diagonal_rate * model.c;
   const Real diagonal_Tl = diagonal_T / diagonal_l;
@@ -197,29 +185,19 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax2_x = c2 + Real(1.0);
-  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t19 = Real(1.0) / s2;
-  const Real t20 = Real(1.0) / c1;
-  const Real t21 = pinbx1_y * t19;
-  const Real t24 = t20 * (pinbx1_x - c2 * t21);
+  const Real t18 = Real(1.0) / s2;
+  const Real t19 = Real(1.0) / c1;
+  const Real t20 = pinbx1_y * t18;
+  const Real t24 = t19 * (c2 * t20 - (c0 - c1));
   const Real t26 = t24 * state.z[0];
-  const Real t27 = t21 * state.z[0];
-  const Real pinam2t_x = s2 * t27;
-  const Real pinbm1t_x = s1 * t26;
-  const Real pinbm0t_x = pinbx1_y * state.z[0];
-  const Real pinam2t_y = c2 * t27;
-  const Real pinam2a_x = t27 * pinam2t_y;
-  const Real pinbm1t_y = c1 * t26;
-  const Real pinbm1a_x = t26 * pinbm1t_y;
-  const Real pinbm0t_y = pinbx1_x * state.z[0];
-  const Real pinbm0b_y = pinbm0t_y - pinbm1t_y * Real(2.0);
-  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
-  const Real pinam2a_y = t27 * pinam2t_x;
-  const Real pinbm1a_y = t26 * pinbm1t_x;
-  const Real pinbm0b_x = pinbm0t_x + pinbm1t_x * Real(2.0);
-  const Real t47 = t19 * pinda_x;
-  const Real t52 = t20 * (c2 * t47 + (state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y)));
+  const Real t27 = t20 * state.z[0];
+  const Real diagonalbv2_x = s2 * t27;
+  const Real diagonalbv2_y = c2 * t27;
+  const Real w1_z = state.z[0] - t26;
+  const Real t43 = t18 * (w1_z * (c1 * w1_z) - (state.z[0] * (c0 * state.z[0]) - t27 * diagonalbv2_y));
+  const Real t48 = t19 * (c2 * t43 - (w1_z * (s1 * w1_z) + (state.z[0] * (s0 * state.z[0]) - t27 *
+      diagonalbv2_x)));
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
@@ -227,13 +205,13 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real v1P_x = t24 * h1b_y;
   const Real v1P_y = t24 * h1b_x;
   const Real v1L_z = t24 * Real(0.3333333333333333);
-  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t21 * t21) - (J0 - t24 * v1L_z)) - (c0 * v1P_y -
+  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t20 * t20) - (J0 - t24 * v1L_z)) + (c0 * v1P_y -
       (v1L_z + s0 * v1P_x));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
-  const Real diagonal_rate = (s2 * pinam2t_y - pinax2_x * pinam2t_x) / diagonal_l;
+  const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
   const Real diagonal_T = diagonal_e * model.k + diagonal_rate * model.c;
   const Real diagonal_Tl = diagonal_T / diagonal_l;
@@ -243,16 +221,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = c0 * rW0w22;
   const Real ra1o_y = Real(9.81) - s0 * rW0w22;
-  const Real zw_1 = t26 * (t26 + (state.z[0] + state.z[0]));
-  const Real rdf1_x = t52 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t52 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t52 * Real(0.3333333333333333);
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
+  const Real rdf1_x = t48 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t48 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t48 * Real(0.3333333333333333);
   const Real rQp2 = c2 * Real(4.905);
-  const Real rdn2_z = t47 * Real(0.3333333333333333);
-  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real tau_2_0 = rdn2_z + (rQp2 + (c2 * diagonalf_y - s2 * diagonalf_x));
-  zdot[0] = -(Real(1.0) / (Real(2.0) * T2) * (t21 * tau_2_0 - (t24 * rQ1_0 + (s0 * rdf1_x - (c0 * rdf1_y -
-      (rQp0 + rdn1_z))))));
+  const Real rdn2_z = t43 * Real(0.3333333333333333);
+  const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
+  const Real tau_2_0 = rdn2_z - (rQp2 + (c2 * diagonalf_y - s2 * diagonalf_x));
+  zdot[0] = Real(1.0) / (T2 * Real(2.0)) * (t20 * tau_2_0 + (t24 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y + (rQp0
+      - rdn1_z)))));
 }
 
 template <class Real>
@@ -267,29 +245,19 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax2_x = c2 + Real(1.0);
-  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t19 = Real(1.0) / s2;
-  const Real t20 = Real(1.0) / c1;
-  const Real t21 = pinbx1_y * t19;
-  const Real t24 = t20 * (pinbx1_x - c2 * t21);
+  const Real t18 = Real(1.0) / s2;
+  const Real t19 = Real(1.0) / c1;
+  const Real t20 = pinbx1_y * t18;
+  const Real t24 = t19 * (c2 * t20 - (c0 - c1));
   const Real t26 = t24 * state.z[0];
-  const Real t27 = t21 * state.z[0];
-  const Real pinam2t_x = s2 * t27;
-  const Real pinbm1t_x = s1 * t26;
-  const Real pinbm0t_x = pinbx1_y * state.z[0];
-  const Real pinam2t_y = c2 * t27;
-  const Real pinam2a_x = t27 * pinam2t_y;
-  const Real pinbm1t_y = c1 * t26;
-  const Real pinbm1a_x = t26 * pinbm1t_y;
-  const Real pinbm0t_y = pinbx1_x * state.z[0];
-  const Real pinbm0b_y = pinbm0t_y - pinbm1t_y * Real(2.0);
-  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
-  const Real pinam2a_y = t27 * pinam2t_x;
-  const Real pinbm1a_y = t26 * pinbm1t_x;
-  const Real pinbm0b_x = pinbm0t_x + pinbm1t_x * Real(2.0);
-  const Real t47 = t19 * pinda_x;
-  const Real t55 = t20 * (c2 * t47 + (state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y))) - t24 * zdot[0];
+  const Real t27 = t20 * state.z[0];
+  const Real diagonalbv2_x = s2 * t27;
+  const Real diagonalbv2_y = c2 * t27;
+  const Real w1_z = state.z[0] - t26;
+  const Real t43 = t18 * (w1_z * (c1 * w1_z) - (state.z[0] * (c0 * state.z[0]) - t27 * diagonalbv2_y));
+  const Real t51 = t19 * (c2 * t43 - (w1_z * (s1 * w1_z) + (state.z[0] * (s0 * state.z[0]) - t27 *
+      diagonalbv2_x))) - t24 * zdot[0];
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
@@ -298,7 +266,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real J0 = D1 + D1 - Real(0.3333333333333333) - Real(1.3333333333333333);
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
-  const Real diagonal_rate = (s2 * pinam2t_y - pinax2_x * pinam2t_x) / diagonal_l;
+  const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
   const Real diagonal_T = diagonal_e * model.k + diagonal_rate * model.c;
   const Real diagonal_Tl = diagonal_T / diagonal_l;
@@ -309,15 +277,15 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = s0 * zdot[0] + c0 * aW0w22;
   const Real aa1o_y = s0 * aW0w22 - (Real(9.81) + c0 * zdot[0]);
-  const Real zw_1 = t26 * (t26 + (state.z[0] + state.z[0]));
-  const Real adf1_x = t55 * h1b_y + h1b_x * zw_1;
-  const Real adf1_y = t55 * h1b_x - h1b_y * zw_1;
-  const Real adn1_z = t55 * Real(0.3333333333333333);
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
+  const Real adf1_x = t51 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t51 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t51 * Real(0.3333333333333333);
   const Real aQp2 = c2 * Real(4.905);
-  const Real adn2_z = (t47 + t21 * zdot[0]) * Real(0.3333333333333333);
-  const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.3333333333333333) + h1b_x * aa1o_y));
-  const Real tau_2_0 = adn2_z + (aQp2 + (c2 * diagonalf_y - s2 * diagonalf_x));
-  tau[0] = t21 * tau_2_0 - (t24 * aQ1_0 + (s0 * adf1_x - (c0 * adf1_y - (adn0_z + (aQp0 + adn1_z)))));
+  const Real adn2_z = (t43 - t20 * zdot[0]) * Real(0.3333333333333333);
+  const Real aQ1_0 = adn1_z + (h1b_y * aa1o_x + (zdot[0] * Real(0.3333333333333333) + h1b_x * aa1o_y));
+  const Real tau_2_0 = adn2_z - (aQp2 + (c2 * diagonalf_y - s2 * diagonalf_x));
+  tau[0] = -(t20 * tau_2_0 + (t24 * aQ1_0 - (s0 * adf1_x - (c0 * adf1_y + (adn0_z + (aQp0 - adn1_z))))));
 }
 
 template <class Real>
@@ -334,13 +302,13 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real t19 = pinbx1_y * (Real(1.0) / s2);
   const Real t25 = Real(1.0) / c1 * (c2 * t19 - (c0 - c1)) * state.z[0];
   const Real t26 = t19 * state.z[0];
+  const Real v1o_x = s0 * state.z[0];
+  const Real v1o_y = c0 * state.z[0];
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
   const Real J0 = D1 + D1 - Real(0.3333333333333333) - Real(1.3333333333333333);
   const Real v0L_z = state.z[0] * J0;
-  const Real v1o_x = s0 * state.z[0];
-  const Real v1o_y = c0 * state.z[0];
   const Real v1P_x = t25 * h1b_y;
   const Real v1P_y = t25 * h1b_x;
   const Real v1L_z = t25 * Real(0.3333333333333333);
@@ -422,6 +390,7 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   closed.opening = t19 * t19 + t44 * t44;
   closed.y[1] = -(pind_y_2 * (Real(1.0) / c1_2) - (state.y[1] + t44));
   closed.y[2] = -(t32 - (state.y[2] - t19));
+  closed.beyond[0] = (state.y[0] - Real(0.5)) * (state.y[0] - Real(2.95));
   state = closed;
 }
 
@@ -443,18 +412,10 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real t23 = pinbx1_y * (Real(1.0) / s2);
   const Real t28 = Real(1.0) / c1 * (pinbx1_x - c2 * t23) * state.z[0];
   const Real t29 = t23 * state.z[0];
-  const Real pinam2t_x = s2 * t29;
-  const Real pinbm1t_x = s1 * t28;
-  const Real pinbm0t_x = pinbx1_y * state.z[0];
-  const Real pindv_x = pinbm0t_x - (pinam2t_x - pinbm1t_x);
-  const Real pinam2t_y = c2 * t29;
-  const Real pinbm1t_y = c1 * t28;
-  const Real pinbm0t_y = pinbx1_x * state.z[0];
-  const Real pindv_y = pinbm0t_y - (pinam2t_y + pinbm1t_y);
   g[0] = pind_x;
   g[1] = -pind_y;
-  g_rate[0] = -pindv_x;
-  g_rate[1] = pindv_y;
+  g_rate[0] = s2 * t29 - (pinbx1_y * state.z[0] + s1 * t28);
+  g_rate[1] = -(c2 * t29 - (pinbx1_x * state.z[0] - c1 * t28));
 }
 
 template <class Real>
@@ -469,29 +430,19 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax2_x = c2 + Real(1.0);
-  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t19 = Real(1.0) / s2;
-  const Real t20 = Real(1.0) / c1;
-  const Real t21 = pinbx1_y * t19;
-  const Real t24 = t20 * (pinbx1_x - c2 * t21);
+  const Real t18 = Real(1.0) / s2;
+  const Real t19 = Real(1.0) / c1;
+  const Real t20 = pinbx1_y * t18;
+  const Real t24 = t19 * (c2 * t20 - (c0 - c1));
   const Real t26 = t24 * state.z[0];
-  const Real t27 = t21 * state.z[0];
-  const Real pinam2t_x = s2 * t27;
-  const Real pinbm1t_x = s1 * t26;
-  const Real pinbm0t_x = pinbx1_y * state.z[0];
-  const Real pinam2t_y = c2 * t27;
-  const Real pinam2a_x = t27 * pinam2t_y;
-  const Real pinbm1t_y = c1 * t26;
-  const Real pinbm1a_x = t26 * pinbm1t_y;
-  const Real pinbm0t_y = pinbx1_x * state.z[0];
-  const Real pinbm0b_y = pinbm0t_y - pinbm1t_y * Real(2.0);
-  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
-  const Real pinam2a_y = t27 * pinam2t_x;
-  const Real pinbm1a_y = t26 * pinbm1t_x;
-  const Real pinbm0b_x = pinbm0t_x + pinbm1t_x * Real(2.0);
-  const Real t47 = t19 * pinda_x;
-  const Real t52 = t20 * (c2 * t47 + (state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y)));
+  const Real t27 = t20 * state.z[0];
+  const Real diagonalbv2_x = s2 * t27;
+  const Real diagonalbv2_y = c2 * t27;
+  const Real w1_z = state.z[0] - t26;
+  const Real t43 = t18 * (w1_z * (c1 * w1_z) - (state.z[0] * (c0 * state.z[0]) - t27 * diagonalbv2_y));
+  const Real t48 = t19 * (c2 * t43 - (w1_z * (s1 * w1_z) + (state.z[0] * (s0 * state.z[0]) - t27 *
+      diagonalbv2_x)));
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
@@ -499,13 +450,13 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real v1P_x = t24 * h1b_y;
   const Real v1P_y = t24 * h1b_x;
   const Real v1L_z = t24 * Real(0.3333333333333333);
-  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t21 * t21) - (J0 - t24 * v1L_z)) - (c0 * v1P_y -
+  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t20 * t20) - (J0 - t24 * v1L_z)) + (c0 * v1P_y -
       (v1L_z + s0 * v1P_x));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
-  const Real diagonal_rate = (s2 * pinam2t_y - pinax2_x * pinam2t_x) / diagonal_l;
+  const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
   const Real diagonal_T = diagonal_e * model.k + diagonal_rate * model.c;
   const Real diagonal_Tl = diagonal_T / diagonal_l;
@@ -516,25 +467,25 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = c0 * rW0w22;
   const Real ra1o_y = Real(9.81) - s0 * rW0w22;
-  const Real zw_1 = t26 * (t26 + (state.z[0] + state.z[0]));
-  const Real rdf1_x = t52 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t52 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t52 * Real(0.3333333333333333);
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
+  const Real rdf1_x = t48 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t48 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t48 * Real(0.3333333333333333);
   const Real rQp2 = c2 * Real(4.905);
-  const Real rdn2_z = t47 * Real(0.3333333333333333);
-  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real t131 = push2_0 + rQp2;
-  const Real tau_2_0 = rdn2_z + t131;
-  const Real t140 = Real(1.0) / (Real(2.0) * T2) * (t21 * tau_2_0 - (t24 * rQ1_0 + (s0 * rdf1_x - (c0 * rdf1_y
-      - (rQp0 + rdn1_z)))));
-  const Real ra1o_x_2 = ra1o_x - s0 * t140;
-  const Real ra1o_y_2 = ra1o_y - c0 * t140;
-  const Real rdn2_z_2 = Real(0.3333333333333333) * (t47 - t21 * t140);
-  const Real rQ1_0_2 = Real(0.3333333333333333) * (t140 + (t52 + t24 * t140)) + (h1b_x * ra1o_y_2 - h1b_y *
+  const Real rdn2_z = t43 * Real(0.3333333333333333);
+  const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
+  const Real t127 = push2_0 + rQp2;
+  const Real tau_2_0 = rdn2_z - t127;
+  const Real t136 = Real(1.0) / (T2 * Real(2.0)) * (t20 * tau_2_0 + (t24 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y
+      + (rQp0 - rdn1_z)))));
+  const Real ra1o_x_2 = ra1o_x + s0 * t136;
+  const Real ra1o_y_2 = ra1o_y + c0 * t136;
+  const Real rdn2_z_2 = Real(0.3333333333333333) * (t43 - t20 * t136);
+  const Real rQ1_0_2 = Real(0.3333333333333333) * (t136 + (t48 - t24 * t136)) - (h1b_x * ra1o_y_2 - h1b_y *
       ra1o_x_2);
-  const Real t156 = t20 * rQ1_0_2;
-  lambda[0] = -(t19 * (c2 * t156 + (t131 + rdn2_z_2)));
-  lambda[1] = -t156;
+  const Real t152 = t19 * rQ1_0_2;
+  lambda[0] = t18 * (c2 * t152 - (t127 - rdn2_z_2));
+  lambda[1] = t152;
 }
 
 template <class Real>

@@ -73,8 +73,7 @@ std::string loop_functions(const std::string& name, const CompiledModel& compile
       "Model::constraint_count);\n}}\n\n"
       "void correct(const double* t, double* y, double* z) {{\n  State state = to_state(t, y, z);\n"
       "  ::{0}::{1}(model(), state);\n  from_state(state, y, z);\n}}\n\n"
-      "void closing(double* regularity, double* opening) {{\n  *regularity = worst.regularity;\n"
-      "  *opening = worst.opening;\n}}\n",
+      "void closing(jourdain_closing* result) {{\n  *result = worst;\n}}\n",
       name, correction);
 }
 

@@ -154,7 +154,7 @@ std::string block(const std::string& title, const std::string& lines, bool latex
 std::string constraints_text(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                              bool latex) {
   if (mechanism.loops.empty()) return "";
-  const loops::ConstraintPrograms programs = loops::constraint_programs(mechanism, equations);
+  const loops::ConstraintPrograms programs = loops::constraint_programs(mechanism, equations).front();
   const auto print = [&](const ir::Program& program) {
     return EquationPrinter(program, mechanism, latex).print();
   };

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace jourdain::commands {
 
 namespace {
 
-constexpr double kOpen = 1e-10;  ///< m; what rounding leaves is far below
+/// m; the next closing makes good what is less. What rounding leaves is far below.
+constexpr double kOpen = 1e-9;
 
 }  // namespace
 
@@ -15,15 +19,20 @@ LoopGuard::LoopGuard(const studies::Flow<double>& flow, const LoadedMechanism& l
     : flow_(flow), loaded_(loaded), h_(h) {}
 
 std::string LoopGuard::problem(const studies::Point<double>& point) const {
-  const studies::Closing closing = flow_.last_closing();
-  if (!flow_.is_regular()) return singular(point.t, closing.regularity);
-  if (const std::string outside = out_of_range(point); !outside.empty()) return outside;
-  const double open = flow_.residuals(point).position;
-  if (closing.opening <= flow_.table().greatest_opening || open <= kOpen) return "";
+  const jourdain_closing closing = flow_.last_closing();
+  if (!(closing.regularity >= flow_.table().least_regularity)) return singular(point.t, closing.regularity);
+  if (closing.beyond > 0) return out_of_range(point);
+  if (closing.opening <= flow_.table().greatest_opening) return "";
+  if (!(closing.left_open <= kOpen))
+    return fmt::format(
+        "at t = {:g} s a step of {:g} s is too long: closing the loops leaves them open by {:.2g} m; take "
+        "shorter steps",
+        point.t, h_, closing.left_open);
+  if (!loaded_.plan()->proof) return "";
   return fmt::format(
-      "at t = {:g} s a step of {:g} s is too long: closing the loops leaves them open by {:.2g} m; take "
-      "shorter steps",
-      point.t, h_, open);
+      "at t = {:g} s a step of {:g} s is too long: closing the loops moved positions by {:.2g} (rad, m), "
+      "beyond {:.2g} it is not proven that they end where they should; take shorter steps",
+      point.t, h_, std::sqrt(closing.opening), std::sqrt(flow_.table().greatest_opening));
 }
 
 std::string LoopGuard::singular(double t, double regularity) const {
@@ -49,21 +58,16 @@ std::string LoopGuard::singular(double t, double regularity) const {
 }
 
 std::string LoopGuard::out_of_range(const studies::Point<double>& point) const {
-  if (!loaded_.plan()->is_reduced()) return "";
-  const model::CoordinateLayout layout = model::lay_out_coordinates(loaded_.mechanism);
-  for (std::size_t j = 0; j < loaded_.mechanism.joints.size(); ++j)
-    for (std::size_t c = 0; c < loaded_.mechanism.joints[j].coordinates.size(); ++c) {
-      const auto& range = loaded_.mechanism.joints[j].coordinates[c].range;
-      const auto entry = layout.joints[j].position[c];
-      if (!range || !entry) continue;
-      const double y = point.x[*entry];
-      if (y < (*range)[0] || y > (*range)[1])
-        return fmt::format(
-            "at t = {:g} s {} = {:.6g} leaves its range [{:g}, {:g}]: how the loops are closed holds only "
-            "there; widen the range, or use treatment = \"multipliers\" in [loops]",
-            point.t, layout.position_names[*entry], y, (*range)[0], (*range)[1]);
-    }
-  return "";
+  const std::vector<loops::ProvenRange>& ranges = loaded_.plan()->proven()->positions;
+  const auto excess = [&point](const loops::ProvenRange& range) {
+    return (point.x[range.index] - range.low) * (point.x[range.index] - range.high);
+  };
+  const auto range = *std::max_element(ranges.begin(), ranges.end(),
+                                       [&](const auto& a, const auto& b) { return excess(a) < excess(b); });
+  return fmt::format(
+      "at t = {:g} s {} = {:.6g} leaves its range [{:g}, {:g}]: how the loops are closed holds only "
+      "there; widen the range, or use treatment = \"multipliers\" in [loops]",
+      point.t, flow_.table().position_names[range.index], point.x[range.index], range.low, range.high);
 }
 
 }  // namespace jourdain::commands

@@ -20,6 +20,7 @@ class LoopGuard {
 
  private:
   std::string singular(double t, double regularity) const;
+  /// Where State says that a position is.
   std::string out_of_range(const studies::Point<double>& point) const;
 
   const studies::Flow<double>& flow_;

@@ -49,6 +49,11 @@ class Emitter {
                  "parameter_count",
                  "output_count",
                  "constraint_count",
+                 "least_regularity",
+                 "greatest_opening",
+                 "range_count",
+                 "loops_closed",
+                 "loops_proven",
                  "Outputs",
                  "parameters",
                  "model",
@@ -80,12 +85,8 @@ class Emitter {
         {"NO", fmt::format("{}", scene_.outputs)},
         {"STATE", state_members()},
         {"STATE_NOTE", state_note(model_)},
-        {"NG", scene_.constraints == 0
-                   ? ""
-                   : fmt::format("  static constexpr int constraint_count = {};\n"
-                                 "  static constexpr double least_regularity = {};  ///< see State\n"
-                                 "  static constexpr double greatest_opening = {};  ///< see State\n",
-                                 scene_.constraints, model_.least_regularity, model_.greatest_opening)},
+        {"NG", guard_limits(model_)},
+        {"GUARD", guard_functions(model_)},
         {"OUTPUTS", output_struct(model_)},
         {"OUTPUTS_ALIAS",
          scene_.outputs == 0 ? "" : fmt::format("  using Outputs = {}::Outputs<Real>;\n", model_.name)},
@@ -345,7 +346,7 @@ class Emitter {
     std::string text;
     if (scene_.positions > 0) text += fmt::format("  Real y[{}];\n", scene_.positions);
     if (scene_.velocities > 0) text += fmt::format("  Real z[{}];\n", scene_.velocities);
-    return text + guard_members(scene_);
+    return text + guard_members(model_);
   }
 
   StepScene step_scene() const { return {scene_, model_.tangent, model_.all_derivatives, model_.dependents}; }

@@ -34,6 +34,12 @@ struct OutputDeclaration {
   std::vector<OutputMember> members;
 };
 
+/// Values of a position or a parameter for which the closing of loops is proven.
+struct ProvenText {
+  std::size_t index = 0;
+  double low = 0, high = 0;
+};
+
 /// What the files say about a model beside its programs.
 struct ModelText {
   std::string name;   ///< namespace and file name
@@ -53,7 +59,9 @@ struct ModelText {
   int closings = 1;                      ///< see SceneShape
   std::vector<std::string> loops;        ///< sentences on how loops are closed
   double least_regularity = 0,
-         greatest_opening = 0;           ///< limits of State's members of these names; with loops
+         greatest_opening = 0;     ///< limits of State's members of these names; with loops
+  bool opening_is_proven = false;  ///< its limit follows from a proof
+  std::vector<ProvenText> proven_positions, proven_parameters;
   std::vector<std::string> assumptions;  ///< sentences
   std::vector<std::string> left_out;     ///< sentences
   std::string validation;                ///< a sentence

@@ -22,6 +22,14 @@ std::string operations_object(const ir::Operations& count) {
       count.sin, count.cos, count.atan2 == 0 ? "" : fmt::format(R"(, "atan2": {})", count.atan2));
 }
 
+std::string ranges_object(const std::vector<ProvenText>& ranges, const std::vector<std::string>& names) {
+  std::string text;
+  for (const ProvenText& range : ranges)
+    text += fmt::format("{}\"{}\": [{}, {}]", text.empty() ? "" : ", ", quoted_text(names[range.index]),
+                        range.low, range.high);
+  return "{" + text + "}";
+}
+
 }  // namespace
 
 std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions,
@@ -60,6 +68,10 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
     field("dependent_positions", string_array(dependents));
     field("least_regularity", fmt::format("{}", model.least_regularity));
     field("greatest_opening", fmt::format("{}", model.greatest_opening));
+    if (!model.proven_positions.empty())
+      field("proven_ranges", ranges_object(model.proven_positions, model.positions));
+    if (!model.proven_parameters.empty())
+      field("proven_parameters", ranges_object(model.proven_parameters, parameters));
   }
   field("inputs", string_array(model.inputs));
   std::vector<std::string> outputs;

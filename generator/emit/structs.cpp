@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "emit/body.hpp"
 #include "emit/layout.hpp"
 #include "emit/names.hpp"
 #include "emit/signature.hpp"
@@ -34,15 +35,88 @@ std::string output_struct(const ModelText& model) {
   return text + "};\n\n";
 }
 
-std::string guard_members(const SceneShape& scene) {
-  if (scene.constraints == 0) return "";
-  return "  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, "
-         "negative beyond.\n"
-         "  /// Below Model::least_regularity do not trust what follows.\n"
-         "  Real regularity = Real(1.0);\n"
-         "  /// Square of the distance that the last closing moved the positions, rad or m. Beyond\n"
-         "  /// Model::greatest_opening loops may be left open: the step was too long.\n"
-         "  Real opening = Real(0.0);\n";
+namespace {
+
+const char* opening_comment(const ModelText& model) {
+  if (model.opening_is_proven)
+    return "Square of the distance that the first iterations of the last closing moved the positions, rad or "
+           "m. Up to Model::greatest_opening they are proven to end on the branch (see above), where no step "
+           "errs by more than the distance to other solutions. Beyond it nothing is: the step was too long.";
+  return "Square of the distance that the last closing moved the positions, rad or m. Beyond "
+         "Model::greatest_opening loops may be left open: the step was too long.";
+}
+
+}  // namespace
+
+std::string guard_members(const ModelText& model) {
+  if (model.constraints.empty()) return "";
+  std::string text =
+      "  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, "
+      "negative beyond.\n"
+      "  /// Below Model::least_regularity, or not a number, do not trust what follows.\n"
+      "  Real regularity = Real(1.0);\n" +
+      wrapped_doc(opening_comment(model), 2) + "  Real opening = Real(0.0);\n";
+  if (model.proven_positions.empty()) return text;
+  std::string ranges;
+  for (const ProvenText& range : model.proven_positions)
+    ranges += fmt::format("{}{} from {} to {}", ranges.empty() ? "" : ", ", model.positions[range.index],
+                          range.low, range.high);
+  return text +
+         wrapped_doc(fmt::format("(y - low) (y - high) after the last closing: positive where a position is "
+                                 "outside the range for which how loops are closed is proven. {}.",
+                                 comment_text(ranges)),
+                     2) +
+         fmt::format("  Real beyond[{}] = {{}};\n", model.proven_positions.size());
+}
+
+std::string guard_limits(const ModelText& model) {
+  if (model.constraints.empty()) return "";
+  const std::string ranges =
+      model.proven_positions.empty()
+          ? ""
+          : fmt::format("  static constexpr int range_count = {};\n", model.proven_positions.size());
+  return fmt::format(
+      "  static constexpr int constraint_count = {};\n"
+      "  static constexpr double least_regularity = {};  ///< see State; chosen\n"
+      "  static constexpr double greatest_opening = {};  ///< see State; {}\n{}",
+      model.constraints.size(), model.least_regularity, model.greatest_opening,
+      model.opening_is_proven ? "proven" : "chosen", ranges);
+}
+
+namespace {
+
+std::string proven_function(const ModelText& model) {
+  if (model.proven_parameters.empty()) return "";
+  std::string conditions;
+  for (const ProvenText& range : model.proven_parameters)
+    conditions +=
+        fmt::format("{0}parameters.{1} >= {2} && parameters.{1} <= {3}", conditions.empty() ? "" : " && ",
+                    model.parameters[range.index].name, literal_text(range.low), literal_text(range.high));
+  return wrapped_doc(
+             "Does what is proven of the loops (see above) hold at these parameters? Those that the "
+             "constraints depend on must be in their declared ranges; without one a parameter must have its "
+             "default value. Elsewhere nothing is known.",
+             2) +
+         "  static bool loops_proven(const Parameters& parameters) noexcept {\n" +
+         wrapped(fmt::format("return {};", conditions), 4) + "  }\n";
+}
+
+}  // namespace
+
+std::string guard_functions(const ModelText& model) {
+  if (model.constraints.empty()) return "";
+  std::string text = "\n" +
+                     wrapped_doc(
+                         "Did the last closing of the loops go well, by all that State says of it? No where "
+                         "something is not finite.",
+                         2) +
+                     "  static bool loops_closed(const State& state) noexcept {\n";
+  if (!model.proven_positions.empty())
+    text += "    for (const Real& excess : state.beyond)\n      if (!(excess <= Real(0.0))) return false;\n";
+  text +=
+      "    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);\n"
+      "  }\n";
+  return text + proven_function(model);
 }
 
 bool linearizes(const std::vector<FunctionInfo>& functions) {

@@ -12,7 +12,13 @@ namespace jourdain::emit {
 std::string output_struct(const ModelText& model);
 
 /// Members of State that tell how its loops were closed; none without loops.
-std::string guard_members(const SceneShape& scene);
+std::string guard_members(const ModelText& model);
+
+/// Constants of Model that limit them.
+std::string guard_limits(const ModelText& model);
+
+/// Functions of Model that judge a State by them, and Parameters by what is proven.
+std::string guard_functions(const ModelText& model);
 
 bool linearizes(const std::vector<FunctionInfo>& functions);
 

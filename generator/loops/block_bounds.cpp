@@ -16,13 +16,13 @@ using ir::LeafKind;
 
 namespace {
 
-/// What each block may be off by after its iterations: one unit of the last place of 1.
-constexpr double kEnd = 0x1p-52;
-constexpr double kLeastRadius = 1e-10;
-/// Of 1 − C G over a box: beyond it bounds by it say little.
-constexpr double kContraction = 0.75;
-/// Without bounds at smaller and smaller reach: the box itself is too large.
-constexpr int kFailures = 3;
+/// What each block may be off by after its iterations, and the share of the radius that blocks before it may move it by.
+constexpr double kEnd = 1e-10, kMoved = 0.01;
+constexpr double kLeastRadius = 1e-8;
+/// Bounds hold within this many radii.
+constexpr double kReach = 4;
+/// Of 1 − C G: beyond it bounds by it say little. Of a box by itself, so that some is left for what is near.
+constexpr double kContraction = 0.75, kSmall = 0.65;
 /// Of a row: what is left of entries that are zero everywhere. Analytic ones that vanish at many points are.
 constexpr double kCancelled = 1e-12;
 /// Makes good the rounding of sums of bounds.
@@ -133,12 +133,17 @@ MatrixXd BlockBounds::jacobian(const VectorXd& x, const VectorXd& p) const {
   return G;
 }
 
-/// Over all displacements of up to `reach` from the branch; a displacement d moves entries of a quaternion by |d|/2 at most.
-std::optional<BlockBounds::Tensors> BlockBounds::tensors(const Branch& branch, double reach) const {
+/// A displacement d moves entries of a quaternion by |d|/2 at most.
+std::optional<BlockBounds::Tensors> BlockBounds::tensors(const Branch& branch, double reach,
+                                                         double span) const {
   std::vector<double> around;
   for (const bool is_slide : problem_.slide_unknowns) around.push_back(reach * (is_slide ? length_ : 1));
   ir::LeafValues<Interval> leaves = equations_.leaves(branch, around);
-  leaves[LeafKind::kVelocity].assign(problem_.velocities, Interval{});
+  const auto displace = [&](double by) {
+    leaves[LeafKind::kVelocity].clear();
+    for (const double size : size_) leaves[LeafKind::kVelocity].push_back({-by * size, by * size});
+  };
+  displace(span);
   const std::size_t rows = equations_.rows().outputs.size(), n = problem_.velocities;
   Tensors result{std::vector(rows, std::vector<Interval>(n)),
                  std::vector(rows, std::vector<Interval>(n * n))};
@@ -150,7 +155,7 @@ std::optional<BlockBounds::Tensors> BlockBounds::tensors(const Branch& branch, d
     return true;
   };
   if (!place(G_, equations_.evaluated(G_, leaves), result.G)) return {};
-  for (std::size_t k = 0; k < n; ++k) leaves[LeafKind::kVelocity][k] = {-reach * size_[k], reach * size_[k]};
+  displace(reach);
   if (!place(H_, equations_.evaluated(H_, leaves), result.H)) return {};
   return result;
 }
@@ -181,24 +186,23 @@ bool BlockBounds::add_block(const Block& block, const MatrixXd& middle, const Te
   const MatrixXd C = J.inverse();
   if (!C.allFinite()) return false;
   const IntervalMatrix E = rest(C, G), CH = product(C, H), drift = product(C, earlier);
-  double contraction = 0, omega = 0, inverse = 0, moved = 0;
+  double contraction = 0, omega = 0, moved = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double size = size_[block.dependents[i]];
-    double sums[4] = {0, 0, 0, 0};
+    double sums[3] = {0, 0, 0};
     for (std::size_t j = 0; j < n; ++j) {
       const double size_j = size_[block.dependents[j]];
       sums[0] += magnitude(E(i, j)) * size_j / size;
-      sums[2] += std::fabs(C(at(i), at(j))) * row_scale_[block.rows[j]] / size;
       for (std::size_t k = 0; k < n; ++k)
         sums[1] += magnitude(CH(i, j * n + k)) * size_j * size_[block.dependents[k]] / size;
     }
-    for (std::size_t k = 0; k < nz; ++k) sums[3] += magnitude(drift(i, k)) * off[k] * size_[k] / size;
+    for (std::size_t k = 0; k < nz; ++k) sums[2] += magnitude(drift(i, k)) * off[k] * size_[k] / size;
     contraction = std::max(contraction, sums[0]);
     omega = std::max(omega, sums[1]);
-    inverse = std::max(inverse, sums[2]);
-    moved = std::max(moved, sums[3]);
+    moved = std::max(moved, sums[2]);
   }
   if (!(contraction < kContraction)) return false;
+  result.contraction = std::max(result.contraction, contraction);
   result.determinant.push_back(determinant_of(block, C, E));
   for (std::size_t i = 0; i < n; ++i) {
     double square = 0;
@@ -209,7 +213,6 @@ bool BlockBounds::add_block(const Block& block, const MatrixXd& middle, const Te
   const double factor = kOutward / (1 - contraction * kOutward);
   const double kappa = problem_.tangent.quaternions.empty() ? 1 : 2;
   result.omega = std::max(result.omega, kappa * factor * omega);
-  result.inverse = std::max(result.inverse, factor * inverse);
   for (const std::size_t k : block.dependents) off[k] = 1 + factor * moved;
   result.amplification = std::max(result.amplification, 1 + factor * moved);
   return true;
@@ -254,8 +257,9 @@ double BlockBounds::margin_near(const VectorXd& x, const VectorXd& p) const {
   return margin(determinants, norms);
 }
 
-std::optional<BlockBounds::Bounds> BlockBounds::bounds(const Branch& branch, double reach) const {
-  const std::optional<Tensors> over = tensors(branch, reach);
+std::optional<BlockBounds::Bounds> BlockBounds::bounds(const Branch& branch, double reach,
+                                                       double span) const {
+  const std::optional<Tensors> over = tensors(branch, reach, span);
   if (!over) return {};
   const MatrixXd middle = jacobian(branch.x, branch.centre);
   Bounds result;
@@ -269,29 +273,53 @@ std::optional<BlockBounds::Bounds> BlockBounds::bounds(const Branch& branch, dou
 /// e with (ω/2) e raised to 2^iterations equal to (ω/2) kEnd.
 double BlockBounds::radius_within(double omega) const {
   if (!(omega > 0)) return INFINITY;
-  return 0.99 * (2 / omega) * std::pow(omega / 2 * kEnd, std::ldexp(1.0, -problem_.iterations));
+  return (1 - kMoved) * (2 / omega) * std::pow(omega / 2 * kEnd, std::ldexp(1.0, -problem_.iterations));
 }
 
 bool BlockBounds::include(const Branch& branch, double least) {
-  int failures = 0;
+  const std::optional<Bounds> on = bounds(branch, 0);
+  if (!on || on->contraction > kSmall || !(margin(on->determinant, on->row_norm) > least)) return false;
+  if (!narrow(branch)) return false;
+  for (std::size_t b = 0; b < determinant_.size(); ++b)
+    determinant_[b] = std::min(determinant_[b], on->determinant[b]);
+  for (std::size_t r = 0; r < row_norm_.size(); ++r) row_norm_[r] = std::max(row_norm_[r], on->row_norm[r]);
+  isolate(branch);
+  return true;
+}
+
+/// To the radius that holds on this box too.
+bool BlockBounds::narrow(const Branch& branch) {
   for (double radius = radius_; radius >= kLeastRadius;) {
     const std::optional<Bounds> found = bounds(branch, kReach * radius);
-    if (!found && ++failures == kFailures) return false;
     const double within = found ? radius_within(found->omega) : 0;
     if (within >= radius) {
-      if (!(margin(found->determinant, found->row_norm) > least)) return false;
+      if (found->amplification * kEnd > kMoved * radius) return false;
       radius_ = radius;
-      for (std::size_t b = 0; b < determinant_.size(); ++b)
-        determinant_[b] = std::min(determinant_[b], found->determinant[b]);
-      for (std::size_t r = 0; r < row_norm_.size(); ++r)
-        row_norm_[r] = std::max(row_norm_[r], found->row_norm[r]);
-      stiffest_ = std::max(stiffest_, found->inverse);
+      omega_ = std::max(omega_, found->omega);
       amplification_ = std::max(amplification_, found->amplification);
       return true;
     }
-    radius = std::max(within, radius / (found ? 4 : 16));
+    radius = std::max(within, radius / (found ? 4 : 2));
   }
   return false;
+}
+
+/// At displacements of up to `reach` and on the way there; displacements of quaternions do not add up.
+bool BlockBounds::is_isolated(const Branch& branch, double reach) const {
+  return bounds(branch, reach) && (problem_.tangent.quaternions.empty() || bounds(branch, 0, reach));
+}
+
+void BlockBounds::isolate(const Branch& branch) {
+  while (isolation_ > kReach * radius_ && !is_isolated(branch, isolation_)) isolation_ /= 2;
+  isolation_ = std::max(isolation_, kReach * radius_);
+}
+
+/// A correction c of one block: e ≤ |c| (1 + θ)/(1 − θ) brings e within kReach radii, there e − |c| ≤ ω/2 e².
+double BlockBounds::first_correction() const {
+  constexpr double kFarthest = (1 - kContraction) / (1 + kContraction);
+  const double curved = 1 - omega_ / 2 * kReach * radius_;
+  const double share = std::max(kFarthest, std::min(kReach * kFarthest, curved));
+  return (1 - 2 * kMoved) * share * radius_ * std::min(1.0, length_);
 }
 
 double BlockBounds::ends_within() const { return amplification_ * kEnd; }

@@ -46,20 +46,19 @@ class BlockBounds {
 
   /// Dependents off by this or less come back; rad, or units of `length`.
   double radius() const { return radius_; }
-  /// So do those off by kReach times that, whose |g| / row_scale is at most this.
-  double residual() const { return radius_ / stiffest_; }
+  /// Nowhere else within this of the branch do the rows vanish. With 1 − C G of norm θ or less there, a first correction c belongs
+  /// to dependents off by |c| (1 + θ)/(1 − θ) or less.
+  double isolation() const { return isolation_; }
+  /// So do those within `isolation` whose first correction, the root of the sum of the squares of all blocks', is at most this; rad, m.
+  double first_correction() const;
   /// Distance from the branch after the iterations, in exact arithmetic.
   double ends_within() const;
   double length() const { return length_; }
-  /// By row of the equations.
-  const std::vector<double>& row_scale() const { return row_scale_; }
-
-  static constexpr double kReach = 4;
 
  private:
   struct Bounds {
+    double contraction = 0;           ///< of 1 − C G
     double omega = 0;                 ///< of G⁻¹ ∂²g/∂d²
-    double inverse = 0;               ///< of G⁻¹ by scaled rows
     double amplification = 1;         ///< of what each block is off by
     std::vector<double> determinant;  ///< by block: a lower bound
     std::vector<double> row_norm;     ///< by row: an upper bound
@@ -70,13 +69,17 @@ class BlockBounds {
 
   void scale(const Eigen::VectorXd& x, const Eigen::VectorXd& p);
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& p) const;
-  std::optional<Tensors> tensors(const Branch& branch, double reach) const;
-  std::optional<Bounds> bounds(const Branch& branch, double reach) const;
+  /// At dependents within `reach` of the branch; G at all displacements of up to `span` from them.
+  std::optional<Tensors> tensors(const Branch& branch, double reach, double span) const;
+  std::optional<Bounds> bounds(const Branch& branch, double reach, double span = 0) const;
+  bool is_isolated(const Branch& branch, double reach) const;
   bool add_block(const Block& block, const Eigen::MatrixXd& middle, const Tensors& over, Bounds& result,
                  std::vector<double>& off) const;
   double determinant_of(const Block& block, const Eigen::MatrixXd& C, const IntervalMatrix& E) const;
   double margin(const std::vector<double>& determinant, const std::vector<double>& row_norm) const;
   double radius_within(double omega) const;
+  bool narrow(const Branch& branch);
+  void isolate(const Branch& branch);
 
   NewtonProblem problem_;
   const BranchEquations& equations_;
@@ -85,7 +88,7 @@ class BlockBounds {
   std::vector<double> column_norm_;  ///< by velocity, at the start
   std::vector<double> row_scale_;
   std::vector<double> determinant_, row_norm_;  ///< by block, by row; columns divided
-  double radius_ = 0.1, stiffest_ = 0, amplification_ = 1, length_ = 1;
+  double radius_ = 0.1, isolation_ = 0.5, omega_ = 0, amplification_ = 1, length_ = 1;
 };
 
 }  // namespace jourdain::loops

@@ -54,24 +54,26 @@ class Closing {
     }
     ClosedForm result{closing_program()};
     if (const std::string failure = check(result.close); !failure.empty()) return failure;
-    const auto margin = proven(conditions_);
-    if (const auto* failure = std::get_if<std::string>(&margin)) return *failure;
-    result.smallest_margin = std::get<double>(margin);
-    result.at_defaults = at_defaults();
+    const auto reached = proven(conditions_);
+    if (const auto* failure = std::get_if<std::string>(&reached)) return *failure;
+    result.smallest_margin = std::get<Reached>(reached).margin;
+    result.box.positions = std::get<Reached>(reached).positions;
     for (const Elimination& elimination : request_.eliminations)
-      result.has_pivots.push_back(has_pivots(elimination));
+      result.has_pivots.push_back(has_pivots(elimination, result.box.positions));
+    list_parameters(result);
     return result;
   }
 
  private:
-  std::variant<double, std::string> proven(const std::vector<Requirement>& requirements,
-                                           Effort effort = {}) const {
+  std::variant<Reached, std::string> proven(const std::vector<Requirement>& requirements,
+                                            Effort effort = {}) const {
     return smallest_margin({builder_, requirements, request_.parameters, request_.angular, request_.range,
                             roles_.names, dependents_, request_.parameter_range, request_.parameter_names},
                            effort);
   }
 
-  bool has_pivots(const Elimination& elimination) {
+  /// Adds to the positions for which that is so.
+  bool has_pivots(const Elimination& elimination, std::vector<ProvenRange>& positions) {
     std::vector<ir::ValueId> values;
     std::vector<std::pair<std::size_t, std::size_t>> places;
     for (const ir::Output& output : request_.jacobian.outputs) {
@@ -107,7 +109,13 @@ class Closing {
       const bool is_positive = initial({&builder_, pivot}, samples_) > 0;
       requirements.push_back({is_positive ? pivot : -pivot, false, "a pivot"});
     }
-    return std::holds_alternative<double>(proven(requirements, {.boxes = kPivotBoxes, .is_sharp = false}));
+    const auto reached = proven(requirements, {.boxes = kPivotBoxes, .is_sharp = false});
+    if (std::holds_alternative<std::string>(reached)) return false;
+    for (const ProvenRange& range : std::get<Reached>(reached).positions)
+      if (std::none_of(positions.begin(), positions.end(),
+                       [&](const ProvenRange& known) { return known.index == range.index; }))
+        positions.push_back(range);
+    return true;
   }
 
   /// A polynomial of nothing but the entries of one known rotation.
@@ -162,15 +170,19 @@ class Closing {
     return text;
   }
 
-  std::vector<std::string> at_defaults() const {
+  /// Those that the constraints depend on.
+  void list_parameters(ClosedForm& result) const {
     std::vector<bool> enters(request_.parameter_names.size(), false);
     for (const ir::Node& node : request_.g.nodes)
       if (node.op == ir::Op::kLeaf && node.leaf == LeafKind::kParameter && node.index < enters.size())
-        enters[node.index] = !request_.parameter_range[node.index];
-    std::vector<std::string> names;
-    for (std::size_t k = 0; k < enters.size(); ++k)
-      if (enters[k]) names.push_back(request_.parameter_names[k]);
-    return names;
+        enters[node.index] = true;
+    for (std::size_t k = 0; k < enters.size(); ++k) {
+      if (!enters[k]) continue;
+      const auto& range = request_.parameter_range[k];
+      const double value = request_.parameters[k];
+      result.box.parameters.push_back({k, range ? (*range)[0] : value, range ? (*range)[1] : value});
+      if (!range) result.at_defaults.push_back(request_.parameter_names[k]);
+    }
   }
 
   /// Puts the block's dependents among the known coordinates. Otherwise why not.

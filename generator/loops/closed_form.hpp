@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ir/program.hpp"
+#include "loops/proven_box.hpp"
 
 namespace jourdain::loops {
 
@@ -52,6 +53,7 @@ struct ClosedForm {
   std::vector<bool> has_pivots = {};
   /// Parameters of the constraints without a range: all this holds at their values in the request.
   std::vector<std::string> at_defaults = {};
+  ProvenBox box = {};
 };
 
 /// Solves blocks of one coordinate (linear, or α cos + β sin = γ) and of two: two angles of which the rows are

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "elimination.hpp"
 #include "lowering.hpp"
 
 namespace jourdain::loops {
@@ -22,10 +23,24 @@ dynamics::DerivationOptions for_residual(dynamics::DerivationOptions options) {
 ClosedSystem::ClosedSystem(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options,
                            const LoopPlan& plan)
     : equations_(dynamics::derive_equations(mechanism, for_residual(options))),
-      constraints_(constraint_programs(mechanism, equations_)),
       system_{constraints_, plan, mechanism, model::lay_out_coordinates(mechanism), {}, {}} {
   system_.tangent = model::tangent_of(mechanism, system_.layout);
   system_.tree = [this](const std::string& function) { return tree(function); };
+  choose(constraint_programs(mechanism, equations_));
+}
+
+/// Those with which accelerations take the fewest operations.
+void ClosedSystem::choose(const std::vector<ConstraintPrograms>& list) {
+  std::size_t best = 0, fewest = 0;
+  for (std::size_t k = 0; k < list.size() && list.size() > 1; ++k) {
+    constraints_ = list[k];
+    const std::size_t operations = remaining_operations(loop_program(system_, "forward_dynamics"));
+    if (k == 0 || operations < fewest) {
+      best = k;
+      fewest = operations;
+    }
+  }
+  constraints_ = list[best];
 }
 
 const ir::Program& ClosedSystem::tree(const std::string& function) {
@@ -93,9 +108,9 @@ std::string regularity_text(const LoopPlan& plan) {
       "is "
       "solved for are {:.2g} or more of their rows' sizes. Dependent coordinates that are off by {:.1g} "
       "(rad; "
-      "slides over {:.2g} m) end within {:.1g} of the branch",
+      "slides over {:.2g} m) end within {:.1g} of the branch, no other solution is within {:.1g} of it",
       proof.region.empty() ? "" : " for ", proof.region, at_defaults(proof.at_defaults), proof.margin,
-      proof.radius, proof.length, proof.ends_within);
+      proof.radius, proof.length, proof.ends_within, proof.isolation);
 }
 
 }  // namespace
@@ -136,6 +151,9 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
           fmt::format("G M^-1 G^T is regularised by d = {:.2g}/kg: near singular configurations multipliers "
                       "and accelerations lose a share (d/(s + d))^{}, s its smallest singular value",
                       plan.regularisation, plan.corrections + 1));
+      list.push_back(
+          "a step from one side of a singular configuration of the mechanism to the other goes straight on; "
+          "nothing but State's opening may show it");
       break;
   }
   if (!plan.reason.empty()) list.push_back(fmt::format("why so: {}", plan.reason));
@@ -167,7 +185,7 @@ std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::D
   dynamics::DerivationOptions options;
   options.closures_only = options.for_derivatives = true;
   const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
-  return plan_loops(mechanism, constraint_programs(mechanism, equations), diagnostics);
+  return plan_loops(mechanism, constraint_programs(mechanism, equations).front(), diagnostics);
 }
 
 }  // namespace jourdain::loops

@@ -23,6 +23,7 @@ class ClosedSystem {
 
  private:
   const ir::Program& tree(const std::string& function);
+  void choose(const std::vector<ConstraintPrograms>& list);
 
   dynamics::Equations equations_;
   ConstraintPrograms constraints_;

@@ -152,6 +152,11 @@ class Expectation {
   std::vector<bool> moves_;
 };
 
+long double beyond(const LoopPlan& plan, const Vector& y, int range) {
+  const ProvenRange& r = plan.proven()->positions[static_cast<std::size_t>(range)];
+  return (y[at(r.index)] - r.low) * (y[at(r.index)] - r.high);
+}
+
 }  // namespace
 
 double closing_error(const model::Mechanism& mechanism, const NumericClosure& closure, const LoopPlan& plan,
@@ -172,6 +177,7 @@ double closing_error(const model::Mechanism& mechanism, const NumericClosure& cl
     const long double right = output.name == "y"         ? expected.y[output.row]
                               : output.name == "z"       ? expected.z[output.row]
                               : output.name == "opening" ? expected.opening
+                              : output.name == "beyond"  ? beyond(plan, expected.y, output.row)
                                                          : expected.regularity;
     if (std::isnan(right)) continue;
     const long double error = std::abs(values[k] - right) / ((1 + std::abs(right)) * expected.condition);

@@ -208,28 +208,40 @@ class Differentiation {
   JacobianEntries G_;
 };
 
-Program cheaper(Program one, std::optional<Program> other) {
-  return other && remaining_operations(*other) < remaining_operations(one) ? std::move(*other)
-                                                                           : std::move(one);
+/// One program in two ways, the cheaper one first; the other only where there is one.
+std::vector<Program> in_order(Program one, std::optional<Program> other) {
+  std::vector<Program> list = {std::move(one)};
+  if (!other) return list;
+  const bool is_cheaper = remaining_operations(*other) < remaining_operations(list[0]);
+  list.insert(is_cheaper ? list.begin() : list.end(), std::move(*other));
+  return list;
 }
 
 }  // namespace
 
-ConstraintPrograms constraint_programs(const model::Mechanism& mechanism,
-                                       const dynamics::Equations& equations) {
+std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mechanism,
+                                                    const dynamics::Equations& equations) {
   const model::Tangent tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
   const Lowered lowered(mechanism, equations);
   ConstraintPrograms programs;
   programs.value = lowered.values();
   programs.senses = lowered.senses();
   programs.spans = lowered.spans();
-  programs.jacobian = cheaper(
-      cheapest([&](EliminationOrder o) { return Differentiation(tangent, programs.value, o).jacobian(); }),
-      lowered.jacobian());
-  programs.rates = cheaper(
-      cheapest([&](EliminationOrder o) { return Differentiation(tangent, programs.value, o).rates(); }),
-      lowered.rates());
-  return programs;
+  const auto differentiation = [&](EliminationOrder o) {
+    return Differentiation(tangent, programs.value, o);
+  };
+  const std::vector<Program> jacobians = in_order(
+      cheapest([&](EliminationOrder o) { return differentiation(o).jacobian(); }), lowered.jacobian());
+  const std::vector<Program> rates =
+      in_order(cheapest([&](EliminationOrder o) { return differentiation(o).rates(); }), lowered.rates());
+  std::vector<ConstraintPrograms> list;
+  for (const Program& jacobian : jacobians)
+    for (const Program& rate : rates) {
+      programs.jacobian = jacobian;
+      programs.rates = rate;
+      list.push_back(programs);
+    }
+  return list;
 }
 
 }  // namespace jourdain::loops

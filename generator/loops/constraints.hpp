@@ -1,6 +1,8 @@
 // The constraints of the loops and their derivatives as programs.
 #pragma once
 
+#include <vector>
+
 #include "dynamics/equations.hpp"
 #include "ir/program.hpp"
 #include "model/mechanism.hpp"
@@ -18,8 +20,9 @@ struct ConstraintPrograms {
   ir::Program rates;     ///< ("rate", row) and ("gamma", row), every row
 };
 
-/// A loop does not feel how its carrier moves: the coordinates inward of it are taken as zero in its rows.
-ConstraintPrograms constraint_programs(const model::Mechanism& mechanism,
-                                       const dynamics::Equations& equations);
+/// A loop does not feel how its carrier moves: the coordinates inward of it are taken as zero in its rows. There are several ways to the
+/// derivatives: first those with the fewest operations each, then others that may share more with what they are used in.
+std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mechanism,
+                                                    const dynamics::Equations& equations);
 
 }  // namespace jourdain::loops

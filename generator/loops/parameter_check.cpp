@@ -75,7 +75,7 @@ std::optional<std::string> unproven_at(const model::Mechanism& mechanism, const 
   dynamics::DerivationOptions options;
   options.closures_only = options.for_derivatives = true;
   const ConstraintPrograms constraints =
-      constraint_programs(mechanism, dynamics::derive_equations(mechanism, options));
+      constraint_programs(mechanism, dynamics::derive_equations(mechanism, options)).front();
   std::vector<std::string> changed;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const model::Parameter& parameter = mechanism.parameters[k];

@@ -328,6 +328,7 @@ double LoopPlan::greatest_opening() const {
     case LoopTreatment::kExplicit:
       return 1e-2;  // closed in any case, but dependent positions were integrated badly
     case LoopTreatment::kPartitioned:
+      if (proof) return proof->first_correction * proof->first_correction;
       return std::pow(kLeftOpen, std::ldexp(2.0, -iterations));  // each iteration squares the distance
     case LoopTreatment::kMultipliers:
       return kLeftOpen;  // one step

@@ -49,11 +49,14 @@ struct LoopPlan {
 
   /// Calls of close_loops where dependent positions were not integrated along.
   int closings() const { return treatment == model::LoopTreatment::kPartitioned ? 2 : 1; }
+  /// For which positions and parameters the treatment is proven; none: not proven, or nothing to prove.
+  const ProvenBox* proven() const { return closed_form ? &closed_form->box : proof ? &proof->box : nullptr; }
   bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
   /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that were asked for pass
   /// singular configurations straight on: 0.
   double least_regularity() const;
-  /// Beyond it a state's `opening` says that closing may have left loops open by more than 1e-10 of the scene's length.
+  /// Beyond it a state's `opening` says that closing may have left loops open by more than 1e-10 of the scene's length. Follows from the
+  /// proof where there is one, is chosen otherwise.
   double greatest_opening() const;
 };
 

@@ -265,12 +265,36 @@ Program closing_program(const LoopSystem& system) {
   return passes::remove_dead_code(builder.finish("close_loops"));
 }
 
+/// Adds ("beyond", i) to `close`: (y − low) (y − high) of the position with the i-th range.
+Program with_ranges(const Program& close, const std::vector<ProvenRange>& ranges) {
+  Builder builder;
+  std::map<std::size_t, Signed> found;
+  const Column values = ir::insert(builder, close);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const ir::Output& output = close.outputs[i];
+    builder.output(output.name, output.row, output.column, values[i]);
+    if (output.name == "y") found[subscript(output.row)] = values[i];
+  }
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const auto moved = found.find(ranges[i].index);
+    const Signed y =
+        moved == found.end() ? builder.leaf(LeafKind::kPosition, ranges[i].index) : moved->second;
+    const Signed above = builder.subtract(y, builder.literal(ranges[i].low)),
+                 below = builder.subtract(y, builder.literal(ranges[i].high));
+    builder.output("beyond", static_cast<int>(i), -1, builder.multiply(above, below));
+  }
+  return builder.finish(close.name);
+}
+
 }  // namespace
 
 Program loop_program(const LoopSystem& system, const std::string& function) {
   if (function == "project") return projection_program(system);
-  if (function == "close_loops")
-    return system.plan.closed_form ? system.plan.closed_form->close : closing_program(system);
+  if (function == "close_loops") {
+    const Program close = system.plan.closed_form ? system.plan.closed_form->close : closing_program(system);
+    const ProvenBox* box = system.plan.proven();
+    return box && !box->positions.empty() ? with_ranges(close, box->positions) : close;
+  }
   LoopProgram program(system);
   program.write_function(function);
   return program.finish(function);

@@ -11,7 +11,8 @@ namespace jourdain::loops {
 /// The program of a function: those of a tree ("mass_matrix", "forward_dynamics", …; "residual" is M ż − k̄ + q̄, with
 /// multipliers + Gᵀ λ), and
 ///
-///   close_loops             ("y", entry): dependent positions from independent ones by Newton iterations, or in closed form
+///   close_loops             ("y", entry): dependent positions from independent ones by Newton iterations, or in closed form;
+///                           ("beyond", i): negative while the position of the i-th proven range is within it
 ///   project                 ("y", entry), ("z", entry): nearest positions and velocities (weighted by mass), one Gauss-Newton step
 ///   constraint_residual     ("g", row), ("g_rate", row): g and G z + g_t
 ///   constraint_forces       ("lambda", row): multipliers of the rows; M ż = k̄ − q̄ − Gᵀ λ

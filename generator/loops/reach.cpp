@@ -36,7 +36,7 @@ class Reach {
     program_ = passes::remove_dead_code(program);
   }
 
-  std::variant<double, std::string> run(Effort effort) {
+  std::variant<Reached, std::string> run(Effort effort) {
     if (const std::string failure = lay_out(); !failure.empty()) return failure;
     if (ir::count_operations(program_).atan2 > 0) return "its discriminant has an arctangent, which jumps";
     std::vector<Bound> bounds;
@@ -44,11 +44,14 @@ class Reach {
       bounds.push_back({values_[bounds.size()], requirement.is_margin ? kLeastMargin : kLeastDivisor});
     const auto proof = prove_bounds(builder_, bounds, region_, effort);
     if (const auto* counterexample = std::get_if<Counterexample>(&proof)) return text(*counterexample);
-    double smallest = 1;
+    Reached result;
     for (std::size_t j = 0; j < bounds.size(); ++j)
       if (request_.requirements[j].is_margin)
-        smallest = std::min(smallest, std::get<std::vector<double>>(proof)[j]);
-    return smallest;
+        result.margin = std::min(result.margin, std::get<std::vector<double>>(proof)[j]);
+    for (const auto& [kind, k] : region_.entries)
+      if (kind == LeafKind::kPosition && range_[k])
+        result.positions.push_back({k, (*range_[k])[0], (*range_[k])[1]});
+    return result;
   }
 
  private:
@@ -135,7 +138,7 @@ class Reach {
 
 }  // namespace
 
-std::variant<double, std::string> smallest_margin(const ReachRequest& request, Effort effort) {
+std::variant<Reached, std::string> smallest_margin(const ReachRequest& request, Effort effort) {
   return Reach(request).run(effort);
 }
 

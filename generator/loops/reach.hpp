@@ -9,6 +9,7 @@
 
 #include "ir/builder.hpp"
 #include "loops/positivity.hpp"
+#include "loops/proven_box.hpp"
 
 namespace jourdain::loops {
 
@@ -31,8 +32,13 @@ struct ReachRequest {
   const std::vector<std::string>& parameter_names;
 };
 
+struct Reached {
+  double margin = 1;                   ///< 1 where no root is taken
+  std::vector<ProvenRange> positions;  ///< that matter and have a range
+};
+
 /// The least margin that is proven wherever the independent coordinates may be: within their range, an angle without one or one
-/// that time drives anywhere; and for all parameters within their ranges. 1 where there is none. Otherwise what is not proven, a phrase for the user.
-std::variant<double, std::string> smallest_margin(const ReachRequest& request, Effort effort = {});
+/// that time drives anywhere; and for all parameters within their ranges. Otherwise what is not proven, a phrase for the user.
+std::variant<Reached, std::string> smallest_margin(const ReachRequest& request, Effort effort = {});
 
 }  // namespace jourdain::loops

@@ -70,7 +70,6 @@ class Layout {
         JD_CHECK(output != request_.g.outputs.end(), "no row {}", r);
         result_.problem.blocks.back().rows.push_back(rows.outputs.size());
         rows.outputs.push_back(*output);
-        result_.row_of.push_back(r);
       }
     }
     return passes::remove_dead_code(rows);
@@ -148,12 +147,15 @@ class Layout {
         return fmt::format("{} starts at {:.6g}, outside its range", free.name, free.start);
       result_.free.push_back(free);
     }
+    list_ranges();
     for (const std::size_t k : parameters) {
       if (!request_.parameter_range[k]) {
         result_.at_defaults.push_back(request_.parameter_names[k]);
+        result_.box.parameters.push_back({k, request_.parameters[k], request_.parameters[k]});
         continue;
       }
       const auto [low, high] = *request_.parameter_range[k];
+      result_.box.parameters.push_back({k, low, high});
       result_.free.push_back({{LeafKind::kParameter, k},
                               request_.parameter_names[k],
                               request_.parameters[k],
@@ -162,6 +164,15 @@ class Layout {
                               true});
     }
     return "";
+  }
+
+  /// Of the positions that the rows depend on.
+  void list_ranges() {
+    std::set<std::size_t> entries(result_.unknowns.begin(), result_.unknowns.end());
+    for (const FreeVariable& free : result_.free) entries.insert(free.leaf.index);
+    for (const std::size_t k : entries)
+      if (k < request_.range.size() && request_.range[k])
+        result_.box.positions.push_back({k, (*request_.range[k])[0], (*request_.range[k])[1]});
   }
 
   const RegularityRequest& request_;

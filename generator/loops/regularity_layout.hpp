@@ -24,11 +24,11 @@ struct FreeVariable {
 struct RegularityLayout {
   NewtonProblem problem;
   ir::Program g;                      ///< rows of the blocks, in their order, without time
-  std::vector<std::size_t> row_of;    ///< of the request's g, by row of `g`
   std::vector<std::size_t> unknowns;  ///< entries of y; the four of a quaternion
   std::vector<std::size_t> quaternions;
   std::vector<FreeVariable> free;
   std::vector<std::string> at_defaults;
+  ProvenBox box;
   std::optional<BranchEquations> equations;
   Eigen::VectorXd start;  ///< of the unknowns
 };

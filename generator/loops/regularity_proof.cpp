@@ -328,14 +328,13 @@ class Proof {
         list.push_back(fmt::format("{} in [{}, {}]", request_.names[k], (*range)[0], (*range)[1]));
     proof.region = fmt::format("{}", fmt::join(list, ", "));
     proof.at_defaults = layout_.at_defaults;
+    proof.box = layout_.box;
     proof.boxes = proven_;
     proof.radius = bounds.radius();
-    proof.residual = bounds.residual();
+    proof.isolation = bounds.isolation();
+    proof.first_correction = bounds.first_correction();
     proof.ends_within = bounds.ends_within();
     proof.length = bounds.length();
-    proof.row_scale.assign(request_.g.outputs.size(), 0);
-    for (std::size_t i = 0; i < layout_.row_of.size(); ++i)
-      proof.row_scale[layout_.row_of[i]] = bounds.row_scale()[i];
     return proof;
   }
 

@@ -381,7 +381,7 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   dynamics::DerivationOptions options;
   options.closures_only = true;
   const dynamics::Equations closures = dynamics::derive_equations(mechanism, options);
-  const ConstraintPrograms programs = constraint_programs(mechanism, closures);
+  const ConstraintPrograms programs = constraint_programs(mechanism, closures).front();
   NumericClosure closure(mechanism, programs, model::default_values(mechanism));
   closure.disregard(plan.disagreeing);
   verdict.states = 0;

@@ -27,6 +27,15 @@ typedef struct jourdain_method {
                 double* memory);
 } jourdain_method;
 
+/* How loops were closed, the worst of some steps. */
+typedef struct jourdain_closing {
+  double regularity; /* of what was solved */
+  double opening;    /* square of how far positions were moved, rad or m */
+  double beyond;     /* positive: a position was outside the range for which something is proven */
+  double
+      left_open; /* largest |g| after those that moved positions beyond greatest_opening, m or without unit */
+} jourdain_closing;
+
 typedef struct jourdain_model_table {
   int parts;           /* doubles per number */
   int position_count;  /* entries of y */
@@ -68,10 +77,8 @@ typedef struct jourdain_model_table {
   void (*constraint_residual)(const double* t, const double* y, const double* z, double* g, double* g_rate);
   /* What steps end with: moves y and z towards the closed loops. */
   void (*correct)(const double* t, double* y, double* z);
-  /* How regular what closes the loops was, and the square of how far it moved the positions (rad, m): the worst of all
-   * steps of the last call of `steps` on this thread. Not to be trusted below and beyond these limits; NaN is beyond. */
-  double least_regularity, greatest_opening;
-  void (*closing)(double* regularity, double* opening);
+  double least_regularity, greatest_opening; /* not to be trusted below and beyond; NaN is beyond */
+  void (*closing)(jourdain_closing* worst);  /* of all steps of the last call of `steps` on this thread */
 } jourdain_model_table;
 
 #endif

@@ -150,10 +150,17 @@ Point<Real> Flow<Real>::closed(Point<Real> point) const {
 }
 
 template <class Real>
-Closing Flow<Real>::last_closing() const {
-  Closing closing;
-  if (has_loops()) table_.closing(&closing.regularity, &closing.opening);
+jourdain_closing Flow<Real>::last_closing() const {
+  jourdain_closing closing;
+  table_.closing(&closing);
   return closing;
+}
+
+template <class Real>
+bool Flow<Real>::is_trusted() const {
+  if (!has_loops()) return true;
+  const jourdain_closing closing = last_closing();
+  return closing.regularity >= table_.least_regularity && !(closing.beyond > 0);
 }
 
 template <class Real>

@@ -41,11 +41,6 @@ struct Residuals {
   double position = 0, velocity = 0;
 };
 
-/// How regular what closes loops was, and the square of how far it moved the positions: the worst of some steps.
-struct Closing {
-  double regularity = INFINITY, opening = 0;
-};
-
 /// Memory at the start of a trajectory.
 Memory fresh_memory(const jourdain_model_table& table, const jourdain_method& method);
 
@@ -83,10 +78,10 @@ class Flow {
   Point<Real> corrected(const Point<Real>& point) const;
   /// Corrected until nothing changes beyond rounding, or sixty times.
   Point<Real> closed(Point<Real> point) const;
-  /// Of the last call of `step` on this thread.
-  Closing last_closing() const;
-  /// Was the closing regular in all steps of the last call of `step`?
-  bool is_regular() const { return !has_loops() || last_closing().regularity >= table_.least_regularity; }
+  /// Of the last call of `step` on this thread; there must be loops.
+  jourdain_closing last_closing() const;
+  /// Was the closing regular, and were positions within the ranges for which it is proven, in all steps of the last call of `step`?
+  bool is_trusted() const;
   /// Largest |g| and |dg/dt| over all rows; zero where there are no loops.
   Residuals residuals(const Point<Real>& point) const;
 

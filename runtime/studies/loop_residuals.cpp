@@ -34,7 +34,7 @@ LoopRun run(const Flow<double>& flow, std::size_t method, double h, double durat
     flow.step(stepper, point, h, 1, memory);
     const Residuals open = flow.residuals(point);
     result.finite = std::isfinite(open.position) && std::isfinite(open.velocity);
-    result.finite = result.finite && flow.is_regular();
+    result.finite = result.finite && flow.is_trusted();
     if (!result.finite) break;
     result.open.position = std::max(result.open.position, open.position);
     result.open.velocity = std::max(result.open.velocity, open.velocity);
@@ -44,14 +44,14 @@ LoopRun run(const Flow<double>& flow, std::size_t method, double h, double durat
 
 }  // namespace
 
-std::optional<double> first_singular(const Flow<double>& flow, double h, double duration) {
+std::optional<double> first_untrusted(const Flow<double>& flow, double h, double duration) {
   if (!flow.has_loops()) return {};
   Point<double> point = flow.start();
   const jourdain_method& stepper = flow.table().methods[0];
   Memory memory = flow.fresh_memory(stepper);
   for (long k = 1; k * h <= duration; ++k) {
     flow.step(stepper, point, h, 1, memory);
-    if (!flow.is_regular()) return static_cast<double>(k) * h;
+    if (!flow.is_trusted()) return static_cast<double>(k) * h;
   }
   return {};
 }

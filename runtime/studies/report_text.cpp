@@ -128,7 +128,9 @@ std::string advice_text(const jourdain_model_table& table, const Study& study) {
       question.tolerance ? fmt::format("a position error of {:.3g} (rad, m)", *question.tolerance)
                          : fmt::format("{} per {}", time_text(*question.budget), time_text(question.period));
   const std::string stiff = stiff_text(table, study), remark = stiff.empty() ? "" : "; " + stiff;
-  if (study.singular_at) return fmt::format("within {}: no recommendation, the loops turn singular", asked);
+  if (study.untrusted_from)
+    return fmt::format(
+        "within {}: no recommendation, the loops turn singular or leave what is proven of them", asked);
   if (!study.advice) return fmt::format("no method and step of this study keep within {}{}", asked, remark);
   const Advice& a = *study.advice;
   return fmt::format(
@@ -141,11 +143,12 @@ std::string advice_text(const jourdain_model_table& table, const Study& study) {
 
 std::vector<std::string> remarks(const jourdain_model_table& table, const Study& study) {
   std::vector<std::string> list;
-  if (study.singular_at)
-    list.push_back(fmt::format(
-        "NOT TO BE TRUSTED from t = {} on: there the loops' closing turns singular (see closed loops); no "
-        "step is recommended",
-        time_text(*study.singular_at)));
+  if (study.untrusted_from)
+    list.push_back(
+        fmt::format("NOT TO BE TRUSTED from t = {} on: there the loops' closing turns singular, or a "
+                    "coordinate leaves the range for which it is proven (see closed loops); no step is "
+                    "recommended",
+                    time_text(*study.untrusted_from)));
   list.push_back(fmt::format("reference: {}; its own error is {:.1e} (difference to a looser tolerance)",
                              study.reference.method, study.reference.error));
   if (!study.loops.empty())

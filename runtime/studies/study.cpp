@@ -170,7 +170,7 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   const long count = std::max(kFewestIntervals, intervals_until(study.divergence, kJudgedGrowth));
   study.judged = static_cast<double>(count) * sampling;
 
-  study.singular_at = first_singular(flow, study.steps.back(), study.options.duration);
+  study.untrusted_from = first_untrusted(flow, study.steps.back(), study.options.duration);
   study.reference = solve_reference(flow, long_flow, options.reference, sampling, count, options.halvings,
                                     options.seconds, progress);
   const std::vector<double> held = flow.inputs().at(0.0);
@@ -190,7 +190,7 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   if (long_flow)
     study.extremes =
         study_extremes(mechanism, tangent, parameters, flow, *long_flow, study.reference, progress);
-  if (!study.singular_at && (options.question.tolerance || options.question.budget)) {
+  if (!study.untrusted_from && (options.question.tolerance || options.question.budget)) {
     progress("recommendation", 0);
     study.advice = advise(options.question, study.work, flow, sampling, study.reference, held);
   }

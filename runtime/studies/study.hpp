@@ -61,8 +61,8 @@ struct Study {
   std::vector<ExtremeSweep> extremes;  ///< empty without 50 digits
   std::optional<Advice> advice;
   std::vector<LoopRun> loops;  ///< empty without loops
-  std::optional<double>
-      singular_at;  ///< s: when the loops' closing turns singular, at the shortest step; then there is no advice
+  /// s: when the loops' closing turns singular, or leaves what is proven, at the shortest step; then there is no advice.
+  std::optional<double> untrusted_from;
 };
 
 /// Separation of nearby trajectories beyond which errors are not judged.

@@ -205,10 +205,65 @@ TEST(LoopCommands, ARunEndsWhereDependentCoordinatesTurnSingular) {
 
 TEST(LoopCommands, ARunEndsWhereACoordinateLeavesTheRangeOfTheProof) {
   const support::TemporaryFolder folder;
-  const std::string narrow =
+  const std::string by_newton =
       changed_model(folder.path(), "spring_four_bar.toml", {{"range = [0.5, 2.95]", "range = [1.7, 1.8]"}});
-  expect(jourdain({"simulate", narrow, "--duration", "2", "--output", folder.path() + "/o.csv"}), 1,
+  expect(jourdain({"simulate", by_newton, "--duration", "2", "--output", folder.path() + "/o.csv"}), 1,
          "leaves its range [1.7, 1.8]");
+  const std::string in_closed_form =
+      changed_model(folder.path(), "four_bar.toml",
+                    {{"initial_velocity = \"2*pi\"", "initial_velocity = \"2*pi\"\nrange = [1, 1.2]"}});
+  expect(jourdain({"simulate", in_closed_form, "--duration", "2", "--output", folder.path() + "/o.csv"}), 1,
+         "leaves its range [1, 1.2]");
+}
+
+TEST(LoopCommands, ARunEndsWhereAStepIsLongerThanWhatIsProven) {
+  const support::TemporaryFolder folder;
+  const auto run = [&](const std::string& step) {
+    return jourdain({"simulate", "models/double_wishbone.toml", "--method", "euler", "--step", step,
+                     "--duration", "1", "--output", folder.path() + "/o.csv"});
+  };
+  expect(run("0.02"), 1,
+         "error: at t = 0.02 s a step of 0.02 s is too long: closing the loops moved positions");
+  expect(run("1e-3"), 0, "loops open by ");
+}
+
+TEST(LoopCommands, ARunEndsWhereAStepAcrossASingularConfigurationOpensTheLoops) {
+  const support::TemporaryFolder folder;
+  std::string text =
+      support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/tests/steppers/rocking_four_bar.toml");
+  const std::string moving = "initial_velocity = 3";
+  text.replace(text.find(moving), moving.size(), "");
+  support::write_file(folder.path() + "/rocking.toml", text);
+  const auto run = [&](const std::string& step) {
+    return jourdain({"simulate", folder.path() + "/rocking.toml", "--set", "length=0.9", "--duration", "2",
+                     "--step", step, "--output", folder.path() + "/o.csv"});
+  };
+  expect(run("1e-3"), 1, " s is too long: closing the loops leaves them open by ");
+  expect(run("5e-5"), 0, "loops open by ");
+}
+
+TEST(LoopCommands, HeadersSayForWhichParametersLoopsAreProven) {
+  const support::TemporaryFolder folder;
+  const auto header = [&](const std::string& parameter, const std::string& treatment) {
+    expect(jourdain({"compile", tunable_slider_crank(folder.path(), parameter, treatment), "-o",
+                     folder.path(), "--name", "model"}),
+           0, "");
+    return support::read_file(folder.path() + "/model.hpp") +
+           support::read_file(folder.path() + "/model.json");
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in\n" << text;
+  };
+  const std::string ranged = "radius = { value = 0.045, range = [0.03, 0.1] }";
+  for (const std::string treatment : {"partitioned", "explicit"}) {
+    has(header(ranged, treatment), "parameters.radius >= Real(0.03) && parameters.radius <= Real(0.1)");
+    has(header(ranged, treatment), "\"proven_parameters\": {\"radius\": [0.03, 0.1]}");
+    has(header("radius = 0.045", treatment),
+        "parameters.radius >= Real(0.045) && parameters.radius <= Real(0.045)");
+  }
+  const std::string multipliers =
+      support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/generated/n_four_bar/n_four_bar.hpp");
+  EXPECT_EQ(multipliers.find("loops_proven"), std::string::npos);
 }
 
 #ifndef JOURDAIN_SANITIZED  // a report takes minutes there; report_tests make others

@@ -1,13 +1,13 @@
 // Emitted models with number types of the user's, several of them in one translation unit.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <thread>
 #include <vector>
 
 #include "embed/emitted_models.hpp"
 #include "embed/generic_driver.hpp"
+#include "embed/pack.hpp"
 
 namespace jourdain::tests {
 
@@ -32,47 +32,6 @@ struct Dual {
   friend Dual atan2(Dual a, Dual b) {
     return Dual(std::atan2(a.value, b.value),
                 (b.value * a.derivative - a.value * b.derivative) / (a.value * a.value + b.value * b.value));
-  }
-};
-
-/// Four values side by side.
-struct Pack {
-  std::array<double, 4> v{};
-
-  Pack() = default;
-  explicit Pack(double x) { v.fill(x); }
-  template <class F>
-  static Pack each(F f) {
-    Pack r;
-    for (std::size_t i = 0; i < 4; ++i) r.v[i] = f(i);
-    return r;
-  }
-  friend Pack operator+(const Pack& a, const Pack& b) {
-    return each([&](std::size_t i) { return a.v[i] + b.v[i]; });
-  }
-  friend Pack operator-(const Pack& a, const Pack& b) {
-    return each([&](std::size_t i) { return a.v[i] - b.v[i]; });
-  }
-  friend Pack operator*(const Pack& a, const Pack& b) {
-    return each([&](std::size_t i) { return a.v[i] * b.v[i]; });
-  }
-  friend Pack operator/(const Pack& a, const Pack& b) {
-    return each([&](std::size_t i) { return a.v[i] / b.v[i]; });
-  }
-  friend Pack operator-(const Pack& a) {
-    return each([&](std::size_t i) { return -a.v[i]; });
-  }
-  friend Pack sin(const Pack& a) {
-    return each([&](std::size_t i) { return std::sin(a.v[i]); });
-  }
-  friend Pack cos(const Pack& a) {
-    return each([&](std::size_t i) { return std::cos(a.v[i]); });
-  }
-  friend Pack sqrt(const Pack& a) {
-    return each([&](std::size_t i) { return std::sqrt(a.v[i]); });
-  }
-  friend Pack atan2(const Pack& a, const Pack& b) {
-    return each([&](std::size_t i) { return std::atan2(a.v[i], b.v[i]); });
   }
 };
 

@@ -126,6 +126,57 @@ TEST(FourBar, DoesWhatTheReadmeShows) {
   EXPECT_NEAR(lambda[1], -5.5, 0.05);
 }
 
+TEST(SpringFourBar, SaysWhenItHasLeftTheRangeOfTheProof) {
+  using Model = spring_four_bar::Model<>;
+  const Model model;
+  Model::State state = initial_state(model);
+  const auto moved_to = [&](double crank) {
+    const double way = crank - state.y[0];
+    for (int i = 0; i < 100; ++i) {
+      state.y[0] += way / 100;
+      close_loops(model, state);
+    }
+    close_loops(model, state);
+    return state.beyond[0];
+  };
+  for (const double inside : {2.0, 2.94, 1.0, 0.51}) {
+    EXPECT_LT(moved_to(inside), 0) << inside;
+    EXPECT_TRUE(Model::loops_closed(state)) << inside;
+  }
+  for (const double outside : {0.49, 2.0, 2.96}) {
+    const bool is_inside = outside == 2.0;  // on the way back
+    EXPECT_EQ(moved_to(outside) > 0, !is_inside) << outside;
+    EXPECT_EQ(Model::loops_closed(state), is_inside) << outside;
+  }
+}
+
+TEST(SpringFourBar, SaysWhenItWasMovedFartherThanIsProven) {
+  using Model = spring_four_bar::Model<>;
+  const Model model;
+  Model::State state = initial_state(model);
+  state.y[0] += 1e-2;
+  close_loops(model, state);
+  EXPECT_FALSE(Model::loops_closed(state));
+  close_loops(model, state);
+  EXPECT_TRUE(Model::loops_closed(state));
+  state.y[0] += 1e-4;
+  close_loops(model, state);
+  EXPECT_TRUE(Model::loops_closed(state));
+  for (double spring_four_bar::State<>::*member :
+       {&spring_four_bar::State<>::regularity, &spring_four_bar::State<>::opening}) {
+    Model::State broken = state;
+    broken.*member = NAN;
+    EXPECT_FALSE(Model::loops_closed(broken));
+  }
+}
+
+TEST(DoubleWishbone, SaysForWhichParametersItIsProven) {
+  double_wishbone::Parameters<> parameters;
+  EXPECT_TRUE(double_wishbone::Model<>::loops_proven(parameters));
+  parameters.steering *= 1.5;
+  EXPECT_FALSE(double_wishbone::Model<>::loops_proven(parameters));
+}
+
 TEST(SpringFourBar, HasThePublishedEquilibrium) {
   const spring_four_bar::Model<> model;
   spring_four_bar::State<> state = initial_state(model);

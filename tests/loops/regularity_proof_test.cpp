@@ -138,6 +138,11 @@ TEST(RegularityProof, HoldsForAllParametersInTheirRanges) {
   const auto inside = prove_regular(request);
   ASSERT_EQ(why_not(inside), "");
   EXPECT_EQ(std::get<RegularityProof>(inside).region, "any crank, p2 in [0.4, 0.9]");
+  const loops::ProvenBox& box = std::get<RegularityProof>(inside).box;
+  EXPECT_TRUE(box.positions.empty());
+  ASSERT_EQ(box.parameters.size(), 4u);
+  EXPECT_EQ((std::array{box.parameters[2].low, box.parameters[2].high}), (std::array{0.4, 0.9}));
+  EXPECT_EQ((std::array{box.parameters[0].low, box.parameters[0].high}), (std::array{0.2, 0.2}));
   EXPECT_THAT(std::get<RegularityProof>(inside).at_defaults, ::testing::ElementsAre("p0", "p1", "p3"));
   request.parameter_range[2] = {{0.28, 0.9}};
   EXPECT_THAT(why_not(prove_regular(request)), HasSubstr("turns singular near crank = "));
@@ -171,6 +176,8 @@ TEST(RegularityProof, StopsWhereDependentsLeaveTheirRanges) {
   const auto held = prove_regular(request);
   ASSERT_EQ(why_not(held), "");
   EXPECT_THAT(std::get<RegularityProof>(held).region, HasSubstr("any crank, y2 in ["));
+  ASSERT_EQ(std::get<RegularityProof>(held).box.positions.size(), 1u);
+  EXPECT_EQ(std::get<RegularityProof>(held).box.positions[0].index, 2u);
 }
 
 TEST(RegularityProof, HoldsAtAllTimes) {
@@ -269,7 +276,7 @@ TEST(RegularityProof, TellsFromHowFarNewtonComesBack) {
     }
     constexpr double kRounding = 1e-18;  // of extended precision
     EXPECT_LE(worst, proof.ends_within + kRounding);
-    EXPECT_LE(proof.ends_within, 8 * 0x1p-52);
+    EXPECT_LE(proof.ends_within, 8e-10);
     // Twenty times as far it is not so: the radius is no smaller than it must be by more than that.
     std::vector<long double> off = on;
     double beyond = 0;
@@ -281,6 +288,69 @@ TEST(RegularityProof, TellsFromHowFarNewtonComesBack) {
       beyond = std::max(beyond, static_cast<double>(std::fabs(off[1] - on[1])));
     }
     EXPECT_GT(beyond, proof.ends_within);
+  }
+}
+
+/// Largest difference of the dependents of a four-bar.
+double distance(const std::vector<long double>& a, const std::vector<long double>& b) {
+  const auto turn = [&](std::size_t k) {
+    return std::fabs(std::remainder(a[k] - b[k], 2 * std::acos(-1.0L)));
+  };
+  return static_cast<double>(std::max(turn(1), turn(2)));
+}
+
+TEST(RegularityProof, TellsByTheFirstCorrectionHowFarDependentsAreOff) {
+  for (const int iterations : {1, 2, 3}) {
+    SCOPED_TRACE(iterations);
+    RegularityRequest request = four_bar(0.2, 0.9, 0.7, 1, 0.8), first = request, exact = request;
+    request.iterations = iterations;
+    first.iterations = 1;
+    exact.iterations = 8;
+    const auto result = prove_regular(request);
+    ASSERT_EQ(why_not(result), "");
+    const RegularityProof& proof = std::get<RegularityProof>(result);
+    EXPECT_GT(proof.first_correction, proof.radius / 8);
+    EXPECT_GT(proof.isolation, 0.05);
+    Random random(iterations);
+    std::vector<long double> on(request.initial_y.begin(), request.initial_y.end());
+    int accepted = 0;
+    for (int i = 0; i < 4000; ++i) {
+      on[0] += 0.005;
+      on = newton(exact, on);
+      std::vector<long double> off = on;
+      const double scale = random.chance(0.5) ? proof.radius : proof.isolation;
+      for (const std::size_t k : {1, 2}) off[k] += random.uniform(-1, 1) * scale;
+      const std::vector<long double> next = newton(first, off);
+      if (std::hypot(next[1] - off[1], next[2] - off[2]) > proof.first_correction) continue;
+      ++accepted;
+      EXPECT_LE(distance(off, on), proof.radius);
+      EXPECT_LE(distance(newton(request, off), on), proof.ends_within + 1e-18);
+    }
+    EXPECT_GT(accepted, 100);
+  }
+}
+
+TEST(RegularityProof, TellsHowFarOtherSolutionsAreAway) {
+  // Near the dead position of its coupler and rocker the two branches come close.
+  for (const double clearance : {0.3, 0.03}) {
+    const double dead = dead_position(1, 0.7, 0.6, 0.8);
+    RegularityRequest request = four_bar(1, 0.7, 0.6, 0.8, 0.9), exact = request;
+    request.range[0] = {{0.5, dead - clearance}};
+    exact.iterations = 60;
+    const auto result = prove_regular(request);
+    ASSERT_EQ(why_not(result), "");
+    std::vector<long double> here(request.initial_y.begin(), request.initial_y.end());
+    for (here[0] = 0.9; here[0] < dead - clearance; here[0] += 1e-3L) here = newton(exact, here);
+    here = newton(exact, here);
+    std::vector<long double> other = here;  // mirrored at the line from the crank's pin to the rocker's pivot
+    const long double line = std::atan2(-std::sin(here[0]), 0.8L - std::cos(here[0]));
+    for (const std::size_t k : {1, 2}) other[k] = 2 * line - here[k];
+    other = newton(exact, other);
+    const double away = distance(here, other);
+    fmt::print("other branch {:.3f} rad away, proven {:.3g}\n", away,
+               std::get<RegularityProof>(result).isolation);
+    EXPECT_GT(away, 1e-3);
+    EXPECT_LT(std::get<RegularityProof>(result).isolation, away);
   }
 }
 
@@ -349,13 +419,14 @@ TEST(RegularityProof, HoldsOfModels) {
     dynamics::DerivationOptions options;
     options.closures_only = options.for_derivatives = true;
     const auto constraints =
-        loops::constraint_programs(mechanism, dynamics::derive_equations(mechanism, options));
+        loops::constraint_programs(mechanism, dynamics::derive_equations(mechanism, options)).front();
     const auto plan = loops::plan_loops(mechanism, constraints, diagnostics);
     ASSERT_TRUE(plan && plan->is_reduced());
     const auto result = prove_regular(loops::regularity_request(mechanism, constraints, *plan));
     ASSERT_EQ(why_not(result), "");
     EXPECT_GT(std::get<RegularityProof>(result).margin, 0.02);
-    EXPECT_GT(std::get<RegularityProof>(result).radius, 1e-7);
+    EXPECT_GT(std::get<RegularityProof>(result).radius, 1e-5);
+    EXPECT_GT(std::get<RegularityProof>(result).isolation, 1e-4);
   }
 }
 

@@ -11,10 +11,13 @@
 #include "crane_all/crane_all_kernels.hpp"
 #include "crane_applied/crane_applied_kernels.hpp"
 #include "embed/counting.hpp"
+#include "embed/pack.hpp"
 #include "flyball_governor_all/flyball_governor_all_kernels.hpp"
 #include "flyball_governor_applied/flyball_governor_applied_kernels.hpp"
 #include "hoop_bead_all/hoop_bead_all_kernels.hpp"
 #include "quadrotor_all/quadrotor_all_kernels.hpp"
+#include "rocking_four_bar_all/rocking_four_bar_all_kernels.hpp"
+#include "spring_four_bar_all/spring_four_bar_all_kernels.hpp"
 #include "steppers/dual.hpp"
 
 namespace jourdain::tests {
@@ -76,6 +79,8 @@ TEST(Steppers, OperationsAreThoseOfTheManifest) {
   JOURDAIN_COUNT_STEPS(hoop_bead_all)
   JOURDAIN_COUNT_STEPS(cart_pole_all)
   JOURDAIN_COUNT_STEPS(flyball_governor_all)
+  JOURDAIN_COUNT_STEPS(spring_four_bar_all)
+  JOURDAIN_COUNT_STEPS(rocking_four_bar_all)
 }
 
 /// Positions after `duration` (s) in `steps` steps from the initial state.
@@ -116,8 +121,30 @@ TEST(Steppers, HaveTheirOrders){
     };                                                                                                    \
     JOURDAIN_VISIT_STEPPERS(ns, long double, visit);                                                      \
   }
-    JOURDAIN_CHECK_ORDERS(crane_all, 6)  // quaternions, prescribed motion
-    JOURDAIN_CHECK_ORDERS(hoop_bead_all, 0.5L)}
+    JOURDAIN_CHECK_ORDERS(crane_all, 6)                  // quaternions, prescribed motion
+    JOURDAIN_CHECK_ORDERS(hoop_bead_all, 0.5L)           // a curve
+    JOURDAIN_CHECK_ORDERS(spring_four_bar_all, 2)        // dependent coordinates by Newton's method
+    JOURDAIN_CHECK_ORDERS(rocking_four_bar_all, 0.16L)}  // multipliers, through a dead position
+
+TEST(Steppers, OfMechanismsWithMultipliersGiveTheBitsOfDoubleInPacks) {
+  const auto ends = [](auto real) {
+    using Real = decltype(real);
+    std::vector<Real> values;
+    const auto visit = [&values](const std::string&, int, auto step, auto& history) {
+      auto state = rocking_four_bar_all::initial_state(rocking_four_bar_all::Model<Real>());
+      for (int i = 0; i < 20; ++i) step(state, rocking_four_bar_all::Input<Real>{}, Real(1e-3), history);
+      values.insert(values.end(), std::begin(state.y), std::end(state.y));
+      values.insert(values.end(), {state.regularity, state.opening});
+    };
+    JOURDAIN_VISIT_STEPPERS(rocking_four_bar_all, Real, visit);
+    return values;
+  };
+  const std::vector<double> one = ends(0.0);
+  const std::vector<Pack> four = ends(Pack());
+  ASSERT_EQ(one.size(), four.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+    for (const double lane : four[i].v) EXPECT_EQ(lane, one[i]) << i;
+}
 
 TEST(Steppers, OfWMethodsKeepTheirReducedOrdersWhenDerivativesLeaveTermsOut) {
   const crane_applied::Model<long double> model;

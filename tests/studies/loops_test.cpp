@@ -23,13 +23,16 @@ const std::vector<std::string> kFunctions = {
     "constraint_residual", "euler_step",       "rk4_step",         "forward_dynamics_derivatives"};
 const Progress kSilent = [](const std::string&, double) {};
 
-/// The four-bar, its loop closed by `treatment`.
-EmittedModel four_bar(const std::string& treatment, const std::vector<std::string>& functions = kFunctions) {
+/// The four-bar, its loop closed by `treatment`; `crank` is a line more on its crank.
+EmittedModel four_bar(const std::string& treatment, const std::vector<std::string>& functions = kFunctions,
+                      const std::string& crank = "") {
   std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/four_bar.toml");
   const std::string options = "treatment = \"explicit\"\nindependent = [\"crank\"]\n";
   text.replace(text.find(options), options.size(),
                "treatment = \"" + treatment + "\"\n" +
                    (treatment == "multipliers" ? "" : "independent = [\"crank\"]\n"));
+  const std::string velocity = "initial_velocity = \"2*pi\"\n";
+  text.insert(text.find(velocity) + velocity.size(), crank);
   return emitted_from(text, functions);
 }
 
@@ -52,6 +55,18 @@ struct Moving {
     return point;
   }
 };
+
+TEST(LoopStudies, ARunIsTrustedUntilACoordinateLeavesTheRangeOfTheProof) {
+  for (const char* treatment : {"explicit", "partitioned"}) {
+    const Moving moving(four_bar(treatment, kFunctions, "range = [1, 1.2]\n"));
+    const auto untrusted = first_untrusted(moving.flow, 1e-3, 1);
+    ASSERT_TRUE(untrusted) << treatment;
+    EXPECT_GT(moving.later(moving.flow.start(), 1e-3, std::lround(*untrusted / 1e-3)).x[0], 1.2);
+    EXPECT_FALSE(moving.flow.is_trusted());
+    EXPECT_LT(moving.later(moving.flow.start(), 1e-3, std::lround(*untrusted / 1e-3) - 1).x[0], 1.2);
+    EXPECT_TRUE(moving.flow.is_trusted());
+  }
+}
 
 TEST(LoopStudies, PerturbedStatesCloseAgain) {
   for (const char* treatment : {"explicit", "partitioned", "multipliers"}) {

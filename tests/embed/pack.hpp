@@ -1,0 +1,51 @@
+// A number type with several lanes, as users of vector instructions have them.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace jourdain::tests {
+
+/// Four values side by side.
+struct Pack {
+  std::array<double, 4> v{};
+
+  Pack() = default;
+  explicit Pack(double x) { v.fill(x); }
+  template <class F>
+  static Pack each(F f) {
+    Pack r;
+    for (std::size_t i = 0; i < 4; ++i) r.v[i] = f(i);
+    return r;
+  }
+  friend Pack operator+(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.v[i] + b.v[i]; });
+  }
+  friend Pack operator-(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.v[i] - b.v[i]; });
+  }
+  friend Pack operator*(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.v[i] * b.v[i]; });
+  }
+  friend Pack operator/(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.v[i] / b.v[i]; });
+  }
+  friend Pack operator-(const Pack& a) {
+    return each([&](std::size_t i) { return -a.v[i]; });
+  }
+  friend Pack sin(const Pack& a) {
+    return each([&](std::size_t i) { return std::sin(a.v[i]); });
+  }
+  friend Pack cos(const Pack& a) {
+    return each([&](std::size_t i) { return std::cos(a.v[i]); });
+  }
+  friend Pack sqrt(const Pack& a) {
+    return each([&](std::size_t i) { return std::sqrt(a.v[i]); });
+  }
+  friend Pack atan2(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return std::atan2(a.v[i], b.v[i]); });
+  }
+};
+
+}  // namespace jourdain::tests
