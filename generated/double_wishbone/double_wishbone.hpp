@@ -92,7 +92,7 @@ struct Model {
   static constexpr int input_count = 1;
   static constexpr int output_count = 2;
   static constexpr int constraint_count = 4;
-  static constexpr double least_regularity = 0.001;  ///< see State
+  static constexpr double least_regularity = 1e-06;  ///< see State
   static constexpr double greatest_opening = 1e-05;  ///< see State
   static constexpr int parameter_count = 6;
 
