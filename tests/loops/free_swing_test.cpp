@@ -47,6 +47,24 @@ TEST(FreeSwing, IsRightOrRefusedByDefault) { expect_none_wrong(kSeedCount, {}); 
 
 TEST(FreeSwing, IsRightOrRefusedWithMultipliers) { expect_none_wrong(1, model::LoopTreatment::kMultipliers); }
 
+Outcome outcome_of(LinkageClass wanted, std::uint64_t seed) {
+  const RandomLinkage linkage = random_linkage(kind_of(wanted), seed);
+  const Judgement judgement =
+      judge(linkage, known_motion(linkage.ideal, linkage.size, kHalfASecond), kHalfASecond);
+  EXPECT_EQ(judgement.why, "");
+  return judgement.outcome;
+}
+
+TEST(FreeSwing, GoesOnWhereRedundantRowsTakeTurns) {
+  EXPECT_EQ(outcome_of(LinkageClass::kSarrus, 7), Outcome::kRight);
+  EXPECT_EQ(outcome_of(LinkageClass::kSarrus, 8), Outcome::kRight);
+}
+
+TEST(FreeSwing, GoesOnAlthoughAxesAreAskew) {
+  EXPECT_EQ(outcome_of(LinkageClass::kBennett, 0), Outcome::kRight);  // four decimals
+  EXPECT_EQ(outcome_of(LinkageClass::kBennett, 5), Outcome::kRight);  // 1e-13 rad
+}
+
 TEST(FreeSwing, IsWrongBesideTheMotionOfAnotherMechanism) {
   const RandomLinkage linkage = random_linkage(kind_of(LinkageClass::kGrashof), 7);
   model::Mechanism heavier = linkage.ideal;
