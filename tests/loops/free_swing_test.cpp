@@ -3,8 +3,11 @@
 #include "loops/free_swing.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "loops/closed_system.hpp"
+#include "loops/compiled_swing.hpp"
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/to_toml.hpp"
@@ -58,6 +61,13 @@ Outcome outcome_of(LinkageClass wanted, std::uint64_t seed) {
 TEST(FreeSwing, GoesOnWhereRedundantRowsTakeTurns) {
   EXPECT_EQ(outcome_of(LinkageClass::kSarrus, 7), Outcome::kRight);
   EXPECT_EQ(outcome_of(LinkageClass::kSarrus, 8), Outcome::kRight);
+}
+
+TEST(RandomLinkages, SayWhichRowsTakeTurns) {
+  const RandomLinkage linkage = random_linkage(kind_of(LinkageClass::kSarrus), 7);
+  const auto compiled = compiled_or_refused(linkage.mechanism);
+  EXPECT_THAT(loops::sentences(linkage.mechanism, std::get<CompiledLinkage>(compiled).plan),
+              testing::Contains(testing::HasSubstr("redundant in turn")));
 }
 
 TEST(FreeSwing, GoesOnAlthoughAxesAreAskew) {
