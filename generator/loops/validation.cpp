@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "dynamics/closure_motion.hpp"
 #include "kinematics/numbers.hpp"
@@ -434,7 +433,8 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   const dynamics::Equations closures = dynamics::derive_equations(mechanism, options);
   const ConstraintPrograms programs = constraint_programs(mechanism, closures);
   NumericClosure closure(mechanism, programs, model::default_values(mechanism));
-  closure.disregard(plan.disagreeing, std::numeric_limits<long double>::infinity());
+  constexpr long double kBranch = 100;  // times what was seen: further open there is another branch
+  closure.disregard(plan.disagreeing, kBranch * plan.disagreement);
   verdict.states = 0;
   verdict.condition = 0;  // that of the tree off the loops is nobody's
   for (const Ray& ray : draw_rays(closure, plan, mechanism, states)) {
