@@ -88,7 +88,7 @@ struct Model {
   static constexpr int input_count = 0;
   static constexpr int output_count = 1;
   static constexpr int constraint_count = 2;
-  static constexpr double least_regularity = 0.001;  ///< see State; chosen
+  static constexpr double least_regularity = 1e-06;  ///< see State; chosen
   static constexpr double greatest_opening = 6.639103270642546e-07;  ///< see State; proven
   static constexpr int range_count = 1;
   static constexpr int parameter_count = 2;

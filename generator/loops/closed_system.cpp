@@ -113,6 +113,13 @@ std::string regularity_text(const LoopPlan& plan) {
       proof.radius, proof.length, proof.ends_within, proof.isolation);
 }
 
+std::vector<std::string> names_of(const model::Mechanism& mechanism, const std::vector<std::size_t>& rows) {
+  const std::vector<std::string> all = row_names(mechanism);
+  std::vector<std::string> names;
+  for (const std::size_t r : rows) names.push_back(all[r]);
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> sentences(const model::Mechanism& mechanism, const LoopPlan& plan) {
@@ -156,6 +163,9 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
           "nothing but State's opening may show it");
       break;
   }
+  if (!plan.sharing.empty())
+    list.push_back(fmt::format("{} are redundant in turn: they share one multiplier",
+                               fmt::join(names_of(mechanism, plan.sharing), ", ")));
   if (!plan.reason.empty()) list.push_back(fmt::format("why so: {}", plan.reason));
   return list;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/sharing_rows.hpp"
 #include "reference/minimal.hpp"
 
 namespace jourdain::loops {
@@ -89,24 +90,18 @@ class Expectation {
 
   Closed projected() const {
     Closed result;
-    const Matrix G = rows_of(closure_.jacobian(start_), plan_.rows);
-    const auto mass = mass_matrix().ldlt();
-    const Matrix back = mass.solve(G.transpose());
-    Matrix S = G * back;
-    for (std::size_t k = 0; k < plan_.rows.size(); ++k) {
-      const double length = plan_.row_length[plan_.rows[k]];
-      S(at(k), at(k)) += plan_.closing_regularisation / (length * length);
-    }
-    const auto factors = S.ldlt();
-    const Vector g = rows_of(closure_.value(start_), plan_.rows), lambda = factors.solve(g);
+    const std::vector<std::size_t> rows = plan_.solved_rows();
+    const Matrix G = rows_of(closure_.jacobian(start_), rows);
+    const Matrix back = mass_matrix().ldlt().solve(G.transpose());
+    const SchurSolution schur(plan_, G * back, plan_.closing_regularisation);
+    const Vector lambda = schur.solved(rows_of(closure_.value(start_), rows));
     const Configuration moved = displaced(start_, -back * lambda);
-    const Vector rate =
-        rows_of(Vector(closure_.jacobian(moved) * z_ + closure_.time_rate(moved)), plan_.rows);
+    const Vector rate = rows_of(Vector(closure_.jacobian(moved) * z_ + closure_.time_rate(moved)), rows);
     result.y = moved.y;
-    result.z = z_ - back * factors.solve(rate);
-    result.regularity = S.determinant() / plan_.determinant;
+    result.z = z_ - back * schur.solved(rate);
+    result.regularity = schur.determinant() / plan_.determinant;
     result.opening = (back * lambda).squaredNorm();
-    result.condition = condition_of(S);
+    result.condition = schur.condition();
     return result;
   }
 

@@ -1,5 +1,6 @@
 #include "loops/configuration.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/uniform.hpp"
@@ -39,7 +40,17 @@ ir::LeafValues<long double> NumericClosure::leaves(const Configuration& config, 
   return values;
 }
 
-void NumericClosure::disregard(const std::vector<std::size_t>& rows) { disregarded_ = rows; }
+void NumericClosure::disregard(const std::vector<std::size_t>& rows, long double limit) {
+  disregarded_ = rows;
+  limit_ = limit;
+}
+
+bool NumericClosure::is_closed(const Configuration& config) const {
+  const Vector g = value(config);
+  return regarded(g).lpNorm<Eigen::Infinity>() <= kClosed &&
+         std::all_of(disregarded_.begin(), disregarded_.end(),
+                     [&](std::size_t r) { return std::abs(g[at(r)]) <= limit_; });
+}
 
 Vector NumericClosure::regarded(Vector g) const {
   for (const std::size_t r : disregarded_) g[at(r)] = 0;
@@ -199,7 +210,7 @@ std::vector<Configuration> walk(const NumericClosure& closure, const Configurati
     next.t = start.t + time;
     if (length < kRankTolerance) next = driven(closure, from, time);
     next = closure.assembled(next, {});
-    if (closure.open(next) <= kClosed && in_range(next, mechanism, layout)) found.push_back(next);
+    if (closure.is_closed(next) && in_range(next, mechanism, layout)) found.push_back(next);
   }
   return found;
 }

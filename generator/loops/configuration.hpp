@@ -33,8 +33,11 @@ class NumericClosure {
   std::size_t velocity_count() const { return velocities_; }
   const model::Tangent& tangent() const { return tangent_; }
 
-  /// Rows that follow from others, but for numbers that disagree: assembling and walking leave them open.
-  void disregard(const std::vector<std::size_t>& rows);
+  /// Rows that follow from others, but for numbers that disagree: assembling and walking leave them open, by no more than `limit` (m,
+  /// products of unit vectors) on the branch that is meant.
+  void disregard(const std::vector<std::size_t>& rows, long double limit);
+  /// Whether the rows that are regarded are closed, and the others nearly so.
+  bool is_closed(const Configuration& at) const;
   /// max |g| of the other rows.
   long double open(const Configuration& at) const { return regarded(value(at)).lpNorm<Eigen::Infinity>(); }
   /// ġ at these velocities, zero for rows that are disregarded.
@@ -69,6 +72,7 @@ class NumericClosure {
   std::vector<double> parameters_;
   std::size_t rows_ = 0, velocities_ = 0;
   std::vector<std::size_t> disregarded_;
+  long double limit_ = 0;
 };
 
 /// Pivots below this share of the largest count as zero.

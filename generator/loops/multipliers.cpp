@@ -1,5 +1,9 @@
 #include "loops/multipliers.hpp"
 
+#include <algorithm>
+
+#include "loops/sharing_rows.hpp"
+
 namespace jourdain::loops {
 
 using ir::Signed;
@@ -9,9 +13,23 @@ namespace {
 Column diagonal(ir::Builder& builder, const LoopPlan& plan, const std::vector<std::size_t>& rows,
                 double size) {
   Column delta;
-  for (const std::size_t r : rows)
-    delta.push_back(builder.literal(size / (plan.row_length[r] * plan.row_length[r])));
+  for (const std::size_t r : rows) {
+    const bool shares = std::find(plan.sharing.begin(), plan.sharing.end(), r) != plan.sharing.end();
+    const double part = plan.sharing.empty() || shares ? 1 : kBesideSharing;
+    delta.push_back(builder.literal(part * size / (plan.row_length[r] * plan.row_length[r])));
+  }
   return delta;
+}
+
+/// Those of `rows` that share.
+SharingRows sharing(const LoopPlan& plan, const std::vector<std::size_t>& rows, double size) {
+  SharingRows list{{}, {}, size};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (std::find(plan.sharing.begin(), plan.sharing.end(), rows[k]) == plan.sharing.end()) continue;
+    list.rows.push_back(k);
+    list.weights.push_back(plan.row_length[rows[k]] * plan.row_length[rows[k]]);
+  }
+  return list;
 }
 
 }  // namespace
@@ -23,7 +41,8 @@ MultiplierSolver::MultiplierSolver(ir::Builder& builder, const LoopSystem& syste
       corrections_(regularisation.corrections),
       mass_(builder, M),
       V_(lowered_rows(constraints, rows)),
-      schur_(builder, products(), diagonal(builder, system.plan, rows, regularisation.size)) {}
+      schur_(builder, products(), diagonal(builder, system.plan, rows, regularisation.size),
+             sharing(system.plan, rows, regularisation.size)) {}
 
 std::vector<Column> MultiplierSolver::lowered_rows(const ConstraintValues& constraints,
                                                    const std::vector<std::size_t>& rows) const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "loops/elimination_order.hpp"
 #include "loops/inertia.hpp"
@@ -13,6 +14,7 @@
 #include "loops/regular_rows.hpp"
 #include "loops/regularity_proof.hpp"
 #include "loops/scales.hpp"
+#include "loops/sharing_rows.hpp"
 #include "model/checks.hpp"
 #include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
@@ -26,6 +28,15 @@ namespace {
 
 /// Configurations at which rows, freedom and conditioning are judged.
 constexpr std::size_t kConfigurations = 48;
+
+/// Rows that agree to this with others are closed with them; in m and products of unit vectors.
+constexpr long double kAgrees = kClosed / 4;
+/// Overconstrained mechanisms whose parts fit to this move, as those that are built do.
+constexpr long double kAskew = 2e-3L;
+/// Elsewhere they may fit that many times worse, within limits; m, rad.
+constexpr long double kNearly = 1000, kLeastLimit = 1e-9L, kMostLimit = 0.03L;
+/// A row that differs that much from combinations of others is another one however its numbers are rounded.
+constexpr long double kUnlike = 1e-2L;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -48,16 +59,15 @@ class Planner {
     configurations_ = walk(closure_, start_, mechanism_, kConfigurations);
     for (const Configuration& c : configurations_) jacobians_.push_back(closure_.jacobian(c));
     if (!check_acting()) return {};
-    plan_.rows = regular_rows(jacobians_);
-    for (std::size_t r = 0; r < names_.size(); ++r)
-      if (std::find(plan_.rows.begin(), plan_.rows.end(), r) == plan_.rows.end())
-        plan_.redundant.push_back(names_[r]);
+    plan_.rows = plan_.disagreeing.empty() ? regular_rows(jacobians_) : all_but(plan_.disagreeing);
+    for (const std::size_t r : all_but(plan_.rows)) plan_.redundant.push_back(names_[r]);
     plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
     if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
     massless_ = massless_in_tree(mechanism_, start_);
     set_scales(mechanism_, start_, jacobians_.front(), massless_.empty(), plan_);
     if (!(plan_.freedom == 0 ? treat_determined() : treat())) return {};
     if (!check_tree_inertia(mechanism_, massless_, plan_, diagnostics_)) return {};
+    if (!plan_.is_reduced()) share();
     set_determinant(mechanism_, configurations_, jacobians_, plan_);
     return plan_;
   }
@@ -70,41 +80,78 @@ class Planner {
     return list;
   }
 
-  /// Numbers of a file have so and so many digits: rows that follow from others but for those are left open, and that is said.
+  std::vector<std::size_t> all_but(const std::vector<std::size_t>& rows) const {
+    std::vector<std::size_t> others;
+    for (std::size_t r = 0; r < names_.size(); ++r)
+      if (std::find(rows.begin(), rows.end(), r) == rows.end()) others.push_back(r);
+    return others;
+  }
+
+  /// Numbers of a file have so and so many digits, and axes may be askew: rows that follow from others but for that are left open,
+  /// which is said.
   void settle_disagreement() {
+    if (leaves_open(kRowTolerance) || leaves_open(kAskew)) report_disagreement();
+  }
+
+  bool leaves_open(long double tolerance) {
     const Configuration initial{0, reference::Reference<long double>(mechanism_).initial_state().y};
     std::vector<bool> moving(layout_.velocity_count(), true);
     for (const std::size_t k : named_independent()) moving[k] = false;
     const Configuration nearest = closure_.assembled(initial, moving);
     const Matrix G = closure_.jacobian(nearest);
-    const std::vector<std::size_t> regular = regular_rows({G});
-    std::vector<std::size_t> others;
-    for (std::size_t r = 0; r < names_.size(); ++r)
-      if (std::find(regular.begin(), regular.end(), r) == regular.end()) others.push_back(r);
+    const std::vector<std::size_t> regular = regular_rows({G}, tolerance), others = all_but(regular);
     const long double apart = std::max(closure_.open(nearest), largest_rest(G, regular, others));
-    if (others.empty() || apart <= kClosed || apart > kRowTolerance) return;
-    closure_.disregard(others);
-    if (!stay_nearly_closed(closure_.assembled(nearest, moving), others)) return closure_.disregard({});
-    plan_.disagreeing = others;
-    plan_.disagreement = static_cast<double>(apart);
-    std::vector<std::string> names;
-    for (const std::size_t r : others) names.push_back(names_[r]);
-    diagnostics_.note(
-        mechanism_.loops.front().where,
-        fmt::format("constraints {} follow from the others but for {:.1g}: they are left open by that",
-                    fmt::join(names, ", "), plan_.disagreement),
-        "rounded numbers, or an axis that is askew; more than 1e-6 would hold the mechanism back");
+    if (others.empty() || apart <= kAgrees || apart > tolerance || !are_sized(others, tolerance))
+      return false;
+    const long double limit = std::clamp(kNearly * apart, kLeastLimit, kMostLimit);
+    closure_.disregard(others, limit);
+    const std::vector<Configuration> seen =
+        walk(closure_, closure_.assembled(nearest, moving), mechanism_, kConfigurations);
+    plan_.disagreeing = left_open(seen, others.size(), limit);
+    closure_.disregard(plan_.disagreeing, limit);
+    if (plan_.disagreeing.empty()) return false;
+    for (const Configuration& c : seen) plan_.disagreement = std::max(plan_.disagreement, furthest_open(c));
+    return true;
   }
 
-  /// Near a singular configuration rows nearly follow from others, too, but not for long.
-  bool stay_nearly_closed(const Configuration& start, const std::vector<std::size_t>& rows) const {
-    constexpr long double kNearly = 100 * kRowTolerance;
-    for (const Configuration& c : walk(closure_, start, mechanism_, kConfigurations)) {
-      const Vector g = closure_.value(c);
-      for (const std::size_t r : rows)
-        if (!(std::abs(g[at(r)]) <= kNearly)) return false;
-    }
-    return true;
+  /// Are the rows of a size that is known, so that a small one is no row of its own? Expressions may be of any.
+  bool are_sized(const std::vector<std::size_t>& rows, long double tolerance) const {
+    std::vector<bool> is_expression;
+    for (const model::Loop& loop : mechanism_.loops)
+      is_expression.resize(is_expression.size() + model::row_count(loop.type),
+                           loop.type == model::LoopType::kResidual);
+    return tolerance <= kRowTolerance ||
+           std::none_of(rows.begin(), rows.end(), [&](std::size_t r) { return is_expression[r]; });
+  }
+
+  /// The `count` rows that are left open best where all stay open by no more than `limit` wherever the others let the mechanism go;
+  /// none where they do not. Near a singular configuration rows nearly follow from others, too, but not for long.
+  std::vector<std::size_t> left_open(const std::vector<Configuration>& seen, std::size_t count,
+                                     long double limit) const {
+    if (!closure_.is_closed(seen.front()) || seen.size() < kConfigurations / 2) return {};
+    std::vector<Matrix> jacobians;
+    for (const Configuration& c : seen) jacobians.push_back(closure_.jacobian(c));
+    const std::vector<std::size_t> open =
+        all_but(regular_rows(jacobians, std::clamp(limit, kRowTolerance, kUnlike)));
+    return open.size() == count ? open : std::vector<std::size_t>();
+  }
+
+  double furthest_open(const Configuration& c) const {
+    return static_cast<double>(closure_.value(c).lpNorm<Eigen::Infinity>());
+  }
+
+  void report_disagreement() {
+    std::vector<std::string> names;
+    for (const std::size_t r : plan_.disagreeing) names.push_back(names_[r]);
+    const std::string what =
+        fmt::format("constraints {} follow from the others but for {:.1g}: they are left open by that",
+                    fmt::join(names, ", "), plan_.disagreement);
+    const support::SourceRange where = mechanism_.loops.front().where;
+    if (plan_.disagreement <= kRowTolerance)
+      diagnostics_.note(where, what, "rounded numbers, or an axis that is askew");
+    else
+      diagnostics_.warning(
+          where, what, "an axis is askew, or numbers have few digits; strictly the mechanism cannot move");
   }
 
   bool assemble() {
@@ -230,6 +277,11 @@ class Planner {
     return true;
   }
 
+  void share() {
+    plan_.sharing = sharing_rows(jacobians_, plan_.rows);
+    if (!plan_.sharing.empty()) set_sharing_lengths(mechanism_, configurations_, jacobians_, plan_);
+  }
+
   void keep_all() {
     plan_.treatment = LoopTreatment::kMultipliers;
     plan_.independent.clear();
@@ -308,16 +360,21 @@ class Planner {
 
 }  // namespace
 
+std::vector<std::size_t> LoopPlan::solved_rows() const {
+  std::vector<std::size_t> solved;
+  std::set_union(rows.begin(), rows.end(), sharing.begin(), sharing.end(), std::back_inserter(solved));
+  return solved;
+}
+
 double LoopPlan::least_regularity() const {
   switch (treatment) {
     case LoopTreatment::kExplicit:
       return 1e-6;
     case LoopTreatment::kPartitioned:
-      return 1e-3;
+      return proof ? 1e-6 : 1e-3;
     case LoopTreatment::kMultipliers:
-      return is_named
-                 ? 0
-                 : 1e-9;  // ten times the regularisation: a hundredth of the constraint force is left out
+      // Ten times the regularisation: a hundredth of the constraint force is left out. Where rows disagree they tell no better what holds.
+      return is_named ? 0 : std::max(1e-9, 10 * disagreement);
   }
   return 0;
 }

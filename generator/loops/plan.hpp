@@ -28,7 +28,10 @@ struct LoopPlan {
   std::size_t freedom = 0;             ///< degrees of freedom
   std::vector<std::string> redundant;  ///< rows that follow from others, by name
   std::vector<std::size_t> rows;       ///< the others
-  /// Redundant rows that disagree with the others by more than rounding, and by how much (m, rad) at the start: they stay open.
+  /// With multipliers: rows of which one counts, a different one here and there. Those of `rows` and others that are redundant; see
+  /// SchurFactors. Empty where `rows` stay independent everywhere.
+  std::vector<std::size_t> sharing;
+  /// Redundant rows that disagree with the others by more than rounding, and by how much (m, rad) at worst, of the configurations seen: they stay open.
   std::vector<std::size_t> disagreeing;
   double disagreement = 0;
   std::vector<std::size_t> independent;  ///< velocities; empty with multipliers
@@ -51,6 +54,8 @@ struct LoopPlan {
   int closings() const { return treatment == model::LoopTreatment::kPartitioned ? 2 : 1; }
   /// For which positions and parameters the treatment is proven; none: not proven, or nothing to prove.
   const ProvenBox* proven() const { return closed_form ? &closed_form->box : proof ? &proof->box : nullptr; }
+  /// Rows that multipliers are solved for, in order: `rows` and those that share.
+  std::vector<std::size_t> solved_rows() const;
   bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
   /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that were asked for pass
   /// singular configurations straight on: 0.

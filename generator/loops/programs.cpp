@@ -51,7 +51,7 @@ class LoopProgram {
   }
 
   Column zdot() {
-    if (!system_.plan.is_reduced()) return constrained_motion(system_.plan.rows).zdot;
+    if (!system_.plan.is_reduced()) return constrained_motion(system_.plan.solved_rows()).zdot;
     if (dependence_.independent_count() == 0) return {};
     return ir::SymmetricFactors(builder_, mass_matrix()).solved(forces());
   }
@@ -132,7 +132,7 @@ class LoopProgram {
   Column residual(const Column& zdot) {
     Column r = dependence_.projected(vector("residual", dependence_.accelerations(zdot)));
     if (system_.plan.is_reduced()) return r;
-    const std::vector<std::size_t>& rows = system_.plan.rows;
+    const std::vector<std::size_t> rows = system_.plan.solved_rows();
     const Column lambda = constrained_motion(rows).lambda;
     const ConstraintValues constraints(builder_, system_);
     for (std::size_t k = 0; k < r.size(); ++k)
@@ -145,7 +145,7 @@ class LoopProgram {
   Regularisation regularisation(const std::vector<std::size_t>& rows) const {
     constexpr double kRedundant = 1e3;
     const LoopPlan& plan = system_.plan;
-    if (rows.size() == plan.rows.size()) return {plan.regularisation, plan.corrections};
+    if (rows.size() == plan.solved_rows().size()) return {plan.regularisation, plan.corrections};
     return {kRedundant * plan.closing_regularisation, 2};
   }
 
@@ -167,13 +167,20 @@ class LoopProgram {
     return {solver.accelerations(pushed, lambda), lambda};
   }
 
-  /// λ over all rows that agree with each other, zero for the others.
-  Column least_multipliers() {
+  /// All rows that agree with each other; where some share, those that are solved for.
+  std::vector<std::size_t> rows_with_forces() const {
+    if (!system_.plan.sharing.empty()) return system_.plan.solved_rows();
     std::vector<std::size_t> rows;
     const std::vector<std::size_t>& apart = system_.plan.disagreeing;
-    Column lambda(system_.constraints.value.outputs.size(), builder_.literal(0));
-    for (std::size_t r = 0; r < lambda.size(); ++r)
+    for (std::size_t r = 0; r < system_.constraints.value.outputs.size(); ++r)
       if (std::find(apart.begin(), apart.end(), r) == apart.end()) rows.push_back(r);
+    return rows;
+  }
+
+  /// λ over those rows, zero for the others.
+  Column least_multipliers() {
+    const std::vector<std::size_t> rows = rows_with_forces();
+    Column lambda(system_.constraints.value.outputs.size(), builder_.literal(0));
     const Column found = constrained_motion(rows).lambda;
     for (std::size_t k = 0; k < rows.size(); ++k) lambda[rows[k]] = found[k];
     return lambda;

@@ -15,7 +15,7 @@ namespace {
 Column opening_rate(Builder& builder, const LoopSystem& system, const Column& y) {
   const ConstraintValues there(builder, system, y);
   Column rate;
-  for (const std::size_t r : system.plan.rows) {
+  for (const std::size_t r : system.plan.solved_rows()) {
     Signed sum = there.g_t(r);
     for (std::size_t k = 0; k < system.layout.velocity_count(); ++k)
       sum = builder.add(sum, builder.multiply(there.G(r, k), builder.leaf(LeafKind::kVelocity, k)));
@@ -30,13 +30,14 @@ ir::Program projection_program(const LoopSystem& system) {
   Builder builder;
   const ConstraintValues here(builder, system);
   const std::size_t n = system.layout.velocity_count();
-  const MultiplierSolver solver(builder, system, tree_mass_matrix(builder, system), here, system.plan.rows,
+  const std::vector<std::size_t> rows = system.plan.solved_rows();
+  const MultiplierSolver solver(builder, system, tree_mass_matrix(builder, system), here, rows,
                                 {system.plan.closing_regularisation, 0});
   const auto correction = [&](const Column& c) {
     return solver.accelerations(Column(n, builder.literal(0)), solver.corrections(c));
   };
   Column g;
-  for (const std::size_t r : system.plan.rows) g.push_back(here.g(r));
+  for (const std::size_t r : rows) g.push_back(here.g(r));
   const Column d = correction(g);
   const Column y = displaced(builder, system.tangent, position_leaves(builder, system), d);
   for (std::size_t i = 0; i < y.size(); ++i) builder.output("y", static_cast<int>(i), -1, y[i]);

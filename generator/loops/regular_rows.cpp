@@ -25,14 +25,14 @@ class Rows {
   }
 
   /// How many are independent.
-  std::size_t rank() const {
+  std::size_t rank(long double tolerance) const {
     Rows rows(G_);
     std::size_t count = 0;
     for (; count < static_cast<std::size_t>(G_.rows()); ++count) {
       std::size_t best = 0;
       for (std::size_t r = 0; r < static_cast<std::size_t>(G_.rows()); ++r)
         if (rows.rest(r) > rows.rest(best)) best = r;
-      if (!(rows.rest(best) > kRowTolerance)) break;
+      if (!(rows.rest(best) > tolerance)) break;
       rows.take(best);
     }
     return count;
@@ -74,11 +74,11 @@ std::size_t next_row(const std::vector<Rows>& configurations, std::size_t count)
 
 }  // namespace
 
-std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians) {
+std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians, long double tolerance) {
   std::size_t rank = 0;
   std::vector<std::size_t> ranks;
   for (const Matrix& G : jacobians) {
-    ranks.push_back(Rows(G).rank());
+    ranks.push_back(Rows(G).rank(tolerance));
     rank = std::max(rank, ranks.back());
   }
   std::vector<Rows> configurations;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "loops/dense_solver.hpp"
+#include "loops/sharing_rows.hpp"
 #include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
 
@@ -23,10 +24,16 @@ Matrix rows_of(const Matrix& G, const std::vector<std::size_t>& rows) {
   return part;
 }
 
-void set_row_lengths(const model::Mechanism& mechanism, const Vector& S, LoopPlan& plan) {
+/// Which rows are lengths.
+std::vector<bool> lengths_of(const model::Mechanism& mechanism) {
   std::vector<bool> is_length;
   for (const model::Loop& loop : mechanism.loops)
     for (const model::LoopRow& row : model::loop_kind(loop.type).rows) is_length.push_back(row.is_length);
+  return is_length;
+}
+
+void set_row_lengths(const model::Mechanism& mechanism, const Vector& S, LoopPlan& plan) {
+  const std::vector<bool> is_length = lengths_of(mechanism);
   long double largest = 0;
   for (std::size_t r = 0; r < is_length.size(); ++r)
     if (is_length[r]) largest = std::max(largest, S[at(r)]);
@@ -60,6 +67,17 @@ void set_scales(const model::Mechanism& mechanism, const Configuration& start, c
     plan.row_length.assign(static_cast<std::size_t>(G.rows()), 1);
 }
 
+void set_sharing_lengths(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
+                         const std::vector<Matrix>& jacobians, LoopPlan& plan) {
+  Vector largest = Vector::Zero(at(plan.row_length.size()));
+  for (std::size_t k = 0; k < configurations.size(); ++k)
+    largest = largest.cwiseMax(schur_matrix(mechanism, configurations[k], jacobians[k]).diagonal());
+  const std::vector<bool> is_length = lengths_of(mechanism);
+  const long double size = plan.closing_regularisation / kLeast;
+  for (const std::size_t r : plan.sharing)
+    plan.row_length[r] = is_length[r] ? 1 : static_cast<double>(std::sqrt(size / largest[at(r)]));
+}
+
 void set_determinant(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                      const std::vector<Matrix>& jacobians, LoopPlan& plan) {
   long double largest = 0;
@@ -67,7 +85,10 @@ void set_determinant(const model::Mechanism& mechanism, const std::vector<Config
     const long double determinant =
         plan.is_reduced()
             ? block_determinant(plan, jacobians[k])
-            : schur_matrix(mechanism, configurations[k], rows_of(jacobians[k], plan.rows)).determinant();
+            : SchurSolution(
+                  plan, schur_matrix(mechanism, configurations[k], rows_of(jacobians[k], plan.solved_rows())),
+                  0)
+                  .determinant();
     largest = std::max(largest, std::abs(determinant));
   }
   const bool negative = plan.is_reduced() && block_determinant(plan, jacobians.front()) < 0;

@@ -16,6 +16,10 @@ Matrix schur_matrix(const model::Mechanism& mechanism, const Configuration& conf
 void set_scales(const model::Mechanism& mechanism, const Configuration& start, const Matrix& G,
                 bool is_regular, LoopPlan& plan);
 
+/// Sets row_length of rows that share from the configurations seen: at the start such a row may be next to nothing.
+void set_sharing_lengths(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
+                         const std::vector<Matrix>& jacobians, LoopPlan& plan);
+
 /// Sets the determinant of what closing solves for, once the treatment is known, from the configurations seen. The first is the start.
 void set_determinant(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                      const std::vector<Matrix>& jacobians, LoopPlan& plan);

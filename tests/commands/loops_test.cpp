@@ -218,9 +218,13 @@ TEST(LoopCommands, ARunEndsWhereACoordinateLeavesTheRangeOfTheProof) {
 
 TEST(LoopCommands, ARunEndsWhereAStepIsLongerThanWhatIsProven) {
   const support::TemporaryFolder folder;
+  const std::string path = folder.path() + "/wishbone.toml";
+  support::write_file(path,
+                      support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/double_wishbone.toml") +
+                          "\n[loops]\ntreatment = \"partitioned\"\n");
   const auto run = [&](const std::string& step) {
-    return jourdain({"simulate", "models/double_wishbone.toml", "--method", "euler", "--step", step,
-                     "--duration", "1", "--output", folder.path() + "/o.csv"});
+    return jourdain({"simulate", path, "--method", "euler", "--step", step, "--duration", "1", "--output",
+                     folder.path() + "/o.csv"});
   };
   expect(run("0.02"), 1,
          "error: at t = 0.02 s a step of 0.02 s is too long: closing the loops moved positions");

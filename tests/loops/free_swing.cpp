@@ -139,6 +139,12 @@ Judgement judge(const RandomLinkage& linkage, const KnownMotion& known, const Lo
     return judgement;
   }
   const CompiledLinkage& made = std::get<CompiledLinkage>(compiled);
+  judgement.freedom = made.plan.freedom;
+  if (judgement.freedom == 0) {
+    judgement.outcome = Outcome::kRefused;
+    judgement.why = "no degree of freedom left";
+    return judgement;
+  }
   const CompiledSwing swing(mechanism, made.model);
   const Form form(mechanism);
   const Judge bench(linkage, known);

@@ -13,7 +13,7 @@ namespace jourdain::tests {
 enum class Outcome {
   kRight,
   kFlagged,  ///< a guard stopped it; right until then
-  kRefused,  ///< diagnostics instead of code
+  kRefused,  ///< diagnostics instead of code, or a note that nothing can move
   kWrong,
   kLeftOut  ///< the reference does not agree with itself
 };
@@ -27,6 +27,7 @@ struct Judgement {
   double drift = 0;            ///< of the energy at the finer step, share of the largest kinetic energy
   double step = 0;             ///< the finer one of the two steps that decided, s
   std::size_t operations = 0;  ///< of a step
+  std::size_t freedom = 0;     ///< degrees of freedom that the compiler counts
 };
 
 /// Compiles `linkage` and follows its motion at step lengths h and h/2 beside `known`, the motion of `linkage.ideal`.

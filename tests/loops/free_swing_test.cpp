@@ -3,8 +3,11 @@
 #include "loops/free_swing.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "loops/closed_system.hpp"
+#include "loops/compiled_swing.hpp"
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/to_toml.hpp"
@@ -46,6 +49,31 @@ void expect_none_wrong(std::size_t seeds, std::optional<model::LoopTreatment> tr
 TEST(FreeSwing, IsRightOrRefusedByDefault) { expect_none_wrong(kSeedCount, {}); }
 
 TEST(FreeSwing, IsRightOrRefusedWithMultipliers) { expect_none_wrong(1, model::LoopTreatment::kMultipliers); }
+
+Outcome outcome_of(LinkageClass wanted, std::uint64_t seed) {
+  const RandomLinkage linkage = random_linkage(kind_of(wanted), seed);
+  const Judgement judgement =
+      judge(linkage, known_motion(linkage.ideal, linkage.size, kHalfASecond), kHalfASecond);
+  EXPECT_EQ(judgement.why, "");
+  return judgement.outcome;
+}
+
+TEST(FreeSwing, GoesOnWhereRedundantRowsTakeTurns) {
+  EXPECT_EQ(outcome_of(LinkageClass::kSarrus, 7), Outcome::kRight);
+  EXPECT_EQ(outcome_of(LinkageClass::kSarrus, 8), Outcome::kRight);
+}
+
+TEST(RandomLinkages, SayWhichRowsTakeTurns) {
+  const RandomLinkage linkage = random_linkage(kind_of(LinkageClass::kSarrus), 7);
+  const auto compiled = compiled_or_refused(linkage.mechanism);
+  EXPECT_THAT(loops::sentences(linkage.mechanism, std::get<CompiledLinkage>(compiled).plan),
+              testing::Contains(testing::HasSubstr("redundant in turn")));
+}
+
+TEST(FreeSwing, GoesOnAlthoughAxesAreAskew) {
+  EXPECT_EQ(outcome_of(LinkageClass::kBennett, 0), Outcome::kRight);  // four decimals
+  EXPECT_EQ(outcome_of(LinkageClass::kBennett, 5), Outcome::kRight);  // 1e-13 rad
+}
 
 TEST(FreeSwing, IsWrongBesideTheMotionOfAnotherMechanism) {
   const RandomLinkage linkage = random_linkage(kind_of(LinkageClass::kGrashof), 7);
