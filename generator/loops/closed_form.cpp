@@ -52,6 +52,7 @@ class Closing {
       if (block.dependents.size() > kScalars) return fmt::format("block of {} unknowns", count);
       if (const std::string failure = solve_block(block); !failure.empty()) return failure;
     }
+    if (const std::string failure = check_start(); !failure.empty()) return failure;
     ClosedForm result{closing_program()};
     if (const std::string failure = check(result.close); !failure.empty()) return failure;
     const auto reached = proven(conditions_);
@@ -269,6 +270,18 @@ class Closing {
     const Vector2 turn = times_conjugate(*found.direction, {cosine(given), sine(given)});
     found.value = given + angle_of(turn.x, turn.y);
     return found;
+  }
+
+  /// The branch of the initial state is that over the ranges only where it begins within them.
+  std::string check_start() const {
+    for (std::size_t k = 0; k < request_.range.size(); ++k) {
+      const auto& range = request_.range[k];
+      const double value = request_.initial_y[k];
+      const bool is_free = std::find(dependents_.begin(), dependents_.end(), k) == dependents_.end();
+      if (range && is_free && !(value >= (*range)[0] - kAssembled && value <= (*range)[1] + kAssembled))
+        return fmt::format("{} starts at {:.6g}, outside its range", roles_.names[k], value);
+    }
+    return "";
   }
 
   /// Does the result solve the equation near the initial state, and is that a solution itself?

@@ -211,9 +211,8 @@ class Planner {
     if (!partition || partition->blocks.empty()) return !options.treatment || report_bad(partition);
     take(*partition);
     if (options.treatment != LoopTreatment::kPartitioned && close_explicitly()) return true;
-    if (options.treatment == LoopTreatment::kExplicit) return false;
-    const auto found = prove_regular(regularity_request(mechanism_, constraints_, plan_));
-    if (const auto* proof = std::get_if<RegularityProof>(&found)) plan_.proof = *proof;
+    if (options.treatment == LoopTreatment::kExplicit) return refuse_explicit();
+    prove();
     return true;
   }
 
@@ -231,18 +230,56 @@ class Planner {
   bool treat() {
     const model::LoopOptions& options = mechanism_.loop_options;
     if (options.treatment == LoopTreatment::kMultipliers) return true;
+    const std::vector<Partition> choices = partitions();
+    if (choices.empty() || (choices.front().blocks.empty() && !plan_.rows.empty())) {
+      plan_.reason = "no choice of independent coordinates is regular at the configurations seen";
+      return plan_.is_named ? report_bad(choices.empty() ? std::nullopt : std::optional(choices.front()))
+                            : true;
+    }
+    if (options.treatment != LoopTreatment::kPartitioned)
+      for (const Partition& choice : choices) {
+        take(choice);
+        if (close_explicitly()) return true;
+      }
+    if (options.treatment == LoopTreatment::kExplicit) return refuse_explicit();
+    std::string why;
+    for (const Partition& choice : choices) {
+      take(choice);
+      const std::string failure = prove();
+      if (failure.empty()) return true;
+      if (why.empty()) why = failure;
+    }
+    take(choices.front());
+    go_without_proof(why);
+    return true;
+  }
+
+  /// Those that may be closed: the one that is named; otherwise the one that is conditioned best, and the one of the coordinates with a
+  /// range, over which more can be proven.
+  std::vector<Partition> partitions() const {
     const std::vector<Matrix> regular = regular_jacobians();
     const std::vector<std::size_t> named = named_independent();
-    const std::optional<Partition> partition =
-        named.empty() ? choose_partition(regular, velocity_groups(mechanism_), preferred())
-                      : given_partition(regular, named);
-    if (!partition || (partition->blocks.empty() && !plan_.rows.empty())) {
-      plan_.reason = "no choice of independent coordinates is regular at the configurations seen";
-      return plan_.is_named ? report_bad(partition) : true;
-    }
-    take(*partition);
-    if (options.treatment == LoopTreatment::kPartitioned) return close_by_newton();
-    return close_explicitly() || (options.treatment != LoopTreatment::kExplicit && close_by_newton());
+    const auto best = named.empty() ? choose_partition(regular, velocity_groups(mechanism_), preferred())
+                                    : given_partition(regular, named);
+    if (!best) return {};
+    std::vector<Partition> list = {*best};
+    const std::vector<std::size_t> ranged = with_range();
+    if (!named.empty() || ranged.size() != plan_.freedom || ranged == best->independent) return list;
+    if (const auto other = given_partition(regular, ranged); other && other->conditioning > 0)
+      list.push_back(*other);
+    return list;
+  }
+
+  /// Velocities of the coordinates with a range, in order.
+  std::vector<std::size_t> with_range() const {
+    std::vector<std::size_t> list;
+    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
+      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
+        if (const auto entry = layout_.joints[j].velocity[c];
+            entry && mechanism_.joints[j].coordinates[c].range)
+          list.push_back(*entry);
+    std::sort(list.begin(), list.end());
+    return list;
   }
 
   /// With these velocities independent.
@@ -255,26 +292,25 @@ class Planner {
     plan_.treatment = LoopTreatment::kPartitioned;
   }
 
-  /// A choice that is not proven is taken only where it is asked for, or where multipliers would need M⁻¹ of a singular M.
-  bool close_by_newton() {
+  /// Why there is no proof for the choice taken; empty where there is one.
+  std::string prove() {
     const auto found = prove_regular(regularity_request(mechanism_, constraints_, plan_));
-    if (const auto* proof = std::get_if<RegularityProof>(&found)) {
-      plan_.proof = *proof;
-      return true;
-    }
-    const std::string& why = std::get<std::string>(found);
-    if (plan_.is_named || !massless_.empty()) {
-      diagnostics_.warning(
+    if (const auto* why = std::get_if<std::string>(&found)) return *why;
+    plan_.proof = std::get<RegularityProof>(found);
+    return "";
+  }
+
+  /// A choice that is not proven is taken only where it is asked for, or where multipliers would need M⁻¹ of a singular M.
+  void go_without_proof(const std::string& why) {
+    if (plan_.is_named || !massless_.empty())
+      return diagnostics_.warning(
           mechanism_.loop_options.where,
           fmt::format("it is not proven that the other coordinates follow from the independent ones: {}",
                       why),
           "watch 'regularity' of State, declare ranges, or use treatment = \"multipliers\"");
-      return true;
-    }
     if (!plan_.reason.empty()) plan_.reason += "; ";
     plan_.reason += "no choice of independent coordinates proven: " + why;
     keep_all();
-    return true;
   }
 
   void share() {
@@ -289,7 +325,7 @@ class Planner {
     plan_.conditioning = 0;
   }
 
-  /// False where there is no closed form; an error where one was asked for.
+  /// False where there is no closed form.
   bool close_explicitly() {
     std::variant<ClosedForm, std::string> found = solve_positions();
     if (ClosedForm* form = std::get_if<ClosedForm>(&found)) {
@@ -298,10 +334,14 @@ class Planner {
       plan_.closed_form = std::move(*form);
       return true;
     }
-    const std::string& why = std::get<std::string>(found);
-    plan_.reason = "no closed form: " + why;
-    if (mechanism_.loop_options.treatment == LoopTreatment::kExplicit)
-      diagnostics_.error(mechanism_.loop_options.where, "the loops cannot be closed explicitly", why);
+    if (explicit_failure_.empty()) explicit_failure_ = std::get<std::string>(found);
+    plan_.reason = "no closed form: " + explicit_failure_;
+    return false;
+  }
+
+  bool refuse_explicit() {
+    diagnostics_.error(mechanism_.loop_options.where, "the loops cannot be closed explicitly",
+                       explicit_failure_);
     return false;
   }
 
@@ -355,6 +395,7 @@ class Planner {
   std::vector<Configuration> configurations_;  ///< closed ones; the first is the start
   std::vector<Matrix> jacobians_;              ///< there
   std::vector<model::JointIndex> massless_;    ///< where the tree's mass matrix is singular
+  std::string explicit_failure_;               ///< of the choice that is tried first
   LoopPlan plan_;
 };
 
