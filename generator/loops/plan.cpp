@@ -1,12 +1,12 @@
 #include "loops/plan.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "loops/disagreement.hpp"
 #include "loops/elimination_order.hpp"
 #include "loops/inertia.hpp"
 #include "loops/partition.hpp"
@@ -17,7 +17,6 @@
 #include "loops/sharing_rows.hpp"
 #include "model/checks.hpp"
 #include "model/loop_kinds.hpp"
-#include "reference/minimal.hpp"
 
 namespace jourdain::loops {
 
@@ -28,15 +27,6 @@ namespace {
 
 /// Configurations at which rows, freedom and conditioning are judged.
 constexpr std::size_t kConfigurations = 48;
-
-/// Rows that agree to this with others are closed with them; in m and products of unit vectors.
-constexpr long double kAgrees = kClosed / 4;
-/// Overconstrained mechanisms whose parts fit to this move, as those that are built do.
-constexpr long double kAskew = 2e-3L;
-/// Elsewhere they may fit that many times worse, within limits; m, rad.
-constexpr long double kNearly = 1000, kLeastLimit = 1e-9L, kMostLimit = 0.03L;
-/// A row that differs that much from combinations of others is another one however its numbers are rounded.
-constexpr long double kUnlike = 1e-2L;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -81,81 +71,14 @@ class Planner {
   }
 
   std::vector<std::size_t> all_but(const std::vector<std::size_t>& rows) const {
-    std::vector<std::size_t> others;
-    for (std::size_t r = 0; r < names_.size(); ++r)
-      if (std::find(rows.begin(), rows.end(), r) == rows.end()) others.push_back(r);
-    return others;
-  }
-
-  /// Numbers of a file have so and so many digits, and axes may be askew: rows that follow from others but for that are left open,
-  /// which is said.
-  void settle_disagreement() {
-    if (leaves_open(kRowTolerance) || leaves_open(kAskew)) report_disagreement();
-  }
-
-  bool leaves_open(long double tolerance) {
-    const Configuration initial{0, reference::Reference<long double>(mechanism_).initial_state().y};
-    std::vector<bool> moving(layout_.velocity_count(), true);
-    for (const std::size_t k : named_independent()) moving[k] = false;
-    const Configuration nearest = closure_.assembled(initial, moving);
-    const Matrix G = closure_.jacobian(nearest);
-    const std::vector<std::size_t> regular = regular_rows({G}, tolerance), others = all_but(regular);
-    const long double apart = std::max(closure_.open(nearest), largest_rest(G, regular, others));
-    if (others.empty() || apart <= kAgrees || apart > tolerance || !are_sized(others, tolerance))
-      return false;
-    const long double limit = std::clamp(kNearly * apart, kLeastLimit, kMostLimit);
-    closure_.disregard(others, limit);
-    const std::vector<Configuration> seen =
-        walk(closure_, closure_.assembled(nearest, moving), mechanism_, kConfigurations);
-    plan_.disagreeing = left_open(seen, others.size(), limit);
-    closure_.disregard(plan_.disagreeing, limit);
-    if (plan_.disagreeing.empty()) return false;
-    for (const Configuration& c : seen) plan_.disagreement = std::max(plan_.disagreement, furthest_open(c));
-    return true;
-  }
-
-  /// Are the rows of a size that is known, so that a small one is no row of its own? Expressions may be of any.
-  bool are_sized(const std::vector<std::size_t>& rows, long double tolerance) const {
-    std::vector<bool> is_expression;
-    for (const model::Loop& loop : mechanism_.loops)
-      is_expression.resize(is_expression.size() + model::row_count(loop.type),
-                           loop.type == model::LoopType::kResidual);
-    return tolerance <= kRowTolerance ||
-           std::none_of(rows.begin(), rows.end(), [&](std::size_t r) { return is_expression[r]; });
-  }
-
-  /// The `count` rows that are left open best where all stay open by no more than `limit` wherever the others let the mechanism go;
-  /// none where they do not. Near a singular configuration rows nearly follow from others, too, but not for long.
-  std::vector<std::size_t> left_open(const std::vector<Configuration>& seen, std::size_t count,
-                                     long double limit) const {
-    if (!closure_.is_closed(seen.front()) || seen.size() < kConfigurations / 2) return {};
-    std::vector<Matrix> jacobians;
-    for (const Configuration& c : seen) jacobians.push_back(closure_.jacobian(c));
-    const std::vector<std::size_t> open =
-        all_but(regular_rows(jacobians, std::clamp(limit, kRowTolerance, kUnlike)));
-    return open.size() == count ? open : std::vector<std::size_t>();
-  }
-
-  double furthest_open(const Configuration& c) const {
-    return static_cast<double>(closure_.value(c).lpNorm<Eigen::Infinity>());
-  }
-
-  void report_disagreement() {
-    std::vector<std::string> names;
-    for (const std::size_t r : plan_.disagreeing) names.push_back(names_[r]);
-    const std::string what =
-        fmt::format("constraints {} follow from the others but for {:.1g}: they are left open by that",
-                    fmt::join(names, ", "), plan_.disagreement);
-    const support::SourceRange where = mechanism_.loops.front().where;
-    if (plan_.disagreement <= kRowTolerance)
-      diagnostics_.note(where, what, "rounded numbers, or an axis that is askew");
-    else
-      diagnostics_.warning(
-          where, what, "an axis is askew, or numbers have few digits; strictly the mechanism cannot move");
+    return loops::all_but(rows, names_.size());
   }
 
   bool assemble() {
-    settle_disagreement();
+    const Disagreement found =
+        settle_disagreement(mechanism_, closure_, named_independent(), kConfigurations, diagnostics_);
+    plan_.disagreeing = found.rows;
+    plan_.disagreement = found.amount;
     const std::optional<Start> start = find_start(mechanism_, closure_, named_independent(), diagnostics_);
     if (!start) return false;
     start_ = start->configuration;

@@ -104,4 +104,11 @@ long double largest_rest(const Matrix& G, const std::vector<std::size_t>& regula
   return largest;
 }
 
+std::vector<std::size_t> all_but(const std::vector<std::size_t>& rows, std::size_t count) {
+  std::vector<std::size_t> others;
+  for (std::size_t r = 0; r < count; ++r)
+    if (std::find(rows.begin(), rows.end(), r) == rows.end()) others.push_back(r);
+  return others;
+}
+
 }  // namespace jourdain::loops

@@ -20,4 +20,7 @@ std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians,
 long double largest_rest(const Matrix& G, const std::vector<std::size_t>& regular,
                          const std::vector<std::size_t>& others);
 
+/// Rows 0 … count − 1 without those, in order.
+std::vector<std::size_t> all_but(const std::vector<std::size_t>& rows, std::size_t count);
+
 }  // namespace jourdain::loops

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/rotation_rows.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::loops {
@@ -15,35 +16,18 @@ constexpr const char* kDead = "the initial state is a dead position";
 
 using Result = std::variant<Solution, std::string>;
 
-/// Factors of a row's coefficients of R.
-using Matrix = std::array<std::array<Scalar, 3>, 3>;
-
-Vector3 row_of(const Matrix& m, std::size_t i) { return {m[i][0], m[i][1], m[i][2]}; }
-
-Matrix transposed(const Matrix& m) {
-  Matrix t;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) t[i][j] = m[j][i];
-  return t;
-}
-
-/// b_k of matrices b_k vᵀ, and v.
-struct Factors {
-  std::vector<Vector3> left;
-  Vector3 right;
-};
-
 /// R c = d.
 struct Image {
   Vector3 c, d;
 };
 
-class RotationSolver {
+class RotationSolver : RotationRows {
  public:
   RotationSolver(ir::Builder& builder, const std::vector<RotationRow>& rows,
                  const std::optional<double>& initial_scalar, const std::array<double, 4>& quaternion,
                  const Samples& samples)
-      : builder_(builder),
+      : RotationRows(builder, samples),
+        builder_(builder),
         roots_(builder, samples),
         rows_(rows),
         initial_scalar_(initial_scalar),
@@ -56,7 +40,8 @@ class RotationSolver {
       std::vector<Polynomial> others;
       for (std::size_t k = 0; k < rows_.size(); ++k)
         if (k != last) others.push_back(rows_[k].value);
-      const auto image = initial_scalar_ ? image_of_ball(others) : image_of_line(others);
+      auto image = initial_scalar_ ? image_of_ball(others) : image_of_line(others);
+      if (!image && initial_scalar_ && failure_.empty()) image = image_of_carried_ball(others);
       if (image) return turned(*image, rows_[last]);
       if (!failure_.empty()) return failure_;
     }
@@ -64,119 +49,10 @@ class RotationSolver {
   }
 
  private:
-  Scalar number(double value) const { return roots_.number(value); }
-  double at_start(Scalar value) const { return roots_.at_start(value); }
-
-  Scalar coefficient(const Polynomial& row, const Monomial& powers) const {
-    const auto it = row.find(powers);
-    return it == row.end() ? number(0) : it->second;
-  }
-
-  Matrix coefficients(const Polynomial& row, const Monomial& factor = kConstant) const {
-    Matrix W;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) W[i][j] = coefficient(row, rotation_entry(i, j) * factor);
-    return W;
-  }
-
-  static bool only(const Polynomial& row, const std::vector<Monomial>& factors_of_rotation,
-                   const std::vector<Monomial>& others) {
-    std::vector<Monomial> allowed = others;
-    for (const Monomial& factor : factors_of_rotation)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) allowed.push_back(rotation_entry(i, j) * factor);
-    return std::all_of(row.begin(), row.end(), [&](const auto& term) {
-      return std::find(allowed.begin(), allowed.end(), term.first) != allowed.end();
-    });
-  }
-
   /// No scalar unknown, once that is found.
   bool is_held_in_turning(const Polynomial& row) const {
     return only(row, {kConstant, cos_of(0), sin_of(0), value_of(0)},
                 {kConstant, cos_of(0), sin_of(0), value_of(0), value_of(0) * value_of(0)});
-  }
-
-  /// A number times a value.
-  struct Multiple {
-    double number = 1;
-    Scalar of;
-  };
-
-  Multiple multiple(Scalar a) const {
-    const ir::Node& node = builder_.program()[a.value.value];
-    const double sign = a.value.negative ? -1 : 1;
-    if (node.op == ir::Op::kLiteral) return {sign * node.literal, number(1)};
-    if (node.op == ir::Op::kMultiply)
-      for (const auto& [factor, other] : {std::pair{node.a, node.b}, std::pair{node.b, node.a}})
-        if (const ir::Node& part = builder_.program()[factor]; part.op == ir::Op::kLiteral)
-          return {sign * part.literal, {&builder_, {other, false}}};
-    return {sign, {&builder_, {a.value.value, false}}};
-  }
-
-  /// a / b, without a division where b is a number or a is a number times b.
-  Scalar ratio(Scalar a, Scalar b) const {
-    const Multiple x = multiple(a), y = multiple(b);
-    if (x.of.value.value == y.of.value.value) return number(x.number / y.number);
-    if (loops::is_literal(y.of)) return number(x.number / y.number) * x.of;
-    return a / b;
-  }
-
-  /// As numbers, where they are multiples of one value.
-  Vector3 without_common_factor(const Vector3& v) const {
-    std::optional<Scalar> common;
-    Scalar numbers[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Multiple entry = multiple(v[k]);
-      numbers[k] = number(entry.number);
-      if (loops::is_zero(v[k])) continue;
-      if (common && common->value.value != entry.of.value.value) return v;
-      common = entry.of;
-    }
-    return {numbers[0], numbers[1], numbers[2]};
-  }
-
-  /// b_k vᵀ = W_k, with v along a row of one of them.
-  std::optional<Factors> factored(const std::vector<Matrix>& list) const {
-    std::size_t from = 0, row = 0, column = 0;
-    double largest = 0;
-    for (std::size_t k = 0; k < list.size(); ++k)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          if (const double size = std::fabs(at_start(list[k][i][j])); size > largest) {
-            largest = size;
-            from = k, row = i, column = j;
-          }
-    if (!(largest > 0)) return std::nullopt;
-    Factors factors{{}, without_common_factor(row_of(list[from], row))};
-    const Scalar scale = factors.right[column];
-    for (const Matrix& W : list) {
-      factors.left.push_back(
-          {ratio(W[0][column], scale), ratio(W[1][column], scale), ratio(W[2][column], scale)});
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          if (!agree(W[i][j], factors.left.back()[i] * factors.right[j], list[from][row][column],
-                     roots_.samples()))
-            return std::nullopt;
-    }
-    return factors;
-  }
-
-  bool is_orthonormal(const std::vector<Vector3>& B) const {
-    const Scalar one = number(1);
-    for (std::size_t i = 0; i < B.size(); ++i)
-      for (std::size_t j = i; j < B.size(); ++j)
-        if (!agree(dot(B[i], B[j]), number(i == j), one, roots_.samples())) return false;
-    return true;
-  }
-
-  std::vector<Matrix> coefficients(const std::vector<Polynomial>& rows, const Monomial& factor) const {
-    std::vector<Matrix> list;
-    for (const Polynomial& row : rows) list.push_back(coefficients(row, factor));
-    return list;
-  }
-
-  Vector3 column(const std::vector<Polynomial>& rows, const Monomial& m) const {
-    return {coefficient(rows[0], m), coefficient(rows[1], m), coefficient(rows[2], m)};
   }
 
   /// B R (c + s c′) + w = 0 with w by the scalar unknown, which it solves for.
@@ -184,8 +60,9 @@ class RotationSolver {
     for (const Polynomial& row : rows)
       if (!only(row, {kConstant, value_of(0)}, {kConstant, cos_of(0), sin_of(0), value_of(0)}))
         return std::nullopt;
-    const auto factors = factored(coefficients(rows, kConstant));
+    auto factors = factored(coefficients(rows, kConstant));
     if (!factors) return std::nullopt;
+    factors = scaled(*factors, length_at_start(factors->left[0]));
     const auto& B = factors->left;
     if (!(std::fabs(at_start(dot(B[0], cross(B[1], B[2])))) > kRegular)) return std::nullopt;
     const auto sliding = sliding_in_body(rows, B);
@@ -206,6 +83,35 @@ class RotationSolver {
     return image;
   }
 
+  /// B R c + w = 0 where the scalar unknown turns what carries the rotation, so that B goes round with it: |w| = |c|.
+  std::optional<Image> image_of_carried_ball(const std::vector<Polynomial>& rows) {
+    const Monomial parts[] = {kConstant, cos_of(0), sin_of(0)};
+    std::vector<RotationCoefficients> list;
+    for (const Monomial& part : parts)
+      for (const Polynomial& row : rows) {
+        if (!only(row, {parts[0], parts[1], parts[2]}, {parts[0], parts[1], parts[2]})) return std::nullopt;
+        list.push_back(coefficients(row, part));
+      }
+    auto factors = factored(list);
+    if (!factors) return std::nullopt;
+    const Scalar c = number(std::cos(*initial_scalar_)), s = number(std::sin(*initial_scalar_));
+    const auto& left = factors->left;
+    factors = scaled(*factors, length_at_start(left[0] + c * left[3] + s * left[6]));
+    const Vector3 by_cos = -column(rows, parts[1]), by_sin = -column(rows, parts[2]);
+    if (is_zero(by_cos) && is_zero(by_sin)) return std::nullopt;
+    auto image = on_circle(factors->right, -column(rows, parts[0]), by_cos, by_sin);
+    if (!image) return std::nullopt;
+    const Vector2 e = *scalar_->direction;
+    std::vector<Vector3> B;
+    for (std::size_t k = 0; k < 3; ++k)
+      B.push_back(factors->left[k] + e.x * factors->left[3 + k] + e.y * factors->left[6 + k]);
+    if (!is_orthonormal(B)) return std::nullopt;
+    image->d = Matrix3{{B[0], B[1], B[2]}} * image->d;
+    return image;
+  }
+
+  double length_at_start(const Vector3& v) const { return std::sqrt(at_start(dot(v, v))); }
+
   static bool is_zero(const Vector3& v) {
     return loops::is_zero(v.x) && loops::is_zero(v.y) && loops::is_zero(v.z);
   }
@@ -213,7 +119,7 @@ class RotationSolver {
   /// c′, with the same B.
   std::optional<Vector3> sliding_in_body(const std::vector<Polynomial>& rows,
                                          const std::vector<Vector3>& B) const {
-    const std::vector<Matrix> list = coefficients(rows, value_of(0));
+    const std::vector<RotationCoefficients> list = coefficients(rows, value_of(0));
     Vector3 along = {number(0), number(0), number(0)};
     std::size_t row = 0, axis = 0;
     for (std::size_t k = 0; k < B.size(); ++k)
@@ -263,7 +169,7 @@ class RotationSolver {
   std::optional<Image> image_of_line(const std::vector<Polynomial>& rows) {
     for (const Polynomial& row : rows)
       if (!only(row, {kConstant}, {kConstant})) return std::nullopt;
-    std::vector<Matrix> list;
+    std::vector<RotationCoefficients> list;
     for (const Polynomial& row : rows) list.push_back(transposed(coefficients(row)));
     const auto factors = factored(list);
     if (!factors) return std::nullopt;
@@ -325,8 +231,10 @@ class RotationSolver {
     for (const Polynomial& entry : rod.difference) rows.push_back(with_scalar(entry));
     for (const Polynomial& row : rows)
       if (!only(row, {kConstant}, {kConstant})) return std::nullopt;
-    const auto factors = factored(coefficients(rows, kConstant));
-    if (!factors || !is_orthonormal(factors->left)) return std::nullopt;
+    auto factors = factored(coefficients(rows, kConstant));
+    if (!factors) return std::nullopt;
+    factors = scaled(*factors, length_at_start(factors->left[0]));
+    if (!is_orthonormal(factors->left)) return std::nullopt;
     const auto& B = factors->left;
     const Vector3 p = column(rows, kConstant), t = factors->right;
     return Held{Matrix3{{B[0], B[1], B[2]}} * p, t, 0.5 * (rod.length * rod.length - dot(p, p) - dot(t, t))};

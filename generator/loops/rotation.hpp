@@ -25,7 +25,7 @@ struct RotationRow {
 /// Solves `rows` = 0 for a rotation matrix R and at most one scalar unknown. The forms, up to a regular matrix:
 ///
 ///   R c = d          three rows: a ball joint. c is fixed; d on a circle or a line by the scalar unknown (a wishbone, a slide), or d is
-///                    known and c moves along a line of the body (a strut)
+///                    known and c moves along a line of the body (a strut); or the scalar unknown turns what carries the body
 ///   a₁·Rᵀd, a₂·Rᵀd   two rows: a known point on a line of the body (a strut without a coordinate of its own)
 ///
 /// and one row n·R t = γ with t fixed in the body: a rod, a point in a plane. Unknowns of the solution: the scalar one, if any, and

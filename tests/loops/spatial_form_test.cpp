@@ -190,16 +190,16 @@ constexpr std::size_t kRotation = 1, kScalar = 5;
 
 /// P + R c of an upright whose ball joint sits on a wishbone.
 struct Upright {
+  Scalar angle;
   Vector3 ball;
   Matrix3 fixed, R;
 
-  Upright(Sketch& sketch, bool is_askew)
-      : ball(sketch.turned(sketch.y(0), sketch.drawn(0.4))),
+  Upright(Sketch& sketch, bool is_askew, std::size_t wishbone = 0)
+      : angle(sketch.y(wishbone)),
+        ball(sketch.turned(angle, sketch.drawn(0.4))),
         fixed(sketch.skew(is_askew)),
         R(sketch.rotation(kRotation)) {}
-  Vector3 at(Sketch& sketch, Vector3 point) const {
-    return ball + sketch.turned(sketch.y(0), fixed * (R * point));
-  }
+  Vector3 at(Sketch& sketch, Vector3 point) const { return ball + sketch.turned(angle, fixed * (R * point)); }
 };
 
 void add_rod(Sketch& sketch, const Upright& upright) {
@@ -215,6 +215,19 @@ TEST(SpatialForm, OfDoubleWishbones) {
     const Vector3 top = upright.at(sketch, sketch.drawn(0.4)),
                   arm = sketch.skew(seed % 5 != 0) * sketch.turned(sketch.y(kScalar), sketch.drawn(0.5));
     sketch.hold(top - arm - sketch.at_start(top - arm));
+    add_rod(sketch, upright);
+    return sketch.request({{}, {kScalar}, kRotation}, with_spans);
+  });
+}
+
+TEST(SpatialForm, OfUprightsOnTheWishboneThatFollows) {
+  expect_family([](std::uint64_t seed, bool with_spans) {
+    Sketch sketch(seed);
+    sketch.start = random_start(sketch.random, true);
+    const Upright upright(sketch, seed % 3 == 0, kScalar);
+    const Vector3 lower = upright.at(sketch, sketch.drawn(0.4)),
+                  arm = sketch.turned(sketch.y(0), sketch.drawn(0.5));
+    sketch.hold(lower - arm - sketch.at_start(lower - arm));
     add_rod(sketch, upright);
     return sketch.request({{}, {kScalar}, kRotation}, with_spans);
   });
