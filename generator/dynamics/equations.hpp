@@ -19,7 +19,7 @@ struct DerivationOptions {
   std::vector<bool> articulated;    ///< see ArticulatedLinks; empty: none but free links
   bool accelerations_only = false;  ///< nothing but zdot
   bool closures_only = false;       ///< nothing but the closures of loops
-  bool for_derivatives = false;     ///< fills in residual, load and rates of closures; outputs take ż, λ as leaves
+  bool for_derivatives = false;     ///< fills in residual, load, rates of closures; outputs take ż, λ
 };
 
 /// One requested output; entries are numbered row by row.
