@@ -151,13 +151,6 @@ Vector NumericClosure::consistent(const Configuration& config, const Vector& z,
   return z - least_norm(columns_of(regarded(jacobian(config)), moving), opening_rate(config, z));
 }
 
-std::size_t rank_of(const Matrix& A) {
-  if (A.size() == 0) return 0;
-  Eigen::ColPivHouseholderQR<Matrix> qr(A);
-  qr.setThreshold(kRankTolerance);
-  return static_cast<std::size_t>(qr.rank());
-}
-
 Vector least_norm(const Matrix& A, const Vector& b) {
   if (A.size() == 0) return Vector::Zero(A.cols());
   Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition;

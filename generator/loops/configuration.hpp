@@ -78,8 +78,6 @@ class NumericClosure {
 /// Pivots below this share of the largest count as zero.
 inline constexpr long double kRankTolerance = 1e-9L;
 
-std::size_t rank_of(const Matrix& A);
-
 /// A⁺ b, the least-squares solution of least norm.
 Vector least_norm(const Matrix& A, const Vector& b);
 

@@ -1,5 +1,7 @@
 #include "loops/dense_solver.hpp"
 
+#include "support/check.hpp"
+
 namespace jourdain::loops {
 
 using ir::Signed;
@@ -74,11 +76,7 @@ void DenseSolver::orthogonalise() {
 }
 
 Signed DenseSolver::determinant() const {
-  if (in_order_) {
-    Signed product = builder_.literal(1);
-    for (const Signed& pivot : pivots_) product = builder_.multiply(product, pivot);
-    return product;
-  }
+  JD_CHECK(!in_order_, "no determinant of {} unknowns in order", A_.size());
   if (A_.size() <= kLargestByCofactors) return determinant_;
   Signed inverse = builder_.literal(1);
   for (const Signed& square : inverse_squares_) inverse = builder_.multiply(inverse, square);

@@ -20,7 +20,7 @@ class DenseSolver {
 
   Column solve(Column b) const;
   Column solve_transposed(const Column& b) const;
-  /// det A; beyond three unknowns its square.
+  /// det A; beyond three unknowns its square. Not of elimination in order.
   ir::Signed determinant() const;
   const Column& pivots() const { return pivots_; }  ///< of elimination in order
 

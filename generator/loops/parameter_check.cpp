@@ -40,8 +40,12 @@ std::string why_not_explicit(const model::Mechanism& mechanism, const Constraint
     return "the loops cannot be closed at the start";
   request.parameters = parameters;
   request.parameter_range.assign(parameters.size(), {});
+  for (const Block& block : plan.blocks)
+    if (block.in_order) request.eliminations.push_back({block.rows, block.dependents});
   const auto found = closed_form(request);
   if (const auto* failure = std::get_if<std::string>(&found)) return *failure;
+  for (const bool has_pivots : std::get<ClosedForm>(found).has_pivots)
+    if (!has_pivots) return "a divisor of the velocities is not proven to stay off zero there";
   const bool same = ir::print(std::get<ClosedForm>(found).close) == ir::print(plan.closed_form->close);
   return same ? "" : "the closed form is another one there";
 }

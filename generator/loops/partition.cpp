@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "loops/regular_rows.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::loops {
@@ -14,13 +15,6 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// A preferred partition may be conditioned this much worse.
 constexpr double kPreference = 4;
-
-std::vector<std::size_t> others(std::size_t count, const std::vector<std::size_t>& chosen) {
-  std::vector<std::size_t> rest;
-  for (std::size_t k = 0; k < count; ++k)
-    if (std::find(chosen.begin(), chosen.end(), k) == chosen.end()) rest.push_back(k);
-  return rest;
-}
 
 /// Columns, then rows, divided by the largest entry that they have anywhere: units no longer matter.
 std::vector<Matrix> equilibrated(std::vector<Matrix> jacobians) {
@@ -185,7 +179,7 @@ std::vector<Block> triangular_blocks(const std::vector<Matrix>& jacobians,
 std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
                                          const std::vector<std::size_t>& independent) {
   const Matrix& G = jacobians.front();
-  const std::vector<std::size_t> dependents = others(static_cast<std::size_t>(G.cols()), independent);
+  const std::vector<std::size_t> dependents = all_but(independent, static_cast<std::size_t>(G.cols()));
   if (at(dependents.size()) != G.rows()) return {};
   Partition partition{independent, triangular_blocks(jacobians, dependents),
                       Conditioning(jacobians)(dependents)};
@@ -219,13 +213,13 @@ std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, 
     std::size_t liked = 0;
     for (const std::size_t k : independent) liked += preferred[k];
     const double weight = liked == freedom ? kPreference : 1;
-    const double found = conditioning(others(columns, independent), best_score / weight);
+    const double found = conditioning(all_but(independent, columns), best_score / weight);
     if (!(found * weight > best_score)) return;
     best = independent;
     best_score = found * weight;
     best_conditioning = found;
   };
-  const std::vector<std::size_t> pivoted = others(columns, pivots(equilibrated(jacobians).front()));
+  const std::vector<std::size_t> pivoted = all_but(pivots(equilibrated(jacobians).front()), columns);
   if (is_whole(pivoted, groups)) consider(pivoted);
   const std::function<void(std::size_t)> choose = [&](std::size_t group) {
     if (conditioning.is_exhausted()) return;

@@ -9,6 +9,7 @@
 #include "loops/multipliers.hpp"
 #include "loops/outputs.hpp"
 #include "loops/projection.hpp"
+#include "loops/regular_rows.hpp"
 #include "passes/rewrite.hpp"
 #include "support/check.hpp"
 
@@ -170,11 +171,7 @@ class LoopProgram {
   /// All rows that agree with each other; where some share, those that are solved for.
   std::vector<std::size_t> rows_with_forces() const {
     if (!system_.plan.sharing.empty()) return system_.plan.solved_rows();
-    std::vector<std::size_t> rows;
-    const std::vector<std::size_t>& apart = system_.plan.disagreeing;
-    for (std::size_t r = 0; r < system_.constraints.value.outputs.size(); ++r)
-      if (std::find(apart.begin(), apart.end(), r) == apart.end()) rows.push_back(r);
-    return rows;
+    return all_but(system_.plan.disagreeing, system_.constraints.value.outputs.size());
   }
 
   /// λ over those rows, zero for the others.
