@@ -47,7 +47,9 @@ int run(const Arguments& arguments) {
   for (const emit::File& file : compiled.files)
     fmt::print("  wrote {}\n", (std::filesystem::path(arguments.folder) / file.name).generic_string());
   fmt::print("{}{}", operations_table(compiled.module), verdict_text(compiled.verdict));
-  if (arguments.explain) fmt::print("{}{}", passes_text(compiled.passes), omissions_text(compiled.omissions));
+  if (arguments.explain)
+    fmt::print("{}{}{}", oracles_text(compiled.verdict), passes_text(compiled.passes),
+               omissions_text(compiled.omissions));
   return kSuccess;
 }
 
@@ -64,7 +66,8 @@ void add_compile(CLI::App& app, int& status) {
                    "functions to emit (default: all, of the steps rk4_step)")
       ->delimiter(',')
       ->check(check_function);
-  command->add_flag("--explain", arguments->explain, "print what each pass did and what was left out");
+  command->add_flag("--explain", arguments->explain,
+                    "print what was compared with what, what each pass did and what was left out");
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

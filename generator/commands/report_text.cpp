@@ -26,10 +26,19 @@ std::string operations_table(const ir::Module& module) {
 
 std::string verdict_text(const validate::Verdict& v) {
   return fmt::format(
-      "  validated at {} states: backward error {:.1e}, entries {:.1e}, against the reference {:.1e}; "
-      "cond(M) up to "
-      "{:.1e}\n",
-      v.states, v.backward_error, v.entry_error, v.reference_error, v.condition);
+      "  validated at {} states: algebra agrees to {:g}; in double backward error {:.1e}, others {:.1e} of "
+      "their scale; cond(M) up to {:.1e}\n",
+      v.states, static_cast<double>(validate::kAlgebra), v.backward_error, v.entry_error, v.condition);
+}
+
+std::string oracles_text(const validate::Verdict& verdict) {
+  std::string text =
+      "  compared with (worst difference in 77 digits over scale; error in double over scale)\n";
+  for (const validate::Compared& c : verdict.compared)
+    text += fmt::format("    {:<32} {:>6} numbers  {:>7}  {:>7}  {}\n", c.function, c.numbers,
+                        fmt::format("{:.0e}", c.algebra),
+                        c.oracle == validate::kReference ? "" : fmt::format("{:.1e}", c.rounding), c.oracle);
+  return text;
 }
 
 std::string passes_text(const std::vector<passes::PassRecord>& passes) {

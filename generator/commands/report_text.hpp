@@ -10,6 +10,8 @@ namespace jourdain::commands {
 /// Operations per function by kind, aligned.
 std::string operations_table(const ir::Module& module);
 std::string verdict_text(const validate::Verdict& verdict);
+/// Each function, what it was compared with and how well.
+std::string oracles_text(const validate::Verdict& verdict);
 std::string passes_text(const std::vector<passes::PassRecord>& passes);
 std::string omissions_text(const std::vector<Omission>& omissions);
 

@@ -1,4 +1,4 @@
-// How the constraints of the loops change, by differences of the symbolic equations in 60 digits.
+// How the constraints of the loops change, by the rules of calculus on the symbolic equations in high precision.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,17 @@
 
 namespace jourdain::dynamics {
 
-/// At one state: g, its Jacobian G by small displacements and g_t (row by row), ġ = G z + g_t and γ = g̈ − G ż. Errors are those
-/// of rounding to double.
+/// At one state: g, its Jacobian G by small displacements and g_t (row by row), ġ = G z + g_t and γ = g̈ − G ż.
 struct ClosureMotion {
-  std::vector<double> g, g_t, rate, gamma;
-  std::vector<std::vector<double>> G;
+  std::vector<ScaledReal> g, g_t, rate, gamma;
+  std::vector<std::vector<ScaledReal>> G;
 };
 
-/// `closures` need hold no more than the closures of the mechanism.
+/// `closures` need hold no more than the closures of the mechanism; `z` are all velocities of the tree.
 ClosureMotion closure_motion(const Equations& closures, const model::Tangent& tangent,
-                             std::size_t velocity_count, const LeafValue& leaf);
+                             const std::vector<ScaledReal>& z, const LeafValue& leaf);
+
+/// g alone.
+std::vector<ScaledReal> closure_values(const Equations& closures, const LeafValue& leaf);
 
 }  // namespace jourdain::dynamics

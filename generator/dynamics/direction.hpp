@@ -1,4 +1,4 @@
-// Derivatives of the symbolic equations along a direction, by central differences in 60 digits.
+// Derivatives of the symbolic equations along a direction, by the rules of calculus on their statements in high precision.
 #pragma once
 
 #include <vector>
@@ -10,19 +10,19 @@
 namespace jourdain::dynamics {
 
 /// A direction: displacements as model::Tangent has them, velocities, inputs, time.
-struct Direction {
-  std::vector<double> displacement, velocity, input;
-  double time = 0;
+template <class Real>
+struct DirectionOf {
+  std::vector<Real> displacement, velocity, input;
+  Real time = 0;
 };
+using Direction = DirectionOf<double>;
+using ExactDirection = DirectionOf<ScaledReal>;
 
-/// How the equations change along a direction per unit of it; M ż − k̄ + q̄ at constant ż. Errors are those of rounding
-/// in 60 digits over a step of 1e-20, and the square of that step.
-struct DirectionalDerivatives {
-  std::vector<double> residual, q_bar, zdot, outputs;
-};
+/// The statements where the state moves along `direction`; `leaf` gives the point. First derivatives are exact, second ones are not
+/// meant: displacements go straight on. Without `tangent.quaternions` displacements are changes of y.
+MovingPrecision moved_along(const ExactDirection& direction, const kinematics::Statements& statements,
+                            const model::Tangent& tangent, const LeafValue& leaf);
 
-/// `leaf` gives the point. Without `tangent.quaternions` displacements are changes of y.
-DirectionalDerivatives derivatives_along(const Direction& direction, const Equations& equations,
-                                         const model::Tangent& tangent, const LeafValue& leaf);
+ExactDirection exact(const Direction& direction);
 
 }  // namespace jourdain::dynamics

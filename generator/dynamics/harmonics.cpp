@@ -145,7 +145,7 @@ struct Monomial {
 
 std::string factor_text(const Ex& e, bool latex) {
   if (is_a<GiNaC::power>(e)) {
-    const double exponent = to_double(cln::realpart(ex_to<GiNaC::numeric>(e.op(1)).to_cl_N()));
+    const double exponent = support::nearest_double(cln::realpart(ex_to<GiNaC::numeric>(e.op(1)).to_cl_N()));
     return fmt::format(fmt::runtime(latex ? "{}^{{{}}}" : "{}^{}"), factor_text(e.op(0), latex), exponent);
   }
   if (is_a<GiNaC::symbol>(e)) {
@@ -160,7 +160,7 @@ Monomial to_monomial(const Ex& term, bool latex) {
   Monomial monomial;
   const auto take = [&](const Ex& factor) {
     if (is_a<GiNaC::numeric>(factor))
-      monomial.number *= to_double(cln::realpart(ex_to<GiNaC::numeric>(factor).to_cl_N()));
+      monomial.number *= support::nearest_double(cln::realpart(ex_to<GiNaC::numeric>(factor).to_cl_N()));
     else
       monomial.factors.push_back(factor_text(factor, latex));
   };

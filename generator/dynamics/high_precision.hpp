@@ -1,41 +1,51 @@
-// Values of the symbolic statements in 60-digit CLN arithmetic: the yardstick for everything emitted.
+// Values of the symbolic statements in high precision: what everything emitted is compared with.
 #pragma once
 
-#include <cln/real.h>
-
 #include <functional>
-#include <map>
+#include <unordered_map>
 #include <vector>
 
 #include "kinematics/statements.hpp"
+#include "model/taylor.hpp"
+#include "support/scaled_real.hpp"
 
 namespace jourdain::dynamics {
 
-/// Value of a leaf (exact in double).
-using LeafValue = std::function<double(kinematics::LeafKind, std::size_t index)>;
-/// The same with 60 digits.
-using ExactLeafValue = std::function<cln::cl_R(kinematics::LeafKind, std::size_t index)>;
-
-/// A double with 60 digits.
-cln::cl_R to_exact(double value);
+using support::ScaledReal;
+/// A number with its first and second derivative by one variable, each in high precision.
+using MovingReal = model::Taylor<ScaledReal>;
 
 /// The statements evaluated at one state. No lowering, no pass, no program takes part.
-class HighPrecision {
+template <class Number>
+class Evaluation {
  public:
-  HighPrecision(const kinematics::Statements& statements, const LeafValue& leaf);
-  static HighPrecision at(const kinematics::Statements& statements, const ExactLeafValue& leaf);
+  using LeafValue = std::function<Number(kinematics::LeafKind, std::size_t index)>;
+
+  Evaluation(const kinematics::Statements& statements, const LeafValue& leaf);
 
   /// Value of a leaf, a bound name, a number or an expression of these.
-  cln::cl_R value(const kinematics::Ex& expression) const;
+  Number value(const kinematics::Ex& expression) const;
+  std::vector<Number> values(const std::vector<kinematics::Ex>& expressions) const;
 
  private:
-  HighPrecision() = default;
-  void evaluate(const kinematics::Statements& statements, const ExactLeafValue& leaf);
+  Number power(const kinematics::Ex& base, const kinematics::Ex& exponent) const;
 
-  std::map<GiNaC::symbol, cln::cl_R, GiNaC::ex_is_less> values_;
+  struct Hash {
+    std::size_t operator()(const GiNaC::symbol& s) const { return s.gethash(); }
+  };
+  struct Same {
+    bool operator()(const GiNaC::symbol& a, const GiNaC::symbol& b) const { return a.is_equal(b); }
+  };
+  std::unordered_map<GiNaC::symbol, Number, Hash, Same> values_;
 };
 
-/// Rounded to double (long double has no exact conversion from CLN).
-double to_double(const cln::cl_R& value);
+using HighPrecision = Evaluation<ScaledReal>;
+using MovingPrecision = Evaluation<MovingReal>;
+using LeafValue = HighPrecision::LeafValue;
+
+extern template class Evaluation<ScaledReal>;
+extern template class Evaluation<MovingReal>;
+
+inline double to_double(const ScaledReal& value) { return static_cast<double>(value); }
 
 }  // namespace jourdain::dynamics

@@ -64,7 +64,7 @@ struct ModelText {
   std::vector<ProvenText> proven_positions, proven_parameters;
   std::vector<std::string> assumptions;  ///< sentences
   std::vector<std::string> left_out;     ///< sentences
-  std::string validation;                ///< a sentence
+  std::vector<std::string> validation;   ///< sentences
   double backward_error = 0;             ///< of M zdot = k_bar − q_bar, worst over the sampled states
   double condition = 0;                  ///< cond(M), worst over the sampled states
 };

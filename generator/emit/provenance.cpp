@@ -26,7 +26,7 @@ std::string provenance(const ModelText& model, bool has_rate) {
   text += "// Left out\n";
   for (const std::string& omission : model.left_out) line("- " + comment_text(omission));
   text += "// Checked before this file was written\n";
-  line("- " + comment_text(model.validation));
+  for (const std::string& sentence : model.validation) line("- " + comment_text(sentence));
   text.pop_back();
   return text;
 }

@@ -1,5 +1,7 @@
 #include "ir/builder.hpp"
 
+#include <cln/cln.h>
+
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -11,10 +13,23 @@ std::size_t Builder::Hash::operator()(const Node& node) const {
   const auto mix = [&h](std::size_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull + (h >> 29); };
   mix(static_cast<std::size_t>(node.leaf) + 31 * node.index);
   mix(std::hash<double>{}(node.literal));
+  mix(std::hash<double>{}(node.tail[0]));
   mix(node.a.value);
   mix(node.b.value);
   return h;
 }
+
+namespace {
+
+/// A literal with the other sign; zero has none.
+Node negated(Node literal) {
+  literal.literal = -literal.literal;
+  for (double& part : literal.tail)
+    if (part != 0) part = -part;
+  return literal;
+}
+
+}  // namespace
 
 ValueId Builder::intern(const Node& node) {
   const auto [it, is_new] = known_.try_emplace(node, ValueId(program_.nodes.size()));
@@ -25,16 +40,32 @@ ValueId Builder::intern(const Node& node) {
   return it->second;
 }
 
-double Builder::literal_of(Signed a) const {
-  const double value = program_[a.value].literal;
+cln::cl_R Builder::literal_of(Signed a) const {
+  const cln::cl_R value = exact_literal(program_[a.value]);
   return a.negative ? -value : value;
 }
 
-bool Builder::is_literal(Signed a, double value) const { return is_literal(a) && literal_of(a) == value; }
+bool Builder::is_literal(Signed a) const {
+  const Node& node = program_[a.value];
+  return node.op == Op::kLiteral && std::isfinite(node.literal);
+}
+
+bool Builder::is_literal(Signed a, double value) const {
+  if (!is_literal(a)) return false;
+  const Node& node = program_[a.value];
+  return (a.negative ? -node.literal : node.literal) == value && node.tail[0] == 0;
+}
 
 Signed Builder::literal(double value) {
   const bool negative = value < 0;
   return {intern({.op = Op::kLiteral, .literal = std::fabs(value)}), negative};
+}
+
+Signed Builder::literal(const cln::cl_R& value) {
+  const bool negative = cln::minusp(value);
+  const std::array<double, 4> parts = support::split(negative ? -value : value);
+  return {intern({.op = Op::kLiteral, .literal = parts[0], .tail = {parts[1], parts[2], parts[3]}}),
+          negative};
 }
 
 Signed Builder::leaf(LeafKind kind, std::size_t index) {
@@ -113,8 +144,10 @@ Signed Builder::unary(Op op, Signed a) {
 
 Signed Builder::apply(const Node& node, Signed a, Signed b) {
   switch (node.op) {
-    case Op::kLiteral:
-      return literal(node.literal);
+    case Op::kLiteral: {
+      const bool negative = node.literal < 0;
+      return {intern(negative ? negated(node) : node), negative};
+    }
     case Op::kLeaf:
       return leaf(node.leaf, node.index);
     case Op::kAdd:
@@ -144,8 +177,8 @@ void Builder::label(ValueId value, const std::string& name) {
 void Builder::output(const std::string& name, int row, int column, Signed value) {
   if (value.negative) {
     const Node& node = program_[value.value];
-    value.value = node.op == Op::kLiteral ? intern({.op = Op::kLiteral, .literal = -node.literal})
-                                          : intern({.op = Op::kNegate, .a = value.value});
+    value.value =
+        node.op == Op::kLiteral ? intern(negated(node)) : intern({.op = Op::kNegate, .a = value.value});
   }
   program_.outputs.push_back({name, row, column, value.value});
 }

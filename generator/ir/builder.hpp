@@ -15,11 +15,12 @@ struct Signed {
   Signed operator-() const { return {value, !negative}; }
 };
 
-/// Hash-consing builder. Operations with 0 and ±1, of equal operands and of two literals are simplified; operands of commutative
+/// Hash-consing builder. Constants are folded to 63 digits. Operations with 0 and ±1, of equal operands and of two literals are simplified; operands of commutative
 /// operations are put in order of their index, so that the program depends on the calls alone.
 class Builder {
  public:
   Signed literal(double value);
+  Signed literal(const cln::cl_R& value);  ///< exact to 63 digits
   Signed leaf(LeafKind kind, std::size_t index);
   Signed add(Signed a, Signed b);
   Signed subtract(Signed a, Signed b) { return add(a, -b); }
@@ -46,8 +47,8 @@ class Builder {
  private:
   ValueId intern(const Node& node);
   ValueId with_its_sign(Signed a);
-  double literal_of(Signed a) const;
-  bool is_literal(Signed a) const { return program_[a.value].op == Op::kLiteral; }
+  cln::cl_R literal_of(Signed a) const;
+  bool is_literal(Signed a) const;  ///< one that can be folded
 
   struct Hash {
     std::size_t operator()(const Node& node) const;

@@ -40,9 +40,9 @@ LeafKind leaf_kind(kinematics::LeafKind kind) {
   return LeafKind::kParameter;
 }
 
-double to_double(const Ex& number) {
-  return cln::double_approx(cln::realpart(ex_to<GiNaC::numeric>(number).to_cl_N()));
-}
+cln::cl_R to_real(const Ex& number) { return cln::realpart(ex_to<GiNaC::numeric>(number).to_cl_N()); }
+
+double to_double(const Ex& number) { return support::nearest_double(to_real(number)); }
 
 /// Never iterated: the hashes change from run to run.
 struct SymbolHash {
@@ -184,7 +184,7 @@ class Lowering {
   }
 
   Signed lower(const Ex& e) {
-    if (is_a<GiNaC::numeric>(e)) return builder_.literal(to_double(e));
+    if (is_a<GiNaC::numeric>(e)) return builder_.literal(to_real(e));
     if (is_a<GiNaC::symbol>(e)) return symbol(ex_to<GiNaC::symbol>(e));
     if (is_a<GiNaC::add>(e)) return sum(e);
     if (is_a<GiNaC::mul>(e)) return product(e);
@@ -217,13 +217,8 @@ class Lowering {
       else
         multiply(numerator, lower(factor.value));
     }
-    const double number = to_double(coefficient);
-    if (!numerator)
-      numerator = builder_.literal(number);
-    else if (std::fabs(number) != 1)
-      numerator = builder_.multiply(*numerator, builder_.literal(number));
-    else if (number < 0)
-      numerator = -*numerator;
+    const Signed number = builder_.literal(to_real(coefficient));
+    numerator = numerator ? builder_.multiply(*numerator, number) : number;
     return denominator ? builder_.divide(*numerator, *denominator) : *numerator;
   }
 

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <type_traits>
 
 namespace jourdain::ir {
+
+cln::cl_R exact_literal(const Node& node) { return support::joined(node.literal, node.tail); }
 
 int operand_count(Op op) {
   switch (op) {
@@ -146,8 +149,21 @@ std::vector<std::size_t> use_counts(const Program& program) {
   return uses;
 }
 
+namespace {
+
+template <class Real>
+Real literal_value(const Node& node) {
+  if constexpr (std::is_same_v<Real, support::ScaledReal>)
+    return std::isfinite(node.literal) ? Real(exact_literal(node)) : Real::not_a_number();
+  else
+    return static_cast<Real>(node.literal);
+}
+
+}  // namespace
+
 template <class Real>
 std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leaves) {
+  using std::atan2, std::cos, std::sin, std::sqrt;
   std::vector<Real> v;
   v.reserve(program.nodes.size());
   for (const Node& node : program.nodes) {
@@ -155,7 +171,7 @@ std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leav
     const auto b = [&] { return v[node.b.value]; };
     switch (node.op) {
       case Op::kLiteral:
-        v.push_back(static_cast<Real>(node.literal));
+        v.push_back(literal_value<Real>(node));
         break;
       case Op::kLeaf:
         JD_CHECK(node.index < leaves[node.leaf].size(), "{}[{}]", leaf_name(node.leaf), node.index);
@@ -177,16 +193,16 @@ std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leav
         v.push_back(a() / b());
         break;
       case Op::kSqrt:
-        v.push_back(std::sqrt(a()));
+        v.push_back(sqrt(a()));
         break;
       case Op::kSin:
-        v.push_back(std::sin(a()));
+        v.push_back(sin(a()));
         break;
       case Op::kCos:
-        v.push_back(std::cos(a()));
+        v.push_back(cos(a()));
         break;
       case Op::kAtan2:
-        v.push_back(std::atan2(a(), b()));
+        v.push_back(atan2(a(), b()));
         break;
     }
   }
@@ -198,5 +214,6 @@ std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leav
 template std::vector<float> interpret(const Program&, const LeafValues<float>&);
 template std::vector<double> interpret(const Program&, const LeafValues<double>&);
 template std::vector<long double> interpret(const Program&, const LeafValues<long double>&);
+template std::vector<support::ScaledReal> interpret(const Program&, const LeafValues<support::ScaledReal>&);
 
 }  // namespace jourdain::ir

@@ -8,6 +8,7 @@
 
 #include "support/check.hpp"
 #include "support/index.hpp"
+#include "support/scaled_real.hpp"
 
 namespace jourdain::ir {
 
@@ -45,11 +46,15 @@ struct Node {
   Op op = Op::kLiteral;
   LeafKind leaf = LeafKind::kParameter;  ///< kLeaf
   std::uint32_t index = 0;               ///< kLeaf: entry of that array
-  double literal = 0;                    ///< kLiteral
+  double literal = 0;                    ///< kLiteral: what is written, the nearest double
+  std::array<double, 3> tail = {};       ///< kLiteral: what the constant is beyond that, see support::split
   ValueId a{}, b{};                      ///< operands; b of binary operations only
 
   friend bool operator==(const Node&, const Node&) = default;
 };
+
+/// The constant of a kLiteral to 63 digits.
+cln::cl_R exact_literal(const Node& node);
 
 /// Number of operands of an operation: 0, 1 or 2.
 int operand_count(Op op);
@@ -104,7 +109,8 @@ struct LeafValues {
   const std::vector<Real>& operator[](LeafKind kind) const { return of[static_cast<std::size_t>(kind)]; }
 };
 
-/// The outputs of a program, in order, computed in `Real` arithmetic (double, float, long double).
+/// The outputs of a program, in order, computed in `Real` arithmetic: double, float, long double take literals as they are written,
+/// support::ScaledReal takes the constants that they stand for.
 template <class Real>
 std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leaves);
 

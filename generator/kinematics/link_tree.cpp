@@ -142,7 +142,6 @@ class Builder {
   /// Chooses the link frame: z on the axis, pointing along the parent's positive axes where it is aligned with one.
   void align(Link& link, const std::array<double, 3>& axis, const BodyPose& pose) {
     Vector3 z = bound("axis_" + link.name, pose.R_LB * unit_vector(axis));
-    if (mechanism_.snap) z = aligned(z);
     if (z[0].is_equal(-1) || z[1].is_equal(-1) || z[2].is_equal(-1)) {
       link.sign = -1;
       z = Ex(-1) * z;

@@ -3,6 +3,7 @@
 #include <cln/cln.h>
 
 #include <cmath>
+#include <optional>
 
 #include "support/check.hpp"
 
@@ -32,10 +33,16 @@ Ex snapped(const Ex& entry, const numeric& tolerance) {
   return entry;
 }
 
-/// What rounding a direction or an angle near ±π to double may change.
-const numeric& double_rounding() {
-  static const numeric value = numeric(1, 10).power(15);
-  return value;
+/// Of 0 to 3 quarter turns.
+constexpr int kQuarterCosine[] = {1, 0, -1, 0};
+
+/// How many quarter turns a number is within model::kSnapTolerance, from 0 to 3.
+std::optional<int> quarter_turns(const Ex& angle) {
+  if (!is_number(angle)) return {};
+  const cln::cl_F value = to_float(angle), quarter = cln::pi(value) / 2;
+  const cln::cl_I count = cln::round1(value / quarter);
+  if (cln::abs(value - count * quarter) > cln::rational(cln::cl_DF(model::kSnapTolerance))) return {};
+  return cln::cl_I_to_int(cln::mod(count, 4));
 }
 
 /// A bound value with the functions that Expression::evaluate looks up by argument.
@@ -176,17 +183,14 @@ Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> par
   Vector3 c, s;
   for (std::size_t i = 0; i < 3; ++i) {
     const Ex angle = to_symbolic(rotation.rpy[i], parameters, statements);
-    c[i] = statements.bind("c", snap ? snapped(cosine(angle), double_rounding()) : cosine(angle));
-    s[i] = statements.bind("s", snap ? snapped(sine(angle), double_rounding()) : sine(angle));
+    const std::optional<int> turns = snap ? quarter_turns(angle) : std::nullopt;
+    c[i] = statements.bind("c", turns ? kQuarterCosine[*turns] : cosine(angle));
+    s[i] = statements.bind("s", turns ? kQuarterCosine[(*turns + 3) % 4] : sine(angle));
   }
   const Matrix3 Rx = {{{1, 0, 0}, {0, c[0], -s[0]}, {0, s[0], c[0]}}};
   const Matrix3 Ry = {{{c[1], 0, s[1]}, {0, 1, 0}, {-s[1], 0, c[1]}}};
   const Matrix3 Rz = {{{c[2], -s[2], 0}, {s[2], c[2], 0}, {0, 0, 1}}};
-  Matrix3 R = Rz * (Ry * Rx);
-  if (snap)
-    for (Vector3& row : R.rows)
-      for (Ex& entry : row.entries) entry = snapped(entry, ex_to<numeric>(exact(model::kSnapTolerance)));
-  return R;
+  return settled(Rz * (Ry * Rx));
 }
 
 Ex settled(const Ex& value) {
@@ -197,16 +201,6 @@ Ex settled(const Ex& value) {
 Vector3 settled(const Vector3& value) { return {settled(value[0]), settled(value[1]), settled(value[2])}; }
 
 Matrix3 settled(const Matrix3& value) { return {{settled(value[0]), settled(value[1]), settled(value[2])}}; }
-
-Vector3 aligned(const Vector3& direction) {
-  Vector3 result;
-  int zeros = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = snapped(direction[i], double_rounding());
-    zeros += result[i].is_zero() ? 1 : 0;
-  }
-  return zeros == 2 ? result : direction;
-}
 
 Vector3 unit_vector(const std::array<double, 3>& direction) {
   Vector3 v = {exact(direction[0]), exact(direction[1]), exact(direction[2])};

@@ -40,9 +40,8 @@ struct Taylor {
 Taylor differentiated(const model::Expression& expression, const Ex& variable, std::span<const Ex> parameters,
                       Statements& statements);
 
-/// Rotation matrix of roll, pitch, yaw. With `snap`, numeric entries within model::kSnapTolerance of 0 and ±1 become
-/// those exact numbers, and so do sines and cosines within 1e-15 (of π/2 rounded to double, say), which keeps the matrix
-/// orthonormal and reaches entries that depend on parameters.
+/// Rotation matrix of roll, pitch, yaw. With `snap`, each constant angle within model::kSnapTolerance of a multiple of π/2 is that
+/// multiple: the matrix stays orthonormal.
 Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap,
                         Statements& statements);
 
@@ -50,9 +49,6 @@ Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> par
 Ex settled(const Ex& value);
 Vector3 settled(const Vector3& value);
 Matrix3 settled(const Matrix3& value);
-
-/// A direction that is aligned with a coordinate axis to within rounding of doubles (1e-15) becomes exactly aligned.
-Vector3 aligned(const Vector3& direction);
 
 /// The unit vector along a non-zero vector of doubles; exact where the vector lies on an axis.
 Vector3 unit_vector(const std::array<double, 3>& direction);

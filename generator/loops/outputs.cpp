@@ -86,4 +86,13 @@ std::vector<std::vector<dynamics::OutputValues>> resized_outputs(
   return outputs;
 }
 
+std::size_t output_numbers(const model::Mechanism& mechanism, const LoopPlan& plan,
+                           const dynamics::Equations& equations) {
+  std::size_t count = 0;
+  for (const auto& members : resized_outputs(mechanism, plan, equations.outputs))
+    for (const dynamics::OutputValues& member : members)
+      count += static_cast<std::size_t>(member.rows) * static_cast<std::size_t>(member.columns);
+  return count;
+}
+
 }  // namespace jourdain::loops

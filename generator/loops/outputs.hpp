@@ -19,4 +19,8 @@ std::vector<std::vector<dynamics::OutputValues>> resized_outputs(
     const model::Mechanism& mechanism, const LoopPlan& plan,
     std::vector<std::vector<dynamics::OutputValues>> outputs);
 
+/// Of the resized outputs, all together.
+std::size_t output_numbers(const model::Mechanism& mechanism, const LoopPlan& plan,
+                           const dynamics::Equations& equations);
+
 }  // namespace jourdain::loops

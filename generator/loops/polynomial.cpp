@@ -181,7 +181,7 @@ class Expansion {
     const Polynomial &a = expanded_[node.a.value], &b = expanded_[node.b.value];
     switch (node.op) {
       case Op::kLiteral:
-        return literal(node.literal);
+        return {{kConstant, scalar(builder_.apply(node, {}, {}))}};
       case Op::kLeaf:
         return leaf(id);
       case Op::kNegate:

@@ -62,7 +62,7 @@ class RotationSolver : RotationRows {
         return std::nullopt;
     auto factors = factored(coefficients(rows, kConstant));
     if (!factors) return std::nullopt;
-    factors = scaled(*factors, length_at_start(factors->left[0]));
+    factors = scaled(*factors, length_of(factors->left[0]));
     const auto& B = factors->left;
     if (!(std::fabs(at_start(dot(B[0], cross(B[1], B[2])))) > kRegular)) return std::nullopt;
     const auto sliding = sliding_in_body(rows, B);
@@ -94,9 +94,7 @@ class RotationSolver : RotationRows {
       }
     auto factors = factored(list);
     if (!factors) return std::nullopt;
-    const Scalar c = number(std::cos(*initial_scalar_)), s = number(std::sin(*initial_scalar_));
-    const auto& left = factors->left;
-    factors = scaled(*factors, length_at_start(left[0] + c * left[3] + s * left[6]));
+    factors = scaled(*factors, length_of(factors->left[0] + factors->left[3]));
     const Vector3 by_cos = -column(rows, parts[1]), by_sin = -column(rows, parts[2]);
     if (is_zero(by_cos) && is_zero(by_sin)) return std::nullopt;
     auto image = on_circle(factors->right, -column(rows, parts[0]), by_cos, by_sin);
@@ -110,7 +108,7 @@ class RotationSolver : RotationRows {
     return image;
   }
 
-  double length_at_start(const Vector3& v) const { return std::sqrt(at_start(dot(v, v))); }
+  static Scalar length_of(const Vector3& v) { return square_root(dot(v, v)); }
 
   static bool is_zero(const Vector3& v) {
     return loops::is_zero(v.x) && loops::is_zero(v.y) && loops::is_zero(v.z);
@@ -233,7 +231,7 @@ class RotationSolver : RotationRows {
       if (!only(row, {kConstant}, {kConstant})) return std::nullopt;
     auto factors = factored(coefficients(rows, kConstant));
     if (!factors) return std::nullopt;
-    factors = scaled(*factors, length_at_start(factors->left[0]));
+    factors = scaled(*factors, length_of(factors->left[0]));
     if (!is_orthonormal(factors->left)) return std::nullopt;
     const auto& B = factors->left;
     const Vector3 p = column(rows, kConstant), t = factors->right;
@@ -275,17 +273,7 @@ class RotationSolver : RotationRows {
     return solution;
   }
 
-  /// Its value as a literal where it depends on nothing.
-  Scalar constant(Scalar value) const {
-    ir::Builder copy = builder_;
-    copy.output("value", -1, -1, value.value);
-    const ir::Program program = passes::remove_dead_code(copy.finish("value"));
-    const bool varies = std::any_of(program.nodes.begin(), program.nodes.end(),
-                                    [](const ir::Node& node) { return node.op == ir::Op::kLeaf; });
-    return varies ? value : number(at_start(value));
-  }
-
-  Scalar reciprocal_root(Scalar value) const { return constant(number(1) / square_root(value)); }
+  Scalar reciprocal_root(Scalar value) { return folded(number(1) / square_root(value)); }
 
   /// Of the rotation matrix with these columns, from the entry that is largest at the initial state.
   Quaternion quaternion_of(const Matrix3& m) {
@@ -297,7 +285,7 @@ class RotationSolver : RotationRows {
     std::size_t largest = 0;
     for (std::size_t k = 1; k < 4; ++k)
       if (at_start(squares[k]) > at_start(squares[largest])) largest = k;
-    const Scalar root = constant(square_root(squares[largest])), part = number(0.5) / root;
+    const Scalar root = folded(square_root(squares[largest])), part = number(0.5) / root;
     Scalar entries[4];
     const auto sum = [&](std::size_t i, std::size_t j) { return part * (at(i, j) + at(j, i)); };
     const auto difference = [&](std::size_t i, std::size_t j) { return part * (at(j, i) - at(i, j)); };

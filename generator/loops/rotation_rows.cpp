@@ -45,19 +45,19 @@ bool RotationRows::only(const Polynomial& row, const std::vector<Monomial>& fact
 
 RotationRows::Multiple RotationRows::multiple(Scalar a) const {
   const ir::Node& node = builder_.program()[a.value.value];
-  const double sign = a.value.negative ? -1 : 1;
-  if (node.op == ir::Op::kLiteral) return {sign * node.literal, number(1)};
+  const Scalar sign = number(a.value.negative ? -1 : 1);
+  if (node.op == ir::Op::kLiteral) return {a, number(1)};
   if (node.op == ir::Op::kMultiply)
     for (const auto& [factor, other] : {std::pair{node.a, node.b}, std::pair{node.b, node.a}})
       if (const ir::Node& part = builder_.program()[factor]; part.op == ir::Op::kLiteral)
-        return {sign * part.literal, {&builder_, {other, false}}};
+        return {sign * Scalar{&builder_, {factor, false}}, {&builder_, {other, false}}};
   return {sign, {&builder_, {a.value.value, false}}};
 }
 
 Scalar RotationRows::ratio(Scalar a, Scalar b) const {
   const Multiple x = multiple(a), y = multiple(b);
-  if (x.of.value.value == y.of.value.value) return number(x.number / y.number);
-  if (loops::is_literal(y.of)) return number(x.number / y.number) * x.of;
+  if (x.of.value.value == y.of.value.value) return x.number / y.number;
+  if (loops::is_literal(y.of)) return x.number / y.number * x.of;
   return a / b;
 }
 
@@ -66,7 +66,7 @@ Vector3 RotationRows::without_common_factor(const Vector3& v) const {
   Scalar numbers[3];
   for (std::size_t k = 0; k < 3; ++k) {
     const Multiple entry = multiple(v[k]);
-    numbers[k] = number(entry.number);
+    numbers[k] = entry.number;
     if (loops::is_zero(v[k])) continue;
     if (common && common->value.value != entry.of.value.value) return v;
     common = entry.of;
@@ -98,15 +98,32 @@ std::optional<Factors> RotationRows::factored(const std::vector<RotationCoeffici
   return factors;
 }
 
-Factors RotationRows::scaled(Factors factors, double length) const {
+Scalar RotationRows::folded(Scalar value) const {
+  ir::Builder copy = builder_;
+  copy.output("value", -1, -1, value.value);
+  const ir::Program program = passes::remove_dead_code(copy.finish("value"));
+  const bool varies = std::any_of(program.nodes.begin(), program.nodes.end(),
+                                  [](const ir::Node& node) { return node.op == ir::Op::kLeaf; });
+  if (varies) return value;
+  const auto exact = ir::interpret(program, ir::LeafValues<support::ScaledReal>());
+  return {&builder_, builder_.literal(cln::cl_R(exact[0].value()))};
+}
+
+Scalar RotationRows::constant(Scalar value) const {
+  const Scalar number_or_not = folded(value);
+  return loops::is_literal(number_or_not) ? number_or_not : number(at_start(value));
+}
+
+Factors RotationRows::scaled(Factors factors, Scalar length) const {
   ir::Builder copy = builder_;
   for (const Vector3& v : factors.left)
     for (std::size_t k = 0; k < 3; ++k) copy.output("left", -1, -1, v[k].value);
   for (const ir::Node& node : passes::remove_dead_code(copy.finish("left")).nodes)
     if (node.op == ir::Op::kLeaf && node.leaf == ir::LeafKind::kParameter) return factors;
-  if (std::fabs(length - 1) < 4e-16) return factors;
-  factors.right = number(length) * factors.right;
-  for (Vector3& v : factors.left) v = number(1 / length) * v;
+  const Scalar at_start = constant(length);
+  if (std::fabs(this->at_start(at_start) - 1) < 4e-16) return factors;
+  factors.right = at_start * factors.right;
+  for (Vector3& v : factors.left) v = number(1) / at_start * v;
   return factors;
 }
 

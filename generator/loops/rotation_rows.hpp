@@ -46,15 +46,18 @@ class RotationRows {
   Scalar ratio(Scalar a, Scalar b) const;
   /// b_k vᵀ = W_k, with v along a row of one of them.
   std::optional<Factors> factored(const std::vector<RotationCoefficients>& list) const;
+  /// The value, exactly as a number where it depends on nothing.
+  Scalar folded(Scalar value) const;
+  /// The value as a number: exact where it depends on nothing, otherwise that at the start.
+  Scalar constant(Scalar value) const;
   /// Scaled so that the first of the left vectors has length 1, if it has `length` at the start and no parameter changes that.
-  Factors scaled(Factors factors, double length) const;
+  Factors scaled(Factors factors, Scalar length) const;
   bool is_orthonormal(const std::vector<Vector3>& B) const;
 
  private:
   /// A number times a value.
   struct Multiple {
-    double number = 1;
-    Scalar of;
+    Scalar number, of;
   };
   Multiple multiple(Scalar a) const;
   /// As numbers, where they are multiples of one value.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "loops/dense_solver.hpp"
-#include "loops/sharing_rows.hpp"
+#include "loops/schur_solution.hpp"
 #include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
 
@@ -78,6 +78,16 @@ void set_sharing_lengths(const model::Mechanism& mechanism, const std::vector<Co
     plan.row_length[r] = is_length[r] ? 1 : static_cast<double>(std::sqrt(size / largest[at(r)]));
 }
 
+namespace {
+
+/// What SchurFactors::determinant is without regularisation.
+long double multiplier_determinant(const LoopPlan& plan, const Matrix& S) {
+  const ExactMatrix exact = S.cast<double>().cast<ScaledReal>();
+  return static_cast<long double>(SchurSolution(plan, plan.solved_rows(), exact, 0).determinant());
+}
+
+}  // namespace
+
 void set_determinant(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                      const std::vector<Matrix>& jacobians, LoopPlan& plan) {
   long double largest = 0;
@@ -85,10 +95,8 @@ void set_determinant(const model::Mechanism& mechanism, const std::vector<Config
     const long double determinant =
         plan.is_reduced()
             ? block_determinant(plan, jacobians[k])
-            : SchurSolution(
-                  plan, schur_matrix(mechanism, configurations[k], rows_of(jacobians[k], plan.solved_rows())),
-                  0)
-                  .determinant();
+            : multiplier_determinant(plan, schur_matrix(mechanism, configurations[k],
+                                                        rows_of(jacobians[k], plan.solved_rows())));
     largest = std::max(largest, std::abs(determinant));
   }
   const bool negative = plan.is_reduced() && block_determinant(plan, jacobians.front()) < 0;

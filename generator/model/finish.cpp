@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "model/checks.hpp"
@@ -73,37 +74,53 @@ void lock_joints(Mechanism& mechanism, const ReadOptions& options, Diagnostics& 
   }
 }
 
-/// Entries of the rotation matrix that `Mechanism::snap` changes by more than rounding. 0 for tunable angles.
-int snapped_entries(const Rotation& rotation) {
-  constexpr double kRounding = 1e-15;  // a product of a few sines and cosines of exact quarter turns
-  Numbers3 angles{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!rotation.rpy[i].is_constant()) return 0;
-    angles[i] = rotation.rpy[i].constant();
-  }
+/// Constant angles that `Mechanism::snap` changes by more than rounding.
+int snapped_angles(const Rotation& rotation) {
+  constexpr double kRounding = 1e-15, kQuarter = std::numbers::pi / 2;
   int count = 0;
-  for (const Numbers3& row : rotation_from_rpy(angles))
-    for (const double entry : row) {
-      const double distance = std::abs(entry - std::round(entry));
-      count += distance > kRounding && distance <= kSnapTolerance ? 1 : 0;
-    }
+  for (const Expression& angle : rotation.rpy) {
+    if (!angle.is_constant()) continue;
+    const double turns = angle.constant() / kQuarter;
+    const double distance = std::abs(turns - std::round(turns)) * kQuarter;
+    count += distance > kRounding * std::max(1.0, std::abs(turns)) && distance <= kSnapTolerance ? 1 : 0;
+  }
   return count;
 }
 
-void note_snapped_rotations(const Mechanism& mechanism, Diagnostics& diagnostics) {
+/// An axis within kSnapTolerance of a coordinate axis becomes that; others stay. Whether it changed.
+bool snap_axis(std::array<double, 3>& axis) {
+  const auto size = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const double largest = *std::max_element(axis.begin(), axis.end(), size);
+  std::array<double, 3> snapped = axis;
+  for (double& entry : snapped)
+    if (std::abs(entry) <= kSnapTolerance * std::abs(largest)) entry = 0;
+  if (std::count(snapped.begin(), snapped.end(), 0.0) != 2 || snapped == axis) return false;
+  axis = snapped;
+  return true;
+}
+
+void snap_directions(Mechanism& mechanism, Diagnostics& diagnostics) {
   int count = 0;
   std::optional<SourceRange> first;
   const auto add = [&](const Rotation& rotation, const SourceRange& owner) {
-    const int entries = snapped_entries(rotation);
+    const int entries = snapped_angles(rotation);
     const SourceRange& where = rotation.where.line == 0 ? owner : rotation.where;
     if (entries > 0 && (!first || where.line < first->line)) first = where;
     count += entries;
   };
   for (const Body& body : mechanism.bodies) add(body.inertia_axes, body.where);
   for (const Joint& joint : mechanism.joints) add(joint.placement.rotation, joint.where);
+  for (Joint& joint : mechanism.joints) {
+    snap_axis(joint.axis);
+    snap_axis(joint.second_axis);
+  }
+  for (Loop& loop : mechanism.loops) {
+    snap_axis(loop.axis);
+    snap_axis(loop.to_axis);
+  }
   if (count == 0) return;
-  const std::string entries = count == 1 ? "1 rotation entry" : fmt::format("{} rotation entries", count);
-  diagnostics.note(*first, fmt::format("{} within 1e-9 of 0 or ±1 read as exact", entries),
+  const std::string angles = count == 1 ? "1 angle" : fmt::format("{} angles", count);
+  diagnostics.note(*first, fmt::format("{} within 1e-9 rad of a quarter turn read as exact", angles),
                    "--no-snap keeps them");
 }
 
@@ -114,7 +131,7 @@ std::optional<Mechanism> finish_reading(Mechanism mechanism, const Completeness&
                                         Diagnostics& diagnostics) {
   mechanism.snap = options.snap;
   if (complete.structure) lock_joints(mechanism, options, diagnostics);
-  if (mechanism.snap) note_snapped_rotations(mechanism, diagnostics);
+  if (mechanism.snap) snap_directions(mechanism, diagnostics);
   check_numbers(mechanism, diagnostics);
   const bool tree = complete.structure && check_graph(mechanism, diagnostics);
   if (tree) check_loops(mechanism, diagnostics);

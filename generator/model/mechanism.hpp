@@ -299,7 +299,8 @@ struct Mechanism {
   std::vector<Output> outputs;
   std::vector<Loop> loops;
   LoopOptions loop_options;
-  /// Constant rotation matrices whose entries lie within kSnapTolerance of 0 or ±1 are read as those exact values.
+  /// Constant angles within kSnapTolerance of a multiple of a quarter turn are read as that, axes within kSnapTolerance of a coordinate
+  /// axis as that.
   bool snap = true;
 };
 

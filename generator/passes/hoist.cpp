@@ -68,7 +68,7 @@ class Hoisting {
   Signed read(Builder& body, Signed value) {
     const Node& node = constants_.program()[value.value];
     if (node.op == Op::kLiteral) {
-      const Signed literal = body.literal(node.literal);
+      const Signed literal = body.apply(node, {}, {});
       return value.negative ? -literal : literal;
     }
     const auto [it, is_new] = index_.try_emplace(value.value, index_.size());

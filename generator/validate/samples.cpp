@@ -65,6 +65,30 @@ void draw_direction(Uniform& uniform, Sample& sample) {
 
 }  // namespace
 
+Point point_at(const model::Mechanism& mechanism, const Sample& sample) {
+  using ir::LeafKind;
+  Point point;
+  const auto take = [&](LeafKind kind, const std::vector<double>& values) {
+    point.rounded[kind] = values;
+    point.exact[kind].assign(values.begin(), values.end());
+  };
+  take(LeafKind::kParameter, sample.parameters);
+  take(LeafKind::kPosition, sample.y);
+  take(LeafKind::kVelocity, sample.z);
+  take(LeafKind::kAcceleration, sample.zdot);
+  take(LeafKind::kInput, sample.u);
+  take(LeafKind::kTime, {sample.t});
+  std::vector<ScaledReal>& y = point.exact[LeafKind::kPosition];
+  for (const std::size_t q : model::lay_out_coordinates(mechanism).quaternions) {
+    ScaledReal square;
+    for (std::size_t k = q; k < q + 4; ++k) square += y[k] * y[k];
+    const ScaledReal length = sqrt(square);
+    for (std::size_t k = q; k < q + 4; ++k) y[k] /= length;
+  }
+  point.direction = dynamics::exact(sample.direction);
+  return point;
+}
+
 reference::VectorX<long double> to_vector(const std::vector<double>& values) {
   reference::VectorX<long double> v(static_cast<Eigen::Index>(values.size()));
   for (std::size_t i = 0; i < values.size(); ++i) v[static_cast<Eigen::Index>(i)] = values[i];

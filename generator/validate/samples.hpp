@@ -6,6 +6,7 @@
 #include "dynamics/direction.hpp"
 #include "model/mechanism.hpp"
 #include "reference/minimal.hpp"
+#include "validate/programs.hpp"
 
 namespace jourdain::validate {
 
@@ -15,6 +16,9 @@ struct Sample {
   std::vector<double> parameters, y, z, u, zdot;
   dynamics::Direction direction;  ///< for derivatives
 };
+
+/// The sample with quaternions of unit length to 77 digits.
+Point point_at(const model::Mechanism& mechanism, const Sample& sample);
 
 reference::VectorX<long double> to_vector(const std::vector<double>& values);
 

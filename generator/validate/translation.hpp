@@ -1,5 +1,5 @@
-// Translation validation: what is about to be written is compared with the symbolic statements in 60 digits, and those
-// with the numeric reference. Nothing is emitted unless all agree.
+// Validation before anything is written: programs are compared with the symbolic equations, and those with the numeric
+// reference, in 77 digits; what programs lose in double is measured apart. Nothing is emitted unless all agree.
 #pragma once
 
 #include <string>
@@ -8,31 +8,36 @@
 #include "dynamics/equations.hpp"
 #include "ir/module.hpp"
 #include "model/mechanism.hpp"
+#include "validate/agreement.hpp"
 
 namespace jourdain::validate {
 
-/// Largest error that passes, relative to the sum of the absolute values of an entry's terms (design section 3).
-inline constexpr double kTolerance = 1e-12;
-
-/// Largest relative change of the accelerations that snapping rotations may cause: kSnapTolerance, amplified by moderate
-/// condition numbers.
+/// Largest change of the accelerations that snapping rotations may cause, relative to what they are added up from: kSnapTolerance,
+/// amplified by moderate condition numbers.
 inline constexpr double kSnapEffect = 1e-5;
 
 struct Verdict {
-  std::size_t states = 0;      ///< seeded random states compared
-  double backward_error = 0;   ///< of M ż = k̄ − q̄, program in double, relative to its term sum; worst
-  double entry_error = 0;      ///< of an entry of M, k̄, q̄ and other outputs, program in double; worst
-  double reference_error = 0;  ///< between symbolic statements and numeric reference; worst
+  std::size_t states = 0;  ///< compared
+  double backward_error =
+      0;  ///< of M ż = k̄ − q̄, program in double, relative to the sum of absolute terms; worst
+  double entry_error =
+      0;  ///< of all numbers that programs compute, in double, relative to their scales; worst
+  double reference_error =
+      0;  ///< between symbolic equations and numeric reference, in 77 digits, relative to their scales
   double condition =
       0;  ///< of M as emitted, with loops where they are closed; 2-norm, SI units as they are; worst
-  double snap_effect = 0;             ///< change of ż by snapping, norm over norm; worst
+  double snap_effect = 0;             ///< change of ż by snapping; worst
+  std::vector<Compared> compared;     ///< what with what, in the order of comparison
   std::vector<std::string> failures;  ///< sentences; empty: accepted
 
   bool accepted() const { return failures.empty(); }
 };
 
+/// Takes over what was compared.
+void conclude(const Agreement& agreement, Verdict& verdict);
+
 /// Compares at `states` seeded random states; the first is the initial state, and tunable parameters are varied by up
-/// to a tenth from the second on.
+/// to a tenth from the second on. Fewer states where each takes long.
 /// Derivatives are compared along a random direction at each state. Where derivatives of the residual hold
 /// those of applied forces alone, `load` are the equations without gravity, whose q̄ they belong to.
 Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::Equations& equations,

@@ -12,7 +12,7 @@ struct Bounded {
   Scalar value = 0, scale = 0;
 
   Bounded() = default;
-  Bounded(Scalar v) : value(v), scale(std::fabs(v)) {}  // NOLINT: numbers are bounded numbers
+  Bounded(Scalar v) : value(v), scale(size(v)) {}  // NOLINT: numbers are bounded numbers
   Bounded(Scalar v, Scalar s) : value(v), scale(s) {}
 
   friend Bounded operator-(const Bounded& a) { return {-a.value, a.scale}; }
@@ -23,18 +23,33 @@ struct Bounded {
     return {a.value - b.value, a.scale + b.scale};
   }
   friend Bounded operator*(const Bounded& a, const Bounded& b) {
-    return {a.value * b.value, std::fabs(a.value) * b.scale + a.scale * std::fabs(b.value)};
+    return {a.value * b.value, size(a.value) * b.scale + a.scale * size(b.value)};
   }
   friend Bounded operator/(const Bounded& a, const Bounded& b) {
-    const Scalar size = std::fabs(b.value);
-    return {a.value / b.value, a.scale / size + std::fabs(a.value) * b.scale / (size * size)};
+    const Scalar divisor = size(b.value);
+    return {a.value / b.value, a.scale / divisor + size(a.value) * b.scale / (divisor * divisor)};
   }
   friend Bounded sqrt(const Bounded& a) {
-    const Scalar root = std::sqrt(a.value);
-    return {root, root + (root > 0 ? a.scale / (2 * root) : 0)};
+    using std::sqrt;
+    const Scalar root = sqrt(a.value);
+    return {root, root + (root > Scalar(0) ? a.scale / (Scalar(2) * root) : Scalar(0))};
   }
-  friend Bounded sin(const Bounded& a) { return {std::sin(a.value), std::fabs(std::sin(a.value)) + a.scale}; }
-  friend Bounded cos(const Bounded& a) { return {std::cos(a.value), std::fabs(std::cos(a.value)) + a.scale}; }
+  friend Bounded sin(const Bounded& a) {
+    using std::sin;
+    const Scalar value = sin(a.value);
+    return {value, size(value) + a.scale};
+  }
+  friend Bounded cos(const Bounded& a) {
+    using std::cos;
+    const Scalar value = cos(a.value);
+    return {value, size(value) + a.scale};
+  }
+
+ private:
+  static Scalar size(const Scalar& v) {
+    using std::fabs;
+    return fabs(v);
+  }
 };
 
 }  // namespace jourdain::reference

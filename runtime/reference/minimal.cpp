@@ -109,10 +109,10 @@ typename Reference<Scalar>::Forces Reference<Scalar>::forces(const State<Scalar>
 
 template <class Scalar>
 Scalar Reference<Scalar>::largest_angle(const State<Scalar>& state) const {
-  Scalar largest = Scalar(std::numbers::pi_v<long double>);
+  Scalar largest = Scalar(std::numbers::pi);
   for (const auto& [joint, which] : prescribed_)
     if (mechanism_.joints[joint].coordinates[which].angular)
-      largest = std::max(largest, std::fabs(coordinate(joint, which, state).value));
+      largest = std::max(largest, Bounded<Scalar>(coordinate(joint, which, state).value).scale);
   return largest;
 }
 
@@ -237,6 +237,7 @@ Scalar condition(const MatrixX<Scalar>& M) {
 
 template class Reference<double>;
 template class Reference<long double>;
+template class Reference<support::ScaledReal>;
 template VectorX<double> forward_dynamics(const Terms<double>&);
 template VectorX<long double> forward_dynamics(const Terms<long double>&);
 template void widen_scales(Terms<double>&);

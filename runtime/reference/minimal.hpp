@@ -25,6 +25,7 @@
 #include "model/taylor.hpp"
 #include "reference/bounded.hpp"
 #include "reference/rotation.hpp"
+#include "reference/scaled_scalar.hpp"
 
 namespace jourdain::reference {
 
@@ -172,6 +173,7 @@ class Reference {
 
 extern template class Reference<double>;
 extern template class Reference<long double>;
+extern template class Reference<support::ScaledReal>;
 
 /// Share of an entry's natural size that `widen_scales` adds to its term sum.
 inline constexpr long double kNaturalShare = 1e-3L;

@@ -17,27 +17,42 @@ using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 template <class Scalar>
 using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 
-/// The rotation by `angle` (rad) about the unit vector `axis` (Rodrigues' formula).
+/// Cosine and sine of an angle.
 template <class Scalar>
-Matrix3<Scalar> rotation_about(const Vector3<Scalar>& axis, Scalar angle) {
-  using std::cos;
-  using std::sin;
-  const Scalar c = cos(angle), s = sin(angle);
-  Matrix3<Scalar> cross;
-  cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
-  return c * Matrix3<Scalar>::Identity() + s * cross + (1 - c) * axis * axis.transpose();
+struct Turn {
+  Scalar c, s;
+};
+
+template <class Scalar>
+Turn<Scalar> turn_by(const Scalar& angle) {
+  using std::cos, std::sin;
+  return {cos(angle), sin(angle)};
 }
 
-/// The rotation with entries within model::kSnapTolerance of 0 or ±1 replaced by those values; the others
-/// stay.
+/// By the multiple of a quarter turn that `angle` (rad) is within model::kSnapTolerance, if it is.
 template <class Scalar>
-Matrix3<Scalar> snapped(const Matrix3<Scalar>& rotation) {
-  using std::abs;
-  return rotation.unaryExpr([](Scalar entry) {
-    for (const Scalar exact : {Scalar(-1), Scalar(0), Scalar(1)})
-      if (abs(entry - exact) <= Scalar(model::kSnapTolerance)) return exact;
-    return entry;
-  });
+Turn<Scalar> snapped_turn(const Scalar& angle) {
+  using std::abs, std::atan2;
+  const Scalar quarter = atan2(Scalar(1), Scalar(0));
+  const double count = std::round(static_cast<double>(angle / quarter));
+  if (!(abs(angle - Scalar(count) * quarter) <= Scalar(model::kSnapTolerance))) return turn_by(angle);
+  const int turns = static_cast<int>(std::fmod(std::fmod(count, 4) + 4, 4));
+  const int cosines[] = {1, 0, -1, 0};
+  return {Scalar(cosines[turns]), Scalar(cosines[(turns + 3) % 4])};
+}
+
+/// The rotation about the unit vector `axis` (Rodrigues' formula).
+template <class Scalar>
+Matrix3<Scalar> rotation_about(const Vector3<Scalar>& axis, const Turn<Scalar>& turn) {
+  const Scalar c = turn.c, s = turn.s;
+  Matrix3<Scalar> cross;
+  cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+  return c * Matrix3<Scalar>::Identity() + s * cross + (Scalar(1) - c) * axis * axis.transpose();
+}
+
+template <class Scalar>
+Matrix3<Scalar> rotation_about(const Vector3<Scalar>& axis, const Scalar& angle) {
+  return rotation_about<Scalar>(axis, turn_by(angle));
 }
 
 /// The vector's components (whatever their unit) at the given parameter values.
@@ -46,18 +61,18 @@ Vector3<Scalar> vector_value(const model::Vector3& vector, std::span<const Scala
   return {vector[0].evaluate(parameters), vector[1].evaluate(parameters), vector[2].evaluate(parameters)};
 }
 
-/// R = Rz(yaw) Ry(pitch) Rx(roll) at the given parameter values. With `snap`, a rotation that depends on no
-/// parameter is `snapped`.
+/// R = Rz(yaw) Ry(pitch) Rx(roll) at the given parameter values. With `snap`, constant angles within model::kSnapTolerance of a
+/// multiple of a quarter turn are that multiple.
 template <class Scalar>
 Matrix3<Scalar> rotation_value(const model::Rotation& rotation, std::span<const Scalar> parameters,
                                bool snap) {
-  const Vector3<Scalar> rpy = vector_value(rotation.rpy, parameters);
-  const Matrix3<Scalar> R = rotation_about<Scalar>(Vector3<Scalar>::UnitZ(), rpy.z()) *
-                            rotation_about<Scalar>(Vector3<Scalar>::UnitY(), rpy.y()) *
-                            rotation_about<Scalar>(Vector3<Scalar>::UnitX(), rpy.x());
-  const bool constant =
-      rotation.rpy[0].is_constant() && rotation.rpy[1].is_constant() && rotation.rpy[2].is_constant();
-  return snap && constant ? snapped(R) : R;
+  const auto about = [&](std::size_t i) {
+    const Scalar angle = rotation.rpy[i].evaluate(parameters);
+    return rotation_about<Scalar>(
+        Vector3<Scalar>::Unit(Eigen::Index(i)),
+        snap && rotation.rpy[i].is_constant() ? snapped_turn(angle) : turn_by(angle));
+  };
+  return about(2) * about(1) * about(0);
 }
 
 }  // namespace jourdain::reference

@@ -11,6 +11,8 @@
 #include "agreement/shared_data.hpp"
 #include "compile.hpp"
 #include "dynamics/direction.hpp"
+#include "dynamics/outputs.hpp"
+#include "kinematics/numbers.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_scene.hpp"
 
@@ -48,16 +50,27 @@ Exact exact_derivatives(const Derived& derived, const Sample& sample) {
      : c < 2 * nz      ? d.velocity[c - nz]
      : c < 2 * nz + nu ? d.input[c - 2 * nz]
                        : d.time) = 1;
-    const auto along = dynamics::derivatives_along(
-        d, derived.equations, model::tangent_of(derived.mechanism, layout),
+    const dynamics::MovingPrecision along = dynamics::moved_along(
+        dynamics::exact(d), derived.equations.statements, model::tangent_of(derived.mechanism, layout),
         [&](kinematics::LeafKind kind, std::size_t i) { return leaf_value(sample, kind, i); });
+    const auto rates = [&](const std::vector<kinematics::Ex>& expressions) {
+      std::vector<double> list;
+      for (const kinematics::Ex& e : expressions) list.push_back(dynamics::to_double(along.value(e).first));
+      return list;
+    };
+    std::vector<kinematics::Ex> residual;
+    for (std::size_t i = 0; i < nz; ++i) {
+      residual.push_back(derived.equations.q_bar[i] - derived.equations.k_bar[i]);
+      for (std::size_t j = 0; j < nz; ++j)
+        residual[i] = residual[i] + derived.equations.M[i][j] * kinematics::exact(sample.zdot[j]);
+    }
     const auto set = [&](MatrixXd& matrix, const std::vector<double>& column) {
       if (c == 0) matrix.resize(Index(column.size()), Index(columns));
       for (std::size_t i = 0; i < column.size(); ++i) matrix(Index(i), Index(c)) = column[i];
     };
-    set(exact.residual, along.residual);
-    set(exact.zdot, along.zdot);
-    set(exact.outputs, along.outputs);
+    set(exact.residual, rates(residual));
+    set(exact.zdot, rates(derived.equations.zdot));
+    set(exact.outputs, rates(dynamics::output_entries(derived.equations)));
   }
   return exact;
 }

@@ -106,7 +106,7 @@ double Judge::backward_error(const std::vector<double>& zdot) const {
   double worst = 0;
   for (std::size_t i = 0; i < zdot.size(); ++i) {
     if (!std::isfinite(zdot[i])) return zdot[i];
-    cln::cl_R residual = exact_.value(equations_.q_bar[i]) - exact_.value(equations_.k_bar[i]);
+    support::ScaledReal residual = exact_.value(equations_.q_bar[i]) - exact_.value(equations_.k_bar[i]);
     for (std::size_t j = 0; j < zdot.size(); ++j)
       residual = residual + exact_.value(equations_.M[i][j]) * exact_.value(kinematics::exact(zdot[j]));
     worst = larger_error(worst, relative(dynamics::to_double(residual), 0, scale[Eigen::Index(i)]));

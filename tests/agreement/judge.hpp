@@ -52,7 +52,7 @@ class Judge {
   double torque_error(const std::vector<double>& tau) const;
 
   /// In 60 digits.
-  cln::cl_R exact(const kinematics::Ex& expression) const { return exact_.value(expression); }
+  support::ScaledReal exact(const kinematics::Ex& expression) const { return exact_.value(expression); }
 
   double condition() const { return condition_; }
   const reference::Terms<long double>& terms() const { return terms_; }

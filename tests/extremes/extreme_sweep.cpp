@@ -1,7 +1,5 @@
 #include "extremes/extreme_sweep.hpp"
 
-#include <cln/real.h>
-
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
@@ -15,25 +13,25 @@ namespace jourdain::tests {
 
 namespace {
 
-using ExactMatrix = std::vector<std::vector<cln::cl_R>>;
+using ExactMatrix = std::vector<std::vector<support::ScaledReal>>;
 
-cln::cl_R norm(const ExactMatrix& a) {
-  cln::cl_R sum = 0;
-  for (const std::vector<cln::cl_R>& row : a)
-    for (const cln::cl_R& entry : row) sum = sum + entry * entry;
-  return cln::sqrt(sum);
+support::ScaledReal norm(const ExactMatrix& a) {
+  support::ScaledReal sum = 0;
+  for (const std::vector<support::ScaledReal>& row : a)
+    for (const support::ScaledReal& entry : row) sum = sum + entry * entry;
+  return sqrt(sum);
 }
 
 /// By Gauss and Jordan without pivoting, which a symmetric positive definite matrix does not need.
 ExactMatrix inverse(ExactMatrix a) {
   const std::size_t n = a.size();
   for (std::size_t k = 0; k < n; ++k) {
-    const cln::cl_R pivot = 1 / a[k][k];
+    const support::ScaledReal pivot = support::ScaledReal(1) / a[k][k];
     a[k][k] = 1;
-    for (cln::cl_R& entry : a[k]) entry = entry * pivot;
+    for (support::ScaledReal& entry : a[k]) entry = entry * pivot;
     for (std::size_t i = 0; i < n; ++i) {
       if (i == k) continue;
-      const cln::cl_R factor = a[i][k];
+      const support::ScaledReal factor = a[i][k];
       a[i][k] = 0;
       for (std::size_t j = 0; j < n; ++j) a[i][j] = a[i][j] - factor * a[k][j];
     }
@@ -44,8 +42,8 @@ ExactMatrix inverse(ExactMatrix a) {
 double condition(const ExactMatrix& M) { return dynamics::to_double(norm(M) * norm(inverse(M))); }
 
 ExactMatrix scaled_to_unit_diagonal(ExactMatrix M) {
-  std::vector<cln::cl_R> root;
-  for (std::size_t i = 0; i < M.size(); ++i) root.push_back(cln::sqrt(M[i][i]));
+  std::vector<support::ScaledReal> root;
+  for (std::size_t i = 0; i < M.size(); ++i) root.push_back(sqrt(M[i][i]));
   for (std::size_t i = 0; i < M.size(); ++i)
     for (std::size_t j = 0; j < M.size(); ++j) M[i][j] = M[i][j] / (root[i] * root[j]);
   return M;

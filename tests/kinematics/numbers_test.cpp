@@ -52,11 +52,15 @@ TEST(UnitVector, IsExactOnAxes) {
   EXPECT_DOUBLE_EQ(value(v[2]), 3 / std::sqrt(14.0));
 }
 
-TEST(Aligned, TakesAwayTheRoundingOfDoubles) {
-  const Vector3 z = aligned({exact(1e-17), exact(-3e-17), exact(1.0)});
-  EXPECT_TRUE(z[0].is_zero() && z[1].is_zero() && z[2].is_equal(1));
-  const Vector3 tilted = {exact(1e-12), 0, 1};
-  EXPECT_TRUE(aligned(tilted)[0].is_equal(tilted[0]));
+TEST(RotationMatrix, RoundedQuarterTurnsAreExactAndOtherAnglesStay) {
+  Statements statements;
+  const Matrix3 quarter = rotation_matrix(rotation(1.5707963268, 0, -3.1415926536), {}, true, statements);
+  const int expected[3][3] = {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_TRUE(quarter[i][j].is_equal(expected[i][j])) << i << j;
+  const Matrix3 rounded = rotation_matrix(rotation(1.5708, 0, 0), {}, true, statements);
+  EXPECT_DOUBLE_EQ(value(rounded[1][1]), std::cos(1.5708));
+  EXPECT_DOUBLE_EQ(value(rounded[2][1]), std::sin(1.5708));
 }
 
 }  // namespace

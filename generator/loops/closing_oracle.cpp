@@ -1,0 +1,140 @@
+#include "loops/closing_oracle.hpp"
+
+#include "loops/dense_solver.hpp"
+#include "loops/schur_solution.hpp"
+
+namespace jourdain::loops {
+
+using ir::LeafKind;
+using validate::to_exact;
+using validate::to_list;
+
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+using State = ir::LeafValues<ScaledReal>;
+
+/// What the closing should make of a state.
+struct Closed {
+  std::vector<ScaledReal> y, z;
+  ScaledReal regularity = 1, opening = 0;
+  bool regularity_is_known = true;
+  const char* oracle = "";
+};
+
+ExactMatrix mass_matrix(const LoopScene& scene, State state) {
+  state[LeafKind::kVelocity].assign(scene.closure.velocity_count(), ScaledReal());
+  const dynamics::HighPrecision exact(scene.equations.statements,
+                                      [&](kinematics::LeafKind kind, std::size_t i) -> ScaledReal {
+                                        if (kind == kinematics::LeafKind::kPosition)
+                                          return state[LeafKind::kPosition][i];
+                                        if (kind == kinematics::LeafKind::kParameter)
+                                          return state[LeafKind::kParameter][i];
+                                        if (kind == kinematics::LeafKind::kTime)
+                                          return state[LeafKind::kTime][0];
+                                        return {};
+                                      });
+  ExactMatrix M(at(scene.equations.M.size()), at(scene.equations.M.size()));
+  for (std::size_t i = 0; i < scene.equations.M.size(); ++i)
+    M.row(at(i)) = to_exact(exact.values(scene.equations.M[i])).transpose();
+  return M;
+}
+
+/// M⁻¹-orthogonal projection, positions then velocities, both with the factors of the start.
+Closed projected(const LoopScene& scene, const State& open) {
+  const LoopPlan& plan = scene.plan;
+  const std::vector<std::size_t> rows = plan.solved_rows();
+  const ExactMatrix G = scene.closure.G(open)(rows, Eigen::all);
+  const ExactMatrix back = validate::solved(mass_matrix(scene, open), G.transpose());
+  const SchurSolution schur(plan, rows, G * back, plan.closing_regularisation);
+  const ExactVector g = scene.closure.g(open)(rows);
+  const ExactVector change = -back * schur.solved(g);
+  State moved = open;
+  moved[LeafKind::kPosition] = scene.closure.displaced(open[LeafKind::kPosition], change);
+  const std::vector<ScaledReal>& z = open[LeafKind::kVelocity];
+  const ExactVector rate = to_exact(scene.closure.motion(moved, z).rate)(rows);
+  Closed result;
+  result.oracle = "the nearest closed state to first order";
+  result.y = moved[LeafKind::kPosition];
+  result.z = to_list(to_exact(z) - back * schur.solved(rate));
+  result.regularity = schur.determinant() * ScaledReal(1 / plan.determinant);
+  result.opening = change.squaredNorm();
+  return result;
+}
+
+/// Newton's iterations, block by block.
+Closed iterated(const LoopScene& scene, const State& open) {
+  const LoopPlan& plan = scene.plan;
+  Closed result;
+  result.oracle = "Newton's iterations";
+  result.regularity = 1 / plan.determinant;
+  State state = open;
+  for (const Block& block : plan.blocks)
+    for (int i = 0; i < plan.iterations; ++i) {
+      const ExactMatrix D = scene.closure.G(state)(block.rows, block.dependents);
+      const ExactVector g = scene.closure.g(state)(block.rows);
+      const ExactVector change = validate::solved(D, -g);
+      ExactVector d = ExactVector::Zero(at(scene.closure.velocity_count()));
+      d(block.dependents) = change;
+      state[LeafKind::kPosition] = scene.closure.displaced(state[LeafKind::kPosition], d);
+      if (i == 0) result.opening += change.squaredNorm();
+      if (i + 1 < plan.iterations) continue;
+      const ScaledReal det = validate::determinant(D);
+      result.regularity *= block.dependents.size() <= DenseSolver::kLargestByCofactors ? det : det * det;
+    }
+  result.y = state[LeafKind::kPosition];
+  return result;
+}
+
+/// The closed state nearby.
+Closed solved(const LoopScene& scene, const State& open) {
+  Closed result;
+  result.oracle = "the closed state nearby, by Newton's method to the end";
+  result.y = scene.closure.closed(open)[LeafKind::kPosition];
+  for (std::size_t i = 0; i < result.y.size(); ++i) {
+    const ScaledReal moved = result.y[i] - open[LeafKind::kPosition][i];
+    result.opening += moved * moved;
+  }
+  result.regularity_is_known = false;  // the discriminants are the closed form's own
+  return result;
+}
+
+Closed closed(const LoopScene& scene, const State& open) {
+  if (!scene.plan.is_reduced()) return projected(scene, open);
+  return scene.plan.closed_form ? solved(scene, open) : iterated(scene, open);
+}
+
+ScaledReal beyond(const LoopPlan& plan, const std::vector<ScaledReal>& y, int range) {
+  const ProvenRange& r = plan.proven()->positions[static_cast<std::size_t>(range)];
+  return (y[r.index] - ScaledReal(r.low)) * (y[r.index] - ScaledReal(r.high));
+}
+
+}  // namespace
+
+std::vector<validate::Expected> closing_expected(const LoopScene& scene, const State& open,
+                                                 const ir::Program& program) {
+  const Closed c = closed(scene, open);
+  validate::Expected expected{c.oracle, {}, scene.plan.closed_form.has_value()};
+  for (const ir::Output& output : program.outputs) {
+    const auto i = static_cast<std::size_t>(std::max(output.row, 0));
+    if (output.name == "regularity" && !c.regularity_is_known)
+      expected.left_out.push_back(expected.values.size());
+    expected.values.push_back(output.name == "y"            ? c.y[i]
+                              : output.name == "z"          ? c.z[i]
+                              : output.name == "regularity" ? c.regularity
+                              : output.name == "opening"    ? c.opening
+                                                            : beyond(scene.plan, c.y, output.row));
+  }
+  return {expected};
+}
+
+ScaledReal opening(const LoopScene& scene, const State& state) {
+  ScaledReal largest;
+  const ExactVector g = scene.closure.g(state)(scene.plan.solved_rows());
+  for (const ScaledReal& entry : g)
+    if (abs(entry) > largest) largest = abs(entry);
+  return largest;
+}
+
+}  // namespace jourdain::loops

@@ -1,0 +1,100 @@
+#include "validate/agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/check.hpp"
+
+namespace jourdain::validate {
+
+namespace {
+
+/// Of the largest scale among numbers that are computed together: numbers that symbolic algebra left as rounding of zero have no scale
+/// of their own.
+constexpr long double kNothing = 1e-30L;
+
+/// |a − b| over the larger scale; 0 where both are no numbers, infinite where one is or nothing bounds the rounding.
+double apart(const ScaledReal& a, const ScaledReal& b, long double floor) {
+  if (a.is_number() != b.is_number()) return INFINITY;
+  if (!a.is_number() || a == b) return 0;
+  const long double scale = std::max({a.scale(), b.scale(), floor});
+  const auto difference = static_cast<long double>(abs(a - b));
+  return std::isfinite(scale) && scale > 0 ? static_cast<double>(difference / scale) : INFINITY;
+}
+
+}  // namespace
+
+Compared& Agreement::record(const std::string& function) {
+  const auto known = std::find_if(compared_.begin(), compared_.end(),
+                                  [&](const Compared& c) { return c.function == function; });
+  if (known != compared_.end()) return *known;
+  compared_.push_back({function, "", 0, 0, 0, 0});
+  return compared_.back();
+}
+
+void Agreement::fail(const std::string& sentence) {
+  if (std::find(failures_.begin(), failures_.end(), sentence) == failures_.end())
+    failures_.push_back(sentence);
+}
+
+void Agreement::same(const std::string& function, const std::string& oracle,
+                     const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& expected) {
+  JD_CHECK(values.size() == expected.size(), "{}: {} numbers for {}", function, values.size(),
+           expected.size());
+  Compared& c = record(function);
+  c.oracle = oracle;
+  ++c.states;
+  c.numbers += values.size();
+  std::size_t worst = 0;
+  double most = 0;
+  long double floor = 0;
+  for (const std::vector<ScaledReal>* list : {&values, &expected})
+    for (const ScaledReal& number : *list)
+      if (isfinite(number)) floor = std::max(floor, kNothing * number.scale());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (const double d = apart(values[i], expected[i], floor); d > most) {
+      most = d;
+      worst = i;
+    }
+  c.algebra = std::max(c.algebra, most);
+  if (most <= static_cast<double>(kAlgebra)) return;
+  fail(fmt::format("{} is not {}: number {} is {:.6g} instead of {:.6g}", function, oracle, worst + 1,
+                   static_cast<double>(values[worst]), static_cast<double>(expected[worst])));
+}
+
+void Agreement::rounded(const std::string& function, const std::vector<ScaledReal>& values,
+                        const std::vector<ScaledReal>& exact, const std::vector<ScaledReal>& expected,
+                        std::size_t depth) {
+  const double limit =
+      kRoundingSlack * static_cast<double>(1 + depth) * std::numeric_limits<double>::epsilon() / 2;
+  Compared& c = record(function);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!exact[i].is_number() && !values[i].is_number()) continue;
+    const long double scale = std::max<long double>(expected[i].scale(), std::numeric_limits<double>::min());
+    const auto difference = static_cast<long double>(abs(values[i] - exact[i]));
+    const double error =
+        values[i].is_number() == exact[i].is_number() ? static_cast<double>(difference / scale) : INFINITY;
+    c.rounding = std::max(c.rounding, error);
+    if (!(error <= limit))
+      fail(fmt::format("{} loses its digits in double: number {} is {:.6g} instead of {:.6g}", function,
+                       i + 1, static_cast<double>(values[i]), static_cast<double>(exact[i])));
+  }
+}
+
+std::size_t depth(const ir::Program& program) {
+  std::vector<std::size_t> depths(program.nodes.size(), 0);
+  for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+    const ir::Node& node = program.nodes[i];
+    const int operands = ir::operand_count(node.op);
+    if (operands >= 1) depths[i] = 1 + depths[node.a.value];
+    if (operands == 2) depths[i] = std::max(depths[i], 1 + depths[node.b.value]);
+  }
+  std::size_t deepest = 0;
+  for (const ir::Output& output : program.outputs) deepest = std::max(deepest, depths[output.value.value]);
+  return deepest;
+}
+
+}  // namespace jourdain::validate

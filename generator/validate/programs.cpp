@@ -1,0 +1,110 @@
+#include "validate/programs.hpp"
+
+#include <algorithm>
+
+namespace jourdain::validate {
+
+using dynamics::ExactDirection;
+
+namespace {
+
+/// Component of the direction that a column of an array stands for.
+ScaledReal component(const ExactDirection& d, const std::string& array, int column) {
+  if (column < 0) return d.time;
+  const auto i = static_cast<std::size_t>(column);
+  const std::size_t n = d.velocity.size();
+  if (array == "B" || array == "D" || array == "r_u") return d.input[i];
+  if (array == "A" || array == "C") return i < n ? d.displacement[i] : d.velocity[i - n];
+  return array == "r_y" || array == "zdot_y" ? d.displacement[i] : d.velocity[i];
+}
+
+class Contraction {
+ public:
+  Contraction(const ir::Program& program, const std::vector<ScaledReal>& values,
+              const ExactDirection& direction)
+      : program_(program), values_(values), direction_(direction) {}
+
+  /// The numbers of one array, in the order of the program's outputs.
+  Part entries(const std::string& array) const {
+    Part part{program_.name + ", " + array, {}};
+    for (std::size_t k = 0; k < values_.size(); ++k)
+      if (program_.outputs[k].name == array) part.values.push_back(values_[k]);
+    return part;
+  }
+
+  /// Rows of these arrays times the direction.
+  Part along(const std::vector<std::string>& arrays, std::size_t rows) const {
+    Part part{program_.name, std::vector<ScaledReal>(rows)};
+    for (const std::string& array : arrays) part.name += (&array == &arrays[0] ? ", " : " ") + array;
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      const ir::Output& output = program_.outputs[k];
+      if (std::find(arrays.begin(), arrays.end(), output.name) == arrays.end()) continue;
+      part.values.at(static_cast<std::size_t>(output.row)) +=
+          values_[k] * component(direction_, output.name, output.column);
+    }
+    return part;
+  }
+
+ private:
+  const ir::Program& program_;
+  const std::vector<ScaledReal>& values_;
+  const ExactDirection& direction_;
+};
+
+std::vector<ScaledReal> widened(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+
+}  // namespace
+
+std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledReal>& values,
+                           const ExactDirection& direction, std::size_t output_numbers) {
+  const Contraction c(program, values, direction);
+  const std::size_t n = direction.velocity.size();
+  if (program.name == "residual_derivatives")
+    return {c.entries("M"), c.along({"r_y", "r_z", "r_u", "r_t"}, n)};
+  if (program.name == "forward_dynamics_derivatives")
+    return {c.entries("zdot"), c.along({"zdot_y", "zdot_z"}, n)};
+  if (program.name == "linearize")
+    return {c.along({"A", "B", "rate_t"}, 2 * n), c.along({"C", "D", "output_t"}, output_numbers)};
+  return {{program.name, values}};
+}
+
+ir::LeafValues<double> rounded(const ir::LeafValues<ScaledReal>& leaves) {
+  ir::LeafValues<double> doubles;
+  for (std::size_t kind = 0; kind < ir::kLeafKinds; ++kind)
+    for (const ScaledReal& value : leaves.of[kind]) doubles.of[kind].push_back(static_cast<double>(value));
+  return doubles;
+}
+
+void compare_programs(const ir::Module& module, const Point& point, const Oracle& oracle,
+                      Agreement& agreement) {
+  const auto at = [&](auto leaves) {
+    leaves[ir::LeafKind::kConstant] = ir::interpret(module.constants, leaves);
+    return leaves;
+  };
+  ir::LeafValues<ScaledReal> nearest;
+  for (std::size_t kind = 0; kind < ir::kLeafKinds; ++kind)
+    nearest.of[kind] = widened(point.rounded.of[kind]);
+  const auto exact = at(point.exact), there = at(nearest);
+  const auto in_double = at(point.rounded);
+  const bool moved = nearest.of != point.exact.of;
+  const std::size_t first = depth(module.constants);
+  for (const ir::Program& program : module.functions) {
+    const auto parts = [&](const std::vector<ScaledReal>& values) {
+      return parts_of(program, values, point.direction, point.output_numbers);
+    };
+    const std::vector<Part> computed = parts(ir::interpret(program, exact)),
+                            same_state = moved ? parts(ir::interpret(program, there)) : computed,
+                            doubles = parts(widened(ir::interpret(program, in_double)));
+    const std::vector<Expected> expected = oracle(program);
+    JD_CHECK(expected.size() == computed.size(), "{} has no oracle for each part", program.name);
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      std::vector<ScaledReal> values = expected[k].values;
+      for (const std::size_t i : expected[k].left_out) values[i] = computed[k].values[i];
+      agreement.same(computed[k].name, expected[k].oracle, computed[k].values, values);
+      agreement.rounded(computed[k].name, doubles[k].values, same_state[k].values,
+                        expected[k].scales_are_unknown ? computed[k].values : values, first + depth(program));
+    }
+  }
+}
+
+}  // namespace jourdain::validate

@@ -1,0 +1,49 @@
+// Programs at one state, in 77 digits and in double, against what they should compute.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dynamics/direction.hpp"
+#include "ir/module.hpp"
+#include "validate/agreement.hpp"
+
+namespace jourdain::validate {
+
+/// Where programs are evaluated. Derivatives are contracted with the direction.
+struct Point {
+  ir::LeafValues<ScaledReal> exact;
+  ir::LeafValues<double> rounded;  ///< the nearest doubles
+  dynamics::ExactDirection direction;
+  std::size_t output_numbers = 0;
+};
+
+/// A part of what a program computes: all its numbers, or Jacobians times the direction, row by row.
+struct Part {
+  std::string name;
+  std::vector<ScaledReal> values;
+};
+
+/// What a part should be, and by what.
+struct Expected {
+  std::string oracle;
+  std::vector<ScaledReal> values;
+  /// By differences: they know nothing of how rounding is amplified.
+  bool scales_are_unknown = false;
+  std::vector<std::size_t> left_out = {};  ///< numbers that it does not know
+};
+
+/// What the parts of a program should be, in the order of `parts_of`. A function without an oracle cannot be emitted: it throws.
+using Oracle = std::function<std::vector<Expected>(const ir::Program&)>;
+
+std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledReal>& values,
+                           const dynamics::ExactDirection& direction, std::size_t output_numbers);
+
+void compare_programs(const ir::Module& module, const Point& point, const Oracle& oracle,
+                      Agreement& agreement);
+
+/// The nearest doubles of all leaves.
+ir::LeafValues<double> rounded(const ir::LeafValues<ScaledReal>& leaves);
+
+}  // namespace jourdain::validate

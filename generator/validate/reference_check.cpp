@@ -1,0 +1,52 @@
+#include "validate/reference_check.hpp"
+
+#include "dynamics/outputs.hpp"
+#include "reference/minimal.hpp"
+
+namespace jourdain::validate {
+
+using ir::LeafKind;
+
+namespace {
+
+using Reference = reference::Reference<ScaledReal>;
+
+std::vector<ScaledReal> entries(const ExactMatrix& M) { return {M.data(), M.data() + M.size()}; }
+
+}  // namespace
+
+void compare_with_reference(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+                            const ir::LeafValues<ScaledReal>& leaves, const TreeOracle& symbolic,
+                            Agreement& agreement) {
+  const Reference reference(mechanism, leaves[LeafKind::kParameter]);
+  const reference::State<ScaledReal> state = {leaves[LeafKind::kTime][0],
+                                              to_exact(leaves[LeafKind::kPosition]),
+                                              to_exact(leaves[LeafKind::kVelocity])};
+  const ExactVector u = to_exact(leaves[LeafKind::kInput]);
+  const auto terms = reference.evaluate(state, u);
+  const auto same = [&](const char* what, const std::vector<ScaledReal>& values,
+                        const std::vector<ScaledReal>& expected) {
+    agreement.same(std::string("equations, ") + what, kReference, values, expected);
+  };
+  same("M", entries(symbolic.M()), entries(terms.M));
+  same("k_bar", to_list(symbolic.k_bar()), to_list(terms.k_bar));
+  same("q_bar", to_list(symbolic.q_bar()), to_list(terms.q_bar));
+  if (!equations.ydot.empty())
+    same("Z z", symbolic.values(equations.ydot), to_list(reference.position_rate(state)));
+  same("energies", symbolic.values({equations.kinetic_energy, equations.potential_energy}),
+       {terms.kinetic_energy, terms.potential_energy});
+  if (mechanism.loops.empty()) {
+    const auto start = reference.initial_state();
+    same("initial y", symbolic.values(equations.initial_position), to_list(start.y));
+    same("initial z", symbolic.values(equations.initial_velocity), to_list(start.z));
+  }
+  if (mechanism.outputs.empty()) return;
+  const ExactVector zdot =
+      equations.outputs_take_leaves ? to_exact(leaves[LeafKind::kAcceleration]) : symbolic.zdot();
+  std::vector<ScaledReal> expected;
+  for (const auto& output : reference.outputs(state, u, zdot, zdot.cwiseAbs()))
+    expected.insert(expected.end(), output.values.begin(), output.values.end());
+  same("outputs", symbolic.values(dynamics::output_entries(equations)), expected);
+}
+
+}  // namespace jourdain::validate
