@@ -108,7 +108,7 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.velocities = layout.velocity_names;
   text.inputs = layout.input_names;
   text.tangent = model::tangent_of(mechanism, layout);
-  text.rheonomic = layout.rheonomic;
+  text.time = model::time_dependence(mechanism);
   text.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
   if (options.loops) describe_loops(mechanism, *options.loops, text);
   for (const model::Parameter& parameter : mechanism.parameters)
@@ -171,7 +171,7 @@ emit::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPl
   shape.quaternions = layout.quaternions.size();
   shape.outputs = mechanism.outputs.size();
   shape.inputs = layout.input_count();
-  shape.rheonomic = layout.rheonomic;
+  shape.time = model::time_dependence(mechanism);
   if (!plan) return shape;
   shape.constraints = plan->row_length.size();
   shape.has_dependents = plan->is_reduced();

@@ -110,6 +110,32 @@ TEST(CommandLine, AMotionThatEndsIsValidatedWhereItIsDefined) {
   expect(jourdain({"check", file}), 0, "ok: motion");
 }
 
+/// Header that `linearize` leaves of a description with an output added.
+std::string linearised(const std::string& description, const std::string& output) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/scene.toml";
+  support::write_file(
+      file, description + "\n[[output]]\nname = \"h\"\nkind = \"expression\"\nvalue = \"" + output + "\"\n");
+  expect(jourdain({"compile", file, "--name", "scene", "--functions",
+                   "linearize,outputs,initial_state,rk4_step,rodas4_step", "-o", folder.path()}),
+         0, "validated");
+  return support::read_file(folder.path() + "/scene.hpp");
+}
+
+TEST(CommandLine, OutputsMayDependOnTimeWhereTheDynamicsDoNot) {
+  const auto contains = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  for (const std::string model : {"pendulum", "four_bar", "spring_four_bar"}) {
+    const std::string description =
+        support::read_file(JOURDAIN_SOURCE_DIR + std::string("/models/") + model + ".toml");
+    const std::string of_time = linearised(description, "t^2 + 3*t"), of_none = linearised(description, "2");
+    EXPECT_TRUE(contains(of_time, "  Real output_t[") && contains(of_time, "+ output_t dt")) << model;
+    EXPECT_FALSE(contains(of_time, "rate_t")) << model;
+    EXPECT_FALSE(contains(of_none, "output_t")) << model;
+  }
+}
+
 TEST(CommandLine, AFolderThatCannotBeMadeIsTheEnvironmentsFault) {
   const support::TemporaryFolder folder;
   const std::string file = folder.path() + "/file";
