@@ -11,6 +11,7 @@
 #include "lowering.hpp"
 #include "model/coordinates.hpp"
 #include "model/names.hpp"
+#include "module_check.hpp"
 #include "omissions.hpp"
 #include "reference/massless.hpp"
 
@@ -252,9 +253,13 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
     equations = dynamics::derive_equations(mechanism, chosen.derivation);
     lowered = lower_tree(mechanism, options, equations, result.functions);
   }
-  passes::Optimised optimised = passes::optimise(std::move(lowered), options.passes_off);
+  if (options.watch) options.watch({"lower"}, lowered);
+  passes::Optimised optimised = passes::optimise(std::move(lowered), options.passes_off, options.watch);
   result.module = std::move(optimised.module);
   result.passes = std::move(optimised.records);
+  const std::vector<std::string> defects =
+      module_defects(result.module, result.shape, mechanism.parameters.size());
+  JD_CHECK(defects.empty(), "broken program, {}", defects.front());
   result.omissions = find_omissions(mechanism, chosen, equations, result);
   validate_and_emit(mechanism, equations, options, result);
   return result;

@@ -10,6 +10,9 @@ namespace jourdain::commands {
 /// Operations per function by kind, aligned.
 std::string operations_table(const ir::Module& module);
 std::string verdict_text(const validate::Verdict& verdict);
+/// The programs after a pass, with operations and time.
+std::string programs_text(const passes::PassRecord& pass, const ir::Module& module);
+
 std::string passes_text(const std::vector<passes::PassRecord>& passes);
 std::string omissions_text(const std::vector<Omission>& omissions);
 

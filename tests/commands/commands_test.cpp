@@ -173,6 +173,19 @@ TEST(Compile, EmitsOnlyWhatWasAskedFor) {
   EXPECT_EQ(header.find("initial_state("), std::string::npos);
 }
 
+TEST(Compile, ShowsTheProgramsAfterAPass) {
+  const support::TemporaryFolder folder;
+  const auto dump = [&](const std::string& option) {
+    return jourdain({"compile", option, "models/pendulum.toml", "-o", folder.path(), "--functions", "k_bar,q_bar"});
+  };
+  const support::ProcessResult one = dump("--dump-ir=hoist"), all = dump("--dump-ir");
+  expect(one, 0, "# hoist, round 1: ");
+  expect(one, 0, "program k_bar\n%0 = 0\nk[0] := %0\n");
+  EXPECT_EQ(one.output.find("# factor"), std::string::npos);
+  for (const char* pass : {"# lower\n", "# factor, round 1", "# hoist, round 2"}) expect(all, 0, pass);
+  expect(dump("--dump-ir=fator"), 2, "no pass 'fator'; there are all, lower, split_angles");
+}
+
 TEST(Compile, AWrongModelWritesNothing) {
   const support::TemporaryFolder folder;
   const std::string model = folder.path() + "/wrong.toml", out = folder.path() + "/out";
