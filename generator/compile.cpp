@@ -11,6 +11,7 @@
 #include "lowering.hpp"
 #include "model/coordinates.hpp"
 #include "model/names.hpp"
+#include "module_check.hpp"
 #include "omissions.hpp"
 #include "reference/massless.hpp"
 
@@ -108,7 +109,7 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.velocities = layout.velocity_names;
   text.inputs = layout.input_names;
   text.tangent = model::tangent_of(mechanism, layout);
-  text.rheonomic = layout.rheonomic;
+  text.time = model::time_dependence(mechanism);
   text.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
   if (options.loops) describe_loops(mechanism, *options.loops, text);
   for (const model::Parameter& parameter : mechanism.parameters)
@@ -174,7 +175,7 @@ emit::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPl
   shape.quaternions = layout.quaternions.size();
   shape.outputs = mechanism.outputs.size();
   shape.inputs = layout.input_count();
-  shape.rheonomic = layout.rheonomic;
+  shape.time = model::time_dependence(mechanism);
   if (!plan) return shape;
   shape.constraints = plan->row_length.size();
   shape.has_dependents = plan->is_reduced();
@@ -255,9 +256,13 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
     equations = dynamics::derive_equations(mechanism, chosen.derivation);
     lowered = lower_tree(mechanism, options, equations, result.functions);
   }
-  passes::Optimised optimised = passes::optimise(std::move(lowered), options.passes_off);
+  if (options.watch) options.watch({"lower"}, lowered);
+  passes::Optimised optimised = passes::optimise(std::move(lowered), options.passes_off, options.watch);
   result.module = std::move(optimised.module);
   result.passes = std::move(optimised.records);
+  const std::vector<std::string> defects =
+      module_defects(result.module, result.shape, mechanism.parameters.size());
+  JD_CHECK(defects.empty(), "broken program, {}", defects.front());
   result.omissions = find_omissions(mechanism, chosen, equations, result);
   validate_and_emit(mechanism, equations, options, result);
   return result;

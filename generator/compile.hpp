@@ -22,9 +22,10 @@ struct CompileOptions {
   std::vector<std::string> functions = emit::default_functions();
   dynamics::DerivationOptions derivation;
   DerivativeTerms derivative_terms = DerivativeTerms::kAll;
-  std::vector<std::string> passes_off;   ///< names of passes to leave out
-  std::string path;                      ///< of the description, as printed in the emitted files
-  std::string sha256;                    ///< of the description
+  std::vector<std::string> passes_off;  ///< names of passes to leave out
+  passes::Watch watch;  ///< is shown the programs as lowered (pass "lower") and after each pass
+  std::string path;     ///< of the description, as printed in the emitted files
+  std::string sha256;   ///< of the description
   std::optional<loops::LoopPlan> loops;  ///< of a mechanism with loops; none: planned by `compile`
   bool damping = true;  ///< printed as an assumption when joint damping was switched off on reading
 };

@@ -28,7 +28,7 @@ namespace {
 /// What the columns of a Jacobian stand for: displacements and velocities (nz each), inputs, time.
 struct Columns {
   std::size_t velocities = 0, inputs = 0;
-  bool time = false;
+  bool time = false;  ///< something depends on it
 
   std::size_t velocity(std::size_t i) const { return velocities + i; }
   std::size_t input(std::size_t i) const { return 2 * velocities + i; }
@@ -45,7 +45,7 @@ class Assembly {
       : sources_(sources),
         terms_(terms),
         order_(order),
-        columns_{sources.velocities, sources.inputs, sources.time} {}
+        columns_{sources.velocities, sources.inputs, sources.time.any()} {}
 
   /// M and the derivatives of the residual.
   Program residual_derivatives() {
@@ -261,7 +261,7 @@ DerivativeSources tree_sources(const model::Mechanism& mechanism,
   sources.tangent = model::tangent_of(mechanism, layout);
   sources.velocities = layout.velocity_count();
   sources.inputs = layout.input_count();
-  sources.time = layout.rheonomic;
+  sources.time = model::time_dependence(mechanism);
   sources.position_seeds = [tangent = sources.tangent](Builder& builder, std::size_t) {
     return displacement_seeds(builder, tangent);
   };

@@ -9,6 +9,7 @@
 #include "emit/functions.hpp"
 #include "ir/program.hpp"
 #include "model/mechanism.hpp"
+#include "model/time_dependence.hpp"
 
 namespace jourdain {
 
@@ -27,7 +28,7 @@ struct DerivativeSources {
   std::vector<ir::Program> mass_rows;  ///< the entries of one row of M each
   model::Tangent tangent;
   std::size_t velocities = 0, inputs = 0;
-  bool time = false;  ///< something depends on it
+  model::TimeDependence time;
   /// How position leaves depend on the displacements and, beyond that, on time: the column after the last velocity, input.
   std::function<std::vector<ir::Seed>(ir::Builder&, std::size_t time_column)> position_seeds;
 };

@@ -65,9 +65,10 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression_2 = expression * expression;
   const Real expression_3 = expression_2 * parameters.pole_mass;
   const Real expression_4 = expression_3 * Real(0.08333333333333333);
-  const Real t11 = expression_4 * Real(0.5);
+  const Real t9 = expression_4 * Real(0.5);
+  const Real pole_S_zz = t9 + t9;
   mr_z = parameters.pole_half_length * parameters.pole_mass;
-  S_zz = parameters.pole_half_length * mr_z + (t11 + t11);
+  S_zz = pole_S_zz + parameters.pole_half_length * mr_z;
   hinge_m = parameters.pole_mass + parameters.cart_mass;
   c3 = mr_z * Real(9.8);
   invD_1 = Real(1.0) / S_zz;
@@ -120,15 +121,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real bQp1 = h1b_y * Real(9.8);
   const Real zw_1 = state.z[1] * state.z[1];
   const Real bdf1_y = h1b_y * zw_1;
+  const Real b_0 = bdf1_y + input.u[0];
   const Real h1b_x = c1 * model.mr_z;
   const Real L_1_0 = h1b_x * model.invD_1;
   const Real H1_0_0 = h1b_x * L_1_0 - model.hinge_m;
-  const Real u1_0 = bQp1 * L_1_0 - (bdf1_y + input.u[0]);
+  const Real u1_0 = b_0 - bQp1 * L_1_0;
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = u1_0 * invD_0;
   const Real y_1 = bQp1 * model.invD_1;
-  const Real zdot_1 = y_1 - L_1_0 * y_0;
-  zdot[0] = y_0;
+  const Real zdot_1 = y_1 + L_1_0 * y_0;
+  zdot[0] = -y_0;
   zdot[1] = zdot_1;
 }
 
@@ -140,12 +142,14 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h1b_x = c1 * model.mr_z;
   const Real h1b_y = s1 * model.mr_z;
   const Real adf0t_z = zdot[0] * model.hinge_m;
+  const Real aQp1 = h1b_y * Real(9.8) - h1b_x * zdot[0];
   const Real zw_1 = state.z[1] * state.z[1];
+  const Real adf1_y = h1b_x * zdot[1] - h1b_y * zw_1;
   const Real adn1_z = zdot[1] * model.S_zz;
-  const Real af0_z = h1b_y * zw_1 - (adf0t_z + h1b_x * zdot[1]);
-  const Real aQ1_0 = adn1_z - (h1b_y * Real(9.8) - h1b_x * zdot[0]);
-  tau[0] = -af0_z;
-  tau[1] = aQ1_0;
+  const Real af0_z = adf0t_z + adf1_y;
+  const Real aQ1_0 = aQp1 - adn1_z;
+  tau[0] = af0_z;
+  tau[1] = -aQ1_0;
 }
 
 template <class Real>

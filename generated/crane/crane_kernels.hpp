@@ -102,14 +102,14 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]
   const Real half_1_0 = state.z[0] * Real(0.5);
   const Real half_1_1 = Real(0.5) * state.z[1];
   const Real half_1_2 = Real(0.5) * state.z[2];
-  const Real qdot_1_0 = half_1_2 * state.y[3] + (half_1_0 * state.y[1] + half_1_1 * state.y[2]);
-  const Real qdot_1_1 = half_1_1 * state.y[3] - (half_1_0 * state.y[0] + half_1_2 * state.y[2]);
-  const Real qdot_1_2 = half_1_0 * state.y[3] + (half_1_1 * state.y[0] - half_1_2 * state.y[1]);
-  const Real qdot_1_3 = half_1_0 * state.y[2] - (half_1_2 * state.y[0] + half_1_1 * state.y[1]);
+  const Real qdot_1_0 = half_1_0 * state.y[1] + half_1_1 * state.y[2] + half_1_2 * state.y[3];
+  const Real qdot_1_1 = half_1_0 * state.y[0] + half_1_2 * state.y[2] - half_1_1 * state.y[3];
+  const Real qdot_1_2 = half_1_1 * state.y[0] - half_1_2 * state.y[1] + half_1_0 * state.y[3];
+  const Real qdot_1_3 = half_1_2 * state.y[0] + half_1_1 * state.y[1] - half_1_0 * state.y[2];
   ydot[0] = -qdot_1_0;
-  ydot[1] = -qdot_1_1;
+  ydot[1] = qdot_1_1;
   ydot[2] = qdot_1_2;
-  ydot[3] = -qdot_1_3;
+  ydot[3] = qdot_1_3;
 }
 
 template <class Real>
@@ -133,7 +133,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real q133 = state.y[3] * q1d3;
   const Real q112 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[0];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real ka1_x = derivative * q1r0_x;
   const Real ka1_y = derivative * q1r0_y;
@@ -187,7 +187,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q101 = Real(2.0) * (state.y[1] * state.y[0]);
   const Real q102 = q1d2 * state.y[0];
   const Real q103 = q1d3 * state.y[0];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
@@ -204,13 +204,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real bdn1_x = bww10 * model.kdS10;
   const Real bdn1_y = bww11 * model.kdS11;
   const Real bdn1_z = bww12 * Real(15.0);
-  const Real b_0 = bdn1_x - (push1_0 + bQp1_x);
-  const Real b_1 = bdn1_y + (push1_1 - bQp1_y);
+  const Real bQ1_0 = bQp1_x - bdn1_x;
+  const Real bQ1_1 = bQp1_y - bdn1_y;
+  const Real b_0 = push1_0 + bQ1_0;
+  const Real b_1 = push1_1 - bQ1_1;
   const Real b_2 = push1_2 - bdn1_z;
   const Real y_0 = b_0 * model.invD_0;
   const Real y_1 = b_1 * model.invD_1;
   const Real y_2 = b_2 * Real(0.011111111111111112);
-  zdot[0] = y_0;
+  zdot[0] = -y_0;
   zdot[1] = -y_1;
   zdot[2] = -y_2;
 }
@@ -231,7 +233,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q101 = Real(2.0) * (state.y[1] * state.y[0]);
   const Real q102 = q1d2 * state.y[0];
   const Real q103 = q1d3 * state.y[0];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
@@ -245,12 +247,17 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aww10 = state.z[1] * state.z[2];
   const Real aww11 = state.z[0] * state.z[2];
   const Real aww12 = state.z[0] * state.z[1];
-  const Real tau_1_0 = aww10 * model.kdS10 - (zdot[0] * model.Jx1 + (push1_0 + aQp1_x));
-  const Real tau_1_1 = aww11 * model.kdS11 + (zdot[1] * model.Jy1 + (push1_1 - aQp1_y));
-  const Real tau_1_2 = aww12 * Real(15.0) - (push1_2 + zdot[2] * Real(90.0));
-  tau[0] = -tau_1_0;
+  const Real adn1_x = zdot[0] * model.Jx1 - aww10 * model.kdS10;
+  const Real adn1_y = zdot[1] * model.Jy1 + aww11 * model.kdS11;
+  const Real adn1_z = zdot[2] * Real(90.0) - aww12 * Real(15.0);
+  const Real aQ1_0 = aQp1_x + adn1_x;
+  const Real aQ1_1 = aQp1_y - adn1_y;
+  const Real tau_1_0 = push1_0 + aQ1_0;
+  const Real tau_1_1 = push1_1 - aQ1_1;
+  const Real tau_1_2 = push1_2 + adn1_z;
+  tau[0] = tau_1_0;
   tau[1] = tau_1_1;
-  tau[2] = -tau_1_2;
+  tau[2] = tau_1_2;
 }
 
 template <class Real>
@@ -268,17 +275,15 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q1r0_y = q112 - q103;
   const Real v1_x = derivative * q1r0_x;
   const Real v1_y = derivative * q1r0_y;
-  const Real T1 = (derivative * derivative * model.suspension_m + (state.z[2] * state.z[2] * Real(90.0) +
-      (state.z[0] * state.z[0] * model.Jx1 + state.z[1] * state.z[1] * model.Jy1))) * Real(0.5) + (v1_x *
-      state.z[1] * model.mr_z + model.mr_z * (v1_y * state.z[0]));
+  const Real T1 = (state.z[1] * state.z[1] * model.Jy1 + (state.z[0] * state.z[0] * model.Jx1 + (derivative *
+      derivative * model.suspension_m + state.z[2] * state.z[2] * Real(90.0)))) * Real(0.5) + (v1_x *
+      state.z[1] + v1_y * state.z[0]) * model.mr_z;
   return T1;
 }
 
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real q111 = state.y[1] * state.y[1] * Real(2.0);
-  const Real q122 = Real(2.0) * (state.y[2] * state.y[2]);
-  const Real q1r2_z = q111 + q122 - Real(1.0);
+  const Real q1r2_z = (state.y[1] * state.y[1] + state.y[2] * state.y[2]) * Real(2.0) - Real(1.0);
   const Real h1at1_y = q1r2_z * model.mr_z;
   const Real h1c_y = h1at1_y - model.mr_y;
   const Real V = h1c_y * Real(9.81);

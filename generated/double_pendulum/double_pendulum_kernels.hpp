@@ -52,14 +52,11 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
   l1 = parameters.l1;
-  const Real mr_y_2 = parameters.m1 * l1;
   mr_y = parameters.m2 * parameters.l2;
   S_yy = parameters.l2 * mr_y;
-  const Real mr_y_3 = l1 * parameters.m2;
   c0 = l1 * mr_y;
-  elbow_h_y_2 = mr_y_2 + mr_y_3;
-  c2 = l1 * elbow_h_y_2;
   elbow_h_y = l1 * (parameters.m1 + parameters.m2);
+  c2 = l1 * elbow_h_y;
   invD_1 = Real(1.0) / S_yy;
 }
 
@@ -82,7 +79,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   detail::sine_cosine(state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  const Real D1 = s0 * s1 * model.c0 - model.c0 * (c0 * c1);
+  const Real D1 = (s0 * s1 - c0 * c1) * model.c0;
   const Real E1 = D1 + model.S_yy;
   const Real J0 = D1 + E1 + model.c2;
   M[0][0] = J0;
@@ -102,11 +99,12 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
   const Real r1_y = c0 * model.l1;
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
+  const Real w1_z = state.z[0] + state.z[1];
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
   const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
-  const Real zw_1 = state.z[1] * (state.z[1] + (state.z[0] + state.z[0]));
+  const Real zw_1 = state.z[1] * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
   const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
@@ -143,26 +141,26 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real r1_y = c0 * model.l1;
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
-  const Real h0b_x = s0 * model.elbow_h_y_2;
+  const Real h0b_x = s0 * model.elbow_h_y;
   const Real h0_x = h1b_x + h0b_x;
   const Real bQp0 = h0_x * Real(9.81);
   const Real bW0w22 = state.z[0] * state.z[0];
   const Real ba1o_x = r1_x * bW0w22;
   const Real ba1o_y = Real(9.81) + r1_y * bW0w22;
   const Real bQp1 = h1b_x * ba1o_y + h1b_y * ba1o_x;
-  const Real zw_1 = state.z[1] * (state.z[1] + (state.z[0] + state.z[0]));
+  const Real zw_1 = state.z[1] * (state.z[0] + (state.z[0] + state.z[1]));
   const Real bdf1_x = h1b_x * zw_1;
   const Real bdf1_y = h1b_y * zw_1;
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real E1 = D1 + model.S_yy;
   const Real L_1_0 = E1 * model.invD_1;
-  const Real H1_0_0 = E1 * L_1_0 - (D1 + E1) - model.c2;
-  const Real u1_0 = bQp1 * L_1_0 + (r1_y * bdf1_x - (bQp0 - r1_x * bdf1_y));
+  const Real H1_0_0 = E1 + (D1 - (E1 * L_1_0 - model.c2));
+  const Real u1_0 = r1_x * bdf1_y - (bQp0 - (r1_y * bdf1_x + bQp1 * L_1_0));
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = u1_0 * invD_0;
   const Real y_1 = bQp1 * model.invD_1;
-  const Real zdot_1 = y_1 - L_1_0 * y_0;
-  zdot[0] = -y_0;
+  const Real zdot_1 = y_1 + L_1_0 * y_0;
+  zdot[0] = y_0;
   zdot[1] = -zdot_1;
 }
 
@@ -180,21 +178,21 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real h0b_x = s0 * model.elbow_h_y_2;
+  const Real h0b_x = s0 * model.elbow_h_y;
   const Real h0_x = h1b_x + h0b_x;
-  const Real J0 = D1 + (D1 + model.S_yy) + model.c2;
+  const Real J0 = D1 + (D1 + model.c2 + model.S_yy);
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = J0 * zdot[0];
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_y * zdot[0] - r1_x * aW0w22;
-  const Real aa1o_y = r1_y * aW0w22 + (Real(9.81) + r1_x * zdot[0]);
-  const Real zw_1 = state.z[1] * (state.z[1] + (state.z[0] + state.z[0]));
+  const Real aa1o_y = r1_x * zdot[0] + (Real(9.81) + r1_y * aW0w22);
+  const Real zw_1 = state.z[1] * (state.z[0] + (state.z[0] + state.z[1]));
   const Real adf1_x = h1b_y * zdot[1] + h1b_x * zw_1;
   const Real adf1_y = h1b_x * zdot[1] - h1b_y * zw_1;
   const Real adn1_z = model.S_yy * zdot[1];
-  const Real aQ0_0 = r1_y * adf1_x - (r1_x * adf1_y + (adn0_z + (aQp0 + adn1_z)));
-  const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x - (model.S_yy * zdot[0] + h1b_x * aa1o_y));
-  tau[0] = -aQ0_0;
+  const Real aQ0_0 = adn1_z + (aQp0 + (adn0_z + (r1_x * adf1_y - r1_y * adf1_x)));
+  const Real aQ1_0 = h1b_x * aa1o_y + (model.S_yy * zdot[0] - (h1b_y * aa1o_x - adn1_z));
+  tau[0] = aQ0_0;
   tau[1] = aQ1_0;
 }
 
@@ -211,16 +209,16 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + (D1 + model.S_yy) + model.c2;
+  const Real J0 = D1 + (D1 + model.c2 + model.S_yy);
   const Real v0L_z = J0 * state.z[0];
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
   const Real v1P_x = h1b_y * state.z[1];
   const Real v1P_y = h1b_x * state.z[1];
   const Real v1L_z = model.S_yy * state.z[1];
-  const Real T1 = (state.z[0] * v0L_z + state.z[1] * v1L_z) * Real(0.5) + (v1o_y * v1P_y + (state.z[0] * v1L_z
-      - v1o_x * v1P_x));
-  return T1;
+  const Real T1 = v1o_x * v1P_x - (state.z[0] * v1L_z + (v1o_y * v1P_y + (state.z[0] * v0L_z + state.z[1] *
+      v1L_z) * Real(0.5)));
+  return -T1;
 }
 
 template <class Real>

@@ -25,8 +25,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 1.8e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 1.3e-16; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 2.5e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 1.6e-16; symbolic equations against the numeric reference
 //   8.9e-16; cond(M) up to 1.0e+00
 #pragma once
 
@@ -145,42 +145,42 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 258 operations (152 mul, 102 add and sub, 4 div), 6 sin and cos.
+/// 257 operations (152 mul, 101 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[6]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 295 operations (167 mul, 124 add and sub, 4 div), 5 sin and cos.
+/// 292 operations (166 mul, 122 add and sub, 4 div), 5 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 567 operations (338 mul, 225 add and sub, 4 div), 6 sin and cos.
+/// 566 operations (338 mul, 224 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 341 operations (194 mul, 140 add and sub, 6 div), 5 sin and cos.
+/// 338 operations (194 mul, 137 add and sub, 6 div), 5 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 719 operations (417 mul, 294 add and sub, 7 div), 6 sin and cos.
+/// 713 operations (416 mul, 289 add and sub, 7 div), 6 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 696 operations (406 mul, 283 add and sub, 6 div), 6 sin and cos.
+/// 690 operations (405 mul, 278 add and sub, 6 div), 6 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 324 operations (194 mul, 126 add and sub, 4 div), 6 sin and cos.
+/// 321 operations (193 mul, 124 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -203,21 +203,21 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 336 operations (192 mul, 140 add and sub, 4 div), 6 sin and cos.
+/// 335 operations (192 mul, 139 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 804 operations (457 mul, 339 add and sub, 7 div), 6 sin and cos.
+/// 795 operations (453 mul, 334 add and sub, 7 div), 6 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 4201 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
+/// 4173 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

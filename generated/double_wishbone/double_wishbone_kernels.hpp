@@ -101,7 +101,7 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -121,81 +121,81 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
+  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
   const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
-  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t107 = q1r0_z * Real(0.03);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_x * Real(0.14) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) - Real(0.13)) +
+      Real(0.01));
+  const Real tie_rodd_y = expression_3 + (Real(0.36) + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t105 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t116 = Real(0.03) * top_joints1bf1_z;
+  const Real t114 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t128 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t128;
+  const Real t126 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t126;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t128 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t126 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
-  const Real t175 = Real(1.0) / top_joints2am_z;
-  const Real t176 = top_jointax_y * t175;
-  const Real t182 = top_joints2bm_y * t176 + (t116 + Real(0.31) * top_joints1bf1_x);
-  const Real t186 = top_joints2bm_z * t176 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t189 = top_jointax_x * t175 * Real(0.0697564737441253);
-  const Real t195 = Real(1.0) / (top_joints2bm_x * t176 + (Real(0.31) * top_joints1bf1_y - t116));
-  const Real t196 = (top_joints2bm_x * t189 + (q1r0_y * Real(0.31) + t107)) * t195;
-  const Real t205 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t189 - t186 * t196);
-  const Real t206 = tie_rods0bm_x * t195;
-  const Real t211 = Real(1.0) / (t182 * t196 - (top_joints2bm_y * t189 - (t107 - q1r0_x * Real(0.31))));
-  const Real t212 = (t182 * t206 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t211;
-  const Real t217 = Real(1.0) / (t205 * t212 + (t186 * t206 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x)));
-  const Real t220 = top_jointbx1_x * t176 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
-  const Real t223 = top_jointbx1_x * t189 - t196 * t220;
-  const Real t229 = t217 * (t212 * t223 + (t206 * t220 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t232 = t211 * (t223 - t205 * t229);
-  const Real t237 = t195 * (t186 * t229 - (t220 + t182 * t232));
-  const Real t252 = tie_rods0bf0_x * s * t217 * model.c2;
-  const Real t254 = t211 * (t205 * t252);
-  const Real t258 = t195 * (t182 * t254 + t186 * t252);
-  const Real t265 = t237 * state.z[0] + t258;
-  const Real t266 = t232 * state.z[0] - t254;
-  const Real t267 = t229 * state.z[0] + t252;
-  const Real t270 = state.y[1] * Real(0.5);
-  const Real t271 = state.y[2] * Real(0.5);
-  const Real t272 = state.y[3] * Real(0.5);
-  const Real t273 = state.y[4] * Real(0.5);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real t173 = Real(1.0) / top_joints2am_z;
+  const Real t174 = top_jointax_y * t173;
+  const Real t180 = Real(0.31) * top_joints1bf1_x + (t114 + top_joints2bm_y * t174);
+  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
+  const Real t193 = Real(1.0) / (t114 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
+  const Real t194 = (t105 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
+  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t204 = tie_rods0bm_x * t193;
+  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t105 - (top_joints2bm_y * t187 + t180 * t194)));
+  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
+  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
+      t203 * t210)));
+  const Real t218 = s0 * top_jointbx1p_x - (c0 * top_jointbx1p_y - top_jointbx1_x * t174);
+  const Real t221 = top_jointbx1_x * t187 + t194 * t218;
+  const Real t227 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (t204 * t218 -
+      t210 * t221)));
+  const Real t230 = t209 * (t221 + t203 * t227);
+  const Real t235 = t193 * (t180 * t230 - (t218 + t184 * t227));
+  const Real t250 = tie_rods0bf0_x * s * t215 * model.c2;
+  const Real t252 = t209 * (t203 * t250);
+  const Real t256 = t193 * (t180 * t252 - t184 * t250);
+  const Real t263 = t235 * state.z[0] - t256;
+  const Real t264 = t230 * state.z[0] - t252;
+  const Real t265 = t227 * state.z[0] - t250;
+  const Real t268 = state.y[1] * Real(0.5);
+  const Real t269 = state.y[2] * Real(0.5);
+  const Real t270 = state.y[3] * Real(0.5);
+  const Real t271 = state.y[4] * Real(0.5);
   ydot[0] = state.z[0];
-  ydot[1] = t267 * t273 - (t265 * t271 + t266 * t272);
-  ydot[2] = -(t267 * t272 - (t265 * t270 - t266 * t273));
-  ydot[3] = t267 * t271 + (t265 * t273 + t266 * t270);
-  ydot[4] = -(t267 * t270 + (t265 * t272 - t266 * t271));
-  ydot[5] = -(t175 * (top_joints2bm_z * t229 - (top_joints2bm_y * t232 + (top_jointbx1_x + top_joints2bm_x *
-      t237))) * state.z[0] + t175 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 - top_joints2bm_y *
-      t254)));
+  ydot[1] = -(t264 * t270 + (t263 * t269 - t265 * t271));
+  ydot[2] = -(t264 * t271 - (t263 * t268 - t265 * t270));
+  ydot[3] = t264 * t268 + (t263 * t271 + t265 * t269);
+  ydot[4] = t264 * t269 - (t263 * t270 + t265 * t268);
+  ydot[5] = t173 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 - top_joints2bm_z *
+      t227))) * state.z[0] - t173 * (top_joints2bm_y * t252 + (top_joints2bm_x * t256 - top_joints2bm_z *
+      t250));
 }
 
 template <class Real>
@@ -208,7 +208,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -235,56 +235,55 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
-  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t107 = q1r0_z * Real(0.03);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t102 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t116 = Real(0.03) * top_joints1bf1_z;
+  const Real t111 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t128 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t128;
+  const Real t123 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t123;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t128 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t123 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
-  const Real t173 = Real(1.0) / top_joints2am_z;
-  const Real t174 = top_jointax_y * t173;
-  const Real t180 = top_joints2bm_y * t174 + (t116 + Real(0.31) * top_joints1bf1_x);
-  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
-  const Real t193 = Real(1.0) / (top_joints2bm_x * t174 + (Real(0.31) * top_joints1bf1_y - t116));
-  const Real t194 = (top_joints2bm_x * t187 + (q1r0_y * Real(0.31) + t107)) * t193;
-  const Real t203 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t187 - t184 * t194);
-  const Real t204 = tie_rods0bm_x * t193;
-  const Real t209 = Real(1.0) / (t180 * t194 - (top_joints2bm_y * t187 - (t107 - q1r0_x * Real(0.31))));
-  const Real t210 = (t180 * t204 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t209;
-  const Real t218 = top_jointbx1_x * t174 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
-  const Real t221 = top_jointbx1_x * t187 - t194 * t218;
-  const Real t227 = Real(1.0) / (t203 * t210 + (t184 * t204 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x))) * (t210 * t221 + (t204 * t218 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t230 = t209 * (t221 - t203 * t227);
-  const Real t235 = t193 * (t184 * t227 - (t218 + t180 * t230));
-  const Real t242 = t173 * (top_joints2bm_z * t227 - (top_joints2bm_y * t230 + (top_jointbx1_x +
-      top_joints2bm_x * t235)));
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real t168 = Real(1.0) / top_joints2am_z;
+  const Real t169 = top_jointax_y * t168;
+  const Real t175 = Real(0.31) * top_joints1bf1_x + (t111 + top_joints2bm_y * t169);
+  const Real t179 = top_joints2bm_z * t169 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t182 = top_jointax_x * t168 * Real(0.0697564737441253);
+  const Real t188 = Real(1.0) / (t111 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t169));
+  const Real t189 = (t102 + (q1r0_y * Real(0.31) + top_joints2bm_x * t182)) * t188;
+  const Real t198 = t179 * t189 + (top_joints2bm_z * t182 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t199 = tie_rods0bm_x * t188;
+  const Real t204 = Real(1.0) / (q1r0_x * Real(0.31) - (t102 - (top_joints2bm_y * t182 + t175 * t189)));
+  const Real t205 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t175 * t199)) * t204;
+  const Real t213 = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + top_jointbx1_x * t169);
+  const Real t216 = top_jointbx1_x * t182 + t189 * t213;
+  const Real t222 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t179 * t199 -
+      t198 * t205))) * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t199 * t213 - t205 *
+      t216)));
+  const Real t225 = t204 * (t216 - t198 * t222);
+  const Real t230 = t188 * (t175 * t225 - (t213 - t179 * t222));
+  const Real t237 = t168 * (top_joints2bm_x * t230 - (top_jointbx1_x - (top_joints2bm_y * t225 +
+      top_joints2bm_z * t222)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -293,17 +292,16 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - (q1r1_x * Real(0.0768) + q1r2_x *
-      Real(1.3056)));
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
-      Real(0.544)));
-  M[0][0] = -(t227 * (p_3_1n_z - (t227 * Real(0.98) - (p_3_1n_z - t230 * Real(0.192)))) - (t230 * (p_2_1n_z +
-      (t227 * Real(0.192) + (p_2_1n_z + t230 * Real(1.7608)))) - (t235 * (p_1_1n_z + (p_1_1n_z - t235 *
-      Real(1.4408))) - (t242 * t242 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y *
-      S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x *
-      q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) - Real(3.8987000000000007)))) +
-      Real(0.017799999999999996)))))));
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
+  const Real p_2_1n_z = q1r2_x * Real(1.3056) + (q1r1_x * Real(0.0768) - (q1r0_z * Real(0.192) - q1r0_y *
+      Real(1.7608)));
+  const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
+      Real(0.98)));
+  M[0][0] = q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z *
+      S1at1r1_z - (h1at1_y * Real(0.04) - (t237 * t237 * Real(0.0505) + (t230 * (t230 * Real(1.4408) +
+      (p_1_1n_z + p_1_1n_z)) - (t222 * (t225 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t222 * Real(0.98)))) -
+      (t225 * (t225 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t222 * Real(0.192)))) + ((q1r1_x * q1r1_x +
+      q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) + Real(0.017799999999999996)))))))))));
 }
 
 template <class Real>
@@ -316,7 +314,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -336,138 +334,138 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
+  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
+  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
   const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
-  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t108 = q1r0_z * Real(0.03);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_x * Real(0.14) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) - Real(0.13)) +
+      Real(0.01));
+  const Real tie_rodd_y = expression_3 + (Real(0.36) + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t106 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t117 = Real(0.03) * top_joints1bf1_z;
+  const Real t115 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t129 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t129;
+  const Real t127 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t127;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t129 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t127 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t178 = Real(1.0) / top_joints2am_z;
-  const Real t179 = top_jointax_y * t178;
-  const Real t185 = top_joints2bm_y * t179 + (t117 + Real(0.31) * top_joints1bf1_x);
-  const Real t189 = top_joints2bm_z * t179 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t192 = top_jointax_x * t178 * Real(0.0697564737441253);
-  const Real t198 = Real(1.0) / (top_joints2bm_x * t179 + (Real(0.31) * top_joints1bf1_y - t117));
-  const Real t199 = (top_joints2bm_x * t192 + (q1r0_y * Real(0.31) + t108)) * t198;
-  const Real t208 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t192 - t189 * t199);
-  const Real t209 = tie_rods0bm_x * t198;
-  const Real t214 = Real(1.0) / (t185 * t199 - (top_joints2bm_y * t192 - (t108 - q1r0_x * Real(0.31))));
-  const Real t215 = (t185 * t209 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t214;
-  const Real t220 = Real(1.0) / (t208 * t215 + (t189 * t209 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x)));
-  const Real t222 = top_jointbx1_y + top_jointbx1_x * t179;
-  const Real t225 = top_jointbx1_x * t192 - t199 * t222;
-  const Real t231 = t220 * (t215 * t225 + (t209 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t234 = t214 * (t225 - t208 * t231);
-  const Real t239 = t198 * (t189 * t231 - (t222 + t185 * t234));
-  const Real t246 = t178 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
-      top_joints2bm_x * t239)));
-  const Real t252 = tie_rods0at * t220;
-  const Real t254 = t214 * (t208 * t252);
-  const Real t258 = t198 * (t185 * t254 + t189 * t252);
-  const Real t265 = t239 * state.z[0] + t258;
-  const Real t266 = t234 * state.z[0] - t254;
-  const Real t267 = t231 * state.z[0] + t252;
-  const Real t268 = t246 * state.z[0] + t178 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
-      top_joints2bm_y * t254));
-  const Real top_jointam2t_y = top_jointax_x * t268;
-  const Real t271 = Real(0.03) * t267;
-  const Real top_jointbm1t_x = Real(0.31) * t266 - t271;
-  const Real top_jointbm1t_y = t271 - Real(0.31) * t265;
-  const Real top_jointbm1t_z = Real(0.03) * (t265 - t266);
-  const Real top_jointam2t_x = top_jointax_y * t268;
-  const Real top_jointam2a_y = t268 * top_jointam2t_x;
+  const Real t176 = Real(1.0) / top_joints2am_z;
+  const Real t177 = top_jointax_y * t176;
+  const Real t183 = Real(0.31) * top_joints1bf1_x + (t115 + top_joints2bm_y * t177);
+  const Real t187 = top_joints2bm_z * t177 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t190 = top_jointax_x * t176 * Real(0.0697564737441253);
+  const Real t196 = Real(1.0) / (t115 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t177));
+  const Real t197 = (t106 + (q1r0_y * Real(0.31) + top_joints2bm_x * t190)) * t196;
+  const Real t206 = t187 * t197 + (top_joints2bm_z * t190 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t207 = tie_rods0bm_x * t196;
+  const Real t212 = Real(1.0) / (q1r0_x * Real(0.31) - (t106 - (top_joints2bm_y * t190 + t183 * t197)));
+  const Real t213 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t183 * t207)) * t212;
+  const Real t218 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t187 * t207 -
+      t206 * t213)));
+  const Real t220 = top_jointbx1_y - top_jointbx1_x * t177;
+  const Real t223 = top_jointbx1_x * t190 - t197 * t220;
+  const Real t229 = t218 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t207 * t220 +
+      t213 * t223)));
+  const Real t232 = t212 * (t223 + t206 * t229);
+  const Real t237 = t196 * (t183 * t232 + (t220 - t187 * t229));
+  const Real t244 = t176 * (top_joints2bm_x * t237 - (top_jointbx1_x - (top_joints2bm_y * t232 -
+      top_joints2bm_z * t229)));
+  const Real t250 = tie_rods0at * t218;
+  const Real t252 = t212 * (t206 * t250);
+  const Real t256 = t196 * (t183 * t252 - t187 * t250);
+  const Real t263 = t237 * state.z[0] - t256;
+  const Real t264 = t232 * state.z[0] - t252;
+  const Real t265 = t229 * state.z[0] - t250;
+  const Real t266 = t244 * state.z[0] - t176 * (top_joints2bm_y * t252 + (top_joints2bm_x * t256 -
+      top_joints2bm_z * t250));
+  const Real top_jointam2t_y = top_jointax_x * t266;
+  const Real t269 = Real(0.03) * t265;
+  const Real top_jointbm1t_x = Real(0.31) * t264 - t269;
+  const Real top_jointbm1t_y = t269 - Real(0.31) * t263;
+  const Real top_jointbm1t_z = Real(0.03) * (t263 - t264);
+  const Real top_jointam2t_x = top_jointax_y * t266;
+  const Real top_jointam2a_y = t266 * top_jointam2t_x;
   const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t266 * top_jointbm1t_z - t267 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t265 * top_jointbm1t_z - t267 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t265 * top_jointbm1t_y - t266 * top_jointbm1t_x;
-  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z - (q1r1_x * top_jointbm1t_x - q1r1_y *
-      top_jointbm1t_y);
-  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z + (q1r2_x * top_jointbm1t_x + q1r2_y *
-      top_jointbm1t_y);
+  const Real top_jointbm1a_x = t264 * top_jointbm1t_z - t265 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t263 * top_jointbm1t_z - t265 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t263 * top_jointbm1t_y - t264 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y - (q1r1_x * top_jointbm1t_x - q1r1_z *
+      top_jointbm1t_z);
+  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y + (q1r2_x * top_jointbm1t_x + q1r2_z *
+      top_jointbm1t_z);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t268 * top_jointam2t_y;
+  const Real top_jointam2a_x = t266 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z - (q1r1_x * top_jointbm1a_x + q1r1_y *
-      top_jointbm1a_y);
-  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z + (q1r2_x * top_jointbm1a_x - q1r2_y *
-      top_jointbm1a_y);
+  const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x - q1r1_z *
+      top_jointbm1a_z);
+  const Real top_jointbm1app_y = q1r2_y * top_jointbm1a_y - (q1r2_x * top_jointbm1a_x + q1r2_z *
+      top_jointbm1a_z);
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
-  const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
-  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
-      * top_jointbm1app_y));
-  const Real tie_rodbm1t_x = Real(0.07) * t266 - Real(0.02) * t267;
-  const Real tie_rodbm1t_y = Real(0.14) * t267 - Real(0.07) * t265;
-  const Real tie_rodbm1t_z = Real(0.14) * t266 - Real(0.02) * t265;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
+      state.z[0] * top_jointbm0b_x));
+  const Real tie_rodbm1t_x = Real(0.07) * t264 - Real(0.02) * t265;
+  const Real tie_rodbm1t_y = Real(0.14) * t265 - Real(0.07) * t263;
+  const Real tie_rodbm1t_z = Real(0.14) * t264 - Real(0.02) * t263;
+  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative - tie_rodbm1vp_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t266 * tie_rodbm1t_z + t267 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t265 * tie_rodbm1t_z + t267 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t265 * tie_rodbm1t_y - t266 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x + q1r1_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x - q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x + q1r0_y * tie_rodbm1a_y);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm1a_x = t264 * tie_rodbm1t_z + t265 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t263 * tie_rodbm1t_z + t265 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t263 * tie_rodbm1t_y - t264 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x + q1r1_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x - q1r2_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x - q1r0_z * tie_rodbm1a_z);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
-  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
-      tie_rodbm1app_x));
-  const Real t421 = t179 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
-      (top_jointam2a_x - c0 * top_jointbm1app_x)));
-  const Real t428 = t199 * t421 - (t192 * top_jointda_z + (q1r0_z * top_jointbm1a_z + (q1r0_y *
-      top_jointbm1a_y - (top_jointam2app_x - q1r0_x * top_jointbm1a_x))));
-  const Real t439 = t220 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t209 * t421 - t215 * t428));
-  const Real t442 = t214 * (t428 - t208 * t439);
-  const Real t447 = t198 * (t189 * t439 + (t421 - t185 * t442));
+  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
+  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
+      tie_rodbm0b_y));
+  const Real t419 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y + (state.z[0] *
+      top_jointbm0b_y + t177 * top_jointda_z)));
+  const Real t426 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y + (q1r0_z *
+      top_jointbm1a_z + (t190 * top_jointda_z + t197 * t419))));
+  const Real t437 = t218 * (t213 * t426 - (t207 * t419 + Real(3.123475237772121) * (tie_rodbm0v_y *
+      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
+  const Real t440 = t212 * (t426 + t206 * t437);
+  const Real t445 = t196 * (t183 * t440 - (t419 + t187 * t437));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -480,36 +478,36 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real kK1_x = w1p_x * Real(0.65);
   const Real kK1_y = w1p_y * Real(0.33) + w1p_z * Real(0.192);
   const Real kK1_z = w1p_z * Real(1.1108) + w1p_y * Real(0.192);
-  const Real ku1_x = t265 - Real(2.0) * w1p_x;
-  const Real ku1_y = t266 + Real(2.0) * w1p_y;
-  const Real ku1_z = t267 - Real(2.0) * w1p_z;
+  const Real ku1_x = t263 - Real(2.0) * w1p_x;
+  const Real ku1_y = t264 + Real(2.0) * w1p_y;
+  const Real ku1_z = t265 - Real(2.0) * w1p_z;
   const Real kSu1_x = Real(0.65) * ku1_x;
   const Real kSu1_y = Real(0.33) * ku1_y - Real(0.192) * ku1_z;
   const Real kSu1_z = Real(1.1108) * ku1_z - Real(0.192) * ku1_y;
   const Real kuh1 = Real(1.6) * ku1_y - Real(3.84) * ku1_z;
-  const Real kuw1 = t267 * ku1_z + (t265 * ku1_x + t266 * ku1_y);
-  const Real kdf1_x = t265 * kuh1;
-  const Real kdf1_y = Real(1.6) * kuw1 - t266 * kuh1;
-  const Real kdf1_z = Real(3.84) * kuw1 + t267 * kuh1;
-  const Real kdn1_x = t266 * kSu1_z - t267 * kSu1_y;
-  const Real kdn1_y = t265 * kSu1_z - t267 * kSu1_x;
-  const Real kdn1_z = t265 * kSu1_y - t266 * kSu1_x;
-  const Real kf1p_x = q1r1_z * kdf1_z - (q1r1_x * kdf1_x + q1r1_y * kdf1_y);
-  const Real kf1p_y = q1r2_z * kdf1_z + (q1r2_x * kdf1_x - q1r2_y * kdf1_y);
+  const Real kuw1 = t264 * ku1_y + (t263 * ku1_x + t265 * ku1_z);
+  const Real kdf1_x = t263 * kuh1;
+  const Real kdf1_y = Real(1.6) * kuw1 - t264 * kuh1;
+  const Real kdf1_z = Real(3.84) * kuw1 + t265 * kuh1;
+  const Real kdn1_x = t264 * kSu1_z - t265 * kSu1_y;
+  const Real kdn1_y = t263 * kSu1_z - t265 * kSu1_x;
+  const Real kdn1_z = t263 * kSu1_y - t264 * kSu1_x;
+  const Real kf1p_x = q1r1_y * kdf1_y + (q1r1_x * kdf1_x - q1r1_z * kdf1_z);
+  const Real kf1p_y = q1r2_y * kdf1_y - (q1r2_x * kdf1_x + q1r2_z * kdf1_z);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - (q1r1_x * Real(0.0768) + q1r2_x *
-      Real(1.3056)));
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
-      Real(0.544)));
-  k[0] = -(t246 * (t178 * (top_joints2bm_z * t439 - (top_joints2bm_y * t442 - (top_jointda_z - top_joints2bm_x
-      * t447)))) * Real(0.0505) + (t231 * (t439 * Real(0.98) + (t442 * Real(0.192) + (kdn1_z + (w1p_y * kK1_x
-      - (ka1_x * Real(1.6) + w1p_x * kK1_y))))) + (t234 * (t439 * Real(0.192) + (t442 * Real(1.7608) - (kdn1_y
-      - (w1p_z * kK1_x - (ka1_x * Real(3.84) + w1p_x * kK1_z))))) + (t239 * (t447 * Real(1.4408) + (kdn1_x +
-      (w1p_z * kK1_y - (w1p_y * kK1_z + (ka1_z * Real(1.6) + ka1_y * Real(3.84)))))) - (t439 * p_3_1n_z -
-      (t442 * p_2_1n_z - (t447 * p_1_1n_z - (Real(0.34) * kf1p_y - (Real(0.02) * kf1p_x + (q1r0_z * kdn1_z +
-      (q1r0_x * kdn1_x + q1r0_y * kdn1_y)))))))))));
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
+  const Real p_2_1n_z = q1r2_x * Real(1.3056) + (q1r1_x * Real(0.0768) - (q1r0_z * Real(0.192) - q1r0_y *
+      Real(1.7608)));
+  const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
+      Real(0.98)));
+  k[0] = q1r0_y * kdn1_y + (q1r0_x * kdn1_x + (q1r0_z * kdn1_z - (Real(0.02) * kf1p_x - (Real(0.34) * kf1p_y +
+      (t445 * p_1_1n_z - (t440 * p_2_1n_z + (t437 * p_3_1n_z - (t237 * (ka1_y * Real(3.84) + (ka1_z *
+      Real(1.6) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t445 * Real(1.4408)))))) + (t232 * (w1p_x *
+      kK1_z + (ka1_x * Real(3.84) - (w1p_z * kK1_x - (kdn1_y - (t440 * Real(1.7608) + t437 * Real(0.192))))))
+      + (t229 * (w1p_x * kK1_y + (ka1_x * Real(1.6) - (w1p_y * kK1_x + (kdn1_z + (t440 * Real(0.192) + t437 *
+      Real(0.98)))))) - t244 * (t176 * (top_joints2bm_x * t445 - (top_jointda_z - (top_joints2bm_y * t440 -
+      top_joints2bm_z * t437)))) * Real(0.0505)))))))))));
 }
 
 template <class Real>
@@ -523,7 +521,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -543,72 +541,72 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
+  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
   const Real expression = state.t * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
-  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t107 = q1r0_z * Real(0.03);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_x * Real(0.14) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) - Real(0.13)) +
+      Real(0.01));
+  const Real tie_rodd_y = expression_3 + (Real(0.36) + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t105 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t116 = Real(0.03) * top_joints1bf1_z;
+  const Real t114 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t128 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t128;
+  const Real t126 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t126;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t128 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t126 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
-  const Real t173 = Real(1.0) / top_joints2am_z;
-  const Real t174 = top_jointax_y * t173;
-  const Real t180 = top_joints2bm_y * t174 + (t116 + Real(0.31) * top_joints1bf1_x);
-  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
-  const Real t193 = Real(1.0) / (top_joints2bm_x * t174 + (Real(0.31) * top_joints1bf1_y - t116));
-  const Real t194 = (top_joints2bm_x * t187 + (q1r0_y * Real(0.31) + t107)) * t193;
-  const Real t203 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t187 - t184 * t194);
-  const Real t204 = tie_rods0bm_x * t193;
-  const Real t209 = Real(1.0) / (t180 * t194 - (top_joints2bm_y * t187 - (t107 - q1r0_x * Real(0.31))));
-  const Real t210 = (t180 * t204 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t209;
-  const Real t218 = top_jointbx1_x * t174 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
-  const Real t221 = top_jointbx1_x * t187 - t194 * t218;
-  const Real t227 = Real(1.0) / (t203 * t210 + (t184 * t204 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x))) * (t210 * t221 + (t204 * t218 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t230 = t209 * (t221 - t203 * t227);
-  const Real t235 = t193 * (t184 * t227 - (t218 + t180 * t230));
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real t171 = Real(1.0) / top_joints2am_z;
+  const Real t172 = top_jointax_y * t171;
+  const Real t178 = Real(0.31) * top_joints1bf1_x + (t114 + top_joints2bm_y * t172);
+  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t185 = top_jointax_x * t171 * Real(0.0697564737441253);
+  const Real t191 = Real(1.0) / (t114 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t172));
+  const Real t192 = (t105 + (q1r0_y * Real(0.31) + top_joints2bm_x * t185)) * t191;
+  const Real t201 = t182 * t192 + (top_joints2bm_z * t185 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t202 = tie_rods0bm_x * t191;
+  const Real t207 = Real(1.0) / (q1r0_x * Real(0.31) - (t105 - (top_joints2bm_y * t185 + t178 * t192)));
+  const Real t208 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t178 * t202)) * t207;
+  const Real t216 = s0 * top_jointbx1p_x - (c0 * top_jointbx1p_y - top_jointbx1_x * t172);
+  const Real t219 = top_jointbx1_x * t185 + t192 * t216;
+  const Real t225 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t182 * t202 -
+      t201 * t208))) * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (t202 * t216 - t208 *
+      t219)));
+  const Real t228 = t207 * (t219 + t201 * t225);
+  const Real t233 = t191 * (t178 * t228 - (t216 + t182 * t225));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
-  const Real h1c_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84) - Real(11.73);
-  const Real h1c_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84) - Real(0.64);
+  const Real h1c_x = q1r1_z * Real(3.84) - (q1r1_y * Real(1.6) - Real(11.73));
+  const Real h1c_y = q1r2_z * Real(3.84) - (q1r2_y * Real(1.6) - Real(0.64));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real strutbx_x = c0 * Real(0.22);
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutbv0_x = state.z[0] * strutbx_y;
   const Real strutbv0_y = state.z[0] * strutbx_x;
-  const Real strutd_y = Real(0.36) + strutbx_x - Real(0.46);
-  const Real strutd_z = Real(0.21) + strutbx_y - Real(0.62);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strutd_y = strutbx_x - Real(0.10000000000000003);
+  const Real strutd_z = strutbx_y - Real(0.41000000000000003);
+  const Real strut_ll = strutd_y * strutd_y + (strutd_z * strutd_z + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
   const Real strut_e = strut_l - model.free_length;
@@ -616,12 +614,12 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real strut_Tl = strut_T / strut_l;
   const Real strutf_y = strutd_y * strut_Tl;
   const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
-      Real(0.01)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
-      Real(0.01)));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - (input.u[0] +
-      Real(0.3275))));
+  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - (Real(0.34) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06)));
+  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06)));
+  const Real expression_4 = input.u[0] + (c0 * wheel_centerx1p_y + s0 * wheel_centerx1p_x - Real(0.21) +
+      Real(0.3275));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -631,20 +629,20 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tyre_forcem_x = Real(0.12) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_z;
   const Real tyre_forcem_y = Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x;
   const Real tyre_forcem_z = Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x;
-  const Real qloadf1p_x = q1r1_z * tyre_forcef1_z + (q1r1_x * tyre_forcef1_x + q1r1_y * tyre_forcef1_y);
-  const Real qloadf1p_y = q1r2_z * tyre_forcef1_z - (q1r2_x * tyre_forcef1_x - q1r2_y * tyre_forcef1_y);
+  const Real qloadf1p_x = q1r1_y * tyre_forcef1_y + (q1r1_x * tyre_forcef1_x + q1r1_z * tyre_forcef1_z);
+  const Real qloadf1p_y = q1r2_y * tyre_forcef1_y - (q1r2_x * tyre_forcef1_x - q1r2_z * tyre_forcef1_z);
   const Real g1p_x = s0 * Real(9.81);
   const Real g1p_y = c0 * Real(9.81);
   const Real g1_x = q1r1_x * g1p_x + q1r2_x * g1p_y;
   const Real g1_y = q1r1_y * g1p_x - q1r2_y * g1p_y;
   const Real g1_z = q1r1_z * g1p_x - q1r2_z * g1p_y;
-  const Real q_1 = Real(3.84) * g1_y - (tyre_forcem_x - Real(1.6) * g1_z);
+  const Real q_1 = Real(1.6) * g1_z - (tyre_forcem_x - Real(3.84) * g1_y);
   const Real q_2 = tyre_forcem_y - Real(3.84) * g1_x;
   const Real q_3 = tyre_forcem_z + Real(1.6) * g1_x;
-  q[0] = -(t173 * (top_joints2bm_z * t227 - (top_joints2bm_y * t230 + (top_jointbx1_x + top_joints2bm_x *
-      t235))) * h2b_x * Real(9.786103333048876) - (t227 * q_3 - (t230 * q_2 - (t235 * q_1 - (h0b_x *
-      Real(9.81) - (Real(0.34) * qloadf1p_y - (Real(0.02) * qloadf1p_x + (q1r0_z * tyre_forcem_z + (q1r0_y *
-      tyre_forcem_y - (q1r0_x * tyre_forcem_x + (strutbx_x * strutf_z - strutbx_y * strutf_y)))))))))));
+  q[0] = -(strutbx_y * strutf_y - (strutbx_x * strutf_z + (q1r0_x * tyre_forcem_x - (q1r0_y * tyre_forcem_y +
+      (q1r0_z * tyre_forcem_z + (Real(0.02) * qloadf1p_x - (Real(0.34) * qloadf1p_y + (h0b_x * Real(9.81) +
+      (t233 * q_1 - (t228 * q_2 - (t225 * q_3 + t171 * (top_joints2bm_x * t233 - (top_jointbx1_x -
+      (top_joints2bm_y * t228 - top_joints2bm_z * t225))) * h2b_x * Real(9.786103333048876))))))))))));
 }
 
 template <class Real>
@@ -658,7 +656,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -687,129 +685,128 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
-  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t108 = q1r0_z * Real(0.03);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t103 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t117 = Real(0.03) * top_joints1bf1_z;
+  const Real t112 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t129 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t129;
+  const Real t124 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t129 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t178 = Real(1.0) / top_joints2am_z;
-  const Real t179 = top_jointax_y * t178;
-  const Real t185 = top_joints2bm_y * t179 + (t117 + Real(0.31) * top_joints1bf1_x);
-  const Real t189 = top_joints2bm_z * t179 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t192 = top_jointax_x * t178 * Real(0.0697564737441253);
-  const Real t198 = Real(1.0) / (top_joints2bm_x * t179 + (Real(0.31) * top_joints1bf1_y - t117));
-  const Real t199 = (top_joints2bm_x * t192 + (q1r0_y * Real(0.31) + t108)) * t198;
-  const Real t208 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t192 - t189 * t199);
-  const Real t209 = tie_rods0bm_x * t198;
-  const Real t214 = Real(1.0) / (t185 * t199 - (top_joints2bm_y * t192 - (t108 - q1r0_x * Real(0.31))));
-  const Real t215 = (t185 * t209 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t214;
-  const Real t220 = Real(1.0) / (t208 * t215 + (t189 * t209 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x)));
-  const Real t222 = top_jointbx1_y + top_jointbx1_x * t179;
-  const Real t225 = top_jointbx1_x * t192 - t199 * t222;
-  const Real t231 = t220 * (t215 * t225 + (t209 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t234 = t214 * (t225 - t208 * t231);
-  const Real t239 = t198 * (t189 * t231 - (t222 + t185 * t234));
-  const Real t246 = t178 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
-      top_joints2bm_x * t239)));
-  const Real t252 = tie_rods0at * t220;
-  const Real t254 = t214 * (t208 * t252);
-  const Real t258 = t198 * (t185 * t254 + t189 * t252);
-  const Real t265 = t239 * state.z[0] + t258;
-  const Real t266 = t234 * state.z[0] - t254;
-  const Real t267 = t231 * state.z[0] + t252;
-  const Real t268 = t246 * state.z[0] + t178 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
-      top_joints2bm_y * t254));
-  const Real top_jointam2t_y = top_jointax_x * t268;
-  const Real t271 = Real(0.03) * t267;
-  const Real top_jointbm1t_x = Real(0.31) * t266 - t271;
-  const Real top_jointbm1t_y = t271 - Real(0.31) * t265;
-  const Real top_jointbm1t_z = Real(0.03) * (t265 - t266);
-  const Real top_jointam2t_x = top_jointax_y * t268;
-  const Real top_jointam2a_y = t268 * top_jointam2t_x;
+  const Real t173 = Real(1.0) / top_joints2am_z;
+  const Real t174 = top_jointax_y * t173;
+  const Real t180 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t174);
+  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
+  const Real t193 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
+  const Real t194 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
+  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t204 = tie_rods0bm_x * t193;
+  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t187 + t180 * t194)));
+  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
+  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
+      t203 * t210)));
+  const Real t217 = top_jointbx1_y + top_jointbx1_x * t174;
+  const Real t220 = top_jointbx1_x * t187 + t194 * t217;
+  const Real t226 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t204 * t217 -
+      t210 * t220)));
+  const Real t229 = t209 * (t220 - t203 * t226);
+  const Real t234 = t193 * (t180 * t229 - (t217 - t184 * t226));
+  const Real t241 = t173 * (top_joints2bm_x * t234 - (top_jointbx1_x - (top_joints2bm_y * t229 +
+      top_joints2bm_z * t226)));
+  const Real t247 = tie_rods0at * t215;
+  const Real t249 = t209 * (t203 * t247);
+  const Real t253 = t193 * (t180 * t249 - t184 * t247);
+  const Real t260 = t234 * state.z[0] + t253;
+  const Real t261 = t229 * state.z[0] + t249;
+  const Real t262 = t226 * state.z[0] - t247;
+  const Real t263 = t241 * state.z[0] + t173 * (top_joints2bm_y * t249 + (top_joints2bm_x * t253 -
+      top_joints2bm_z * t247));
+  const Real top_jointam2t_y = top_jointax_x * t263;
+  const Real t266 = Real(0.03) * t262;
+  const Real top_jointbm1t_x = Real(0.31) * t261 + t266;
+  const Real top_jointbm1t_y = t266 + Real(0.31) * t260;
+  const Real top_jointbm1t_z = Real(0.03) * (t260 - t261);
+  const Real top_jointam2t_x = top_jointax_y * t263;
+  const Real top_jointam2a_y = t263 * top_jointam2t_x;
   const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t266 * top_jointbm1t_z - t267 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t265 * top_jointbm1t_z - t267 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t265 * top_jointbm1t_y - t266 * top_jointbm1t_x;
-  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z - (q1r1_x * top_jointbm1t_x - q1r1_y *
-      top_jointbm1t_y);
-  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z + (q1r2_x * top_jointbm1t_x + q1r2_y *
-      top_jointbm1t_y);
+  const Real top_jointbm1a_x = t261 * top_jointbm1t_z - t262 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t260 * top_jointbm1t_z + t262 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t260 * top_jointbm1t_y + t261 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
+      top_jointbm1t_z);
+  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
+      top_jointbm1t_z);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t268 * top_jointam2t_y;
+  const Real top_jointam2a_x = t263 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z - (q1r1_x * top_jointbm1a_x + q1r1_y *
-      top_jointbm1a_y);
-  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z + (q1r2_x * top_jointbm1a_x - q1r2_y *
-      top_jointbm1a_y);
+  const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
+      top_jointbm1a_z);
+  const Real top_jointbm1app_y = q1r2_y * top_jointbm1a_y - (q1r2_x * top_jointbm1a_x - q1r2_z *
+      top_jointbm1a_z);
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
   const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
-  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
-      * top_jointbm1app_y));
-  const Real tie_rodbm1t_x = Real(0.07) * t266 - Real(0.02) * t267;
-  const Real tie_rodbm1t_y = Real(0.14) * t267 - Real(0.07) * t265;
-  const Real tie_rodbm1t_z = Real(0.14) * t266 - Real(0.02) * t265;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
+      state.z[0] * top_jointbm0b_x));
+  const Real tie_rodbm1t_x = Real(0.07) * t261 + Real(0.02) * t262;
+  const Real tie_rodbm1t_y = Real(0.14) * t262 + Real(0.07) * t260;
+  const Real tie_rodbm1t_z = Real(0.14) * t261 - Real(0.02) * t260;
+  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative - tie_rodbm1vp_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t266 * tie_rodbm1t_z + t267 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t265 * tie_rodbm1t_z + t267 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t265 * tie_rodbm1t_y - t266 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x + q1r1_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x - q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x + q1r0_y * tie_rodbm1a_y);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm1a_x = t261 * tie_rodbm1t_z + t262 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t260 * tie_rodbm1t_z - t262 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t260 * tie_rodbm1t_y + t261 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
-  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
-      tie_rodbm1app_x));
-  const Real t421 = t179 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
-      (top_jointam2a_x - c0 * top_jointbm1app_x)));
-  const Real t428 = t199 * t421 - (t192 * top_jointda_z + (q1r0_z * top_jointbm1a_z + (q1r0_y *
-      top_jointbm1a_y - (top_jointam2app_x - q1r0_x * top_jointbm1a_x))));
-  const Real t439 = t220 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t209 * t421 - t215 * t428));
-  const Real t442 = t214 * (t428 - t208 * t439);
-  const Real t447 = t198 * (t189 * t439 + (t421 - t185 * t442));
+  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
+  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
+      tie_rodbm0b_y));
+  const Real t416 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
+      top_jointbm0b_y - t174 * top_jointda_z)));
+  const Real t423 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
+      top_jointbm1a_z - (t187 * top_jointda_z + t194 * t416))));
+  const Real t434 = t215 * (t210 * t423 - (t204 * t416 + Real(3.123475237772121) * (tie_rodbm0v_y *
+      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
+  const Real t437 = t209 * (t423 + t203 * t434);
+  const Real t442 = t193 * (t180 * t437 - (t416 + t184 * t434));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -818,11 +815,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - (q1r1_x * Real(0.0768) + q1r2_x *
-      Real(1.3056)));
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
-      Real(0.544)));
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
+  const Real p_2_1n_z = q1r2_x * Real(1.3056) + (q1r1_x * Real(0.0768) - (q1r0_z * Real(0.192) - q1r0_y *
+      Real(1.7608)));
+  const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
+      Real(0.98)));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
@@ -834,8 +831,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutbv0_x = state.z[0] * strutbx_y;
   const Real strutbv0_y = state.z[0] * strutbx_x;
-  const Real strutd_y = Real(0.36) + strutbx_x - Real(0.46);
-  const Real strutd_z = Real(0.21) + strutbx_y - Real(0.62);
+  const Real strutd_y = strutbx_x - Real(0.10000000000000003);
+  const Real strutd_z = strutbx_y - Real(0.41000000000000003);
   const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
@@ -844,12 +841,12 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strut_Tl = strut_T / strut_l;
   const Real strutf_y = strutd_y * strut_Tl;
   const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
-      Real(0.01)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
-      Real(0.01)));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - (input.u[0] +
-      Real(0.3275))));
+  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - (Real(0.34) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06)));
+  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06)));
+  const Real expression_4 = c0 * wheel_centerx1p_y + (input.u[0] + (s0 * wheel_centerx1p_x +
+      Real(0.11750000000000002)));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -868,40 +865,40 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real ru1_x = t265 - Real(2.0) * w1p_x;
-  const Real ru1_y = t266 + Real(2.0) * w1p_y;
-  const Real ru1_z = t267 - Real(2.0) * w1p_z;
+  const Real ru1_x = t260 + Real(2.0) * w1p_x;
+  const Real ru1_y = t261 - Real(2.0) * w1p_y;
+  const Real ru1_z = t262 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
-  const Real rSu1_y = Real(0.33) * ru1_y - Real(0.192) * ru1_z;
-  const Real rSu1_z = Real(1.1108) * ru1_z - Real(0.192) * ru1_y;
-  const Real ruh1 = Real(1.6) * ru1_y - Real(3.84) * ru1_z;
-  const Real ruw1 = t267 * ru1_z + (t265 * ru1_x + t266 * ru1_y);
+  const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
+  const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
+  const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
+  const Real ruw1 = t261 * ru1_y + (t260 * ru1_x + t262 * ru1_z);
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t178 * (top_joints2bm_z * t439 - (top_joints2bm_y * t442 - (top_jointda_z -
-      top_joints2bm_x * t447))) * Real(0.0505);
-  const Real ref1_x = t265 * ruh1 + (t442 * Real(3.84) - (tyre_forcef1_x - t439 * Real(1.6)));
-  const Real ref1_y = t266 * ruh1 - (t447 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * ruw1));
-  const Real ref1_z = t267 * ruh1 + (Real(3.84) * ruw1 + (tyre_forcef1_z - t447 * Real(1.6)));
-  const Real ren1_x = t267 * rSu1_y - (t266 * rSu1_z + (t447 * Real(1.4408) - (Real(0.12) * tyre_forcef1_y +
-      Real(0.06) * tyre_forcef1_z)));
-  const Real ren1_y = t267 * rSu1_x - (t265 * rSu1_z - (t442 * Real(1.7608) + (t439 * Real(0.192) -
-      (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real ren1_z = t266 * rSu1_x - (t265 * rSu1_y + (t439 * Real(0.98) + (t442 * Real(0.192) + (Real(0.01)
-      * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
-  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x - q1r1_y * ref1_y);
-  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x + q1r2_y * ref1_y);
-  const Real rQ1_0 = ren1_x - (w1p_z * rK1_y - (w1p_y * rK1_z - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
-  const Real rQ1_1 = ren1_y + (w1p_z * rK1_x + (Real(3.84) * ra1_x - w1p_x * rK1_z));
-  const Real rQ1_2 = ren1_z - (w1p_y * rK1_x + (Real(1.6) * ra1_x - w1p_x * rK1_y));
-  const Real rQ2_0 = rQp2 - rdn2_z;
-  zdot[0] = -(Real(1.0) / (t231 * (p_3_1n_z - (t231 * Real(0.98) - (p_3_1n_z - t234 * Real(0.192)))) - (t234 *
-      (p_2_1n_z + (t231 * Real(0.192) + (p_2_1n_z + t234 * Real(1.7608)))) - (t239 * (p_1_1n_z + (p_1_1n_z -
-      t239 * Real(1.4408))) - (t246 * t246 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z +
-      (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z +
-      (q1r1_x * q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) - Real(3.8987000000000007)))) +
-      Real(0.017799999999999996))))))) * (t246 * rQ2_0 + (t231 * rQ1_2 - (t234 * rQ1_1 - (t239 * rQ1_0 -
-      (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x - (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x -
-      (rQp0 - (strutbx_x * strutf_z - strutbx_y * strutf_y))))))))))));
+  const Real rdn2_z = t173 * (top_joints2bm_x * t442 - (top_jointda_z - (top_joints2bm_y * t437 -
+      top_joints2bm_z * t434))) * Real(0.0505);
+  const Real ref1_x = t434 * Real(1.6) - (tyre_forcef1_x - (t437 * Real(3.84) + t260 * ruh1));
+  const Real ref1_y = Real(1.6) * ruw1 - (tyre_forcef1_y - (t442 * Real(3.84) - t261 * ruh1));
+  const Real ref1_z = t442 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * ruw1 - t262 * ruh1));
+  const Real ren1_x = Real(0.06) * tyre_forcef1_z + (Real(0.12) * tyre_forcef1_y - (t442 * Real(1.4408) -
+      (t261 * rSu1_z - t262 * rSu1_y)));
+  const Real ren1_y = Real(0.12) * tyre_forcef1_x + (Real(0.01) * tyre_forcef1_z - (t434 * Real(0.192) + (t437
+      * Real(1.7608) + (t260 * rSu1_z - t262 * rSu1_x))));
+  const Real ren1_z = Real(0.06) * tyre_forcef1_x - (Real(0.01) * tyre_forcef1_y + (t437 * Real(0.192) + (t434
+      * Real(0.98) + (t260 * rSu1_y - t261 * rSu1_x))));
+  const Real rf1p_x = q1r1_y * ref1_y + (q1r1_x * ref1_x + q1r1_z * ref1_z);
+  const Real rf1p_y = q1r2_y * ref1_y - (q1r2_x * ref1_x - q1r2_z * ref1_z);
+  const Real rQ1_0 = Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (w1p_y * rK1_z - (w1p_z * rK1_y - ren1_x)));
+  const Real rQ1_1 = w1p_x * rK1_z - (Real(3.84) * ra1_x + (w1p_z * rK1_x - ren1_y));
+  const Real rQ1_2 = w1p_x * rK1_y - (Real(1.6) * ra1_x + (w1p_y * rK1_x - ren1_z));
+  const Real rQ2_0 = rQp2 + rdn2_z;
+  zdot[0] = Real(1.0) / (q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y *
+      S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t241 * t241 * Real(0.0505) + (t234 * (t234 *
+      Real(1.4408) + (p_1_1n_z + p_1_1n_z)) - (t226 * (t229 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t226 *
+      Real(0.98)))) - (t229 * (t229 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t226 * Real(0.192)))) + ((q1r1_x
+      * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) +
+      Real(0.017799999999999996)))))))))))) * (strutbx_y * strutf_y - (strutbx_x * strutf_z - (rQp0 - (q1r0_x
+      * ren1_x - (q1r0_y * ren1_y - (q1r0_z * ren1_z + (Real(0.02) * rf1p_x - (Real(0.34) * rf1p_y + (t234 *
+      rQ1_0 - (t229 * rQ1_1 - (t226 * rQ1_2 + t241 * rQ2_0)))))))))));
 }
 
 template <class Real>
@@ -915,7 +912,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -944,132 +941,131 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
-  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t108 = q1r0_z * Real(0.03);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t103 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t117 = Real(0.03) * top_joints1bf1_z;
+  const Real t112 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t129 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t129;
+  const Real t124 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t129 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t178 = Real(1.0) / top_joints2am_z;
-  const Real t179 = top_jointax_y * t178;
-  const Real t185 = top_joints2bm_y * t179 + (t117 + Real(0.31) * top_joints1bf1_x);
-  const Real t189 = top_joints2bm_z * t179 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t192 = top_jointax_x * t178 * Real(0.0697564737441253);
-  const Real t198 = Real(1.0) / (top_joints2bm_x * t179 + (Real(0.31) * top_joints1bf1_y - t117));
-  const Real t199 = (top_joints2bm_x * t192 + (q1r0_y * Real(0.31) + t108)) * t198;
-  const Real t208 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t192 - t189 * t199);
-  const Real t209 = tie_rods0bm_x * t198;
-  const Real t214 = Real(1.0) / (t185 * t199 - (top_joints2bm_y * t192 - (t108 - q1r0_x * Real(0.31))));
-  const Real t215 = (t185 * t209 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t214;
-  const Real t220 = Real(1.0) / (t208 * t215 + (t189 * t209 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x)));
-  const Real t222 = top_jointbx1_y + top_jointbx1_x * t179;
-  const Real t225 = top_jointbx1_x * t192 - t199 * t222;
-  const Real t231 = t220 * (t215 * t225 + (t209 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t234 = t214 * (t225 - t208 * t231);
-  const Real t239 = t198 * (t189 * t231 - (t222 + t185 * t234));
-  const Real t246 = t178 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
-      top_joints2bm_x * t239)));
-  const Real t252 = tie_rods0at * t220;
-  const Real t254 = t214 * (t208 * t252);
-  const Real t258 = t198 * (t185 * t254 + t189 * t252);
-  const Real t265 = t239 * state.z[0] + t258;
-  const Real t266 = t234 * state.z[0] - t254;
-  const Real t267 = t231 * state.z[0] + t252;
-  const Real t268 = t246 * state.z[0] + t178 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
-      top_joints2bm_y * t254));
-  const Real top_jointam2t_y = top_jointax_x * t268;
-  const Real t271 = Real(0.03) * t267;
-  const Real top_jointbm1t_x = Real(0.31) * t266 - t271;
-  const Real top_jointbm1t_y = t271 - Real(0.31) * t265;
-  const Real top_jointbm1t_z = Real(0.03) * (t265 - t266);
-  const Real top_jointam2t_x = top_jointax_y * t268;
-  const Real top_jointam2a_y = t268 * top_jointam2t_x;
+  const Real t173 = Real(1.0) / top_joints2am_z;
+  const Real t174 = top_jointax_y * t173;
+  const Real t180 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t174);
+  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
+  const Real t193 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
+  const Real t194 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
+  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t204 = tie_rods0bm_x * t193;
+  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t187 + t180 * t194)));
+  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
+  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
+      t203 * t210)));
+  const Real t217 = top_jointbx1_y + top_jointbx1_x * t174;
+  const Real t220 = top_jointbx1_x * t187 + t194 * t217;
+  const Real t226 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t204 * t217 -
+      t210 * t220)));
+  const Real t229 = t209 * (t220 - t203 * t226);
+  const Real t234 = t193 * (t180 * t229 - (t217 - t184 * t226));
+  const Real t241 = t173 * (top_joints2bm_x * t234 - (top_jointbx1_x - (top_joints2bm_y * t229 +
+      top_joints2bm_z * t226)));
+  const Real t247 = tie_rods0at * t215;
+  const Real t249 = t209 * (t203 * t247);
+  const Real t253 = t193 * (t180 * t249 - t184 * t247);
+  const Real t260 = t234 * state.z[0] + t253;
+  const Real t261 = t229 * state.z[0] + t249;
+  const Real t262 = t226 * state.z[0] - t247;
+  const Real t263 = t241 * state.z[0] + t173 * (top_joints2bm_y * t249 + (top_joints2bm_x * t253 -
+      top_joints2bm_z * t247));
+  const Real top_jointam2t_y = top_jointax_x * t263;
+  const Real t266 = Real(0.03) * t262;
+  const Real top_jointbm1t_x = Real(0.31) * t261 + t266;
+  const Real top_jointbm1t_y = t266 + Real(0.31) * t260;
+  const Real top_jointbm1t_z = Real(0.03) * (t260 - t261);
+  const Real top_jointam2t_x = top_jointax_y * t263;
+  const Real top_jointam2a_y = t263 * top_jointam2t_x;
   const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t266 * top_jointbm1t_z - t267 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t265 * top_jointbm1t_z - t267 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t265 * top_jointbm1t_y - t266 * top_jointbm1t_x;
-  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z - (q1r1_x * top_jointbm1t_x - q1r1_y *
-      top_jointbm1t_y);
-  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z + (q1r2_x * top_jointbm1t_x + q1r2_y *
-      top_jointbm1t_y);
+  const Real top_jointbm1a_x = t261 * top_jointbm1t_z - t262 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t260 * top_jointbm1t_z + t262 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t260 * top_jointbm1t_y + t261 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
+      top_jointbm1t_z);
+  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
+      top_jointbm1t_z);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t268 * top_jointam2t_y;
+  const Real top_jointam2a_x = t263 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z - (q1r1_x * top_jointbm1a_x + q1r1_y *
-      top_jointbm1a_y);
-  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z + (q1r2_x * top_jointbm1a_x - q1r2_y *
-      top_jointbm1a_y);
+  const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
+      top_jointbm1a_z);
+  const Real top_jointbm1app_y = q1r2_y * top_jointbm1a_y - (q1r2_x * top_jointbm1a_x - q1r2_z *
+      top_jointbm1a_z);
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
   const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
-  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
-      * top_jointbm1app_y));
-  const Real tie_rodbm1t_x = Real(0.07) * t266 - Real(0.02) * t267;
-  const Real tie_rodbm1t_y = Real(0.14) * t267 - Real(0.07) * t265;
-  const Real tie_rodbm1t_z = Real(0.14) * t266 - Real(0.02) * t265;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
+      state.z[0] * top_jointbm0b_x));
+  const Real tie_rodbm1t_x = Real(0.07) * t261 + Real(0.02) * t262;
+  const Real tie_rodbm1t_y = Real(0.14) * t262 + Real(0.07) * t260;
+  const Real tie_rodbm1t_z = Real(0.14) * t261 - Real(0.02) * t260;
+  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative - tie_rodbm1vp_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t266 * tie_rodbm1t_z + t267 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t265 * tie_rodbm1t_z + t267 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t265 * tie_rodbm1t_y - t266 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x + q1r1_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x - q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x + q1r0_y * tie_rodbm1a_y);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm1a_x = t261 * tie_rodbm1t_z + t262 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t260 * tie_rodbm1t_z - t262 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t260 * tie_rodbm1t_y + t261 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
-  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
-      tie_rodbm1app_x));
-  const Real t421 = t179 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
-      (top_jointam2a_x - c0 * top_jointbm1app_x)));
-  const Real t428 = t199 * t421 - (t192 * top_jointda_z + (q1r0_z * top_jointbm1a_z + (q1r0_y *
-      top_jointbm1a_y - (top_jointam2app_x - q1r0_x * top_jointbm1a_x))));
-  const Real t439 = t220 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t209 * t421 - t215 * t428));
-  const Real t442 = t214 * (t428 - t208 * t439);
-  const Real t447 = t198 * (t189 * t439 + (t421 - t185 * t442));
-  const Real t457 = t447 + t239 * zdot[0];
-  const Real t459 = t442 + t234 * zdot[0];
-  const Real t461 = t439 + t231 * zdot[0];
+  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
+  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
+      tie_rodbm0b_y));
+  const Real t416 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
+      top_jointbm0b_y - t174 * top_jointda_z)));
+  const Real t423 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
+      top_jointbm1a_z - (t187 * top_jointda_z + t194 * t416))));
+  const Real t434 = t215 * (t210 * t423 - (t204 * t416 + Real(3.123475237772121) * (tie_rodbm0v_y *
+      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
+  const Real t437 = t209 * (t423 + t203 * t434);
+  const Real t442 = t193 * (t180 * t437 - (t416 + t184 * t434));
+  const Real t452 = t442 - t234 * zdot[0];
+  const Real t454 = t437 - t229 * zdot[0];
+  const Real t456 = t434 + t226 * zdot[0];
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
@@ -1079,9 +1075,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
-  const Real S0b_zz = h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x
-      * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y *
-      S1at1r0_y)) - Real(3.8987000000000007)))) + Real(0.017799999999999996));
+  const Real S0b_zz = q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y +
+      (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) +
+      Real(3.8987000000000007) + Real(0.017799999999999996)))))));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
@@ -1090,8 +1086,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutbv0_x = state.z[0] * strutbx_y;
   const Real strutbv0_y = state.z[0] * strutbx_x;
-  const Real strutd_y = Real(0.36) + strutbx_x - Real(0.46);
-  const Real strutd_z = Real(0.21) + strutbx_y - Real(0.62);
+  const Real strutd_y = strutbx_x - Real(0.10000000000000003);
+  const Real strutd_z = strutbx_y - Real(0.41000000000000003);
   const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
@@ -1100,11 +1096,11 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strut_Tl = strut_T / strut_l;
   const Real strutf_y = strutd_y * strut_Tl;
   const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
-      Real(0.01)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
-      Real(0.01)));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (Real(0.21) + c0 * wheel_centerx1p_y) + Real(0.3275);
+  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - (Real(0.34) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06)));
+  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06)));
+  const Real expression_4 = s0 * wheel_centerx1p_x + (c0 * wheel_centerx1p_y + Real(0.11750000000000002));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -1119,46 +1115,46 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aL0a_x = s0 * Real(9.81);
   const Real aL0a_y = c0 * Real(9.81);
   const Real aL0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = Real(0.34) * aL0w22 - (aL0a_x + Real(0.02) * zdot[0]);
-  const Real aa1o_y = Real(0.34) * zdot[0] + (aL0a_y + Real(0.02) * aL0w22);
-  const Real aa1_x = q1r1_x * aa1o_x - q1r2_x * aa1o_y;
-  const Real aa1_y = q1r1_y * aa1o_x + q1r2_y * aa1o_y;
-  const Real aa1_z = q1r1_z * aa1o_x + q1r2_z * aa1o_y;
+  const Real aa1o_x = Real(0.02) * zdot[0] + (aL0a_x - Real(0.34) * aL0w22);
+  const Real aa1o_y = Real(0.02) * aL0w22 + (aL0a_y + Real(0.34) * zdot[0]);
+  const Real aa1_x = q1r1_x * aa1o_x + q1r2_x * aa1o_y;
+  const Real aa1_y = q1r1_y * aa1o_x - q1r2_y * aa1o_y;
+  const Real aa1_z = q1r1_z * aa1o_x - q1r2_z * aa1o_y;
   const Real aK1_x = Real(0.65) * w1p_x;
   const Real aK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real aK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real au1_x = t265 - Real(2.0) * w1p_x;
-  const Real au1_y = t266 + Real(2.0) * w1p_y;
-  const Real au1_z = t267 - Real(2.0) * w1p_z;
+  const Real au1_x = t260 + Real(2.0) * w1p_x;
+  const Real au1_y = t261 - Real(2.0) * w1p_y;
+  const Real au1_z = t262 - Real(2.0) * w1p_z;
   const Real aSu1_x = Real(0.65) * au1_x;
-  const Real aSu1_y = Real(0.33) * au1_y - Real(0.192) * au1_z;
-  const Real aSu1_z = Real(1.1108) * au1_z - Real(0.192) * au1_y;
-  const Real auh1 = Real(1.6) * au1_y - Real(3.84) * au1_z;
-  const Real auw1 = t267 * au1_z + (t265 * au1_x + t266 * au1_y);
+  const Real aSu1_y = Real(0.33) * au1_y + Real(0.192) * au1_z;
+  const Real aSu1_z = Real(1.1108) * au1_z + Real(0.192) * au1_y;
+  const Real auh1 = Real(1.6) * au1_y + Real(3.84) * au1_z;
+  const Real auw1 = t261 * au1_y + (t260 * au1_x + t262 * au1_z);
   const Real aQp2 = h2b_x * Real(9.786103333048876);
-  const Real adn2_z = (t178 * (top_joints2bm_z * t439 - (top_joints2bm_y * t442 - (top_jointda_z -
-      top_joints2bm_x * t447))) + t246 * zdot[0]) * Real(0.0505);
-  const Real aef1_x = t265 * auh1 + (t459 * Real(3.84) - (tyre_forcef1_x - t461 * Real(1.6)));
-  const Real aef1_y = t266 * auh1 - (t457 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * auw1));
-  const Real aef1_z = t267 * auh1 + (Real(3.84) * auw1 + (tyre_forcef1_z - t457 * Real(1.6)));
-  const Real aen1_x = t267 * aSu1_y - (t266 * aSu1_z + (t457 * Real(1.4408) - (Real(0.12) * tyre_forcef1_y +
-      Real(0.06) * tyre_forcef1_z)));
-  const Real aen1_y = t267 * aSu1_x - (t265 * aSu1_z - (t459 * Real(1.7608) + (t461 * Real(0.192) -
-      (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real aen1_z = t266 * aSu1_x - (t265 * aSu1_y + (t461 * Real(0.98) + (t459 * Real(0.192) + (Real(0.01)
-      * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
-  const Real af1p_x = q1r1_z * aef1_z - (q1r1_x * aef1_x - q1r1_y * aef1_y);
-  const Real af1p_y = q1r2_z * aef1_z + (q1r2_x * aef1_x + q1r2_y * aef1_y);
-  const Real aQ1_0 = aen1_x - (w1p_z * aK1_y - (w1p_y * aK1_z + (Real(3.84) * aa1_y + (aal1_x * Real(1.4408) +
-      Real(1.6) * aa1_z))));
-  const Real aQ1_1 = aen1_y + (w1p_z * aK1_x - (w1p_x * aK1_z + (Real(3.84) * aa1_x + (Real(0.192) * aal1_z -
-      aal1_y * Real(1.7608)))));
-  const Real aQ1_2 = aen1_z - (w1p_y * aK1_x - (w1p_x * aK1_y + (aal1_z * Real(0.98) - (Real(0.192) * aal1_y -
-      Real(1.6) * aa1_x))));
-  const Real aQ2_0 = aQp2 - adn2_z;
-  tau[0] = -(t246 * aQ2_0 + (t231 * aQ1_2 - (t234 * aQ1_1 - (t239 * aQ1_0 - (Real(0.34) * af1p_y - (Real(0.02)
-      * af1p_x - (q1r0_z * aen1_z + (q1r0_y * aen1_y + (q1r0_x * aen1_x - (adn0_z + (aQp0 - (strutbx_x *
-      strutf_z - strutbx_y * strutf_y))))))))))));
+  const Real adn2_z = (t173 * (top_joints2bm_x * t442 - (top_jointda_z - (top_joints2bm_y * t437 -
+      top_joints2bm_z * t434))) - t241 * zdot[0]) * Real(0.0505);
+  const Real aef1_x = t456 * Real(1.6) - (tyre_forcef1_x - (t454 * Real(3.84) + t260 * auh1));
+  const Real aef1_y = Real(1.6) * auw1 - (tyre_forcef1_y - (t452 * Real(3.84) - t261 * auh1));
+  const Real aef1_z = t452 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * auw1 - t262 * auh1));
+  const Real aen1_x = Real(0.06) * tyre_forcef1_z + (Real(0.12) * tyre_forcef1_y - (t452 * Real(1.4408) -
+      (t261 * aSu1_z - t262 * aSu1_y)));
+  const Real aen1_y = Real(0.12) * tyre_forcef1_x + (Real(0.01) * tyre_forcef1_z - (t456 * Real(0.192) + (t454
+      * Real(1.7608) + (t260 * aSu1_z - t262 * aSu1_x))));
+  const Real aen1_z = Real(0.06) * tyre_forcef1_x - (Real(0.01) * tyre_forcef1_y + (t454 * Real(0.192) + (t456
+      * Real(0.98) + (t260 * aSu1_y - t261 * aSu1_x))));
+  const Real af1p_x = q1r1_y * aef1_y + (q1r1_x * aef1_x + q1r1_z * aef1_z);
+  const Real af1p_y = q1r2_y * aef1_y - (q1r2_x * aef1_x - q1r2_z * aef1_z);
+  const Real aQ1_0 = Real(1.6) * aa1_z - (aal1_x * Real(1.4408) - (Real(3.84) * aa1_y - (w1p_y * aK1_z -
+      (w1p_z * aK1_y - aen1_x))));
+  const Real aQ1_1 = aal1_y * Real(1.7608) - (Real(0.192) * aal1_z - (Real(3.84) * aa1_x - (w1p_x * aK1_z -
+      (w1p_z * aK1_x - aen1_y))));
+  const Real aQ1_2 = Real(1.6) * aa1_x + (Real(0.192) * aal1_y - (aal1_z * Real(0.98) + (w1p_x * aK1_y -
+      (w1p_y * aK1_x - aen1_z))));
+  const Real aQ2_0 = aQp2 + adn2_z;
+  tau[0] = -(strutbx_y * strutf_y - (strutbx_x * strutf_z - (aQp0 - (adn0_z + (q1r0_x * aen1_x - (q1r0_y *
+      aen1_y - (q1r0_z * aen1_z + (Real(0.02) * af1p_x - (Real(0.34) * af1p_y + (t234 * aQ1_0 + (t229 * aQ1_1
+      - (t226 * aQ1_2 - t241 * aQ2_0))))))))))));
 }
 
 template <class Real>
@@ -1171,7 +1167,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -1199,75 +1195,74 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
-  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t107 = q1r0_z * Real(0.03);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t102 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t116 = Real(0.03) * top_joints1bf1_z;
+  const Real t111 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t128 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t128;
+  const Real t123 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t123;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t128 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t123 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t177 = Real(1.0) / top_joints2am_z;
-  const Real t178 = top_jointax_y * t177;
-  const Real t184 = top_joints2bm_y * t178 + (t116 + Real(0.31) * top_joints1bf1_x);
-  const Real t188 = top_joints2bm_z * t178 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t191 = top_jointax_x * t177 * Real(0.0697564737441253);
-  const Real t197 = Real(1.0) / (top_joints2bm_x * t178 + (Real(0.31) * top_joints1bf1_y - t116));
-  const Real t198 = (top_joints2bm_x * t191 + (q1r0_y * Real(0.31) + t107)) * t197;
-  const Real t207 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t191 - t188 * t198);
-  const Real t208 = tie_rods0bm_x * t197;
-  const Real t213 = Real(1.0) / (t184 * t198 - (top_joints2bm_y * t191 - (t107 - q1r0_x * Real(0.31))));
-  const Real t214 = (t184 * t208 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t213;
-  const Real t219 = Real(1.0) / (t207 * t214 + (t188 * t208 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x)));
-  const Real t222 = top_jointbx1_x * t178 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
-  const Real t225 = top_jointbx1_x * t191 - t198 * t222;
-  const Real t231 = t219 * (t214 * t225 + (t208 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t234 = t213 * (t225 - t207 * t231);
-  const Real t239 = t197 * (t188 * t231 - (t222 + t184 * t234));
-  const Real t252 = tie_rods0at * t219;
-  const Real t254 = t213 * (t207 * t252);
-  const Real t258 = t197 * (t184 * t254 + t188 * t252);
-  const Real t265 = t239 * state.z[0] + t258;
-  const Real t266 = t234 * state.z[0] - t254;
-  const Real t267 = t231 * state.z[0] + t252;
-  const Real t268 = t177 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
-      top_joints2bm_x * t239))) * state.z[0] + t177 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
-      top_joints2bm_y * t254));
+  const Real t172 = Real(1.0) / top_joints2am_z;
+  const Real t173 = top_jointax_y * t172;
+  const Real t179 = Real(0.31) * top_joints1bf1_x + (t111 + top_joints2bm_y * t173);
+  const Real t183 = top_joints2bm_z * t173 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t186 = top_jointax_x * t172 * Real(0.0697564737441253);
+  const Real t192 = Real(1.0) / (t111 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t173));
+  const Real t193 = (t102 + (q1r0_y * Real(0.31) + top_joints2bm_x * t186)) * t192;
+  const Real t202 = t183 * t193 + (top_joints2bm_z * t186 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t203 = tie_rods0bm_x * t192;
+  const Real t208 = Real(1.0) / (q1r0_x * Real(0.31) - (t102 - (top_joints2bm_y * t186 + t179 * t193)));
+  const Real t209 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t179 * t203)) * t208;
+  const Real t214 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t183 * t203 -
+      t202 * t209)));
+  const Real t217 = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + top_jointbx1_x * t173);
+  const Real t220 = top_jointbx1_x * t186 + t193 * t217;
+  const Real t226 = t214 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t203 * t217 -
+      t209 * t220)));
+  const Real t229 = t208 * (t220 - t202 * t226);
+  const Real t234 = t192 * (t179 * t229 - (t217 - t183 * t226));
+  const Real t247 = tie_rods0at * t214;
+  const Real t249 = t208 * (t202 * t247);
+  const Real t253 = t192 * (t179 * t249 - t183 * t247);
+  const Real t260 = t234 * state.z[0] + t253;
+  const Real t261 = t229 * state.z[0] + t249;
+  const Real t262 = t226 * state.z[0] - t247;
+  const Real t263 = t172 * (top_joints2bm_x * t234 - (top_jointbx1_x - (top_joints2bm_y * t229 +
+      top_joints2bm_z * t226))) * state.z[0] + t172 * (top_joints2bm_y * t249 + (top_joints2bm_x * t253 -
+      top_joints2bm_z * t247));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
   const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
   const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
-  const Real S0b_zz = h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x
-      * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y *
-      S1at1r0_y)) - Real(3.8987000000000007)))) + Real(0.017799999999999996));
+  const Real S0b_zz = q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y +
+      (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) +
+      Real(3.8987000000000007) + Real(0.017799999999999996)))))));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -1277,13 +1272,13 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
   const Real v1_y = q1r1_y * v1o_x - q1r2_y * v1o_y;
   const Real v1_z = q1r1_z * v1o_x - q1r2_z * v1o_y;
-  const Real v1P_x = t267 * Real(1.6) + t266 * Real(3.84);
-  const Real v1L_x = t265 * Real(1.4408);
-  const Real v1L_y = t267 * Real(0.192) + t266 * Real(1.7608);
-  const Real v1L_z = t266 * Real(0.192) + t267 * Real(0.98);
-  const Real T3 = (derivative * derivative * Real(3.0) + (t268 * t268 * Real(0.0505) - (state.z[0] * v0L_z -
-      (t267 * v1L_z + (t265 * v1L_x + t266 * v1L_y))))) * Real(0.5) + (Real(1.6) * (t265 * v1_z) + (Real(3.84)
-      * (t265 * v1_y) + (v1_x * v1P_x - (w1p_z * v1L_z + (w1p_x * v1L_x - w1p_y * v1L_y)))));
+  const Real v1P_x = t262 * Real(1.6) - t261 * Real(3.84);
+  const Real v1L_x = t260 * Real(1.4408);
+  const Real v1L_y = t262 * Real(0.192) - t261 * Real(1.7608);
+  const Real v1L_z = t261 * Real(0.192) - t262 * Real(0.98);
+  const Real T3 = w1p_y * v1L_y + (w1p_x * v1L_x + (w1p_z * v1L_z + (v1_x * v1P_x - (Real(3.84) * (t260 *
+      v1_y) + (Real(1.6) * (t260 * v1_z) + (t261 * v1L_y - (t260 * v1L_x - (t262 * v1L_z - (state.z[0] * v0L_z
+      + (t263 * t263 * Real(0.0505) + derivative * derivative * Real(3.0)))))) * Real(0.5))))));
   return T3;
 }
 
@@ -1306,15 +1301,21 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t20;
   const Real h2b_y = s2 * Real(0.275) + c2 * Real(0.025);
-  const Real h1c_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84) - Real(11.73);
-  const Real h1c_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84) - Real(0.64);
-  const Real hg3_z = h2b_y * Real(0.9975640502598242) + (c0 * h1c_y - s0 * h1c_x + Real(8.943256088156396)) +
-      Real(0.81);
+  const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
+  const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
+  const Real h1c_x = h1at1_x - Real(11.73);
+  const Real h1c_y = h1at1_y - Real(0.64);
+  const Real h0b_y = c0 * h1c_y - s0 * h1c_x;
+  const Real hg0_z = h0b_y + Real(8.943256088156396);
+  const Real hg2_z = hg0_z + h2b_y * Real(0.9975640502598242);
+  const Real hg3_z = hg2_z + Real(0.81);
   const Real strutbx_x = c0 * Real(0.22);
   const Real strutbx_y = s0 * Real(0.22);
-  const Real strutd_y = strutbx_x + Real(0.36) - Real(0.46);
-  const Real strutd_z = strutbx_y + Real(0.21) - Real(0.62);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strutbx0_y = strutbx_x + Real(0.36);
+  const Real strutbx0_z = strutbx_y + Real(0.21);
+  const Real strutd_y = strutbx0_y - Real(0.46);
+  const Real strutd_z = strutbx0_z - Real(0.62);
+  const Real strut_ll = strutd_y * strutd_y + Real(1e-18) + strutd_z * strutd_z;
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_e = strut_l - model.free_length;
   const Real V = hg3_z * Real(9.81) + strut_e * strut_e * model.c8;
@@ -1332,7 +1333,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s0, c0;
@@ -1354,14 +1355,13 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) - (q1r1_x * Real(0.01) -
-      Real(0.34)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (q1r2_x * Real(0.01) +
-      Real(0.02)));
-  const Real wheel_centerx0_z = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + Real(0.21));
-  const Real wheel_centerx1p_z = q1r0_y * Real(0.06) + (q1r0_z * Real(0.12) + (Real(0.01) + q1r0_x *
-      Real(0.01)));
-  const Real wheel_centerx0_y = s0 * wheel_centerx1p_y + (c0 * wheel_centerx1p_x - Real(0.36));
+  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - Real(0.34) - q1r1_z * Real(0.12) + q1r1_y * Real(0.06);
+  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + Real(0.02) + q1r2_z * Real(0.12) - q1r2_y * Real(0.06);
+  const Real wheel_centerx1_y = c0 * wheel_centerx1p_y + s0 * wheel_centerx1p_x;
+  const Real wheel_centerx0_z = wheel_centerx1_y - Real(0.21);
+  const Real wheel_centerx1p_z = Real(0.01) + q1r0_x * Real(0.01) + q1r0_z * Real(0.12) + q1r0_y * Real(0.06);
+  const Real wheel_centerx1_x = c0 * wheel_centerx1p_x - s0 * wheel_centerx1p_y;
+  const Real wheel_centerx0_y = wheel_centerx1_x - Real(0.36);
   const Real expression = wheel_centerx0_z + Real(0.31);
   result.wheel.position[0] = wheel_centerx1p_z;
   result.wheel.position[1] = -wheel_centerx0_y;
@@ -1388,73 +1388,73 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t16 = t2 * Real(0.02) - t1 * Real(0.34) - Real(0.21);
   const Real t18 = t16 + Real(0.4687542479592758);
   const Real t22 = detail::cosine(state.t * model.rate);
-  const Real t28 = (t22 - Real(1.0)) * model.c1 - (Real(0.36) - t9);
+  const Real t28 = t9 - (Real(0.36) - (t22 - Real(1.0)) * model.c1);
   const Real t30 = t16 + Real(0.27);
-  const Real t43 = (t11 * t11 + (t18 * t18 + Real(0.058581070877761425)) + Real(0.0007736789075518939) -
-      Real(0.0979)) * Real(0.5);
-  const Real t50 = t18 * Real(0.031245752040724203) - t11 * Real(0.24) + Real(6.077361763854758e-05);
-  const Real t57 = t18 * Real(0.2394153720623578) + t11 * Real(0.03132205098267723) +
-      Real(0.00046566772531332867);
+  const Real t43 = (t18 * t18 + (t11 * t11 + Real(0.0007736789075518939)) - Real(0.0979) +
+      Real(0.058581070877761425)) * Real(0.5);
+  const Real t50 = t18 * Real(0.031245752040724203) - (t11 * Real(0.24) - Real(6.077361763854758e-05));
+  const Real t57 = t18 * Real(0.2394153720623578) + (t11 * Real(0.03132205098267723) +
+      Real(0.00046566772531332867));
   const Real t60 = t57 * t57 + t50 * t50;
   const Real t61 = t43 * t43;
   const Real t63 = detail::square_root(t60 - t61);
   const Real t72 = (t57 * t63 - t43 * t50) / t60;
   const Real t73 = (t50 * t63 + t43 * t57) / t60;
-  const Real t84 = t72 * Real(0.0021849158269852784) - (t73 * Real(0.01674155369859007) -
+  const Real t86 = t73 * Real(0.01674155369859007) - (t72 * Real(0.0021849158269852784) +
       Real(0.027815084173014717));
-  const Real t86 = Real(0.24) * t72 - (t11 - Real(0.03132205098267723) * t73);
-  const Real t88 = Real(0.031245752040724203) * t72 + (t18 - Real(0.2394153720623578) * t73);
-  const Real t93 = t1 * t88 + t2 * t86;
-  const Real t94 = t2 * t88 - t1 * t86;
+  const Real t87 = Real(0.03132205098267723) * t73 - (t11 - Real(0.24) * t72);
+  const Real t88 = Real(0.2394153720623578) * t73 - (t18 + Real(0.031245752040724203) * t72);
+  const Real t93 = t1 * t88 - t2 * t87;
+  const Real t94 = t2 * t88 + t1 * t87;
   const Real t99 = t1 * t30 - t2 * t28;
   const Real t100 = t2 * t30 + t1 * t28;
-  const Real t114 = t84 * Real(0.14) + (t94 * t100 + t93 * t99);
+  const Real t114 = t94 * t100 + (t93 * t99 + t86 * Real(0.14));
   const Real t116 = t114 * Real(10.214504596527068);
-  const Real t120 = Real(0.14) - t84 * t116;
+  const Real t120 = Real(0.14) - t86 * t116;
   const Real t121 = t99 - t93 * t116;
   const Real t122 = t100 - t94 * t116;
-  const Real t128 = Real(1.0) / (t120 * t120 + (t122 * t122 + t121 * t121));
-  const Real t131 = Real(0.5) * (t28 * t28 + (t30 * t30 + Real(0.024900000000000005) +
-      Real(0.019600000000000003)) - Real(0.10250000000000001)) - t114 * Real(0.27068437180796734);
+  const Real t128 = Real(1.0) / (t122 * t122 + (t121 * t121 + t120 * t120));
+  const Real t131 = Real(0.5) * (t30 * t30 + (t28 * t28 + Real(0.019600000000000003)) -
+      Real(0.10250000000000001) + Real(0.024900000000000005)) + t114 * Real(0.27068437180796734);
   const Real t132 = t128 * t131;
   const Real t148 = Real(10.214504596527068) * (t128 * (t131 * t132 - Real(0.017726864147088867)));
-  const Real t153 = t84 * Real(3.196013860502965);
+  const Real t153 = t86 * Real(3.196013860502965);
   const Real t154 = t93 * Real(3.196013860502965);
   const Real t155 = t94 * Real(3.196013860502965);
   const Real t157 = detail::square_root(-t148) * Real(7.5107627169405085);
   const Real t161 = t132 * Real(7.5107627169405085);
-  const Real t165 = (t94 * t121 - t93 * t122) * t157 - t120 * t161;
-  const Real t166 = (t84 * t122 - t94 * t120) * t157 - t121 * t161;
-  const Real t167 = (t93 * t120 - t84 * t121) * t157 - t122 * t161;
-  const Real t178 = detail::square_root(t153 * t166 - (t154 * t165 - (t153 + (Real(1.0) + t166))));
-  const Real t180 = Real(0.5) * (Real(1.0) / t178);
-  const Real t182 = t180 * (t154 - t165);
-  const Real t185 = t180 * (t154 * t167 - (t155 + t155 * t166));
-  const Real t188 = t180 * (t155 * t165 - (t167 + t153 * t167));
-  const Real t189 = Real(0.5) * t178;
-  const Real t208 = t182 * Real(0.5195574227588697) + (t185 * Real(0.4267550545085747) + (t189 *
-      Real(0.5227505978949085) + t188 * Real(0.524091614422574)));
-  const Real t211 = t182 * Real(0.5227505978949085) + (t188 * Real(0.4267550545085747) - (t185 *
-      Real(0.524091614422574) + t189 * Real(0.5195574227588697)));
-  const Real t214 = t182 * Real(0.524091614422574) - (t189 * Real(0.4267550545085747) + (t188 *
-      Real(0.5195574227588697) - t185 * Real(0.5227505978949085)));
-  const Real t221 = t182 * Real(0.4267550545085747) - (t185 * Real(0.5195574227588697) - (t189 *
-      Real(0.524091614422574) - t188 * Real(0.5227505978949085)));
+  const Real t165 = (t94 * t121 - t93 * t122) * t157 + t120 * t161;
+  const Real t166 = (t86 * t122 - t94 * t120) * t157 + t121 * t161;
+  const Real t167 = (t93 * t120 - t86 * t121) * t157 + t122 * t161;
+  const Real t180 = detail::square_root(Real(1.0) - (t166 + (t153 + (t154 * t165 - t153 * t166))));
+  const Real t182 = Real(0.5) * (Real(1.0) / t180);
+  const Real t184 = t182 * (t154 - t165);
+  const Real t186 = t182 * (t155 - (t155 * t166 - t154 * t167));
+  const Real t188 = t182 * (t167 - (t153 * t167 - t155 * t165));
+  const Real t189 = Real(0.5) * t180;
+  const Real t212 = t189 * Real(0.5227505978949085) + t188 * Real(0.524091614422574) + (t186 *
+      Real(0.4267550545085747) - t184 * Real(0.5195574227588697));
+  const Real t213 = t186 * Real(0.524091614422574) + t189 * Real(0.5195574227588697) - (t188 *
+      Real(0.4267550545085747) - t184 * Real(0.5227505978949085));
+  const Real t214 = t188 * Real(0.5195574227588697) - t186 * Real(0.5227505978949085) + (t189 *
+      Real(0.4267550545085747) + t184 * Real(0.524091614422574));
+  const Real t221 = t189 * Real(0.524091614422574) - (t188 * Real(0.5227505978949085) + t186 *
+      Real(0.5195574227588697)) - t184 * Real(0.4267550545085747);
   Real t224, t223;
   detail::sine_cosine(state.y[5], t224, t223);
   const Real t234 = state.y[5] + detail::arctangent2(-(t72 * t224 + t73 * t223), -(t73 * t224 - t72 * t223));
   const Real t235 = state.y[5] - t234;
   const Real t238 = t221 - state.y[1];
-  const Real t241 = t208 + state.y[2];
-  const Real t244 = t211 - state.y[3];
-  const Real t247 = t214 + state.y[4];
+  const Real t242 = t212 + state.y[2];
+  const Real t246 = t213 + state.y[3];
+  const Real t250 = t214 - state.y[4];
   closed.y[5] = t234;
   closed.y[1] = t221;
-  closed.y[2] = -t208;
-  closed.y[3] = t211;
-  closed.y[4] = -t214;
+  closed.y[2] = -t212;
+  closed.y[3] = -t213;
+  closed.y[4] = t214;
   closed.regularity = -((Real(1.0) - t61 / t60) * (t148 / (t128 * Real(0.18107113531245012))));
-  closed.opening = t247 * t247 + (t244 * t244 + (t241 * t241 + (t235 * t235 + t238 * t238)));
+  closed.opening = t235 * t235 + t238 * t238 + t242 * t242 + t246 * t246 + t250 * t250;
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
@@ -1470,7 +1470,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -1478,8 +1478,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
   const Real t31 = q1r0_x * Real(0.03);
   const Real t32 = q1r0_y * Real(0.03);
-  const Real top_jointd_x = t32 - (t31 + (q1r0_z * Real(0.31) + (top_jointax_y * Real(0.0697564737441253) +
-      Real(0.01781508417301472)) + Real(0.01)));
+  const Real top_jointd_x = top_jointax_y * Real(0.0697564737441253) + (q1r0_z * Real(0.31) + (t31 - t32 +
+      Real(0.01))) + Real(0.01781508417301472);
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
@@ -1494,39 +1494,39 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t48;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = Real(0.03) * (q1r1_x - q1r1_y) - (Real(0.31) * q1r1_z + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (Real(0.31) * q1r2_z + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointd_y = top_jointbx1_x - (top_jointax_x - Real(0.43)) - Real(0.36);
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
-  const Real top_jointd_z = top_jointbx1_y + (top_jointax_y * Real(0.9975640502598242) +
-      Real(0.4687542479592758)) - Real(0.21);
+  const Real top_jointbx1p_x = Real(0.31) * q1r1_z - Real(0.03) * (q1r1_x - q1r1_y) + Real(0.34);
+  const Real top_jointbx1p_y = Real(0.31) * q1r2_z + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointd_y = top_jointax_x + (top_jointbx1_x + Real(0.36)) - Real(0.43);
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
+  const Real top_jointd_z = top_jointax_y * Real(0.9975640502598242) + (top_jointbx1_y - Real(0.21) +
+      Real(0.4687542479592758));
   const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
-  const Real tie_rodll = tie_rodd_z * tie_rodd_z + (tie_rodd_x * tie_rodd_x + tie_rodd_y * tie_rodd_y);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
+      Real(0.13))));
+  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real tie_rodll = tie_rodd_y * tie_rodd_y + (tie_rodd_x * tie_rodd_x + tie_rodd_z * tie_rodd_z);
   const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
-  const Real t138 = q1r0_z * Real(0.03);
+  const Real t137 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t147 = Real(0.03) * top_joints1bf1_z;
+  const Real t146 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t159 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t159;
+  const Real t158 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t158;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t159 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t158 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -1534,79 +1534,79 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t207 = Real(1.0) / top_joints2am_z;
-  const Real t208 = top_jointax_y * t207;
-  const Real t214 = top_joints2bm_y * t208 + (t147 + Real(0.31) * top_joints1bf1_x);
-  const Real t218 = top_joints2bm_z * t208 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t220 = Real(0.0697564737441253) * (top_jointax_x * t207);
-  const Real t226 = Real(1.0) / (top_joints2bm_x * t208 + (Real(0.31) * top_joints1bf1_y - t147));
-  const Real t227 = (top_joints2bm_x * t220 + (q1r0_y * Real(0.31) + t138)) * t226;
-  const Real t235 = t218 * t227 - (top_joints2bm_z * t220 + (t31 + t32));
-  const Real t236 = tie_rods0bm_x * t226;
-  const Real t241 = Real(1.0) / (t214 * t227 - (top_joints2bm_y * t220 - (t138 - q1r0_x * Real(0.31))));
-  const Real t242 = (t214 * t236 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t241;
-  const Real t247 = Real(1.0) / (t235 * t242 - (t218 * t236 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x)));
-  const Real t249 = top_jointbx1_y + top_jointbx1_x * t208;
-  const Real t252 = top_jointbx1_x * t220 - t227 * t249;
-  const Real t258 = t247 * (t242 * t252 + (t236 * t249 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t261 = t241 * (t252 - t235 * t258);
-  const Real t266 = t226 * (t218 * t258 + (t249 + t214 * t261));
-  const Real t279 = tie_rods0at * t247;
-  const Real t281 = t241 * (t235 * t279);
-  const Real t285 = t226 * (t214 * t281 - t218 * t279);
-  const Real t292 = t266 * state.z[0] + t285;
-  const Real t293 = t261 * state.z[0] + t281;
-  const Real t294 = t258 * state.z[0] - t279;
-  const Real t295 = t207 * (top_joints2bm_z * t258 + (top_joints2bm_y * t261 + (top_jointbx1_x -
-      top_joints2bm_x * t266))) * state.z[0] - t207 * (top_joints2bm_z * t279 + (top_joints2bm_x * t285 -
-      top_joints2bm_y * t281));
-  const Real top_jointam2t_y = top_jointax_x * t295;
+  const Real t206 = Real(1.0) / top_joints2am_z;
+  const Real t207 = top_jointax_y * t206;
+  const Real t213 = Real(0.31) * top_joints1bf1_x + (t146 + top_joints2bm_y * t207);
+  const Real t217 = top_joints2bm_z * t207 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t219 = Real(0.0697564737441253) * (top_jointax_x * t206);
+  const Real t225 = Real(1.0) / (t146 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t207));
+  const Real t226 = (t137 + (q1r0_y * Real(0.31) + top_joints2bm_x * t219)) * t225;
+  const Real t234 = t32 + (t31 + (top_joints2bm_z * t219 + t217 * t226));
+  const Real t235 = tie_rods0bm_x * t225;
+  const Real t240 = Real(1.0) / (q1r0_x * Real(0.31) - (t137 - (top_joints2bm_y * t219 + t213 * t226)));
+  const Real t241 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t213 * t235)) * t240;
+  const Real t246 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t217 * t235 -
+      t234 * t241)));
+  const Real t248 = top_jointbx1_y - top_jointbx1_x * t207;
+  const Real t251 = top_jointbx1_x * t219 - t226 * t248;
+  const Real t257 = t246 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t235 * t248 +
+      t241 * t251)));
+  const Real t260 = t240 * (t251 + t234 * t257);
+  const Real t265 = t225 * (t213 * t260 + (t248 - t217 * t257));
+  const Real t278 = tie_rods0at * t246;
+  const Real t280 = t240 * (t234 * t278);
+  const Real t284 = t225 * (t213 * t280 - t217 * t278);
+  const Real t291 = t265 * state.z[0] - t284;
+  const Real t292 = t260 * state.z[0] - t280;
+  const Real t293 = t257 * state.z[0] - t278;
+  const Real t294 = t206 * (top_joints2bm_x * t265 - (top_jointbx1_x - (top_joints2bm_y * t260 -
+      top_joints2bm_z * t257))) * state.z[0] - t206 * (top_joints2bm_y * t280 + (top_joints2bm_x * t284 -
+      top_joints2bm_z * t278));
+  const Real top_jointam2t_y = top_jointax_x * t294;
   const Real top_jointam2vpp_x = Real(0.0697564737441253) * top_jointam2t_y;
-  const Real t299 = Real(0.03) * t294;
-  const Real top_jointbm1t_x = Real(0.31) * t293 + t299;
-  const Real top_jointbm1t_y = t299 - Real(0.31) * t292;
-  const Real top_jointbm1t_z = Real(0.03) * (t292 + t293);
-  const Real top_jointdv_x = q1r0_z * top_jointbm1t_z - (q1r0_y * top_jointbm1t_y + (top_jointam2vpp_x +
-      q1r0_x * top_jointbm1t_x));
-  const Real top_jointam2t_x = top_jointax_y * t295;
-  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z + (q1r1_x * top_jointbm1t_x + q1r1_y *
-      top_jointbm1t_y);
-  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z - (q1r2_x * top_jointbm1t_x - q1r2_y *
-      top_jointbm1t_y);
+  const Real t298 = Real(0.03) * t293;
+  const Real top_jointbm1t_x = Real(0.31) * t292 - t298;
+  const Real top_jointbm1t_y = t298 - Real(0.31) * t291;
+  const Real top_jointbm1t_z = Real(0.03) * (t291 - t292);
+  const Real top_jointdv_x = q1r0_x * top_jointbm1t_x + (top_jointam2vpp_x - (q1r0_y * top_jointbm1t_y -
+      q1r0_z * top_jointbm1t_z));
+  const Real top_jointam2t_x = top_jointax_y * t294;
+  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y - (q1r1_x * top_jointbm1t_x - q1r1_z *
+      top_jointbm1t_z);
+  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y + (q1r2_x * top_jointbm1t_x + q1r2_z *
+      top_jointbm1t_z);
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointdv_y = top_jointbm0t_x + (s0 * top_jointbm1vpp_y + (top_jointam2t_x + c0 *
-      top_jointbm1vpp_x));
+  const Real top_jointdv_y = c0 * top_jointbm1vpp_x - (top_jointam2t_x - (s0 * top_jointbm1vpp_y -
+      top_jointbm0t_x));
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
   const Real top_jointam2vpp_z = Real(0.9975640502598242) * top_jointam2t_y;
-  const Real top_jointdv_z = top_jointbm0t_y - (s0 * top_jointbm1vpp_x - (c0 * top_jointbm1vpp_y -
-      top_jointam2vpp_z));
-  const Real tie_rodbm1t_x = Real(0.07) * t293 + Real(0.02) * t294;
-  const Real tie_rodbm1t_y = Real(0.14) * t294 - Real(0.07) * t292;
-  const Real tie_rodbm1t_z = Real(0.14) * t293 + Real(0.02) * t292;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
+  const Real top_jointdv_z = top_jointam2vpp_z + (c0 * top_jointbm1vpp_y - (s0 * top_jointbm1vpp_x -
+      top_jointbm0t_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t292 - Real(0.02) * t293;
+  const Real tie_rodbm1t_y = Real(0.14) * t293 - Real(0.07) * t291;
+  const Real tie_rodbm1t_z = Real(0.14) * t292 - Real(0.02) * t291;
+  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm0t_y - (c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x);
-  const Real tie_roddv_y = tie_rodbm0t_x + (s0 * tie_rodbm1vpp_y - (derivative - c0 * tie_rodbm1vpp_x));
-  const Real tie_rodlv = Real(3.123475237772121) * (tie_rodd_y * tie_roddv_y - (tie_rodd_x * tie_rodbm1vpp_z -
-      tie_rodd_z * tie_rodbm0v_y));
-  g[0] = -top_jointd_x;
-  g[1] = -top_jointd_y;
+  const Real tie_rodbm0v_y = s0 * tie_rodbm1vpp_x - (c0 * tie_rodbm1vpp_y - tie_rodbm0t_y);
+  const Real tie_roddv_y = c0 * tie_rodbm1vpp_x + (derivative + (s0 * tie_rodbm1vpp_y - tie_rodbm0t_x));
+  const Real tie_rodlv = Real(3.123475237772121) * (tie_rodd_z * tie_rodbm0v_y + (tie_rodd_x * tie_rodbm1vpp_z
+      + tie_rodd_y * tie_roddv_y));
+  g[0] = top_jointd_x;
+  g[1] = top_jointd_y;
   g[2] = -top_jointd_z;
   g[3] = g_tie_rod;
-  g_rate[0] = top_jointdv_x;
-  g_rate[1] = top_jointdv_y;
-  g_rate[2] = -top_jointdv_z;
+  g_rate[0] = -top_jointdv_x;
+  g_rate[1] = -top_jointdv_y;
+  g_rate[2] = top_jointdv_z;
   g_rate[3] = tie_rodlv;
 }
 
@@ -1621,7 +1621,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   Real s2, c2;
@@ -1650,131 +1650,130 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + Real(0.01))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (expression_3 + Real(0.36)));
-  const Real tie_rodd_z = tie_rodbx1_y - Real(0.21) + Real(0.27);
-  const Real t108 = q1r0_z * Real(0.03);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t103 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t117 = Real(0.03) * top_joints1bf1_z;
+  const Real t112 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t129 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t129;
+  const Real t124 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t129 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t178 = Real(1.0) / top_joints2am_z;
-  const Real t179 = top_jointax_y * t178;
-  const Real t185 = top_joints2bm_y * t179 + (t117 + Real(0.31) * top_joints1bf1_x);
-  const Real t189 = top_joints2bm_z * t179 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t192 = top_jointax_x * t178 * Real(0.0697564737441253);
-  const Real t198 = Real(1.0) / (top_joints2bm_x * t179 + (Real(0.31) * top_joints1bf1_y - t117));
-  const Real t199 = (top_joints2bm_x * t192 + (q1r0_y * Real(0.31) + t108)) * t198;
-  const Real t208 = Real(0.03) * (q1r0_x + q1r0_y) + (top_joints2bm_z * t192 - t189 * t199);
-  const Real t209 = tie_rods0bm_x * t198;
-  const Real t214 = Real(1.0) / (t185 * t199 - (top_joints2bm_y * t192 - (t108 - q1r0_x * Real(0.31))));
-  const Real t215 = (t185 * t209 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t214;
-  const Real t220 = Real(1.0) / (t208 * t215 + (t189 * t209 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x)));
-  const Real t222 = top_jointbx1_y + top_jointbx1_x * t179;
-  const Real t225 = top_jointbx1_x * t192 - t199 * t222;
-  const Real t231 = t220 * (t215 * t225 + (t209 * t222 + (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t234 = t214 * (t225 - t208 * t231);
-  const Real t239 = t198 * (t189 * t231 - (t222 + t185 * t234));
-  const Real t246 = t178 * (top_joints2bm_z * t231 - (top_joints2bm_y * t234 + (top_jointbx1_x +
-      top_joints2bm_x * t239)));
-  const Real t252 = tie_rods0at * t220;
-  const Real t254 = t214 * (t208 * t252);
-  const Real t258 = t198 * (t185 * t254 + t189 * t252);
-  const Real t265 = t239 * state.z[0] + t258;
-  const Real t266 = t234 * state.z[0] - t254;
-  const Real t267 = t231 * state.z[0] + t252;
-  const Real t268 = t246 * state.z[0] + t178 * (top_joints2bm_z * t252 - (top_joints2bm_x * t258 -
-      top_joints2bm_y * t254));
-  const Real top_jointam2t_y = top_jointax_x * t268;
-  const Real t271 = Real(0.03) * t267;
-  const Real top_jointbm1t_x = Real(0.31) * t266 - t271;
-  const Real top_jointbm1t_y = t271 - Real(0.31) * t265;
-  const Real top_jointbm1t_z = Real(0.03) * (t265 - t266);
-  const Real top_jointam2t_x = top_jointax_y * t268;
-  const Real top_jointam2a_y = t268 * top_jointam2t_x;
+  const Real t173 = Real(1.0) / top_joints2am_z;
+  const Real t174 = top_jointax_y * t173;
+  const Real t180 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t174);
+  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
+  const Real t193 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
+  const Real t194 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
+  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t204 = tie_rods0bm_x * t193;
+  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t187 + t180 * t194)));
+  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
+  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
+      t203 * t210)));
+  const Real t217 = top_jointbx1_y + top_jointbx1_x * t174;
+  const Real t220 = top_jointbx1_x * t187 + t194 * t217;
+  const Real t226 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t204 * t217 -
+      t210 * t220)));
+  const Real t229 = t209 * (t220 - t203 * t226);
+  const Real t234 = t193 * (t180 * t229 - (t217 - t184 * t226));
+  const Real t241 = t173 * (top_joints2bm_x * t234 - (top_jointbx1_x - (top_joints2bm_y * t229 +
+      top_joints2bm_z * t226)));
+  const Real t247 = tie_rods0at * t215;
+  const Real t249 = t209 * (t203 * t247);
+  const Real t253 = t193 * (t180 * t249 - t184 * t247);
+  const Real t260 = t234 * state.z[0] + t253;
+  const Real t261 = t229 * state.z[0] + t249;
+  const Real t262 = t226 * state.z[0] - t247;
+  const Real t263 = t241 * state.z[0] + t173 * (top_joints2bm_y * t249 + (top_joints2bm_x * t253 -
+      top_joints2bm_z * t247));
+  const Real top_jointam2t_y = top_jointax_x * t263;
+  const Real t266 = Real(0.03) * t262;
+  const Real top_jointbm1t_x = Real(0.31) * t261 + t266;
+  const Real top_jointbm1t_y = t266 + Real(0.31) * t260;
+  const Real top_jointbm1t_z = Real(0.03) * (t260 - t261);
+  const Real top_jointam2t_x = top_jointax_y * t263;
+  const Real top_jointam2a_y = t263 * top_jointam2t_x;
   const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t266 * top_jointbm1t_z - t267 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t265 * top_jointbm1t_z - t267 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t265 * top_jointbm1t_y - t266 * top_jointbm1t_x;
-  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z - (q1r1_x * top_jointbm1t_x - q1r1_y *
-      top_jointbm1t_y);
-  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z + (q1r2_x * top_jointbm1t_x + q1r2_y *
-      top_jointbm1t_y);
+  const Real top_jointbm1a_x = t261 * top_jointbm1t_z - t262 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t260 * top_jointbm1t_z + t262 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t260 * top_jointbm1t_y + t261 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
+      top_jointbm1t_z);
+  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
+      top_jointbm1t_z);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t268 * top_jointam2t_y;
+  const Real top_jointam2a_x = t263 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z - (q1r1_x * top_jointbm1a_x + q1r1_y *
-      top_jointbm1a_y);
-  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z + (q1r2_x * top_jointbm1a_x - q1r2_y *
-      top_jointbm1a_y);
+  const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
+      top_jointbm1a_z);
+  const Real top_jointbm1app_y = q1r2_y * top_jointbm1a_y - (q1r2_x * top_jointbm1a_x - q1r2_z *
+      top_jointbm1a_z);
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
   const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
-  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
-      * top_jointbm1app_y));
-  const Real tie_rodbm1t_x = Real(0.07) * t266 - Real(0.02) * t267;
-  const Real tie_rodbm1t_y = Real(0.14) * t267 - Real(0.07) * t265;
-  const Real tie_rodbm1t_z = Real(0.14) * t266 - Real(0.02) * t265;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
+      state.z[0] * top_jointbm0b_x));
+  const Real tie_rodbm1t_x = Real(0.07) * t261 + Real(0.02) * t262;
+  const Real tie_rodbm1t_y = Real(0.14) * t262 + Real(0.07) * t260;
+  const Real tie_rodbm1t_z = Real(0.14) * t261 - Real(0.02) * t260;
+  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative - tie_rodbm1vp_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t266 * tie_rodbm1t_z + t267 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t265 * tie_rodbm1t_z + t267 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t265 * tie_rodbm1t_y - t266 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x + q1r1_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x - q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x + q1r0_y * tie_rodbm1a_y);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm1a_x = t261 * tie_rodbm1t_z + t262 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t260 * tie_rodbm1t_z - t262 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t260 * tie_rodbm1t_y + t261 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
-  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
-      tie_rodbm1app_x));
-  const Real t421 = t179 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
-      (top_jointam2a_x - c0 * top_jointbm1app_x)));
-  const Real t428 = t199 * t421 - (t192 * top_jointda_z + (q1r0_z * top_jointbm1a_z + (q1r0_y *
-      top_jointbm1a_y - (top_jointam2app_x - q1r0_x * top_jointbm1a_x))));
-  const Real t439 = t220 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t209 * t421 - t215 * t428));
-  const Real t442 = t214 * (t428 - t208 * t439);
-  const Real t447 = t198 * (t189 * t439 + (t421 - t185 * t442));
-  const Real t454 = t178 * (top_joints2bm_z * t439 - (top_joints2bm_y * t442 - (top_jointda_z -
-      top_joints2bm_x * t447)));
+  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
+  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
+      tie_rodbm0b_y));
+  const Real t416 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
+      top_jointbm0b_y - t174 * top_jointda_z)));
+  const Real t423 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
+      top_jointbm1a_z - (t187 * top_jointda_z + t194 * t416))));
+  const Real t434 = t215 * (t210 * t423 - (t204 * t416 + Real(3.123475237772121) * (tie_rodbm0v_y *
+      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
+  const Real t437 = t209 * (t423 + t203 * t434);
+  const Real t442 = t193 * (t180 * t437 - (t416 + t184 * t434));
+  const Real t449 = t173 * (top_joints2bm_x * t442 - (top_jointda_z - (top_joints2bm_y * t437 -
+      top_joints2bm_z * t434)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -1783,11 +1782,11 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - (q1r1_x * Real(0.0768) + q1r2_x *
-      Real(1.3056)));
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + (q1r1_x * Real(0.032) + q1r2_x *
-      Real(0.544)));
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
+  const Real p_2_1n_z = q1r2_x * Real(1.3056) + (q1r1_x * Real(0.0768) - (q1r0_z * Real(0.192) - q1r0_y *
+      Real(1.7608)));
+  const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
+      Real(0.98)));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
@@ -1799,8 +1798,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutbv0_x = state.z[0] * strutbx_y;
   const Real strutbv0_y = state.z[0] * strutbx_x;
-  const Real strutd_y = Real(0.36) + strutbx_x - Real(0.46);
-  const Real strutd_z = Real(0.21) + strutbx_y - Real(0.62);
+  const Real strutd_y = strutbx_x - Real(0.10000000000000003);
+  const Real strutd_z = strutbx_y - Real(0.41000000000000003);
   const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
@@ -1809,12 +1808,12 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strut_Tl = strut_T / strut_l;
   const Real strutf_y = strutd_y * strut_Tl;
   const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
-      Real(0.01)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
-      Real(0.01)));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - (input.u[0] +
-      Real(0.3275))));
+  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - (Real(0.34) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06)));
+  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06)));
+  const Real expression_4 = c0 * wheel_centerx1p_y + (input.u[0] + (s0 * wheel_centerx1p_x +
+      Real(0.11750000000000002)));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -1836,74 +1835,71 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real t677 = w1p_y * rK1_z;
-  const Real t678 = w1p_z * rK1_y;
-  const Real t680 = w1p_x * rK1_z;
-  const Real t681 = w1p_z * rK1_x;
-  const Real t683 = w1p_x * rK1_y;
-  const Real t684 = w1p_y * rK1_x;
-  const Real ru1_x = t265 - Real(2.0) * w1p_x;
-  const Real ru1_y = t266 + Real(2.0) * w1p_y;
-  const Real ru1_z = t267 - Real(2.0) * w1p_z;
+  const Real t669 = w1p_y * rK1_z;
+  const Real t670 = w1p_z * rK1_y;
+  const Real t672 = w1p_x * rK1_z;
+  const Real t673 = w1p_z * rK1_x;
+  const Real t675 = w1p_x * rK1_y;
+  const Real t676 = w1p_y * rK1_x;
+  const Real ru1_x = t260 + Real(2.0) * w1p_x;
+  const Real ru1_y = t261 - Real(2.0) * w1p_y;
+  const Real ru1_z = t262 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
-  const Real rSu1_y = Real(0.33) * ru1_y - Real(0.192) * ru1_z;
-  const Real rSu1_z = Real(1.1108) * ru1_z - Real(0.192) * ru1_y;
-  const Real ruh1 = Real(1.6) * ru1_y - Real(3.84) * ru1_z;
-  const Real ruw1 = t267 * ru1_z + (t265 * ru1_x + t266 * ru1_y);
-  const Real t716 = t266 * rSu1_z;
-  const Real t717 = t267 * rSu1_y;
-  const Real t720 = t265 * rSu1_z;
-  const Real t721 = t267 * rSu1_x;
-  const Real t724 = t265 * rSu1_y;
-  const Real t725 = t266 * rSu1_x;
+  const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
+  const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
+  const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
+  const Real ruw1 = t261 * ru1_y + (t260 * ru1_x + t262 * ru1_z);
+  const Real t708 = t261 * rSu1_z;
+  const Real t709 = t262 * rSu1_y;
+  const Real t712 = t260 * rSu1_z;
+  const Real t713 = t262 * rSu1_x;
+  const Real t716 = t260 * rSu1_y;
+  const Real t717 = t261 * rSu1_x;
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t454 * Real(0.0505);
-  const Real ref1_x = t265 * ruh1 + (t442 * Real(3.84) - (tyre_forcef1_x - t439 * Real(1.6)));
-  const Real ref1_y = t266 * ruh1 - (t447 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * ruw1));
-  const Real ref1_z = t267 * ruh1 + (Real(3.84) * ruw1 + (tyre_forcef1_z - t447 * Real(1.6)));
-  const Real ren1_x = t717 - (t716 - (tyre_forcem_x - t447 * Real(1.4408)));
-  const Real ren1_y = t721 - (t720 - (t442 * Real(1.7608) - (tyre_forcem_y - t439 * Real(0.192))));
-  const Real ren1_z = t725 - (t724 + (t439 * Real(0.98) + (tyre_forcem_z + t442 * Real(0.192))));
-  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x - q1r1_y * ref1_y);
-  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x + q1r2_y * ref1_y);
-  const Real rQ1_0 = ren1_x - (t678 - (t677 - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
-  const Real rQ1_1 = ren1_y + (t681 + (Real(3.84) * ra1_x - t680));
-  const Real rQ1_2 = ren1_z - (t684 + (Real(1.6) * ra1_x - t683));
-  const Real rQ2_0 = rQp2 - rdn2_z;
-  const Real t790 = Real(1.0) / (t231 * (p_3_1n_z - (t231 * Real(0.98) - (p_3_1n_z - t234 * Real(0.192)))) -
-      (t234 * (p_2_1n_z + (t231 * Real(0.192) + (p_2_1n_z + t234 * Real(1.7608)))) - (t239 * (p_1_1n_z +
-      (p_1_1n_z - t239 * Real(1.4408))) - (t246 * t246 * Real(0.0505) - (h1at1_y * Real(0.04) - (q1r2_z *
-      S1at1r1_z + (q1r2_y * S1at1r1_y + (Real(0.65) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z *
-      S1at1r0_z + (q1r1_x * q1r1_x * Real(0.65) + q1r1_y * S1at1r0_y)) - Real(3.8987000000000007)))) +
-      Real(0.017799999999999996))))))) * (t246 * rQ2_0 + (t231 * rQ1_2 - (t234 * rQ1_1 - (t239 * rQ1_0 -
-      (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x - (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x -
-      (rQp0 - (strutbx_x * strutf_z - strutbx_y * strutf_y)))))))))));
-  const Real ral1_x = q1r0_x * t790;
-  const Real ral1_y = q1r0_y * t790;
-  const Real ral1_z = q1r0_z * t790;
-  const Real ra1o_x_2 = ra1o_x - Real(0.02) * t790;
-  const Real ra1o_y_2 = ra1o_y - Real(0.34) * t790;
+  const Real rdn2_z = t449 * Real(0.0505);
+  const Real ref1_x = t434 * Real(1.6) - (tyre_forcef1_x - (t437 * Real(3.84) + t260 * ruh1));
+  const Real ref1_y = Real(1.6) * ruw1 - (tyre_forcef1_y - (t442 * Real(3.84) - t261 * ruh1));
+  const Real ref1_z = t442 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * ruw1 - t262 * ruh1));
+  const Real ren1_x = t442 * Real(1.4408) - (tyre_forcem_x + (t708 - t709));
+  const Real ren1_y = t434 * Real(0.192) - (tyre_forcem_y - (t437 * Real(1.7608) + (t712 - t713)));
+  const Real ren1_z = t437 * Real(0.192) + (tyre_forcem_z + (t434 * Real(0.98) + (t716 - t717)));
+  const Real rf1p_x = q1r1_y * ref1_y + (q1r1_x * ref1_x + q1r1_z * ref1_z);
+  const Real rf1p_y = q1r2_y * ref1_y - (q1r2_x * ref1_x - q1r2_z * ref1_z);
+  const Real rQ1_0 = Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (t669 - (t670 + ren1_x)));
+  const Real rQ1_1 = t672 - (Real(3.84) * ra1_x + (t673 + ren1_y));
+  const Real rQ1_2 = t675 - (Real(1.6) * ra1_x + (t676 + ren1_z));
+  const Real rQ2_0 = rQp2 + rdn2_z;
+  const Real t782 = Real(1.0) / (q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y *
+      S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t241 * t241 * Real(0.0505) + (t234 * (t234 *
+      Real(1.4408) + (p_1_1n_z + p_1_1n_z)) - (t226 * (t229 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t226 *
+      Real(0.98)))) - (t229 * (t229 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t226 * Real(0.192)))) + ((q1r1_x
+      * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) +
+      Real(0.017799999999999996)))))))))))) * (strutbx_y * strutf_y - (strutbx_x * strutf_z - (rQp0 + (q1r0_x
+      * ren1_x - (q1r0_y * ren1_y - (q1r0_z * ren1_z - (Real(0.02) * rf1p_x - (Real(0.34) * rf1p_y + (t234 *
+      rQ1_0 - (t229 * rQ1_1 - (t226 * rQ1_2 + t241 * rQ2_0)))))))))));
+  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t782;
+  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t782;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real rdn2_z_2 = Real(0.0505) * (t454 - t246 * t790);
-  const Real rQ2_0_2 = rQp2 - rdn2_z_2;
-  const Real t821 = t178 * rQ2_0_2;
-  const Real t833 = t198 * (Real(1.4408) * (t447 - t239 * t790 + ral1_x) + (top_joints2bm_x * t821 + (t716 -
-      (t717 + (tyre_forcem_x - (Real(3.84) * ra1_y_2 + (Real(1.6) * ra1_z_2 - (t677 - t678))))))));
-  const Real t836 = t439 - t231 * t790 + ral1_z;
-  const Real t838 = t442 - t234 * t790 - ral1_y;
-  const Real t849 = t214 * (Real(0.192) * t836 + (Real(1.7608) * t838 - (t185 * t833 - (top_joints2bm_y * t821
-      - (t720 - (t721 - (tyre_forcem_y - (Real(3.84) * ra1_x_2 - (t680 - t681)))))))));
-  const Real t865 = t220 * (Real(0.192) * t838 + (Real(0.98) * t836 - (t208 * t849 - (t189 * t833 -
-      (top_joints2bm_z * t821 - (t724 - (t725 - (tyre_forcem_z + (Real(1.6) * ra1_x_2 - (t683 -
-      t684))))))))));
-  const Real t867 = t849 + t215 * t865;
-  const Real t871 = t209 * t865 - (t833 + t199 * t867);
-  lambda[0] = -t867;
-  lambda[1] = t871;
-  lambda[2] = -(t192 * t867 + (t821 + t179 * t871));
-  lambda[3] = -t865;
+  const Real rdn2_z_2 = Real(0.0505) * (t449 - t241 * t782);
+  const Real rQ2_0_2 = rQp2 + rdn2_z_2;
+  const Real t804 = t173 * rQ2_0_2;
+  const Real t818 = t193 * (t670 - (t669 - (Real(1.6) * ra1_z_2 + (Real(3.84) * ra1_y_2 - (tyre_forcem_x -
+      (t709 - (t708 - (top_joints2bm_x * t804 + Real(1.4408) * (t442 - t782 * (q1r0_x + t234))))))))));
+  const Real t823 = t434 - t782 * (q1r0_z - t226);
+  const Real t827 = t437 + t782 * (q1r0_y - t229);
+  const Real t838 = t209 * (t673 - (t672 - (Real(3.84) * ra1_x_2 - (tyre_forcem_y + (t713 - (t712 +
+      (top_joints2bm_y * t804 + (t180 * t818 + (Real(0.192) * t823 + Real(1.7608) * t827)))))))));
+  const Real t854 = t215 * (t676 - (t675 - (Real(1.6) * ra1_x_2 + (tyre_forcem_z - (t717 - (t716 -
+      (top_joints2bm_z * t804 + (t184 * t818 - (t203 * t838 + (Real(0.192) * t827 + Real(0.98) *
+      t823))))))))));
+  const Real t856 = t838 + t210 * t854;
+  const Real t860 = t194 * t856 - (t818 + t204 * t854);
+  lambda[0] = t856;
+  lambda[1] = -t860;
+  lambda[2] = t174 * t860 - (t804 - t187 * t856);
+  lambda[3] = -t854;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

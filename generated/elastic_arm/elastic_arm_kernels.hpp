@@ -68,6 +68,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression_15 = k * Real(0.01);
   const Real expression_16 = detail::square_root(expression_15);
   expression_9 = expression_10 * expression_16;
+  c10 = k * Real(0.5);
 }
 
 template <class Real>
@@ -117,7 +118,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real c5 = t39 * t43 - t42 * t44;
   const Real h5b_x = s5 * Real(0.3);
   const Real h5b_y = c5 * Real(0.3);
-  const Real D4 = s3 * h5b_x * Real(0.4) + Real(0.4) * (c3 * h5b_y);
+  const Real D4 = (s3 * h5b_x + c3 * h5b_y) * Real(0.4);
   const Real E4 = D4 - Real(0.06999999999999999);
   const Real h3b_x = s3 * Real(1.8);
   const Real h3b_y = c3 * Real(1.8);
@@ -134,30 +135,30 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real p_4_2n_z = E4 - p_4_2l_z;
   const Real p_5_4n_z = D4 - Real(0.06);
   const Real p_5_2n_z = p_4_2l_z - p_5_4n_z;
-  const Real t89 = -E2;
-  const Real t90 = -p_3_2n_z;
-  const Real t91 = -p_4_2n_z;
-  const Real t93 = -J3;
-  const Real t94 = -E4;
-  const Real t95 = -p_5_4n_z;
+  const Real t88 = -E2;
+  const Real t89 = -p_3_2n_z;
+  const Real t90 = -p_4_2n_z;
+  const Real t92 = -J3;
+  const Real t93 = -E4;
+  const Real t94 = -p_5_4n_z;
   M[0][0] = J0;
   M[0][1] = M[1][0] = J1;
-  M[0][2] = M[2][0] = t89;
-  M[0][3] = M[3][0] = t90;
-  M[0][4] = M[4][0] = t91;
+  M[0][2] = M[2][0] = t88;
+  M[0][3] = M[3][0] = t89;
+  M[0][4] = M[4][0] = t90;
   M[0][5] = M[5][0] = p_5_2n_z;
   M[1][1] = J1;
-  M[1][2] = M[2][1] = t89;
-  M[1][3] = M[3][1] = t90;
-  M[1][4] = M[4][1] = t91;
+  M[1][2] = M[2][1] = t88;
+  M[1][3] = M[3][1] = t89;
+  M[1][4] = M[4][1] = t90;
   M[1][5] = M[5][1] = p_5_2n_z;
   M[2][2] = -J2;
-  M[2][3] = M[3][2] = t93;
-  M[2][4] = M[4][2] = t94;
-  M[2][5] = M[5][2] = t95;
-  M[3][3] = t93;
-  M[3][4] = M[4][3] = t94;
-  M[3][5] = M[5][3] = t95;
+  M[2][3] = M[3][2] = t92;
+  M[2][4] = M[4][2] = t93;
+  M[2][5] = M[5][2] = t94;
+  M[3][3] = t92;
+  M[3][4] = M[4][3] = t93;
+  M[3][5] = M[5][3] = t94;
   M[4][4] = Real(0.06999999999999999);
   M[4][5] = M[5][4] = Real(0.06);
   M[5][5] = Real(0.06);
@@ -258,31 +259,40 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real h1b_y = c1 * Real(5.15);
   const Real h1_y = h3_y + h1b_y;
   const Real push0_0 = state.z[0] * Real(8.0);
+  const Real push1_0 = state.y[1] * model.k + state.z[1] * model.expression_7;
   const Real push2_0 = state.z[2] * Real(4.0);
+  const Real push3_0 = state.y[3] * model.k + state.z[3] * model.expression_8;
+  const Real push5_0 = state.y[5] * model.k + state.z[5] * model.expression_9;
   const Real expression = state.t * Real(3.0);
   const Real expression_2 = detail::sine(expression);
   const Real expression_3 = expression_2 * Real(20.0);
-  const Real expression_4 = Real(4.0) * state.t;
-  const Real expression_5 = detail::sine(expression_4);
-  const Real expression_6 = Real(8.0) * expression_5;
-  const Real expression_7 = state.t * Real(5.0);
-  const Real expression_8 = detail::sine(expression_7);
-  const Real expression_9 = expression_8 * Real(2.0);
-  const Real t88 = h1_y * Real(9.81);
-  const Real q_0 = t88 - (push0_0 - expression_3 - Real(61.931506158593194));
-  const Real q_1 = t88 - (state.y[1] * model.k + state.z[1] * model.expression_7);
-  const Real t95 = h3_y * Real(9.81);
-  const Real q_2 = t95 - (push2_0 - expression_6 - Real(20.234312889933875));
-  const Real q_3 = t95 - (state.y[3] * model.k + state.z[3] * model.expression_8);
-  const Real t102 = h5b_y * Real(9.81);
-  const Real q_4 = t102 - (state.z[4] - (expression_9 + Real(2.9282972584132296)));
-  const Real q_5 = t102 - (state.y[5] * model.k + state.z[5] * model.expression_9);
-  q[0] = -q_0;
-  q[1] = -q_1;
-  q[2] = -q_2;
-  q[3] = -q_3;
+  const Real expression_4 = expression_3 + Real(61.931506158593194);
+  const Real push0_0_2 = push0_0 - expression_4;
+  const Real expression_5 = Real(4.0) * state.t;
+  const Real expression_6 = detail::sine(expression_5);
+  const Real expression_7 = Real(8.0) * expression_6;
+  const Real expression_8 = expression_7 + Real(20.234312889933875);
+  const Real push2_0_2 = push2_0 - expression_8;
+  const Real expression_9 = state.t * Real(5.0);
+  const Real expression_10 = detail::sine(expression_9);
+  const Real expression_11 = expression_10 * Real(2.0);
+  const Real expression_12 = expression_11 + Real(2.9282972584132296);
+  const Real push4_0 = expression_12 - state.z[4];
+  const Real t100 = h1_y * Real(9.81);
+  const Real q_0 = push0_0_2 - t100;
+  const Real q_1 = push1_0 - t100;
+  const Real t103 = h3_y * Real(9.81);
+  const Real q_2 = push2_0_2 - t103;
+  const Real q_3 = push3_0 - t103;
+  const Real t106 = h5b_y * Real(9.81);
+  const Real q_4 = push4_0 + t106;
+  const Real q_5 = push5_0 - t106;
+  q[0] = q_0;
+  q[1] = q_1;
+  q[2] = q_2;
+  q[3] = q_3;
   q[4] = -q_4;
-  q[5] = -q_5;
+  q[5] = q_5;
 }
 
 template <class Real>
@@ -456,12 +466,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h3b_y = c3 * Real(1.8);
   const Real h3_x = h5b_x - h3b_x;
   const Real h3_y = h5b_y - h3b_y;
-  const Real J3 = D4 + D4 - Real(0.06999999999999999) - Real(0.6133333333333334);
+  const Real J3 = D4 + (D4 - Real(0.6833333333333333));
   const Real J2 = J3 - Real(0.03);
   const Real D2 = r2_x * h3_x + r2_y * h3_y;
   const Real h1b_y = c1 * Real(5.15);
   const Real h1_y = h3_y + h1b_y;
-  const Real J1 = D2 - (J2 - D2) + Real(2.325);
+  const Real J1 = D2 - (J2 - (D2 + Real(2.325)));
   const Real J0 = J1 + Real(0.05);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
@@ -483,9 +493,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real adn1_z = J1 * zdot[1];
   const Real aal1o_z = zdot[0] + zdot[1];
   const Real aW1w22 = w1_z * w1_z;
-  const Real aa2o_x = r2_y * aal1o_z - (Real(9.81) - r2_x * aW1w22);
+  const Real aa2o_x = r2_x * aW1w22 - (Real(9.81) - r2_y * aal1o_z);
   const Real aa2o_y = r2_x * aal1o_z - r2_y * aW1w22;
-  const Real t140 = h3_x * aa2o_y + h3_y * aa2o_x;
+  const Real t138 = h3_x * aa2o_y + h3_y * aa2o_x;
   const Real zw_2 = state.z[2] * (w1_z + w2_z);
   const Real adn2_z = J2 * zdot[2];
   const Real aal2o_z = aal1o_z + zdot[2];
@@ -493,42 +503,42 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real adn3_z = J3 * zdot[3];
   const Real aal3o_z = aal2o_z + zdot[3];
   const Real aW3w22 = w3_z * w3_z;
-  const Real aa4o_x = r4_y * aal3o_z - (aa2o_x - r4_x * aW3w22);
-  const Real aa4o_y = r4_y * aW3w22 + (aa2o_y - r4_x * aal3o_z);
-  const Real t163 = h5b_x * aa4o_y;
-  const Real t164 = h5b_y * aa4o_x;
+  const Real aa4o_x = r4_x * aW3w22 - (aa2o_x - r4_y * aal3o_z);
+  const Real aa4o_y = r4_x * aal3o_z - (aa2o_y + r4_y * aW3w22);
+  const Real t162 = h5b_x * aa4o_y;
+  const Real t163 = h5b_y * aa4o_x;
   const Real zw_4 = state.z[4] * (w3_z + w4_z);
   const Real adn4_z = Real(0.06999999999999999) * zdot[4];
   const Real aal4o_z = aal3o_z + zdot[4];
-  const Real zw_5 = state.z[5] * (state.z[5] + (w4_z + w4_z));
+  const Real zw_5 = state.z[5] * (w4_z + (w4_z + state.z[5]));
   const Real adn5_z = Real(0.06) * zdot[5];
-  const Real t177 = zw_4 + zw_5;
-  const Real t179 = zdot[4] + zdot[5];
-  const Real af5c_x = h5b_x * t177 + h5b_y * t179;
-  const Real af5c_y = h5b_x * t179 - h5b_y * t177;
+  const Real t176 = zw_4 + zw_5;
+  const Real t178 = zdot[4] + zdot[5];
+  const Real af5c_x = h5b_x * t176 + h5b_y * t178;
+  const Real af5c_y = h5b_x * t178 - h5b_y * t176;
   const Real an5c_z = adn4_z + adn5_z;
-  const Real an4c_z = r4_y * af5c_x + (r4_x * af5c_y + (adn3_z - an5c_z));
-  const Real t191 = zw_2 + zw_3;
-  const Real t193 = zdot[2] + zdot[3];
-  const Real af3c_x = h3_x * t191 + (af5c_x + h3_y * t193);
-  const Real af3c_y = h3_x * t193 + (af5c_y - h3_y * t191);
-  const Real an3c_z = adn2_z + an4c_z;
-  const Real an2c_z = r2_y * af3c_x + (r2_x * af3c_y + (adn1_z - an3c_z));
-  const Real tau_0_0 = an2c_z + (adn0_z - (aQp0 - (push0_0 - expression_3 - Real(61.931506158593194))));
-  const Real tau_1_0 = an2c_z + (J1 * zdot[0] - (aQp0 - (state.y[1] * model.k + state.z[1] *
-      model.expression_7)));
-  const Real tau_2_0 = an3c_z + (J2 * aal1o_z - (t140 + (push2_0 - expression_6 - Real(20.234312889933875))));
-  const Real tau_3_0 = an4c_z + (J3 * aal2o_z - (t140 + (state.y[3] * model.k + state.z[3] *
-      model.expression_8)));
-  const Real tau_4_0 = an5c_z - (t164 - (t163 + (Real(0.06999999999999999) * aal3o_z + (state.z[4] -
-      expression_9 - Real(2.9282972584132296)))));
-  const Real tau_5_0 = adn5_z + (aal4o_z * Real(0.06) + (t163 - (t164 - (state.y[5] * model.k + state.z[5] *
-      model.expression_9))));
-  tau[0] = tau_0_0;
+  const Real an4c_z = an5c_z - (adn3_z + (r4_x * af5c_y + r4_y * af5c_x));
+  const Real t190 = zw_2 + zw_3;
+  const Real t192 = zdot[2] + zdot[3];
+  const Real af3c_x = h3_y * t192 + (af5c_x + h3_x * t190);
+  const Real af3c_y = h3_y * t190 - (af5c_y + h3_x * t192);
+  const Real an3c_z = adn2_z - an4c_z;
+  const Real an2c_z = an3c_z - (adn1_z - (r2_x * af3c_y - r2_y * af3c_x));
+  const Real tau_0_0 = expression_3 - (push0_0 - (aQp0 - (adn0_z - an2c_z) + Real(61.931506158593194)));
+  const Real tau_1_0 = state.z[1] * model.expression_7 + (state.y[1] * model.k - (aQp0 - (J1 * zdot[0] -
+      an2c_z)));
+  const Real tau_2_0 = expression_6 - (push2_0 + (t138 - (J2 * aal1o_z + an3c_z) - Real(20.234312889933875)));
+  const Real tau_3_0 = state.z[3] * model.expression_8 + (state.y[3] * model.k + (t138 - (J3 * aal2o_z -
+      an4c_z)));
+  const Real tau_4_0 = expression_9 - (state.z[4] + (aal3o_z * Real(0.06999999999999999) - (t162 + (t163 -
+      an5c_z)) - Real(2.9282972584132296)));
+  const Real tau_5_0 = state.z[5] * model.expression_9 + (state.y[5] * model.k - (t163 + (t162 - (aal4o_z *
+      Real(0.06) + adn5_z))));
+  tau[0] = -tau_0_0;
   tau[1] = tau_1_0;
   tau[2] = -tau_2_0;
-  tau[3] = -tau_3_0;
-  tau[4] = tau_4_0;
+  tau[3] = tau_3_0;
+  tau[4] = -tau_4_0;
   tau[5] = tau_5_0;
 }
 
@@ -567,10 +577,10 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h3b_y = c3 * Real(1.8);
   const Real h3_x = h5b_x - h3b_x;
   const Real h3_y = h5b_y - h3b_y;
-  const Real J3 = D4 + D4 - Real(0.06999999999999999) - Real(0.6133333333333334);
+  const Real J3 = D4 + (D4 - Real(0.6833333333333333));
   const Real J2 = J3 - Real(0.03);
   const Real D2 = r2_x * h3_x + r2_y * h3_y;
-  const Real J1 = D2 - (J2 - D2) + Real(2.325);
+  const Real J1 = D2 - (J2 - (D2 + Real(2.325)));
   const Real J0 = J1 + Real(0.05);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
@@ -580,25 +590,19 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v1L_z = J1 * state.z[1];
   const Real v2o_x = r2_y * w1_z;
   const Real v2o_y = r2_x * w1_z;
-  const Real v2P_x = h3_y * state.z[2];
-  const Real v2P_y = h3_x * state.z[2];
   const Real v2L_z = J2 * state.z[2];
-  const Real v3P_x = h3_y * state.z[3];
-  const Real v3P_y = h3_x * state.z[3];
   const Real v3L_z = J3 * state.z[3];
   const Real v4o_x = v2o_x - r4_y * w3_z;
   const Real v4o_y = v2o_y - r4_x * w3_z;
-  const Real v4P_x = h5b_y * state.z[4];
-  const Real v4P_y = h5b_x * state.z[4];
-  const Real v4L_z = Real(0.06999999999999999) * state.z[4];
-  const Real v5P_x = h5b_y * state.z[5];
-  const Real v5P_y = h5b_x * state.z[5];
+  const Real v4L_z = state.z[4] * Real(0.06999999999999999);
   const Real v5L_z = state.z[5] * Real(0.06);
-  const Real T5 = Real(0.5) * (state.z[0] * v0L_z + (state.z[1] * v1L_z - (state.z[2] * v2L_z + (state.z[3] *
-      v3L_z - (state.z[4] * v4L_z + state.z[5] * v5L_z))))) + (v2o_x * (v2P_x + v3P_x) + (v2o_y * (v2P_y +
-      v3P_y) + (v4o_x * (v4P_x + v5P_x) + (v4o_y * (v4P_y + v5P_y) + (w4_z * v5L_z + (w3_z * v4L_z - (w2_z *
-      v3L_z - (state.z[0] * v1L_z - w1_z * v2L_z))))))));
-  return T5;
+  const Real t120 = state.z[2] + state.z[3];
+  const Real t125 = state.z[4] + state.z[5];
+  const Real T5 = w1_z * v2L_z - (state.z[0] * v1L_z - (w2_z * v3L_z - (w3_z * v4L_z + (w4_z * v5L_z + (v4o_y
+      * (h5b_x * t125) + (v4o_x * (h5b_y * t125) + (v2o_y * (h3_x * t120) + (Real(0.5) * (state.z[5] * v5L_z +
+      (state.z[4] * v4L_z - (state.z[3] * v3L_z + (state.z[2] * v2L_z - (state.z[0] * v0L_z + state.z[1] *
+      v1L_z))))) + v2o_x * (h3_y * t120)))))))));
+  return -T5;
 }
 
 template <class Real>
@@ -625,10 +629,10 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real h5b_x = s5 * Real(0.3);
   const Real h3b_x = s3 * Real(1.8);
   const Real h1b_x = s1 * Real(5.15);
-  const Real h1_x = h1b_x + (h5b_x - h3b_x);
-  const Real V = h1_x * Real(9.81) + (model.k * (state.y[5] * state.y[5]) + (state.y[1] * state.y[1] * model.k
-      + model.k * (state.y[3] * state.y[3]))) * Real(0.5);
-  return V;
+  const Real h1_x = h3b_x - (h5b_x + h1b_x);
+  const Real V = h1_x * Real(9.81) - (state.y[3] * state.y[3] + (state.y[1] * state.y[1] + state.y[5] *
+      state.y[5])) * model.c10;
+  return -V;
 }
 
 template <class Real>

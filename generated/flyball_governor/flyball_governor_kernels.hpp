@@ -53,6 +53,7 @@ template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
   k = parameters.k;
   c = parameters.c;
+  c2 = Real(0.5) * k;
 }
 
 template <class Real>
@@ -76,12 +77,10 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) 
   detail::sine_cosine(state.y[2], s2, c2);
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
-  const Real h3b_y = c3 * Real(5.15);
-  const Real h2b_y = c2 * Real(5.15);
-  const Real S0b_zz = (h3b_y + h2b_y) * Real(0.1) - (s3 * s3 * Real(5.0999975) + (Real(5.0999975) * (s2 * s2)
-      - Real(5.1000000000000005) + Real(2.5e-06)) - Real(5.1000025) - Real(0.029002500000000004) -
-      Real(0.0025075000000000015));
-  M[0][0] = S0b_zz;
+  const Real S0b_zz = (s3 * s3 + s2 * s2) * Real(5.0999975) - ((c2 + c3) * Real(0.515) +
+      Real(0.0025075000000000015) + Real(0.029002500000000004) + Real(5.1000025) - Real(2.5e-06) +
+      Real(5.1000000000000005));
+  M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = Real(0.0);
   M[0][2] = M[2][0] = Real(0.0);
   M[0][3] = M[3][0] = Real(0.0);
@@ -139,15 +138,16 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real link1bv2p_x = c0 * link1bv2_y;
   const Real link1bv2p_y = s0 * link1bv2_y;
   const Real link1bx2p_x = Real(0.05) + link1bx_y;
+  const Real link1bx2p_z = link1bx_x - Real(1.0);
   const Real link1bx2_x = c0 * link1bx2p_x;
   const Real link1bx2_y = s0 * link1bx2p_x;
   const Real link1d_x = link1ax_x - link1bx2_x;
   const Real link1d_y = link1ax_y - link1bx2_y;
-  const Real link1d_z = state.y[1] + (link1bx_x - Real(1.0));
+  const Real link1d_z = link1bx2p_z + state.y[1];
   const Real link1v_z = link1bv2_x + state.z[1];
-  const Real link1_ll = link1d_z * link1d_z + (link1d_y * link1d_y + (link1d_x * link1d_x + Real(1e-18)));
+  const Real link1_ll = link1d_x * link1d_x + Real(1e-18) + link1d_y * link1d_y + link1d_z * link1d_z;
   const Real link1_l = detail::square_root(link1_ll);
-  const Real link1_rate = (link1d_z * link1v_z + (link1bv2p_x * link1d_x + link1bv2p_y * link1d_y)) / link1_l;
+  const Real link1_rate = (link1bv2p_x * link1d_x + link1bv2p_y * link1d_y + link1d_z * link1v_z) / link1_l;
   const Real link1_e = Real(0.5) - link1_l;
   const Real link1_T = link1_e * model.k - link1_rate * model.c;
   const Real link1_Tl = link1_T / link1_l;
@@ -155,6 +155,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real link1f_y = link1d_y * link1_Tl;
   const Real link1f_z = link1d_z * link1_Tl;
   const Real link1fb2p_x = c0 * link1f_x + s0 * link1f_y;
+  const Real push2_0 = link1bx_x * link1fb2p_x + link1bx_y * link1f_z;
   const Real link2bx_x = s3 * Real(0.5);
   const Real link2bx_y = c3 * Real(0.5);
   const Real link2bv3_x = link2bx_y * state.z[3];
@@ -162,25 +163,28 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real link2bv3p_x = c0 * link2bv3_y;
   const Real link2bv3p_y = s0 * link2bv3_y;
   const Real link2bx3p_x = Real(0.05) + link2bx_y;
+  const Real link2bx3p_z = Real(1.0) - link2bx_x;
   const Real link2bx3_x = c0 * link2bx3p_x;
   const Real link2bx3_y = s0 * link2bx3p_x;
   const Real link2d_x = link1ax_x - link2bx3_x;
   const Real link2d_y = link1ax_y - link2bx3_y;
-  const Real link2d_z = link2bx_x + (state.y[1] - Real(1.0));
+  const Real link2d_z = state.y[1] - link2bx3p_z;
   const Real link2v_z = state.z[1] + link2bv3_x;
-  const Real link2_ll = link2d_z * link2d_z + (link2d_y * link2d_y + (Real(1e-18) + link2d_x * link2d_x));
+  const Real link2_ll = Real(1e-18) + link2d_x * link2d_x + link2d_y * link2d_y + link2d_z * link2d_z;
   const Real link2_l = detail::square_root(link2_ll);
-  const Real link2_rate = (link2d_z * link2v_z + (link2bv3p_x * link2d_x + link2bv3p_y * link2d_y)) / link2_l;
+  const Real link2_rate = (link2bv3p_x * link2d_x + link2bv3p_y * link2d_y + link2d_z * link2v_z) / link2_l;
   const Real link2_e = Real(0.5) - link2_l;
   const Real link2_T = model.k * link2_e - model.c * link2_rate;
   const Real link2_Tl = link2_T / link2_l;
   const Real link2f_x = link2d_x * link2_Tl;
   const Real link2f_y = link2d_y * link2_Tl;
   const Real link2f_z = link2d_z * link2_Tl;
+  const Real push1_0 = link1f_z + link2f_z;
   const Real link2fb3p_x = c0 * link2f_x + s0 * link2f_y;
-  const Real q_1 = link1f_z + link2f_z - Real(29.43000000000001);
-  const Real q_2 = c2 * Real(50.5215) + (link1bx_x * link1fb2p_x + link1bx_y * link1f_z);
-  const Real q_3 = c3 * Real(50.5215) + (link2bx_x * link2fb3p_x + link2bx_y * link2f_z);
+  const Real push3_0 = link2bx_x * link2fb3p_x + link2bx_y * link2f_z;
+  const Real q_1 = push1_0 - Real(29.43000000000001);
+  const Real q_2 = push2_0 + c2 * Real(50.5215);
+  const Real q_3 = push3_0 + c3 * Real(50.5215);
   q[0] = Real(0.0);
   q[1] = -q_1;
   q[2] = -q_2;
@@ -384,14 +388,12 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   detail::sine_cosine(state.y[2], s2, c2);
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
-  const Real h3b_y = c3 * Real(5.15);
-  const Real h2b_y = c2 * Real(5.15);
-  const Real S0b_zz = (h3b_y + h2b_y) * Real(0.1) - (s3 * s3 * Real(5.0999975) + (Real(5.0999975) * (s2 * s2)
-      - Real(5.1000000000000005) + Real(2.5e-06)) - Real(5.1000025) - Real(0.029002500000000004) -
-      Real(0.0025075000000000015));
+  const Real S0b_zz = (s3 * s3 + s2 * s2) * Real(5.0999975) - ((c2 + c3) * Real(0.515) +
+      Real(0.0025075000000000015) + Real(0.029002500000000004) + Real(5.1000025) - Real(2.5e-06) +
+      Real(5.1000000000000005));
   const Real v0L_z = S0b_zz * state.z[0];
-  const Real T3 = (Real(5.1000025) * (state.z[3] * state.z[3]) + (Real(5.1000025) * (state.z[2] * state.z[2])
-      + (state.z[0] * v0L_z + state.z[1] * state.z[1] * Real(3.000000000000001)))) * Real(0.5);
+  const Real T3 = (Real(5.1000025) * (state.z[2] * state.z[2] + state.z[3] * state.z[3]) - (state.z[0] * v0L_z
+      - state.z[1] * state.z[1] * Real(3.000000000000001))) * Real(0.5);
   return T3;
 }
 
@@ -404,7 +406,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
   const Real h1r_z = state.y[1] * Real(3.000000000000001);
-  const Real hg0_z = (s2 + s3) * Real(5.15) - (h1r_z + Real(10.75));
+  const Real hg0_z = h1r_z - (s2 + s3) * Real(5.15) + Real(10.75);
   const Real link1ax_x = c0 * Real(0.05);
   const Real link1ax_y = s0 * Real(0.05);
   const Real link1bx_x = s2 * Real(0.5);
@@ -414,8 +416,8 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real link1bx2_y = s0 * link1bx2p_x;
   const Real link1d_x = link1ax_x - link1bx2_x;
   const Real link1d_y = link1ax_y - link1bx2_y;
-  const Real link1d_z = state.y[1] + link1bx_x - Real(1.0);
-  const Real link1_ll = link1d_z * link1d_z + (link1d_y * link1d_y + (link1d_x * link1d_x + Real(1e-18)));
+  const Real link1d_z = link1bx_x + (state.y[1] - Real(1.0));
+  const Real link1_ll = link1d_x * link1d_x + (link1d_y * link1d_y + link1d_z * link1d_z + Real(1e-18));
   const Real link1_l = detail::square_root(link1_ll);
   const Real link1_e = Real(0.5) - link1_l;
   const Real link2bx_x = s3 * Real(0.5);
@@ -425,13 +427,12 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real link2bx3_y = s0 * link2bx3p_x;
   const Real link2d_x = link1ax_x - link2bx3_x;
   const Real link2d_y = link1ax_y - link2bx3_y;
-  const Real link2d_z = link2bx_x + (state.y[1] - Real(1.0));
-  const Real link2_ll = link2d_z * link2d_z + (link2d_y * link2d_y + (Real(1e-18) + link2d_x * link2d_x));
+  const Real link2d_z = Real(1.0) - (state.y[1] + link2bx_x);
+  const Real link2_ll = link2d_x * link2d_x + (Real(1e-18) + (link2d_y * link2d_y + link2d_z * link2d_z));
   const Real link2_l = detail::square_root(link2_ll);
   const Real link2_e = Real(0.5) - link2_l;
-  const Real V = hg0_z * Real(9.81) - Real(0.5) * (link1_e * link1_e * model.k + model.k * (link2_e *
-      link2_e));
-  return -V;
+  const Real V = hg0_z * Real(9.81) + (link1_e * link1_e + link2_e * link2_e) * model.c2;
+  return V;
 }
 
 template <class Real>

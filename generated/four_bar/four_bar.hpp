@@ -130,7 +130,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 40 operations (27 mul, 12 add and sub, 1 div), 6 sin and cos.
+/// 39 operations (26 mul, 12 add and sub, 1 div), 6 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
@@ -149,7 +149,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 55 operations (38 mul, 16 add and sub, 1 div), 6 sin and cos.
+/// 54 operations (38 mul, 15 add and sub, 1 div), 6 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 

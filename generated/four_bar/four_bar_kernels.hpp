@@ -168,24 +168,29 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real pinbm1a_x = t40 * pinbm1t_y;
   const Real pinbm0t_y = pinbx1_x * state.z[0];
   const Real pinbm0b_y = pinbm0t_y + pinbm1t_y * Real(2.0);
-  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
+  const Real pinbm0a_x = pinbm1a_x - state.z[0] * pinbm0b_y;
+  const Real pinda_x = pinam2a_x + pinbm0a_x;
   const Real pinam2a_y = t41 * pinam2t_x;
   const Real pinbm1a_y = t40 * pinbm1t_x;
   const Real pinbm0b_x = pinbm0t_x - pinbm1t_x * Real(2.0);
-  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
+  const Real pinbm0a_y = pinbm1a_y + state.z[0] * pinbm0b_x;
+  const Real pinda_y = pinam2a_y - pinbm0a_y;
   const Real t66 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y);
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
+  const Real w1_z = state.z[0] - t40;
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
-  const Real zw_1 = t40 * (t40 - (state.z[0] + state.z[0]));
+  const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
+  const Real zw_1 = t40 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
-  const Real E1 = r1_x * h1b_x - r1_y * h1b_y - Real(0.031103999999999996);
-  k[0] = -(t38 * (t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y)) * Real(0.009215999999999998) + (t34 * (t66 *
-      Real(0.031103999999999996) - (h1b_x * ka1o_y + h1b_y * ka1o_x)) + (t66 * E1 - (r1_x * kdf1_y + r1_y *
-      kdf1_x))));
+  const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
+  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
+  const Real E1 = D1 - Real(0.031103999999999996);
+  k[0] = -(kn1c_z - t66 * E1 - t34 * (kQp1 + t66 * Real(0.031103999999999996)) - t38 * (t30 * (pinbx_x *
+      pinda_x - pinbx_y * pinda_y)) * Real(0.009215999999999998));
 }
 
 template <class Real>
@@ -214,8 +219,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real h0_x = h1b_x - h0b_x;
   const Real push2_0 = t38 * state.z[0] * model.bearing;
   const Real q_2 = push2_0 + c2 * Real(0.565056);
-  q[0] = t38 * q_2 + (Real(9.81) * (t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y) * h1b_x) - (h0_x *
-      Real(9.81) + input.u[0]));
+  q[0] = -((h0_x - t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y) * h1b_x) * Real(9.81) + (input.u[0] - t38 *
+      q_2));
 }
 
 template <class Real>
@@ -318,34 +323,43 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pinbm1a_x = t40 * pinbm1t_y;
   const Real pinbm0t_y = pinbx1_x * state.z[0];
   const Real pinbm0b_y = pinbm0t_y + pinbm1t_y * Real(2.0);
-  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
+  const Real pinbm0a_x = pinbm1a_x - state.z[0] * pinbm0b_y;
+  const Real pinda_x = pinam2a_x + pinbm0a_x;
   const Real pinam2a_y = t41 * pinam2t_x;
   const Real pinbm1a_y = t40 * pinbm1t_x;
   const Real pinbm0b_x = pinbm0t_x - pinbm1t_x * Real(2.0);
-  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
-  const Real t73 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y) + t34 * zdot[0];
+  const Real pinbm0a_y = pinbm1a_y + state.z[0] * pinbm0b_x;
+  const Real pinda_y = pinam2a_y - pinbm0a_y;
+  const Real t73 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y) - t34 * zdot[0];
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
+  const Real E1 = D1 - Real(0.031103999999999996);
+  const Real Jc1 = D1 + E1;
   const Real h0b_x = c0 * Real(0.10079999999999999);
   const Real h0_x = h1b_x - h0b_x;
-  const Real J0 = D1 + D1 - Real(0.031103999999999996) - Real(0.011519999999999999);
+  const Real J0 = Jc1 - Real(0.011519999999999999);
+  const Real w1_z = state.z[0] - t40;
   const Real push2_0 = t41 * model.bearing;
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_y * zdot[0] + r1_x * aW0w22;
-  const Real aa1o_y = r1_y * aW0w22 - (Real(9.81) + r1_x * zdot[0]);
-  const Real zw_1 = t40 * (t40 - (state.z[0] + state.z[0]));
+  const Real aa1o_y = Real(9.81) + r1_x * zdot[0] - r1_y * aW0w22;
+  const Real aQp1 = zdot[0] * Real(0.031103999999999996) - h1b_x * aa1o_y + h1b_y * aa1o_x;
+  const Real zw_1 = t40 * (state.z[0] + w1_z);
   const Real adf1_x = t73 * h1b_y + h1b_x * zw_1;
   const Real adf1_y = t73 * h1b_x - h1b_y * zw_1;
   const Real adn1_z = t73 * Real(0.031103999999999996);
   const Real aQp2 = c2 * Real(0.565056);
-  const Real adn2_z = (t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y) + t38 * zdot[0]) *
+  const Real adn2_z = (t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y) - t38 * zdot[0]) *
       Real(0.009215999999999998);
-  const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.031103999999999996) + h1b_x * aa1o_y));
-  const Real tau_2_0 = adn2_z + (push2_0 + aQp2);
-  tau[0] = t38 * tau_2_0 + (t34 * aQ1_0 - (r1_y * adf1_x - (r1_x * adf1_y - (adn0_z + (aQp0 + adn1_z)))));
+  const Real an1c_z = adn1_z - (adn0_z + (r1_x * adf1_y - r1_y * adf1_x));
+  const Real aQ0_0 = aQp0 - an1c_z;
+  const Real aQ1_0 = aQp1 + adn1_z;
+  const Real aQ2_0 = aQp2 - adn2_z;
+  const Real tau_2_0 = push2_0 + aQ2_0;
+  tau[0] = -(aQ0_0 + t34 * aQ1_0 - t38 * tau_2_0);
 }
 
 template <class Real>
@@ -372,16 +386,16 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + D1 - Real(0.031103999999999996) - Real(0.011519999999999999);
+  const Real J0 = D1 + (D1 - Real(0.042623999999999995));
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
   const Real v1P_x = t40 * h1b_y;
   const Real v1P_y = t40 * h1b_x;
   const Real v1L_z = t40 * Real(0.031103999999999996);
-  const Real T2 = (t41 * t41 * Real(0.009215999999999998) - (state.z[0] * v0L_z - t40 * v1L_z)) * Real(0.5) +
-      (v1o_y * v1P_y - (state.z[0] * v1L_z + v1o_x * v1P_x));
-  return T2;
+  const Real T2 = v1o_x * v1P_x + (state.z[0] * v1L_z - (v1o_y * v1P_y + (t40 * v1L_z - (state.z[0] * v0L_z -
+      t41 * t41 * Real(0.009215999999999998))) * Real(0.5)));
+  return -T2;
 }
 
 template <class Real>
@@ -395,7 +409,8 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h2b_y = s2 * Real(0.0576);
   const Real h1b_y = s1 * Real(0.1296);
   const Real h0b_y = s0 * Real(0.10079999999999999);
-  const Real hg2_y = h0b_y + (h2b_y + h1b_y);
+  const Real h0_y = h1b_y + h0b_y;
+  const Real hg2_y = h2b_y + h0_y;
   const Real V = hg2_y * Real(9.81);
   return V;
 }
@@ -411,17 +426,19 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
   const Real r1_y = s0 * Real(0.12);
-  const Real tracerx1_x = c1 * Real(0.18) - (r1_x - s1 * Real(0.15));
-  const Real tracerx1_y = s1 * Real(0.18) + (r1_y - c1 * Real(0.15));
-  const Real t28 = -c1;
-  result.coupler_curve.position[0] = -tracerx1_x;
+  const Real tracerx_x = s1 * Real(0.15) + c1 * Real(0.18);
+  const Real tracerx_y = c1 * Real(0.15) - s1 * Real(0.18);
+  const Real tracerx1_x = r1_x - tracerx_x;
+  const Real tracerx1_y = r1_y - tracerx_y;
+  const Real t27 = -c1;
+  result.coupler_curve.position[0] = tracerx1_x;
   result.coupler_curve.position[1] = tracerx1_y;
   result.coupler_curve.position[2] = Real(0.0);
-  result.coupler_curve.rotation[0][0] = t28;
+  result.coupler_curve.rotation[0][0] = t27;
   result.coupler_curve.rotation[0][1] = -s1;
   result.coupler_curve.rotation[0][2] = Real(0.0);
   result.coupler_curve.rotation[1][0] = s1;
-  result.coupler_curve.rotation[1][1] = t28;
+  result.coupler_curve.rotation[1][1] = t27;
   result.coupler_curve.rotation[1][2] = Real(0.0);
   result.coupler_curve.rotation[2][0] = Real(0.0);
   result.coupler_curve.rotation[2][1] = Real(0.0);
@@ -443,30 +460,30 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t15 = t6 / t13;
   const Real t17 = t14 * Real(0.24);
   const Real t18 = t15 * Real(0.24);
-  const Real t25 = t10 * t15 + t9 * t14;
-  const Real t26 = t10 * t14 - t9 * t15;
-  const Real t29 = t18 * t26 - t17 * t25;
-  const Real t32 = t17 * t26 + t18 * t25;
-  const Real t41 = (t25 * t25 + (t26 * t26 + (t18 * t18 + t17 * t17 - Real(1.0)))) * Real(0.5);
-  const Real t44 = t32 * t32 + t29 * t29;
+  const Real t26 = t10 * t15 + t9 * t14;
+  const Real t27 = t10 * t14 - t9 * t15;
+  const Real t30 = t18 * t27 - t17 * t26;
+  const Real t33 = t17 * t27 + t18 * t26;
+  const Real t41 = (t18 * t18 + t17 * t17 + (t27 * t27 + t26 * t26 - Real(1.0))) * Real(0.5);
+  const Real t44 = t33 * t33 + t30 * t30;
   const Real t45 = t41 * t41;
   const Real t47 = detail::square_root(t44 - t45);
-  const Real t56 = (t32 * t47 - t29 * t41) / t44;
-  const Real t57 = (t29 * t47 + t32 * t41) / t44;
-  const Real t63 = t17 * t56 - (t25 - t18 * t57);
-  const Real t65 = t18 * t56 + (t26 - t17 * t57);
+  const Real t56 = (t33 * t47 - t30 * t41) / t44;
+  const Real t57 = (t30 * t47 + t33 * t41) / t44;
+  const Real t64 = t26 - (t18 * t57 + t17 * t56);
+  const Real t65 = t27 - (t17 * t57 - t18 * t56);
   Real t68, t67;
   detail::sine_cosine(state.y[1], t68, t67);
-  const Real t78 = state.y[1] + detail::arctangent2(-(t63 * t68 + t65 * t67), -(t65 * t68 - t63 * t67));
-  Real t81, t80;
-  detail::sine_cosine(state.y[2], t81, t80);
-  const Real t90 = state.y[2] + detail::arctangent2(-(t56 * t81 - t57 * t80), t57 * t81 + t56 * t80);
-  const Real t91 = state.y[1] - t78;
-  const Real t93 = state.y[2] - t90;
-  closed.y[1] = t78;
-  closed.y[2] = t90;
+  const Real t77 = state.y[1] + detail::arctangent2(t64 * t68 - t65 * t67, -(t65 * t68 + t64 * t67));
+  Real t80, t79;
+  detail::sine_cosine(state.y[2], t80, t79);
+  const Real t89 = state.y[2] + detail::arctangent2(-(t56 * t80 - t57 * t79), t57 * t80 + t56 * t79);
+  const Real t90 = state.y[1] - t77;
+  const Real t92 = state.y[2] - t89;
+  closed.y[1] = t77;
+  closed.y[2] = t89;
   closed.regularity = Real(1.0) - t45 / t44;
-  closed.opening = t91 * t91 + t93 * t93;
+  closed.opening = t90 * t90 + t92 * t92;
   state = closed;
 }
 
@@ -483,9 +500,10 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
+  const Real pinax2_x = pinax_x + Real(0.4);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
-  const Real pind_x = pinbx1_x - (pinax_x + Real(0.4));
+  const Real pind_x = pinax2_x - pinbx1_x;
   const Real r1_y = s0 * Real(0.12);
   const Real pinax_y = Real(0.24) * s2;
   const Real pinbx_y = s1 * Real(0.36);
@@ -497,15 +515,17 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real pinam2t_x = pinax_y * t45;
   const Real pinbm1t_x = pinbx_y * t44;
   const Real pinbm0t_x = pinbx1_y * state.z[0];
-  const Real pindv_x = pinbm0t_x - (pinam2t_x + pinbm1t_x);
+  const Real pinbm0v_x = pinbm1t_x - pinbm0t_x;
+  const Real pindv_x = pinam2t_x + pinbm0v_x;
   const Real pinam2t_y = pinax_x * t45;
   const Real pinbm1t_y = pinbx_x * t44;
   const Real pinbm0t_y = pinbx1_x * state.z[0];
-  const Real pindv_y = pinbm0t_y - (pinam2t_y - pinbm1t_y);
-  g[0] = pind_x;
+  const Real pinbm0v_y = pinbm1t_y + pinbm0t_y;
+  const Real pindv_y = pinam2t_y - pinbm0v_y;
+  g[0] = -pind_x;
   g[1] = -pind_y;
-  g_rate[0] = -pindv_x;
-  g_rate[1] = pindv_y;
+  g_rate[0] = pindv_x;
+  g_rate[1] = -pindv_y;
 }
 
 template <class Real>

@@ -82,8 +82,11 @@ struct Model {
   Real c3;
   Real c4;
   Real invD_1;
-  Real v2L_z;
+  Real S1b_d_2;
   Real c7;
+  Real S1b_zz_2;
+  Real v2L_z;
+  Real c10;
   Real speed;
   Real z2_2;
 };
@@ -131,7 +134,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[2]) noexcept;
 
 /// Kinetic energy, J.
-/// 15 operations (9 mul, 6 add and sub, 0 div), 1 sin and cos.
+/// 13 operations (9 mul, 4 add and sub, 0 div), 1 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 

@@ -53,7 +53,8 @@ template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real mr_x = parameters.weight * Real(0.12);
   const Real S_xx = Real(0.12) * mr_x;
-  spin_S_xx = Real(9.999999999999983e-05) + (S_xx + Real(0.0035));
+  const Real hung_mass_S_xx = S_xx + Real(0.0035);
+  spin_S_xx = hung_mass_S_xx + Real(9.999999999999983e-05);
   S1b_zz = spin_S_xx + Real(0.0016);
   S1b_d = spin_S_xx - Real(0.0016);
   speed = parameters.speed;
@@ -61,8 +62,12 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c3 = Real(0.0011) * z2_2;
   c4 = mr_x * Real(9.81);
   invD_1 = Real(1.0) / S1b_zz;
+  const Real spin_S_xx_2 = Real(0.0035) + (S_xx + Real(9.999999999999983e-05));
+  S1b_zz_2 = Real(0.0016) + spin_S_xx_2;
+  S1b_d_2 = Real(0.0016) - spin_S_xx_2;
+  c7 = spin_S_xx_2 + Real(0.0126);
   v2L_z = speed * Real(0.0022);
-  c7 = speed * v2L_z;
+  c10 = speed * v2L_z;
 }
 
 template <class Real>
@@ -79,7 +84,9 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real S0b_zz = s1 * s1 * model.S1b_d - model.spin_S_xx - Real(0.006999999999999999) - Real(0.0056);
+  const Real S1b_xx = s1 * s1 * model.S1b_d - model.spin_S_xx;
+  const Real S1c_yy = S1b_xx - Real(0.006999999999999999);
+  const Real S0b_zz = S1c_yy - Real(0.0056);
   M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = Real(0.0);
   M[1][1] = model.S1b_zz;
@@ -122,17 +129,22 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real push0_0 = state.z[0] * Real(0.001);
   const Real push1_0 = Real(0.001) * state.z[1];
   const Real bKx1 = S1b_xy * state.z[0];
+  const Real bQp1 = c1 * model.c4 + state.z[0] * bKx1;
   const Real bdn1_y = state.z[1] * bKx1 * Real(2.0);
   const Real bdn2_y = w2pp_y * model.c3;
   const Real bn1b_y = model.c3 * (c1 * state.z[1]);
-  const Real b_0 = bn1b_y + (push0_0 - bdn1_y);
-  const Real b_1 = bdn2_y - (state.z[0] * bKx1 + (push1_0 + c1 * model.c4));
-  const Real S0b_zz = s1 * S1b_t - model.spin_S_xx - Real(0.006999999999999999) - Real(0.0056);
+  const Real bn1_y = bdn1_y - bn1b_y;
+  const Real bQ1_0 = bQp1 - bdn2_y;
+  const Real b_0 = push0_0 - bn1_y;
+  const Real b_1 = push1_0 + bQ1_0;
+  const Real S1b_xx = s1 * S1b_t - model.spin_S_xx;
+  const Real S1c_yy = S1b_xx - Real(0.006999999999999999);
+  const Real S0b_zz = S1c_yy - Real(0.0056);
   const Real invD_0 = Real(1.0) / S0b_zz;
   const Real y_0 = b_0 * invD_0;
   const Real y_1 = b_1 * model.invD_1;
   zdot[0] = y_0;
-  zdot[1] = y_1;
+  zdot[1] = -y_1;
 }
 
 template <class Real>
@@ -141,31 +153,38 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
   const Real S1b_t = s1 * model.S1b_d;
+  const Real S1b_xx = s1 * S1b_t - model.spin_S_xx;
   const Real S1b_xy = c1 * S1b_t;
-  const Real S0b_zz = s1 * S1b_t - model.spin_S_xx - Real(0.006999999999999999) - Real(0.0056);
+  const Real S1c_yy = S1b_xx - Real(0.006999999999999999);
+  const Real S0b_zz = S1c_yy - Real(0.0056);
   const Real w2pp_y = c1 * state.z[0];
   const Real push0_0 = state.z[0] * Real(0.001);
   const Real push1_0 = Real(0.001) * state.z[1];
   const Real adn0_z = S0b_zz * zdot[0];
   const Real aKx1 = S1b_xy * state.z[0];
+  const Real aQp1 = c1 * model.c4 + state.z[0] * aKx1;
   const Real adn1_y = state.z[1] * aKx1 * Real(2.0);
   const Real adn1_z = zdot[1] * model.S1b_zz;
   const Real adn2_y = w2pp_y * model.c3;
   const Real an1b_y = model.c3 * (c1 * state.z[1]);
-  const Real tau_0_0 = an1b_y - (adn1_y - (push0_0 - adn0_z));
-  const Real tau_1_0 = adn2_y - (adn1_z + (state.z[0] * aKx1 + (push1_0 + c1 * model.c4)));
+  const Real an1_y = adn1_y - an1b_y;
+  const Real an1_z = adn1_z - adn2_y;
+  const Real an0_z = adn0_z + an1_y;
+  const Real aQ1_0 = aQp1 + an1_z;
+  const Real tau_0_0 = push0_0 - an0_z;
+  const Real tau_1_0 = push1_0 + aQ1_0;
   tau[0] = tau_0_0;
-  tau[1] = -tau_1_0;
+  tau[1] = tau_1_0;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real S0b_zz = s1 * s1 * model.S1b_d - model.spin_S_xx - Real(0.006999999999999999) - Real(0.0056);
+  const Real S0b_zz = s1 * s1 * model.S1b_d_2 + model.c7;
   const Real w2pp_x = s1 * state.z[0];
   const Real v0L_z = S0b_zz * state.z[0];
-  const Real T2 = w2pp_x * model.v2L_z + (state.z[1] * state.z[1] * model.S1b_zz - (state.z[0] * v0L_z -
-      model.c7)) * Real(0.5);
+  const Real T2 = w2pp_x * model.v2L_z + (state.z[0] * v0L_z + state.z[1] * state.z[1] * model.S1b_zz_2 +
+      model.c10) * Real(0.5);
   return T2;
 }
 
@@ -192,28 +211,34 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real push0_0 = state.z[0] * Real(0.001);
   const Real push1_0 = Real(0.001) * state.z[1];
   const Real bKx1 = S1b_xy * state.z[0];
+  const Real bQp1 = c1 * model.c4 + state.z[0] * bKx1;
   const Real bdn1_y = state.z[1] * bKx1 * Real(2.0);
   const Real bKx2 = w2pp_y * Real(0.0011);
   const Real bKy2 = state.z[1] * Real(0.0011);
   const Real bdn2_y = bKx2 * model.z2_2;
   const Real bn1b_y = model.z2_2 * (c1 * bKy2);
-  const Real b_0 = bn1b_y + (push0_0 - bdn1_y);
-  const Real b_1 = bdn2_y - (state.z[0] * bKx1 + (push1_0 + c1 * model.c4));
-  const Real S0b_zz = s1 * S1b_t - model.spin_S_xx - Real(0.006999999999999999) - Real(0.0056);
+  const Real bn1_y = bdn1_y - bn1b_y;
+  const Real bQ1_0 = bQp1 - bdn2_y;
+  const Real b_0 = push0_0 - bn1_y;
+  const Real b_1 = push1_0 + bQ1_0;
+  const Real S1b_xx = s1 * S1b_t - model.spin_S_xx;
+  const Real S1c_yy = S1b_xx - Real(0.006999999999999999);
+  const Real S0b_zz = S1c_yy - Real(0.0056);
   const Real invD_0 = Real(1.0) / S0b_zz;
   const Real y_0 = b_0 * invD_0;
   const Real y_1 = b_1 * model.invD_1;
   const Real driveal1o_x = state.z[0] * state.z[1];
   const Real driveal2p_x = c1 * driveal1o_x + s1 * y_0;
   const Real t55 = driveal2p_x * Real(0.0022);
-  const Real driveQp2 = w2pp_y * bKy2 - (t55 + state.z[1] * bKx2);
+  const Real driveQp2 = t55 + state.z[1] * bKx2 - w2pp_y * bKy2;
   const Real reactla2p_y = c1 * Real(9.81);
-  const Real reactla2A_x = model.speed * state.z[1] + (c1 * y_0 - s1 * driveal1o_x);
-  const Real reactla2A_y = y_1 - model.speed * w2pp_y;
+  const Real reactla2np_y = c1 * y_0 - s1 * driveal1o_x;
+  const Real reactla2A_x = reactla2np_y + model.speed * state.z[1];
+  const Real reactla2A_y = y_1 + model.speed * w2pp_y;
   const Real react3b3w_x = s2 * state.z[1] + c2 * w2pp_y;
   const Real react3b3w_y = c2 * state.z[1] - s2 * w2pp_y;
-  const Real react3b3al_x = c2 * reactla2A_x + s2 * reactla2A_y;
-  const Real react3b3al_y = c2 * reactla2A_y - s2 * reactla2A_x;
+  const Real react3b3al_x = c2 * reactla2A_x - s2 * reactla2A_y;
+  const Real react3b3al_y = c2 * reactla2A_y + s2 * reactla2A_x;
   const Real react3b3a_x = c2 * reactla2p_y;
   const Real react3b3a_y = s2 * reactla2p_y;
   const Real react3b3Sw_x = Real(0.0011) * react3b3w_x;
@@ -222,9 +247,9 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real react3b3F_x = react3b3a_x * Real(1.2);
   const Real react3b3F_y = react3b3a_y * Real(1.2);
   const Real react3b3F_z = s1 * Real(11.772);
-  const Real react3b3N_x = react3b3w_y * react3b3Sw_z - (react3b3al_x * Real(0.0012) + w2_z * react3b3Sw_y);
-  const Real react3b3N_y = react3b3w_x * react3b3Sw_z + (react3b3al_y * Real(0.0012) - w2_z * react3b3Sw_x);
-  const Real react3b3N_z = react3b3w_y * react3b3Sw_x + (t55 - react3b3w_x * react3b3Sw_y);
+  const Real react3b3N_x = react3b3al_x * Real(0.0012) + w2_z * react3b3Sw_y - react3b3w_y * react3b3Sw_z;
+  const Real react3b3N_y = react3b3al_y * Real(0.0012) + w2_z * react3b3Sw_x - react3b3w_x * react3b3Sw_z;
+  const Real react3b3N_z = t55 - react3b3w_x * react3b3Sw_y + react3b3w_y * react3b3Sw_x;
   const Real react3b3f_x = c2 * react3b3F_x + s2 * react3b3F_y;
   const Real react3b3f_y = c2 * react3b3F_y - s2 * react3b3F_x;
   const Real react3b3n_x = c2 * react3b3N_x + s2 * react3b3N_y;
@@ -233,13 +258,13 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real react3cf_y = c2 * react3b3f_y + s2 * react3b3f_x;
   const Real react3cn_x = c2 * react3b3n_x - s2 * react3b3n_y;
   const Real react3cn_y = c2 * react3b3n_y + s2 * react3b3n_x;
-  result.motor_torque = -driveQp2;
+  result.motor_torque = driveQp2;
   result.rotor_bearing.force[0] = -react3cf_y;
   result.rotor_bearing.force[1] = react3b3F_z;
   result.rotor_bearing.force[2] = react3cf_x;
-  result.rotor_bearing.moment[0] = react3cn_y;
+  result.rotor_bearing.moment[0] = -react3cn_y;
   result.rotor_bearing.moment[1] = react3b3N_z;
-  result.rotor_bearing.moment[2] = -react3cn_x;
+  result.rotor_bearing.moment[2] = react3cn_x;
 }
 
 template <class Real>

@@ -10,11 +10,11 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // Left out
-// - common factors: factors that several terms of a sum share are multiplied once (2 operations of
+// - common factors: factors that several terms of a sum share are multiplied once (4 operations of
 //   forward_dynamics)
 // - constant factors: constant factors of a product are multiplied with each other first (1 operations of
 //   forward_dynamics)
-// - parameter-only values: values that depend on parameters alone are computed once, with the model (2
+// - parameter-only values: values that depend on parameters alone are computed once, with the model (1
 //   operations of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - joint springs: none
@@ -25,8 +25,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 6.1e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 2.9e-16; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 2.2e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 1.8e-16; symbolic equations against the numeric reference
 //   0.0e+00; cond(M) up to 1.0e+00
 #pragma once
 
@@ -79,12 +79,11 @@ struct Model {
   explicit Model(const Parameters& = {}) noexcept;
 
   Real radius;
-  Real c1;
-  Real c2;
   Real kL0w22;
-  Real c4;
+  Real c2;
+  Real c3;
   Real rate;
-  Real c6;
+  Real c5;
 };
 
 // Names in order, closed by a null pointer.
@@ -100,12 +99,12 @@ template <class Real>
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 7 operations (6 mul, 1 add and sub, 0 div), 2 sin and cos.
+/// 6 operations (5 mul, 1 add and sub, 0 div), 2 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 12 operations (10 mul, 2 add and sub, 0 div), 2 sin and cos.
+/// 10 operations (8 mul, 2 add and sub, 0 div), 2 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
@@ -117,20 +116,20 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 22 operations (16 mul, 5 add and sub, 1 div), 2 sin and cos.
+/// 20 operations (14 mul, 5 add and sub, 1 div), 2 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 19 operations (13 mul, 6 add and sub, 0 div), 2 sin and cos.
+/// 18 operations (12 mul, 6 add and sub, 0 div), 2 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 15 operations (12 mul, 3 add and sub, 0 div), 2 sin and cos.
+/// 14 operations (11 mul, 3 add and sub, 0 div), 2 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -147,7 +146,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 117 operations.
+/// 109 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -54,10 +54,9 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   radius = parameters.radius;
   rate = parameters.rate;
   kL0w22 = rate * rate;
-  c1 = Real(0.1) * kL0w22;
   c2 = radius * Real(0.9810000000000001);
-  c4 = radius * Real(0.1) * Real(9.81);
-  c6 = Real(0.1) * (rate * Real(2.0));
+  c3 = radius * Real(0.1) * Real(9.81);
+  c5 = Real(0.1) * (rate * Real(2.0));
 }
 
 template <class Real>
@@ -75,7 +74,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   detail::sine_cosine(state.y[0], s, c);
   const Real derivative = c * model.radius;
   const Real derivative_2 = model.radius * s;
-  const Real M_0_0 = derivative * derivative * Real(0.1) + Real(0.1) * (derivative_2 * derivative_2);
+  const Real M_0_0 = (derivative * derivative + derivative_2 * derivative_2) * Real(0.1);
   M[0][0] = M_0_0;
 }
 
@@ -85,12 +84,9 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   detail::sine_cosine(state.y[0], s, c);
   const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
-  const Real kQp10 = expression * model.c1;
   const Real zz_1 = state.z[0] * state.z[0];
-  const Real kco1_x = expression * zz_1;
   const Real kco1_z = derivative * zz_1;
-  const Real kdf1t_x = kco1_x * Real(0.1);
-  const Real kQ1_0 = Real(0.1) * (expression * kco1_z) - derivative * (kQp10 + kdf1t_x);
+  const Real kQ1_0 = (expression * kco1_z - derivative * (expression * (zz_1 + model.kL0w22))) * Real(0.1);
   k[0] = -kQ1_0;
 }
 
@@ -110,18 +106,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
   const Real push1_0 = state.z[0] * Real(0.01);
-  const Real bQp10 = expression * model.c1;
   const Real zz_1 = state.z[0] * state.z[0];
-  const Real bco1_x = expression * zz_1;
   const Real bco1_z = derivative * zz_1;
-  const Real bdf1t_x = bco1_x * Real(0.1);
   const Real bdf1t_z = bco1_z * Real(0.1);
-  const Real b_0 = expression * (bdf1t_z + Real(0.9810000000000001)) + (push1_0 - derivative * (bQp10 +
-      bdf1t_x));
-  const Real M0_0 = Real(0.1) * (expression * expression) + Real(0.1) * (derivative * derivative);
+  const Real b_0 = Real(0.1) * (derivative * (expression * (zz_1 + model.kL0w22))) - (push1_0 + expression *
+      (bdf1t_z + Real(0.9810000000000001)));
+  const Real M0_0 = Real(0.1) * (expression * expression + derivative * derivative);
   const Real invD_0 = Real(1.0) / M0_0;
   const Real y_0 = b_0 * invD_0;
-  zdot[0] = -y_0;
+  zdot[0] = y_0;
 }
 
 template <class Real>
@@ -132,14 +125,11 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
   const Real push1_0 = state.z[0] * Real(0.01);
-  const Real aQp10 = expression * model.c1;
   const Real zz_1 = state.z[0] * state.z[0];
-  const Real aco1_x = derivative * zdot[0] - expression * zz_1;
   const Real aco1_z = expression * zdot[0] + derivative * zz_1;
-  const Real adf1t_x = aco1_x * Real(0.1);
   const Real adf1t_z = aco1_z * Real(0.1);
-  const Real tau_1_0 = expression * (adf1t_z + Real(0.9810000000000001)) + (push1_0 - derivative * (aQp10 -
-      adf1t_x));
+  const Real tau_1_0 = expression * (adf1t_z + Real(0.9810000000000001)) + (push1_0 + Real(0.1) * (derivative
+      * (derivative * zdot[0] - expression * (zz_1 + model.kL0w22))));
   tau[0] = tau_1_0;
 }
 
@@ -151,15 +141,14 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real S1c_xx = expression * expression * Real(0.1) + Real(0.2);
   const Real vrel1_x = model.radius * (c * state.z[0]);
   const Real vrel1_z = expression * state.z[0];
-  const Real T1 = (Real(0.1) * (vrel1_z * vrel1_z) + (S1c_xx * model.kL0w22 + Real(0.1) * (vrel1_x *
-      vrel1_x))) * Real(0.5);
+  const Real T1 = (S1c_xx * model.kL0w22 + Real(0.1) * (vrel1_x * vrel1_x + vrel1_z * vrel1_z)) * Real(0.5);
   return T1;
 }
 
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c = detail::cosine(state.y[0]);
-  const Real V = c * model.c4;
+  const Real V = c * model.c3;
   return -V;
 }
 
@@ -173,7 +162,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real derivative = c * model.radius;
   Real s0, c0;
   detail::sine_cosine(expression, s0, c0);
-  const Real driven1c_z = expression_2 * (derivative * state.z[0]) * model.c6;
+  const Real driven1c_z = expression_2 * (derivative * state.z[0]) * model.c5;
   const Real bead_bodyx1_x = expression_2 * c0;
   const Real bead_bodyx1_y = expression_2 * s0;
   result.motor_torque = driven1c_z;

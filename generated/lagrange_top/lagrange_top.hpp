@@ -129,12 +129,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[3]) noexcept;
 
 /// Kinetic energy, J.
-/// 9 operations (7 mul, 2 add and sub, 0 div), 0 sin and cos.
+/// 8 operations (6 mul, 2 add and sub, 0 div), 0 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 7 operations (5 mul, 2 add and sub, 0 div), 0 sin and cos.
+/// 6 operations (4 mul, 2 add and sub, 0 div), 0 sin and cos.
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 

@@ -79,14 +79,14 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]
   const Real half_0_0 = state.z[0] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[1];
   const Real half_0_2 = Real(0.5) * state.z[2];
-  const Real qdot_0_0 = half_0_2 * state.y[3] + (half_0_0 * state.y[1] + half_0_1 * state.y[2]);
-  const Real qdot_0_1 = half_0_1 * state.y[3] - (half_0_0 * state.y[0] + half_0_2 * state.y[2]);
-  const Real qdot_0_2 = half_0_0 * state.y[3] + (half_0_1 * state.y[0] - half_0_2 * state.y[1]);
-  const Real qdot_0_3 = half_0_0 * state.y[2] - (half_0_2 * state.y[0] + half_0_1 * state.y[1]);
+  const Real qdot_0_0 = half_0_0 * state.y[1] + half_0_1 * state.y[2] + half_0_2 * state.y[3];
+  const Real qdot_0_1 = half_0_0 * state.y[0] + half_0_2 * state.y[2] - half_0_1 * state.y[3];
+  const Real qdot_0_2 = half_0_1 * state.y[0] - half_0_2 * state.y[1] + half_0_0 * state.y[3];
+  const Real qdot_0_3 = half_0_2 * state.y[0] + half_0_1 * state.y[1] - half_0_0 * state.y[2];
   ydot[0] = -qdot_0_0;
-  ydot[1] = -qdot_0_1;
+  ydot[1] = qdot_0_1;
   ydot[2] = qdot_0_2;
-  ydot[3] = -qdot_0_3;
+  ydot[3] = qdot_0_3;
 }
 
 template <class Real>
@@ -165,26 +165,26 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aQp0_y = q0r2_x * Real(0.9810000000000001);
   const Real aww00 = state.z[1] * state.z[2];
   const Real aww01 = state.z[2] * state.z[0];
+  const Real adn0_x = aww00 * Real(0.039999999999999994) - zdot[0] * Real(0.06);
+  const Real adn0_y = aww01 * Real(0.039999999999999994) + Real(0.06) * zdot[1];
   const Real adn0_z = zdot[2] * Real(0.02);
-  const Real aQ0_0 = zdot[0] * Real(0.06) - (aQp0_x + aww00 * Real(0.039999999999999994));
-  const Real aQ0_1 = Real(0.06) * zdot[1] + (aQp0_y + aww01 * Real(0.039999999999999994));
-  tau[0] = aQ0_0;
+  const Real aQ0_0 = aQp0_x + adn0_x;
+  const Real aQ0_1 = aQp0_y + adn0_y;
+  tau[0] = -aQ0_0;
   tau[1] = aQ0_1;
   tau[2] = adn0_z;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real v0T = (state.z[2] * state.z[2] * Real(0.02) + (state.z[0] * state.z[0] * Real(0.06) + Real(0.06)
-      * (state.z[1] * state.z[1]))) * Real(0.5);
+  const Real v0T = (state.z[2] * state.z[2] * Real(0.02) + (state.z[0] * state.z[0] + state.z[1] * state.z[1])
+      * Real(0.06)) * Real(0.5);
   return v0T;
 }
 
 template <class Real>
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real q011 = state.y[1] * state.y[1] * Real(2.0);
-  const Real q022 = Real(2.0) * (state.y[2] * state.y[2]);
-  const Real q0r2_z = q011 + q022 - Real(1.0);
+  const Real q0r2_z = (state.y[1] * state.y[1] + state.y[2] * state.y[2]) * Real(2.0) - Real(1.0);
   const Real V = q0r2_z * Real(0.9810000000000001);
   return -V;
 }
@@ -204,7 +204,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real q001 = q0d1 * state.y[0];
   const Real q002 = q0d2 * state.y[0];
   const Real q003 = q0d3 * state.y[0];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -232,13 +232,11 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real react0b0Sw_x = state.z[0] * Real(0.01);
   const Real react0b0Sw_y = state.z[1] * Real(0.01);
   const Real react0b0Sw_z = state.z[2] * Real(0.049999999999999996);
-  const Real react0b0F_x = state.z[2] * react0b0wh_y + (ba0_x - Real(0.1) * y_1);
-  const Real react0b0F_y = state.z[2] * react0b0wh_x + (ba0_y - Real(0.1) * y_0);
-  const Real react0b0F_z = state.z[1] * react0b0wh_x + (reactla0t_z + state.z[0] * react0b0wh_y);
-  const Real react0b0N_x = state.z[2] * react0b0Sw_y - (state.z[1] * react0b0Sw_z + (bQp0_x - y_0 *
-      Real(0.06)));
-  const Real react0b0N_y = state.z[2] * react0b0Sw_x - (state.z[0] * react0b0Sw_z + (bQp0_y - y_1 *
-      Real(0.06)));
+  const Real react0b0F_x = ba0_x - (Real(0.1) * y_1 - state.z[2] * react0b0wh_y);
+  const Real react0b0F_y = ba0_y - (Real(0.1) * y_0 - state.z[2] * react0b0wh_x);
+  const Real react0b0F_z = reactla0t_z + (state.z[0] * react0b0wh_y + state.z[1] * react0b0wh_x);
+  const Real react0b0N_x = bQp0_x - y_0 * Real(0.06) + state.z[1] * react0b0Sw_z - state.z[2] * react0b0Sw_y;
+  const Real react0b0N_y = bQp0_y - y_1 * Real(0.06) + state.z[0] * react0b0Sw_z - state.z[2] * react0b0Sw_x;
   const Real react0b0N_z = state.z[0] * react0b0Sw_y - state.z[1] * react0b0Sw_x;
   result.pose.position[0] = Real(0.0);
   result.pose.position[1] = Real(0.0);
@@ -255,8 +253,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.support.force[0] = react0b0F_x;
   result.support.force[1] = react0b0F_y;
   result.support.force[2] = -react0b0F_z;
-  result.support.moment[0] = react0b0N_x;
-  result.support.moment[1] = -react0b0N_y;
+  result.support.moment[0] = -react0b0N_x;
+  result.support.moment[1] = react0b0N_y;
   result.support.moment[2] = -react0b0N_z;
 }
 

@@ -25,8 +25,8 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 3.2e-17 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 1.2e-16; symbolic equations against the numeric reference
+// - 8 random states: backward error of M zdot = k_bar - q_bar 2.9e-17 of the sum of absolute terms against
+//   60-digit arithmetic, entries of the functions 9.3e-17; symbolic equations against the numeric reference
 //   5.7e-16; cond(M) up to 1.0e+00
 #pragma once
 
@@ -143,47 +143,47 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 360 operations (211 mul, 146 add and sub, 3 div), 4 sin and cos.
+/// 359 operations (211 mul, 145 add and sub, 3 div), 4 sin and cos.
 template <class Real>
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[5]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 402 operations (229 mul, 170 add and sub, 3 div), 3 sin and cos.
+/// 400 operations (228 mul, 169 add and sub, 3 div), 3 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 831 operations (494 mul, 334 add and sub, 3 div), 4 sin and cos.
+/// 830 operations (494 mul, 333 add and sub, 3 div), 4 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 520 operations (302 mul, 212 add and sub, 5 div), 4 sin and cos.
+/// 519 operations (302 mul, 211 add and sub, 5 div), 4 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 1001 operations (584 mul, 410 add and sub, 6 div), 4 sin and cos.
+/// 999 operations (583 mul, 409 add and sub, 6 div), 4 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 979 operations (574 mul, 399 add and sub, 5 div), 4 sin and cos.
+/// 977 operations (573 mul, 398 add and sub, 5 div), 4 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 423 operations (251 mul, 169 add and sub, 3 div), 4 sin and cos.
+/// 421 operations (250 mul, 168 add and sub, 3 div), 4 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 76 operations (37 mul, 38 add and sub, 0 div), 2 sin and cos.
+/// 73 operations (37 mul, 35 add and sub, 0 div), 2 sin and cos.
 template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -195,27 +195,27 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 307 operations (173 mul, 111 add and sub, 17 div), 3 sin and cos.
+/// 304 operations (172 mul, 109 add and sub, 17 div), 3 sin and cos.
 template <class Real>
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 514 operations (303 mul, 208 add and sub, 3 div), 4 sin and cos.
+/// 513 operations (303 mul, 207 add and sub, 3 div), 4 sin and cos.
 template <class Real>
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[3], Real (&g_rate)[3])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 1074 operations (616 mul, 451 add and sub, 6 div), 4 sin and cos.
+/// 1069 operations (612 mul, 450 add and sub, 6 div), 4 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[3]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5828 operations. For inputs sampled at the stages include mcpherson_strut_kernels.hpp and pass a function
+/// 5813 operations. For inputs sampled at the stages include mcpherson_strut_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -102,7 +102,7 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -112,24 +112,24 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_y * Real(0.03) + (q1r1_z * Real(0.2) - (q1r1_x * Real(0.01) - Real(0.34)));
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_z * Real(0.2) + (q1r2_x * Real(0.01) + Real(0.02)));
-  const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
-  const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutax1p_x = q1r1_x * Real(0.01) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03)) - Real(0.34);
+  const Real strutax1p_y = q1r2_x * Real(0.01) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03) + Real(0.02));
+  const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
+  const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
+  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_y = strutax1_x + Real(0.59) - Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
   const Real strutad1_x = c0 * strutad1p_x + s0 * strutad1p_y;
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
-  const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
+  const Real strutad1p_x_2 = q1r1_z * Real(0.2088879845220991) + (q1r1_x * Real(0.3433775088034506) - q1r1_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_z * Real(0.2088879845220991) - (q1r0_x * Real(0.3433775088034506) - q1r0_y *
+      Real(0.9156733568092016));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
   const Real expression = state.t * model.rate;
@@ -137,82 +137,82 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
-  const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
+      Real(0.13))));
+  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
+  const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
   const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
+  const Real struts0af1_y = q1r1_y * struts0af1p_x + (q1r0_y * strutad1p_z + q1r2_y * struts0af1p_y);
+  const Real struts0af1_z = q1r1_z * struts0af1p_x - (q1r0_z * strutad1p_z - q1r2_z * struts0af1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
+  const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * struts0af1p_x + (q1r0_x * strutad1p_z - q1r2_x * struts0af1p_y);
+  const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
+  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
   const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
   const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r1_y * struts1af1p_x - (q1r0_y * strutad1p_z_2 - q1r2_y * struts1af1p_y);
+  const Real struts1af1_z = q1r1_z * struts1af1p_x + (q1r0_z * strutad1p_z_2 + q1r2_z * struts1af1p_y);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
-  const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
+  const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1af1_x = q1r1_x * struts1af1p_x - (q1r0_x * strutad1p_z_2 + q1r2_x * struts1af1p_y);
+  const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
+      (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
-  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
-  const Real t312 = Real(1.0) / struts0am_y;
-  const Real t313 = struts1am_y * t312;
-  const Real t325 = struts0am_z_2 * t313 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t326 = tie_rods0bm_y * t312;
-  const Real t331 = Real(1.0) / (struts0am_x * t313 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t332 = (struts0am_x * t326 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t331;
-  const Real t337 = Real(1.0) / (t325 * t332 - (struts0am_z_2 * t326 - (Real(0.14) * tie_rods0bf1_y -
-      Real(0.02) * tie_rods0bf1_x)));
-  const Real t341 = struts0am_z * t313 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t347 = t337 * (t332 * t341 - (struts0am_z * t326 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
-      * tie_rods0bf0_x)));
-  const Real t350 = t331 * (t341 - t325 * t347);
-  const Real t362 = tie_rods0bf0_x * s * t337 * model.c2;
-  const Real t364 = t331 * (t325 * t362);
-  const Real t369 = t350 * state.z[0] + t364;
-  const Real t370 = t312 * (struts0am_z_2 * t347 - (struts0am_z - struts0am_x * t350)) * state.z[0] + t312 *
-      (struts0am_x * t364 - struts0am_z_2 * t362);
-  const Real t371 = t347 * state.z[0] - t362;
-  const Real t373 = state.y[1] * Real(0.5);
-  const Real t374 = state.y[2] * Real(0.5);
-  const Real t375 = state.y[3] * Real(0.5);
-  const Real t376 = state.y[4] * Real(0.5);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
+  const Real t311 = Real(1.0) / struts0am_y;
+  const Real t312 = struts1am_y * t311;
+  const Real t324 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
+      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t312))));
+  const Real t325 = tie_rods0bm_y * t311;
+  const Real t330 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
+      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t312)))));
+  const Real t331 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t325)) * t330;
+  const Real t336 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
+      t325 + t324 * t331)));
+  const Real t340 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
+      t312));
+  const Real t346 = t336 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
+      t325 + t331 * t340)));
+  const Real t349 = t330 * (t340 + t324 * t346);
+  const Real t361 = tie_rods0bf0_x * s * t336 * model.c2;
+  const Real t363 = t330 * (t324 * t361);
+  const Real t368 = t349 * state.z[0] - t363;
+  const Real t369 = t311 * (struts0am_x * t349 - (struts0am_z + struts0am_z_2 * t346)) * state.z[0] - t311 *
+      (struts0am_x * t363 - struts0am_z_2 * t361);
+  const Real t370 = t346 * state.z[0] - t361;
+  const Real t372 = state.y[1] * Real(0.5);
+  const Real t373 = state.y[2] * Real(0.5);
+  const Real t374 = state.y[3] * Real(0.5);
+  const Real t375 = state.y[4] * Real(0.5);
   ydot[0] = state.z[0];
-  ydot[1] = -(t371 * t376 + (t369 * t374 - t370 * t375));
-  ydot[2] = t371 * t375 + (t369 * t373 + t370 * t376);
-  ydot[3] = -(t371 * t374 - (t369 * t376 - t370 * t373));
-  ydot[4] = t371 * t373 - (t369 * t375 + t370 * t374);
+  ydot[1] = -(t369 * t374 + (t368 * t373 - t370 * t375));
+  ydot[2] = -(t369 * t375 - (t368 * t372 - t370 * t374));
+  ydot[3] = t369 * t372 + (t368 * t375 + t370 * t373);
+  ydot[4] = t369 * t373 - (t368 * t374 + t370 * t372);
 }
 
 template <class Real>
@@ -241,13 +241,13 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_y * Real(0.03) + (q1r1_z * Real(0.2) - (q1r1_x * Real(0.01) - Real(0.34)));
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_z * Real(0.2) + (q1r2_x * Real(0.01) + Real(0.02)));
+  const Real strutax1p_x = q1r1_y * Real(0.03) - (q1r1_x * Real(0.01) - q1r1_z * Real(0.2)) + Real(0.34);
+  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_x * Real(0.01) + q1r2_z * Real(0.2)) + Real(0.02);
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
+  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -272,7 +272,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
@@ -305,27 +305,27 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
-  const Real t310 = Real(1.0) / struts0am_y;
-  const Real t311 = struts1am_y * t310;
-  const Real t323 = struts0am_z_2 * t311 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t309 = Real(1.0) / struts0am_y;
+  const Real t310 = struts1am_y * t309;
+  const Real t322 = struts0am_z_2 * t310 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t324 = tie_rods0bm_y * t310;
-  const Real t329 = Real(1.0) / (struts0am_x * t311 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t323 = tie_rods0bm_y * t309;
+  const Real t328 = Real(1.0) / (struts0am_x * t310 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t330 = (struts0am_x * t324 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t329;
-  const Real t339 = struts0am_z * t311 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t329 = (struts0am_x * t323 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t328;
+  const Real t338 = struts0am_z * t310 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t345 = Real(1.0) / (t323 * t330 - (struts0am_z_2 * t324 - (Real(0.14) * tie_rods0bf1_y -
-      Real(0.02) * tie_rods0bf1_x))) * (t330 * t339 - (struts0am_z * t324 - (tie_rodbx1_x * tie_rods0bf0_y +
+  const Real t344 = Real(1.0) / (t322 * t329 - (struts0am_z_2 * t323 - (Real(0.14) * tie_rods0bf1_y -
+      Real(0.02) * tie_rods0bf1_x))) * (t329 * t338 - (struts0am_z * t323 - (tie_rodbx1_x * tie_rods0bf0_y -
       tie_rodbx1_y * tie_rods0bf0_x)));
-  const Real t348 = t329 * (t339 - t323 * t345);
-  const Real t353 = t310 * (struts0am_z_2 * t345 - (struts0am_z - struts0am_x * t348));
+  const Real t347 = t328 * (t338 - t322 * t344);
+  const Real t352 = t309 * (struts0am_z_2 * t344 - (struts0am_z - struts0am_x * t347));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -339,12 +339,11 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
       Real(2.0672)));
   const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.022799999999999997)
       + q1r2_x * Real(0.3876)));
-  M[0][0] = -(t345 * (p_3_1n_z - (t345 * Real(1.0342) - (p_3_1n_z - t353 * Real(0.1824)))) + (t348 * (p_1_1n_z
-      + (p_1_1n_z - t348 * Real(2.607))) - (t353 * (p_2_1n_z + (t345 * Real(0.1824) + (p_2_1n_z + t353 *
-      Real(2.8728)))) - (Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y -
-      (Real(0.6499999999999999) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x *
-      q1r1_x * Real(0.6499999999999999) - q1r1_y * S1at1r0_y) + Real(4.592300000000001)))))) -
-      Real(0.0202)))));
+  M[0][0] = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t347 * (p_1_1n_z + (p_1_1n_z -
+      t347 * Real(2.607))) - (t344 * (t344 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t352 * Real(0.1824)))) +
+      (t352 * (t344 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t352 * Real(2.8728)))) - (Real(0.04) * h1at1_y -
+      (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
+      S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001));
 }
 
 template <class Real>
@@ -363,7 +362,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -373,24 +372,24 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_y * Real(0.03) + (q1r1_z * Real(0.2) - (q1r1_x * Real(0.01) - Real(0.34)));
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_z * Real(0.2) + (q1r2_x * Real(0.01) + Real(0.02)));
-  const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
-  const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutax1p_x = q1r1_x * Real(0.01) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03)) - Real(0.34);
+  const Real strutax1p_y = q1r2_x * Real(0.01) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03) + Real(0.02));
+  const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
+  const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
+  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_y = strutax1_x + Real(0.59) - Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
   const Real strutad1_x = c0 * strutad1p_x + s0 * strutad1p_y;
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
-  const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
+  const Real strutad1p_x_2 = q1r1_z * Real(0.2088879845220991) + (q1r1_x * Real(0.3433775088034506) - q1r1_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_z * Real(0.2088879845220991) - (q1r0_x * Real(0.3433775088034506) - q1r0_y *
+      Real(0.9156733568092016));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
   const Real expression = state.t * model.rate;
@@ -398,178 +397,177 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
-  const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
+      Real(0.13))));
+  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
+  const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
   const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
+  const Real struts0af1_y = q1r1_y * struts0af1p_x + (q1r0_y * strutad1p_z + q1r2_y * struts0af1p_y);
+  const Real struts0af1_z = q1r1_z * struts0af1p_x - (q1r0_z * strutad1p_z - q1r2_z * struts0af1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
+  const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * struts0af1p_x + (q1r0_x * strutad1p_z - q1r2_x * struts0af1p_y);
+  const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
+  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
   const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
   const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r1_y * struts1af1p_x - (q1r0_y * strutad1p_z_2 - q1r2_y * struts1af1p_y);
+  const Real struts1af1_z = q1r1_z * struts1af1p_x + (q1r0_z * strutad1p_z_2 + q1r2_z * struts1af1p_y);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
-  const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
+  const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1af1_x = q1r1_x * struts1af1p_x - (q1r0_x * strutad1p_z_2 + q1r2_x * struts1af1p_y);
+  const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
+      (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
-  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t314 = Real(1.0) / struts0am_y;
-  const Real t315 = struts1am_y * t314;
-  const Real t327 = struts0am_z_2 * t315 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t328 = tie_rods0bm_y * t314;
-  const Real t333 = Real(1.0) / (struts0am_x * t315 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t334 = (struts0am_x * t328 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t333;
-  const Real t339 = Real(1.0) / (t327 * t334 - (struts0am_z_2 * t328 - (Real(0.14) * tie_rods0bf1_y -
-      Real(0.02) * tie_rods0bf1_x)));
-  const Real t343 = struts0am_z * t315 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t349 = t339 * (t334 * t343 - (struts0am_z * t328 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
-      * tie_rods0bf0_x)));
-  const Real t352 = t333 * (t343 - t327 * t349);
-  const Real t357 = t314 * (struts0am_z_2 * t349 - (struts0am_z - struts0am_x * t352));
-  const Real t362 = tie_rods0at * t339;
-  const Real t364 = t333 * (t327 * t362);
-  const Real t369 = t352 * state.z[0] + t364;
-  const Real t370 = t357 * state.z[0] + t314 * (struts0am_x * t364 - struts0am_z_2 * t362);
-  const Real t371 = t349 * state.z[0] - t362;
-  const Real strutam1t_x = Real(0.2) * t370 - Real(0.03) * t371;
-  const Real strutam1t_y = Real(0.01) * t371 + Real(0.2) * t369;
-  const Real strutam1t_z = Real(0.01) * t370 + Real(0.03) * t369;
-  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
-  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
-  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
+  const Real t313 = Real(1.0) / struts0am_y;
+  const Real t314 = struts1am_y * t313;
+  const Real t326 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
+      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t314))));
+  const Real t327 = tie_rods0bm_y * t313;
+  const Real t332 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
+      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t314)))));
+  const Real t333 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t327)) * t332;
+  const Real t338 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
+      t327 + t326 * t333)));
+  const Real t342 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
+      t314));
+  const Real t348 = t338 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
+      t327 + t333 * t342)));
+  const Real t351 = t332 * (t342 + t326 * t348);
+  const Real t356 = t313 * (struts0am_x * t351 - (struts0am_z + struts0am_z_2 * t348));
+  const Real t361 = tie_rods0at * t338;
+  const Real t363 = t332 * (t326 * t361);
+  const Real t368 = t351 * state.z[0] - t363;
+  const Real t369 = t356 * state.z[0] - t313 * (struts0am_x * t363 - struts0am_z_2 * t361);
+  const Real t370 = t348 * state.z[0] - t361;
+  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
+  const Real strutam1t_y = Real(0.01) * t370 - Real(0.2) * t368;
+  const Real strutam1t_z = Real(0.01) * t369 - Real(0.03) * t368;
+  const Real strutam1vpp_x = q1r1_y * strutam1t_y - (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
+  const Real strutam1vpp_y = q1r2_y * strutam1t_y + (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
+  const Real strutam1vpp_z = q1r0_y * strutam1t_y - (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
   const Real strutam1vp_x = c0 * strutam1vpp_x + s0 * strutam1vpp_y;
   const Real strutam1vp_y = c0 * strutam1vpp_y - s0 * strutam1vpp_x;
   const Real strutam0t_x = strutax1_y * state.z[0];
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = strutam1vp_x - strutam0t_x;
-  const Real strutam0v_y = strutam1vp_y + strutam0t_y;
-  const Real strutad1t_x = Real(0.35112344158839165) * t371;
-  const Real strutad1t_y = Real(0.9363291775690445) * t371;
-  const Real strutad1t_z = Real(0.35112344158839165) * t369 - Real(0.9363291775690445) * t370;
-  const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
-  const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
-  const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
+  const Real strutam0v_y = strutam1vp_y - strutam0t_y;
+  const Real strutad1t_x = Real(0.35112344158839165) * t370;
+  const Real strutad1t_y = Real(0.9363291775690445) * t370;
+  const Real strutad1t_z = Real(0.35112344158839165) * t368 + Real(0.9363291775690445) * t369;
+  const Real strutad1vpp_x = q1r1_y * strutad1t_y - (q1r1_x * strutad1t_x + q1r1_z * strutad1t_z);
+  const Real strutad1vpp_y = q1r2_y * strutad1t_y + (q1r2_x * strutad1t_x - q1r2_z * strutad1t_z);
+  const Real strutad1vpp_z = q1r0_y * strutad1t_y - (q1r0_x * strutad1t_x - q1r0_z * strutad1t_z);
   const Real strutad1vp_x = c0 * strutad1vpp_x + s0 * strutad1vpp_y;
   const Real strutad1vp_y = c0 * strutad1vpp_y - s0 * strutad1vpp_x;
   const Real strutad0t_x = strutad1_y * state.z[0];
   const Real strutad0t_y = strutad1_x * state.z[0];
-  const Real strutad0v_x = strutad1vp_x - strutad0t_x;
-  const Real strutad0v_y = strutad1vp_y + strutad0t_y;
-  const Real strutam1a_x = t370 * strutam1t_z + t371 * strutam1t_y;
-  const Real strutam1a_y = t369 * strutam1t_z - t371 * strutam1t_x;
-  const Real strutam1a_z = t369 * strutam1t_y + t370 * strutam1t_x;
-  const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
-  const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
-  const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
+  const Real strutad0v_x = strutad1vp_x + strutad0t_x;
+  const Real strutad0v_y = strutad1vp_y - strutad0t_y;
+  const Real strutam1a_x = t369 * strutam1t_z + t370 * strutam1t_y;
+  const Real strutam1a_y = t368 * strutam1t_z + t370 * strutam1t_x;
+  const Real strutam1a_z = t368 * strutam1t_y - t369 * strutam1t_x;
+  const Real strutam1app_x = q1r1_y * strutam1a_y + (q1r1_x * strutam1a_x + q1r1_z * strutam1a_z);
+  const Real strutam1app_y = q1r2_y * strutam1a_y - (q1r2_x * strutam1a_x - q1r2_z * strutam1a_z);
+  const Real strutam1app_z = q1r0_y * strutam1a_y + (q1r0_x * strutam1a_x - q1r0_z * strutam1a_z);
   const Real strutam0b_x = strutam0t_x - Real(2.0) * strutam1vp_x;
-  const Real strutam0b_y = strutam0t_y + Real(2.0) * strutam1vp_y;
-  const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
-  const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
-  const Real strutad1a_x = t370 * strutad1t_z - t371 * strutad1t_y;
-  const Real strutad1a_y = t369 * strutad1t_z + t371 * strutad1t_x;
-  const Real strutad1a_z = t369 * strutad1t_y + t370 * strutad1t_x;
-  const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
-  const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
-  const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
-  const Real strutad0b_x = strutad0t_x - Real(2.0) * strutad1vp_x;
-  const Real strutad0b_y = strutad0t_y + Real(2.0) * strutad1vp_y;
-  const Real strutad0a_x = state.z[0] * strutad0b_y - (c0 * strutad1app_x + s0 * strutad1app_y);
-  const Real strutad0a_y = state.z[0] * strutad0b_x - (c0 * strutad1app_y - s0 * strutad1app_x);
-  const Real bias_strut = Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z * strutad1vpp_z +
-      strutam0v_x * strutad0v_x)) - (strutd_z * strutad0a_y + (strutd_y * strutad0a_x + (strutd_x *
-      strutad1app_z + (strutad1_y * strutam0a_y - (strutad1p_z * strutam1app_z - strutad1_x *
-      strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t370 + Real(0.9156733568092016) * t371;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t371 - Real(0.2088879845220991) * t369;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t370 + Real(0.9156733568092016) * t369;
-  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
-  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
-  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
+  const Real strutam0b_y = strutam0t_y - Real(2.0) * strutam1vp_y;
+  const Real strutam0a_x = s0 * strutam1app_y + (c0 * strutam1app_x + state.z[0] * strutam0b_y);
+  const Real strutam0a_y = s0 * strutam1app_x - (c0 * strutam1app_y - state.z[0] * strutam0b_x);
+  const Real strutad1a_x = t369 * strutad1t_z + t370 * strutad1t_y;
+  const Real strutad1a_y = t368 * strutad1t_z + t370 * strutad1t_x;
+  const Real strutad1a_z = t368 * strutad1t_y - t369 * strutad1t_x;
+  const Real strutad1app_x = q1r1_y * strutad1a_y + (q1r1_x * strutad1a_x + q1r1_z * strutad1a_z);
+  const Real strutad1app_y = q1r2_y * strutad1a_y - (q1r2_x * strutad1a_x - q1r2_z * strutad1a_z);
+  const Real strutad1app_z = q1r0_y * strutad1a_y + (q1r0_x * strutad1a_x - q1r0_z * strutad1a_z);
+  const Real strutad0b_x = strutad0t_x + Real(2.0) * strutad1vp_x;
+  const Real strutad0b_y = strutad0t_y - Real(2.0) * strutad1vp_y;
+  const Real strutad0a_x = s0 * strutad1app_y + (c0 * strutad1app_x + state.z[0] * strutad0b_y);
+  const Real strutad0a_y = s0 * strutad1app_x - (c0 * strutad1app_y + state.z[0] * strutad0b_x);
+  const Real bias_strut = strutad1_x * strutam0a_x + (strutad1p_z * strutam1app_z - (strutad1_y * strutam0a_y
+      - (strutd_x * strutad1app_z + (strutd_y * strutad0a_x + (strutd_z * strutad0a_y - Real(2.0) *
+      (strutam0v_x * strutad0v_x + (strutam1vpp_z * strutad1vpp_z + strutam0v_y * strutad0v_y)))))));
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 + Real(0.2088879845220991) * t368;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 - Real(0.9156733568092016) * t368;
+  const Real strutad1vpp_x_2 = q1r1_y * strutad1t_y_2 + (q1r1_x * strutad1t_x_2 - q1r1_z * strutad1t_z_2);
+  const Real strutad1vpp_y_2 = q1r2_y * strutad1t_y_2 - (q1r2_x * strutad1t_x_2 + q1r2_z * strutad1t_z_2);
+  const Real strutad1vpp_z_2 = q1r0_y * strutad1t_y_2 + (q1r0_x * strutad1t_x_2 + q1r0_z * strutad1t_z_2);
   const Real strutad1vp_x_2 = c0 * strutad1vpp_x_2 + s0 * strutad1vpp_y_2;
   const Real strutad1vp_y_2 = c0 * strutad1vpp_y_2 - s0 * strutad1vpp_x_2;
   const Real strutad0t_x_2 = strutad1_y_2 * state.z[0];
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
-  const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
-  const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
-  const Real strutad1a_x_2 = t370 * strutad1t_z_2 + t371 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t369 * strutad1t_z_2 + t371 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t369 * strutad1t_y_2 - t370 * strutad1t_x_2;
-  const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
-  const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
-  const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
-  const Real strutad0b_x_2 = strutad0t_x_2 - Real(2.0) * strutad1vp_x_2;
-  const Real strutad0b_y_2 = strutad0t_y_2 + Real(2.0) * strutad1vp_y_2;
-  const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
-  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t370 - Real(0.02) * t371;
-  const Real tie_rodbm1t_y = Real(0.14) * t371 + Real(0.07) * t369;
-  const Real tie_rodbm1t_z = Real(0.14) * t370 + Real(0.02) * t369;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real strutad0v_x_2 = strutad1vp_x_2 + strutad0t_x_2;
+  const Real strutad0v_y_2 = strutad1vp_y_2 - strutad0t_y_2;
+  const Real strutad1a_x_2 = t369 * strutad1t_z_2 + t370 * strutad1t_y_2;
+  const Real strutad1a_y_2 = t368 * strutad1t_z_2 - t370 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t368 * strutad1t_y_2 + t369 * strutad1t_x_2;
+  const Real strutad1app_x_2 = q1r1_y * strutad1a_y_2 + (q1r1_x * strutad1a_x_2 + q1r1_z * strutad1a_z_2);
+  const Real strutad1app_y_2 = q1r2_y * strutad1a_y_2 - (q1r2_x * strutad1a_x_2 - q1r2_z * strutad1a_z_2);
+  const Real strutad1app_z_2 = q1r0_y * strutad1a_y_2 + (q1r0_x * strutad1a_x_2 - q1r0_z * strutad1a_z_2);
+  const Real strutad0b_x_2 = strutad0t_x_2 + Real(2.0) * strutad1vp_x_2;
+  const Real strutad0b_y_2 = strutad0t_y_2 - Real(2.0) * strutad1vp_y_2;
+  const Real strutad0a_x_2 = s0 * strutad1app_y_2 + (c0 * strutad1app_x_2 + state.z[0] * strutad0b_y_2);
+  const Real strutad0a_y_2 = s0 * strutad1app_x_2 - (c0 * strutad1app_y_2 + state.z[0] * strutad0b_x_2);
+  const Real tie_rodbm1t_x = Real(0.07) * t369 - Real(0.02) * t370;
+  const Real tie_rodbm1t_y = Real(0.14) * t370 - Real(0.07) * t368;
+  const Real tie_rodbm1t_z = Real(0.14) * t369 - Real(0.02) * t368;
+  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t370 * tie_rodbm1t_z + t371 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t369 * tie_rodbm1t_z - t371 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t369 * tie_rodbm1t_y + t370 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm1a_x = t369 * tie_rodbm1t_z + t370 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t368 * tie_rodbm1t_z + t370 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t368 * tie_rodbm1t_y - t369 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x + q1r1_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x - q1r2_z * tie_rodbm1a_z);
+  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x - q1r0_z * tie_rodbm1a_z);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y + Real(2.0) * tie_rodbm1vp_y;
-  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
-      tie_rodbm1app_x));
-  const Real t703 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t315 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
-      (strutd_x * strutad1app_z_2 - (strutad1_y_2 * strutam0a_y - (strutad1p_z_2 * strutam1app_z -
-      strutad1_x_2 * strutam0a_x))))));
-  const Real t714 = t339 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t328 * bias_strut + t334 * t703));
-  const Real t717 = t333 * (t703 - t327 * t714);
-  const Real t722 = t314 * (struts0am_z_2 * t714 + (bias_strut + struts0am_x * t717));
+  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
+  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
+      tie_rodbm0b_y));
+  const Real t702 = strutad1_x_2 * strutam0a_x - (strutad1p_z_2 * strutam1app_z + (strutad1_y_2 * strutam0a_y
+      - (strutd_x * strutad1app_z_2 + (strutd_y * strutad0a_x_2 + (strutd_z * strutad0a_y_2 - (t314 *
+      bias_strut + Real(2.0) * (strutam0v_x * strutad0v_x_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_y *
+      strutad0v_y_2))))))));
+  const Real t713 = t338 * (t333 * t702 + (t327 * bias_strut + Real(3.123475237772121) * (tie_rodbm0v_y *
+      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
+  const Real t716 = t332 * (t702 - t326 * t713);
+  const Real t721 = t313 * (struts0am_x * t716 - (bias_strut - struts0am_z_2 * t713));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -582,35 +580,35 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real kK1_x = w1p_x * Real(0.6499999999999999);
   const Real kK1_y = w1p_z * Real(0.1824) + w1p_y * Real(0.3842000000000001);
   const Real kK1_z = w1p_z * Real(2.2228) + w1p_y * Real(0.1824);
-  const Real ku1_x = t369 - Real(2.0) * w1p_x;
-  const Real ku1_y = t370 - Real(2.0) * w1p_y;
-  const Real ku1_z = t371 + Real(2.0) * w1p_z;
+  const Real ku1_x = t368 - Real(2.0) * w1p_x;
+  const Real ku1_y = t369 + Real(2.0) * w1p_y;
+  const Real ku1_z = t370 - Real(2.0) * w1p_z;
   const Real kSu1_x = Real(0.6499999999999999) * ku1_x;
   const Real kSu1_y = Real(0.1824) * ku1_z - Real(0.3842000000000001) * ku1_y;
   const Real kSu1_z = Real(2.2228) * ku1_z - Real(0.1824) * ku1_y;
   const Real kuh1 = Real(1.14) * ku1_y - Real(6.08) * ku1_z;
-  const Real kuw1 = t371 * ku1_z + (t369 * ku1_x + t370 * ku1_y);
-  const Real kdf1_x = t369 * kuh1;
-  const Real kdf1_y = Real(1.14) * kuw1 - t370 * kuh1;
-  const Real kdf1_z = Real(6.08) * kuw1 + t371 * kuh1;
-  const Real kdn1_x = t370 * kSu1_z + t371 * kSu1_y;
-  const Real kdn1_y = t369 * kSu1_z - t371 * kSu1_x;
-  const Real kdn1_z = t369 * kSu1_y + t370 * kSu1_x;
-  const Real kf1p_x = q1r1_z * kdf1_z + (q1r1_x * kdf1_x - q1r1_y * kdf1_y);
-  const Real kf1p_y = q1r2_z * kdf1_z - (q1r2_x * kdf1_x + q1r2_y * kdf1_y);
+  const Real kuw1 = t369 * ku1_y + (t368 * ku1_x + t370 * ku1_z);
+  const Real kdf1_x = t368 * kuh1;
+  const Real kdf1_y = Real(1.14) * kuw1 - t369 * kuh1;
+  const Real kdf1_z = Real(6.08) * kuw1 + t370 * kuh1;
+  const Real kdn1_x = t369 * kSu1_z + t370 * kSu1_y;
+  const Real kdn1_y = t368 * kSu1_z - t370 * kSu1_x;
+  const Real kdn1_z = t368 * kSu1_y + t369 * kSu1_x;
+  const Real kf1p_x = q1r1_y * kdf1_y + (q1r1_x * kdf1_x - q1r1_z * kdf1_z);
+  const Real kf1p_y = q1r2_y * kdf1_y - (q1r2_x * kdf1_x + q1r2_z * kdf1_z);
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
   const Real p_1_1f_y = q1r2_z * Real(1.14) + q1r2_y * Real(6.08);
-  const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + (q1r1_x * Real(0.1216) + q1r2_x *
-      Real(2.0672)));
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.022799999999999997)
-      + q1r2_x * Real(0.3876)));
-  k[0] = t349 * (t714 * Real(1.0342) + (t722 * Real(0.1824) + (kdn1_z + (w1p_y * kK1_x - (ka1_x * Real(1.14) +
-      w1p_x * kK1_y))))) + (t357 * (t714 * Real(0.1824) + (t722 * Real(2.8728) + (kdn1_y + (w1p_z * kK1_x -
-      (ka1_x * Real(6.08) + w1p_x * kK1_z))))) + (t352 * (t717 * Real(2.607) - (kdn1_x + (w1p_z * kK1_y -
-      (w1p_y * kK1_z + (ka1_z * Real(1.14) + ka1_y * Real(6.08)))))) - (t714 * p_3_1n_z - (t722 * p_2_1n_z -
-      (t717 * p_1_1n_z + (Real(0.34) * kf1p_y - (Real(0.02) * kf1p_x + (q1r0_z * kdn1_z + (q1r0_x * kdn1_x -
-      q1r0_y * kdn1_y)))))))));
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(2.607));
+  const Real p_2_1n_z = q1r2_x * Real(2.0672) + (q1r1_x * Real(0.1216) + (q1r0_y * Real(2.8728) - q1r0_z *
+      Real(0.1824)));
+  const Real p_3_1n_z = q1r2_x * Real(0.3876) + (q1r1_x * Real(0.022799999999999997) - (q1r0_z * Real(1.0342)
+      - q1r0_y * Real(0.1824)));
+  k[0] = q1r0_y * kdn1_y + (q1r0_x * kdn1_x - (q1r0_z * kdn1_z + (Real(0.02) * kf1p_x - (Real(0.34) * kf1p_y +
+      (t716 * p_1_1n_z - (t721 * p_2_1n_z - (t713 * p_3_1n_z + (t351 * (ka1_y * Real(6.08) + (ka1_z *
+      Real(1.14) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t716 * Real(2.607)))))) + (t356 * (w1p_x *
+      kK1_z + (ka1_x * Real(6.08) - (w1p_z * kK1_x - (kdn1_y - (t721 * Real(2.8728) - t713 * Real(0.1824))))))
+      + t348 * (w1p_x * kK1_y + (ka1_x * Real(1.14) - (w1p_y * kK1_x - (kdn1_z - (t721 * Real(0.1824) - t713 *
+      Real(1.0342)))))))))))))));
 }
 
 template <class Real>
@@ -630,7 +628,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -641,25 +639,25 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
   const Real t35 = q1r1_x * Real(0.01) - Real(0.34);
-  const Real strutax1p_x = q1r1_y * Real(0.03) - (t35 - q1r1_z * Real(0.2));
+  const Real strutax1p_x = q1r1_z * Real(0.2) - (t35 - q1r1_y * Real(0.03));
   const Real t44 = q1r2_x * Real(0.01) + Real(0.02);
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (t44 + q1r2_z * Real(0.2));
+  const Real strutax1p_y = q1r2_z * Real(0.2) + (t44 + q1r2_y * Real(0.03));
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
   const Real strutad1_x = c0 * strutad1p_x + s0 * strutad1p_y;
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
-  const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
+  const Real strutad1p_x_2 = q1r1_z * Real(0.2088879845220991) + (q1r1_x * Real(0.3433775088034506) - q1r1_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_z * Real(0.2088879845220991) - (q1r0_x * Real(0.3433775088034506) - q1r0_y *
+      Real(0.9156733568092016));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
   const Real expression = state.t * model.rate;
@@ -667,91 +665,91 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
+      Real(0.13))));
+  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
+  const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z + strutax1_y * strutad1_x);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
   const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
-  const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
+  const Real struts0af1_y = q1r1_y * struts0af1p_x + (q1r0_y * strutad1p_z + q1r2_y * struts0af1p_y);
+  const Real struts0af1_z = q1r1_z * struts0af1p_x - (q1r0_z * strutad1p_z - q1r2_z * struts0af1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
+  const Real struts0an0_y = strutd_x * strutad1_x + strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
+  const Real struts0am_x = q1r1_x * struts0an1p_x + (q1r0_x * struts0an0_z + (q1r2_x * struts0an1p_y -
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * struts0af1p_x + (q1r0_x * strutad1p_z - q1r2_x * struts0af1p_y);
+  const Real struts0am_y = q1r1_y * struts0an1p_x + (q1r0_y * struts0an0_z - (q1r2_y * struts0an1p_y -
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r1_z * struts0an1p_x - (q1r0_z * struts0an0_z + (q1r2_z * struts0an1p_y +
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
   const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
   const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r1_y * struts1af1p_x - (q1r0_y * strutad1p_z_2 - q1r2_y * struts1af1p_y);
+  const Real struts1af1_z = q1r1_z * struts1af1p_x + (q1r0_z * strutad1p_z_2 + q1r2_z * struts1af1p_y);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1af1_x = q1r1_x * struts1af1p_x - (q1r0_x * strutad1p_z_2 + q1r2_x * struts1af1p_y);
+  const Real struts1am_y = q1r1_y * struts1an1p_x + (q1r0_y * struts1an0_z - (q1r2_y * struts1an1p_y -
+      (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
-  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
-  const Real t312 = Real(1.0) / struts0am_y;
-  const Real t313 = struts1am_y * t312;
-  const Real t325 = struts0am_z_2 * t313 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t326 = tie_rods0bm_y * t312;
-  const Real t331 = Real(1.0) / (struts0am_x * t313 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t332 = (struts0am_x * t326 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t331;
-  const Real t337 = Real(1.0) / (t325 * t332 - (struts0am_z_2 * t326 - (Real(0.14) * tie_rods0bf1_y -
-      Real(0.02) * tie_rods0bf1_x)));
-  const Real t341 = struts0am_z * t313 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t347 = t337 * (t332 * t341 - (struts0am_z * t326 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
-      * tie_rods0bf0_x)));
-  const Real t350 = t331 * (t341 - t325 * t347);
-  const Real t355 = t312 * (struts0am_z_2 * t347 - (struts0am_z - struts0am_x * t350));
-  const Real t362 = tie_rods0bf0_x * s * t337 * model.c2;
-  const Real t364 = t331 * (t325 * t362);
-  const Real t369 = t350 * state.z[0] + t364;
-  const Real t370 = t355 * state.z[0] + t312 * (struts0am_x * t364 - struts0am_z_2 * t362);
-  const Real t371 = t347 * state.z[0] - t362;
-  const Real strutam1t_x = Real(0.2) * t370 - Real(0.03) * t371;
-  const Real strutam1t_y = Real(0.01) * t371 + Real(0.2) * t369;
-  const Real strutam1t_z = Real(0.01) * t370 + Real(0.03) * t369;
-  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
-  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
-  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
+  const Real t311 = Real(1.0) / struts0am_y;
+  const Real t312 = struts1am_y * t311;
+  const Real t324 = q1r1_z * struts1an1p_x - (q1r0_z * struts1an0_z + (q1r2_z * struts1an1p_y + (Real(0.01) *
+      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t312))));
+  const Real t325 = tie_rods0bm_y * t311;
+  const Real t330 = Real(1.0) / (q1r1_x * struts1an1p_x + (q1r0_x * struts1an0_z + (q1r2_x * struts1an1p_y -
+      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t312)))));
+  const Real t331 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t325)) * t330;
+  const Real t336 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
+      t325 + t324 * t331)));
+  const Real t340 = strutax1_x * strutad1_y_2 - (struts1an0_z + (strutax1_y * strutad1_x_2 + struts0am_z *
+      t312));
+  const Real t346 = t336 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (struts0am_z *
+      t325 + t331 * t340)));
+  const Real t349 = t330 * (t340 - t324 * t346);
+  const Real t354 = t311 * (struts0am_x * t349 - (struts0am_z - struts0am_z_2 * t346));
+  const Real t361 = tie_rods0bf0_x * s * t336 * model.c2;
+  const Real t363 = t330 * (t324 * t361);
+  const Real t368 = t349 * state.z[0] + t363;
+  const Real t369 = t354 * state.z[0] + t311 * (struts0am_x * t363 - struts0am_z_2 * t361);
+  const Real t370 = t346 * state.z[0] - t361;
+  const Real strutam1t_x = Real(0.2) * t369 + Real(0.03) * t370;
+  const Real strutam1t_y = Real(0.01) * t370 + Real(0.2) * t368;
+  const Real strutam1t_z = Real(0.01) * t369 - Real(0.03) * t368;
+  const Real strutam1vpp_x = q1r1_y * strutam1t_y + (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
+  const Real strutam1vpp_y = q1r2_y * strutam1t_y - (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
+  const Real strutam1vpp_z = q1r0_y * strutam1t_y + (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
   const Real strutam0t_x = strutax1_y * state.z[0];
   const Real strutam0t_y = strutax1_x * state.z[0];
-  const Real strutam0v_x = strutam0t_x - (c0 * strutam1vpp_x + s0 * strutam1vpp_y);
-  const Real strutam0v_y = strutam0t_y + (c0 * strutam1vpp_y - s0 * strutam1vpp_x);
-  const Real h1c_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08) - Real(13.770000000000001);
-  const Real h1c_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08) - Real(0.76);
+  const Real strutam0v_x = s0 * strutam1vpp_y + (c0 * strutam1vpp_x - strutam0t_x);
+  const Real strutam0v_y = s0 * strutam1vpp_x - (c0 * strutam1vpp_y + strutam0t_y);
+  const Real h1c_x = q1r1_z * Real(6.08) - (q1r1_y * Real(1.14) - Real(13.770000000000001));
+  const Real h1c_y = q1r2_z * Real(6.08) - (q1r2_y * Real(1.14) - Real(0.76));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
-  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+  const Real spring_damper_ll = strutd_x * strutd_x + (strutd_y * strutd_y + strutd_z * strutd_z +
+      Real(1e-18));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
-  const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z + strutd_y *
-      strutam0v_x)) / spring_damper_l;
+  const Real spring_damper_rate = (strutd_y * strutam0v_x - (strutd_x * strutam1vpp_z + strutd_z *
+      strutam0v_y)) / spring_damper_l;
   const Real spring_damper_e = spring_damper_l - model.free_length;
   const Real spring_damper_T = spring_damper_e * model.stiffness - spring_damper_rate * model.damping;
   const Real spring_damper_Tl = spring_damper_T / spring_damper_l;
@@ -760,16 +758,16 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real spring_damperf_z = strutd_z * spring_damper_Tl;
   const Real spring_damperfb1p_x = c0 * spring_damperf_y - s0 * spring_damperf_z;
   const Real spring_damperfb1p_y = c0 * spring_damperf_z + s0 * spring_damperf_y;
-  const Real spring_damperfb1_x = q1r2_x * spring_damperfb1p_y - (q1r0_x * spring_damperf_x + q1r1_x *
-      spring_damperfb1p_x);
-  const Real spring_damperfb1_y = q1r2_y * spring_damperfb1p_y + (q1r0_y * spring_damperf_x + q1r1_y *
-      spring_damperfb1p_x);
-  const Real spring_damperfb1_z = q1r2_z * spring_damperfb1p_y - (q1r0_z * spring_damperf_x - q1r1_z *
-      spring_damperfb1p_x);
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - (input.u[0] +
-      Real(0.3275))));
+  const Real spring_damperfb1_x = q1r1_x * spring_damperfb1p_x - (q1r0_x * spring_damperf_x + q1r2_x *
+      spring_damperfb1p_y);
+  const Real spring_damperfb1_y = q1r1_y * spring_damperfb1p_x - (q1r0_y * spring_damperf_x - q1r2_y *
+      spring_damperfb1p_y);
+  const Real spring_damperfb1_z = q1r1_z * spring_damperfb1p_x + (q1r0_z * spring_damperf_x + q1r2_z *
+      spring_damperfb1p_y);
+  const Real wheel_centerx1p_x = q1r1_z * Real(0.12) - (t35 + q1r1_y * Real(0.06));
+  const Real wheel_centerx1p_y = q1r2_z * Real(0.12) + (t44 - q1r2_y * Real(0.06));
+  const Real expression_4 = input.u[0] - (Real(0.21) - (c0 * wheel_centerx1p_y - s0 * wheel_centerx1p_x) -
+      Real(0.3275));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -779,22 +777,22 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tyre_forcem_x = Real(0.12) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_z;
   const Real tyre_forcem_y = Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x;
   const Real tyre_forcem_z = Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x;
-  const Real qloadf1p_x = q1r1_z * tyre_forcef1_z + (q1r1_x * tyre_forcef1_x + q1r1_y * tyre_forcef1_y);
-  const Real qloadf1p_y = q1r2_z * tyre_forcef1_z - (q1r2_x * tyre_forcef1_x - q1r2_y * tyre_forcef1_y);
+  const Real qloadf1p_x = q1r1_y * tyre_forcef1_y + (q1r1_x * tyre_forcef1_x + q1r1_z * tyre_forcef1_z);
+  const Real qloadf1p_y = q1r2_y * tyre_forcef1_y - (q1r2_x * tyre_forcef1_x - q1r2_z * tyre_forcef1_z);
   const Real g1p_x = s0 * Real(9.81);
   const Real g1p_y = c0 * Real(9.81);
   const Real g1_x = q1r1_x * g1p_x + q1r2_x * g1p_y;
   const Real g1_y = q1r1_y * g1p_x - q1r2_y * g1p_y;
   const Real g1_z = q1r1_z * g1p_x - q1r2_z * g1p_y;
-  const Real q_1 = Real(6.08) * g1_y + (Real(1.14) * g1_z - (tyre_forcem_x - (Real(0.2) * spring_damperfb1_y -
-      Real(0.03) * spring_damperfb1_z)));
-  const Real q_2 = Real(6.08) * g1_x - (tyre_forcem_y - (Real(0.01) * spring_damperfb1_z - Real(0.2) *
-      spring_damperfb1_x));
-  const Real q_3 = Real(1.14) * g1_x + (tyre_forcem_z - (Real(0.01) * spring_damperfb1_y - Real(0.03) *
-      spring_damperfb1_x));
-  q[0] = -(t347 * q_3 + (t355 * q_2 - (t350 * q_1 - (h0b_x * Real(9.81) - (Real(0.34) * qloadf1p_y -
-      (Real(0.02) * qloadf1p_x + (q1r0_z * tyre_forcem_z + (q1r0_y * tyre_forcem_y - (q1r0_x * tyre_forcem_x -
-      (strutax1_x * spring_damperf_z - strutax1_y * spring_damperf_y))))))))));
+  const Real q_1 = Real(0.03) * spring_damperfb1_z - (Real(0.2) * spring_damperfb1_y - (tyre_forcem_x -
+      (Real(1.14) * g1_z + Real(6.08) * g1_y)));
+  const Real q_2 = Real(0.2) * spring_damperfb1_x + (Real(0.01) * spring_damperfb1_z - (tyre_forcem_y -
+      Real(6.08) * g1_x));
+  const Real q_3 = Real(0.03) * spring_damperfb1_x + (Real(0.01) * spring_damperfb1_y - (tyre_forcem_z +
+      Real(1.14) * g1_x));
+  q[0] = strutax1_y * spring_damperf_y - (strutax1_x * spring_damperf_z - (q1r0_x * tyre_forcem_x - (q1r0_y *
+      tyre_forcem_y + (q1r0_z * tyre_forcem_z + (Real(0.02) * qloadf1p_x - (Real(0.34) * qloadf1p_y + (h0b_x *
+      Real(9.81) + (t349 * q_1 - (t354 * q_2 + t346 * q_3)))))))));
 }
 
 template <class Real>
@@ -830,9 +828,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutax1p_y = q1r2_y * Real(0.03) + (t44 + q1r2_z * Real(0.2));
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
+  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -858,7 +856,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
@@ -891,38 +889,38 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t314 = Real(1.0) / struts0am_y;
-  const Real t315 = struts1am_y * t314;
-  const Real t327 = struts0am_z_2 * t315 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t313 = Real(1.0) / struts0am_y;
+  const Real t314 = struts1am_y * t313;
+  const Real t326 = struts0am_z_2 * t314 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t328 = tie_rods0bm_y * t314;
-  const Real t333 = Real(1.0) / (struts0am_x * t315 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t327 = tie_rods0bm_y * t313;
+  const Real t332 = Real(1.0) / (struts0am_x * t314 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t334 = (struts0am_x * t328 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t333;
-  const Real t339 = Real(1.0) / (t327 * t334 - (struts0am_z_2 * t328 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t333 = (struts0am_x * t327 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t332;
+  const Real t338 = Real(1.0) / (t326 * t333 - (struts0am_z_2 * t327 - (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t343 = struts0am_z * t315 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t342 = struts0am_z * t314 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t349 = t339 * (t334 * t343 - (struts0am_z * t328 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+  const Real t348 = t338 * (t333 * t342 - (struts0am_z * t327 - (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t352 = t333 * (t343 - t327 * t349);
-  const Real t357 = t314 * (struts0am_z_2 * t349 - (struts0am_z - struts0am_x * t352));
-  const Real t362 = tie_rods0at * t339;
-  const Real t364 = t333 * (t327 * t362);
-  const Real t369 = t352 * state.z[0] + t364;
-  const Real t370 = t357 * state.z[0] + t314 * (struts0am_x * t364 - struts0am_z_2 * t362);
-  const Real t371 = t349 * state.z[0] - t362;
-  const Real strutam1t_x = Real(0.2) * t370 - Real(0.03) * t371;
-  const Real strutam1t_y = Real(0.01) * t371 + Real(0.2) * t369;
-  const Real strutam1t_z = Real(0.01) * t370 + Real(0.03) * t369;
+  const Real t351 = t332 * (t342 - t326 * t348);
+  const Real t356 = t313 * (struts0am_z_2 * t348 - (struts0am_z - struts0am_x * t351));
+  const Real t361 = tie_rods0at * t338;
+  const Real t363 = t332 * (t326 * t361);
+  const Real t368 = t351 * state.z[0] - t363;
+  const Real t369 = t356 * state.z[0] - t313 * (struts0am_x * t363 - struts0am_z_2 * t361);
+  const Real t370 = t348 * state.z[0] + t361;
+  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
+  const Real strutam1t_y = Real(0.01) * t370 + Real(0.2) * t368;
+  const Real strutam1t_z = Real(0.01) * t369 + Real(0.03) * t368;
   const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
   const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
   const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
@@ -932,9 +930,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = strutam1vp_x - strutam0t_x;
   const Real strutam0v_y = strutam1vp_y + strutam0t_y;
-  const Real strutad1t_x = Real(0.35112344158839165) * t371;
-  const Real strutad1t_y = Real(0.9363291775690445) * t371;
-  const Real strutad1t_z = Real(0.35112344158839165) * t369 - Real(0.9363291775690445) * t370;
+  const Real strutad1t_x = Real(0.35112344158839165) * t370;
+  const Real strutad1t_y = Real(0.9363291775690445) * t370;
+  const Real strutad1t_z = Real(0.35112344158839165) * t368 - Real(0.9363291775690445) * t369;
   const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
   const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
   const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
@@ -944,9 +942,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0t_y = strutad1_x * state.z[0];
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
-  const Real strutam1a_x = t370 * strutam1t_z + t371 * strutam1t_y;
-  const Real strutam1a_y = t369 * strutam1t_z - t371 * strutam1t_x;
-  const Real strutam1a_z = t369 * strutam1t_y + t370 * strutam1t_x;
+  const Real strutam1a_x = t369 * strutam1t_z + t370 * strutam1t_y;
+  const Real strutam1a_y = t368 * strutam1t_z - t370 * strutam1t_x;
+  const Real strutam1a_z = t368 * strutam1t_y + t369 * strutam1t_x;
   const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
   const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
   const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
@@ -954,9 +952,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutam0b_y = strutam0t_y + Real(2.0) * strutam1vp_y;
   const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
   const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
-  const Real strutad1a_x = t370 * strutad1t_z - t371 * strutad1t_y;
-  const Real strutad1a_y = t369 * strutad1t_z + t371 * strutad1t_x;
-  const Real strutad1a_z = t369 * strutad1t_y + t370 * strutad1t_x;
+  const Real strutad1a_x = t369 * strutad1t_z - t370 * strutad1t_y;
+  const Real strutad1a_y = t368 * strutad1t_z + t370 * strutad1t_x;
+  const Real strutad1a_z = t368 * strutad1t_y + t369 * strutad1t_x;
   const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
   const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
   const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
@@ -968,9 +966,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       strutam0v_x * strutad0v_x)) - (strutd_z * strutad0a_y + (strutd_y * strutad0a_x + (strutd_x *
       strutad1app_z + (strutad1_y * strutam0a_y - (strutad1p_z * strutam1app_z - strutad1_x *
       strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t370 + Real(0.9156733568092016) * t371;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t371 - Real(0.2088879845220991) * t369;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t370 + Real(0.9156733568092016) * t369;
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 - Real(0.2088879845220991) * t368;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 + Real(0.9156733568092016) * t368;
   const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
   const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
   const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
@@ -980,9 +978,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
   const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
-  const Real strutad1a_x_2 = t370 * strutad1t_z_2 + t371 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t369 * strutad1t_z_2 + t371 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t369 * strutad1t_y_2 - t370 * strutad1t_x_2;
+  const Real strutad1a_x_2 = t369 * strutad1t_z_2 + t370 * strutad1t_y_2;
+  const Real strutad1a_y_2 = t368 * strutad1t_z_2 + t370 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t368 * strutad1t_y_2 - t369 * strutad1t_x_2;
   const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
   const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
   const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
@@ -990,9 +988,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0b_y_2 = strutad0t_y_2 + Real(2.0) * strutad1vp_y_2;
   const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
   const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t370 - Real(0.02) * t371;
-  const Real tie_rodbm1t_y = Real(0.14) * t371 + Real(0.07) * t369;
-  const Real tie_rodbm1t_z = Real(0.14) * t370 + Real(0.02) * t369;
+  const Real tie_rodbm1t_x = Real(0.07) * t369 - Real(0.02) * t370;
+  const Real tie_rodbm1t_y = Real(0.14) * t370 + Real(0.07) * t368;
+  const Real tie_rodbm1t_z = Real(0.14) * t369 + Real(0.02) * t368;
   const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
@@ -1003,9 +1001,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t370 * tie_rodbm1t_z + t371 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t369 * tie_rodbm1t_z - t371 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t369 * tie_rodbm1t_y + t370 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t369 * tie_rodbm1t_z + t370 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t368 * tie_rodbm1t_z - t370 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t368 * tie_rodbm1t_y + t369 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
@@ -1014,15 +1012,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
   const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
       tie_rodbm1app_x));
-  const Real t703 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t315 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
+  const Real t702 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
+      * strutad0v_x_2)) - (t314 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
       (strutd_x * strutad1app_z_2 - (strutad1_y_2 * strutam0a_y - (strutad1p_z_2 * strutam1app_z -
       strutad1_x_2 * strutam0a_x))))));
-  const Real t714 = t339 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t328 * bias_strut + t334 * t703));
-  const Real t717 = t333 * (t703 - t327 * t714);
-  const Real t722 = t314 * (struts0am_z_2 * t714 + (bias_strut + struts0am_x * t717));
+  const Real t713 = t338 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
+      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t327 * bias_strut + t333 * t702));
+  const Real t716 = t332 * (t702 + t326 * t713);
+  const Real t721 = t313 * (struts0am_z_2 * t713 - (bias_strut + struts0am_x * t716));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -1042,8 +1040,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
-  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_x * strutd_x + strutd_y * strutd_y) +
+      Real(1e-18);
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z - strutd_y *
       strutam0v_x)) / spring_damper_l;
@@ -1063,8 +1061,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       spring_damperfb1p_x);
   const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
   const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - (input.u[0] +
-      Real(0.3275))));
+  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - input.u[0])) +
+      Real(0.3275);
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -1083,22 +1081,22 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rK1_x = Real(0.6499999999999999) * w1p_x;
   const Real rK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real rK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
-  const Real ru1_x = t369 - Real(2.0) * w1p_x;
-  const Real ru1_y = t370 - Real(2.0) * w1p_y;
-  const Real ru1_z = t371 + Real(2.0) * w1p_z;
+  const Real ru1_x = t368 - Real(2.0) * w1p_x;
+  const Real ru1_y = t369 - Real(2.0) * w1p_y;
+  const Real ru1_z = t370 + Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.6499999999999999) * ru1_x;
   const Real rSu1_y = Real(0.1824) * ru1_z - Real(0.3842000000000001) * ru1_y;
   const Real rSu1_z = Real(2.2228) * ru1_z - Real(0.1824) * ru1_y;
   const Real ruh1 = Real(1.14) * ru1_y - Real(6.08) * ru1_z;
-  const Real ruw1 = t371 * ru1_z + (t369 * ru1_x + t370 * ru1_y);
-  const Real ref1_x = t369 * ruh1 - (t722 * Real(6.08) - (tyre_forcef1_x - t714 * Real(1.14)));
-  const Real ref1_y = t370 * ruh1 + (t717 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * ruw1));
-  const Real ref1_z = t371 * ruh1 + (Real(6.08) * ruw1 + (tyre_forcef1_z + t717 * Real(1.14)));
-  const Real ren1_x = t371 * rSu1_y + (t370 * rSu1_z - (t717 * Real(2.607) + (Real(0.12) * tyre_forcef1_y +
+  const Real ruw1 = t370 * ru1_z + (t368 * ru1_x + t369 * ru1_y);
+  const Real ref1_x = t368 * ruh1 + (t721 * Real(6.08) + (tyre_forcef1_x + t713 * Real(1.14)));
+  const Real ref1_y = t369 * ruh1 + (t716 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * ruw1));
+  const Real ref1_z = t370 * ruh1 + (Real(6.08) * ruw1 + (tyre_forcef1_z + t716 * Real(1.14)));
+  const Real ren1_x = t370 * rSu1_y + (t369 * rSu1_z - (t716 * Real(2.607) + (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real ren1_y = t371 * rSu1_x - (t369 * rSu1_z + (t714 * Real(0.1824) + (t722 * Real(2.8728) -
+  const Real ren1_y = t370 * rSu1_x - (t368 * rSu1_z - (t713 * Real(0.1824) + (t721 * Real(2.8728) +
       (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real ren1_z = t370 * rSu1_x + (t369 * rSu1_y + (t722 * Real(0.1824) + (t714 * Real(1.0342) +
+  const Real ren1_z = t369 * rSu1_x + (t368 * rSu1_y - (t721 * Real(0.1824) + (t713 * Real(1.0342) -
       (Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
   const Real rf1p_x = q1r1_z * ref1_z + (q1r1_x * ref1_x + q1r1_y * ref1_y);
   const Real rf1p_y = q1r2_z * ref1_z - (q1r2_x * ref1_x - q1r2_y * ref1_y);
@@ -1108,14 +1106,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       spring_damperfb1_z - Real(0.2) * spring_damperfb1_x))));
   const Real tau_1_2 = ren1_z + (w1p_y * rK1_x - (w1p_x * rK1_y - (Real(1.14) * ra1_x - (Real(0.01) *
       spring_damperfb1_y - Real(0.03) * spring_damperfb1_x))));
-  zdot[0] = -(Real(1.0) / (t349 * (p_3_1n_z - (t349 * Real(1.0342) - (p_3_1n_z - t357 * Real(0.1824)))) +
-      (t352 * (p_1_1n_z + (p_1_1n_z - t352 * Real(2.607))) - (t357 * (p_2_1n_z + (t349 * Real(0.1824) +
-      (p_2_1n_z + t357 * Real(2.8728)))) - (Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y -
-      (Real(0.6499999999999999) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x *
-      q1r1_x * Real(0.6499999999999999) - q1r1_y * S1at1r0_y) + Real(4.592300000000001)))))) -
-      Real(0.0202))))) * (t349 * tau_1_2 - (t357 * tau_1_1 + (t352 * tau_1_0 + (Real(0.34) * rf1p_y -
-      (Real(0.02) * rf1p_x + (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x *
-      spring_damperf_z - strutax1_y * spring_damperf_y)))))))))));
+  zdot[0] = Real(1.0) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t351 * (p_1_1n_z +
+      (p_1_1n_z - t351 * Real(2.607))) - (t348 * (t348 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t356 *
+      Real(0.1824)))) + (t356 * (t348 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t356 * Real(2.8728)))) -
+      (Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y *
+      S1at1r0_y - q1r1_z * S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001))) * (t348 * tau_1_2 -
+      (t356 * tau_1_1 + (t351 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x + (q1r0_z * ren1_z +
+      (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x * spring_damperf_z - strutax1_y *
+      spring_damperf_y))))))))));
 }
 
 template <class Real>
@@ -1151,9 +1149,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutax1p_y = q1r2_y * Real(0.03) + (t44 + q1r2_z * Real(0.2));
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
+  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -1179,7 +1177,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
@@ -1212,38 +1210,38 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t314 = Real(1.0) / struts0am_y;
-  const Real t315 = struts1am_y * t314;
-  const Real t327 = struts0am_z_2 * t315 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t313 = Real(1.0) / struts0am_y;
+  const Real t314 = struts1am_y * t313;
+  const Real t326 = struts0am_z_2 * t314 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t328 = tie_rods0bm_y * t314;
-  const Real t333 = Real(1.0) / (struts0am_x * t315 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t327 = tie_rods0bm_y * t313;
+  const Real t332 = Real(1.0) / (struts0am_x * t314 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t334 = (struts0am_x * t328 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t333;
-  const Real t339 = Real(1.0) / (t327 * t334 - (struts0am_z_2 * t328 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t333 = (struts0am_x * t327 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t332;
+  const Real t338 = Real(1.0) / (t326 * t333 - (struts0am_z_2 * t327 - (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t343 = struts0am_z * t315 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t342 = struts0am_z * t314 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t349 = t339 * (t334 * t343 - (struts0am_z * t328 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+  const Real t348 = t338 * (t333 * t342 - (struts0am_z * t327 - (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t352 = t333 * (t343 - t327 * t349);
-  const Real t357 = t314 * (struts0am_z_2 * t349 - (struts0am_z - struts0am_x * t352));
-  const Real t362 = tie_rods0at * t339;
-  const Real t364 = t333 * (t327 * t362);
-  const Real t369 = t352 * state.z[0] + t364;
-  const Real t370 = t357 * state.z[0] + t314 * (struts0am_x * t364 - struts0am_z_2 * t362);
-  const Real t371 = t349 * state.z[0] - t362;
-  const Real strutam1t_x = Real(0.2) * t370 - Real(0.03) * t371;
-  const Real strutam1t_y = Real(0.01) * t371 + Real(0.2) * t369;
-  const Real strutam1t_z = Real(0.01) * t370 + Real(0.03) * t369;
+  const Real t351 = t332 * (t342 - t326 * t348);
+  const Real t356 = t313 * (struts0am_z_2 * t348 - (struts0am_z - struts0am_x * t351));
+  const Real t361 = tie_rods0at * t338;
+  const Real t363 = t332 * (t326 * t361);
+  const Real t368 = t351 * state.z[0] - t363;
+  const Real t369 = t356 * state.z[0] - t313 * (struts0am_x * t363 - struts0am_z_2 * t361);
+  const Real t370 = t348 * state.z[0] + t361;
+  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
+  const Real strutam1t_y = Real(0.01) * t370 + Real(0.2) * t368;
+  const Real strutam1t_z = Real(0.01) * t369 + Real(0.03) * t368;
   const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
   const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
   const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
@@ -1253,9 +1251,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = strutam1vp_x - strutam0t_x;
   const Real strutam0v_y = strutam1vp_y + strutam0t_y;
-  const Real strutad1t_x = Real(0.35112344158839165) * t371;
-  const Real strutad1t_y = Real(0.9363291775690445) * t371;
-  const Real strutad1t_z = Real(0.35112344158839165) * t369 - Real(0.9363291775690445) * t370;
+  const Real strutad1t_x = Real(0.35112344158839165) * t370;
+  const Real strutad1t_y = Real(0.9363291775690445) * t370;
+  const Real strutad1t_z = Real(0.35112344158839165) * t368 - Real(0.9363291775690445) * t369;
   const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
   const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
   const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
@@ -1265,9 +1263,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0t_y = strutad1_x * state.z[0];
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
-  const Real strutam1a_x = t370 * strutam1t_z + t371 * strutam1t_y;
-  const Real strutam1a_y = t369 * strutam1t_z - t371 * strutam1t_x;
-  const Real strutam1a_z = t369 * strutam1t_y + t370 * strutam1t_x;
+  const Real strutam1a_x = t369 * strutam1t_z + t370 * strutam1t_y;
+  const Real strutam1a_y = t368 * strutam1t_z - t370 * strutam1t_x;
+  const Real strutam1a_z = t368 * strutam1t_y + t369 * strutam1t_x;
   const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
   const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
   const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
@@ -1275,9 +1273,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutam0b_y = strutam0t_y + Real(2.0) * strutam1vp_y;
   const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
   const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
-  const Real strutad1a_x = t370 * strutad1t_z - t371 * strutad1t_y;
-  const Real strutad1a_y = t369 * strutad1t_z + t371 * strutad1t_x;
-  const Real strutad1a_z = t369 * strutad1t_y + t370 * strutad1t_x;
+  const Real strutad1a_x = t369 * strutad1t_z - t370 * strutad1t_y;
+  const Real strutad1a_y = t368 * strutad1t_z + t370 * strutad1t_x;
+  const Real strutad1a_z = t368 * strutad1t_y + t369 * strutad1t_x;
   const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
   const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
   const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
@@ -1289,9 +1287,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       strutam0v_x * strutad0v_x)) - (strutd_z * strutad0a_y + (strutd_y * strutad0a_x + (strutd_x *
       strutad1app_z + (strutad1_y * strutam0a_y - (strutad1p_z * strutam1app_z - strutad1_x *
       strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t370 + Real(0.9156733568092016) * t371;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t371 - Real(0.2088879845220991) * t369;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t370 + Real(0.9156733568092016) * t369;
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 - Real(0.2088879845220991) * t368;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 + Real(0.9156733568092016) * t368;
   const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
   const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
   const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
@@ -1301,9 +1299,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
   const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
-  const Real strutad1a_x_2 = t370 * strutad1t_z_2 + t371 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t369 * strutad1t_z_2 + t371 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t369 * strutad1t_y_2 - t370 * strutad1t_x_2;
+  const Real strutad1a_x_2 = t369 * strutad1t_z_2 + t370 * strutad1t_y_2;
+  const Real strutad1a_y_2 = t368 * strutad1t_z_2 + t370 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t368 * strutad1t_y_2 - t369 * strutad1t_x_2;
   const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
   const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
   const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
@@ -1311,9 +1309,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0b_y_2 = strutad0t_y_2 + Real(2.0) * strutad1vp_y_2;
   const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
   const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t370 - Real(0.02) * t371;
-  const Real tie_rodbm1t_y = Real(0.14) * t371 + Real(0.07) * t369;
-  const Real tie_rodbm1t_z = Real(0.14) * t370 + Real(0.02) * t369;
+  const Real tie_rodbm1t_x = Real(0.07) * t369 - Real(0.02) * t370;
+  const Real tie_rodbm1t_y = Real(0.14) * t370 + Real(0.07) * t368;
+  const Real tie_rodbm1t_z = Real(0.14) * t369 + Real(0.02) * t368;
   const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
@@ -1324,9 +1322,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t370 * tie_rodbm1t_z + t371 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t369 * tie_rodbm1t_z - t371 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t369 * tie_rodbm1t_y + t370 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t369 * tie_rodbm1t_z + t370 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t368 * tie_rodbm1t_z - t370 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t368 * tie_rodbm1t_y + t369 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
@@ -1335,17 +1333,17 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
   const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
       tie_rodbm1app_x));
-  const Real t703 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t315 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
+  const Real t702 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
+      * strutad0v_x_2)) - (t314 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
       (strutd_x * strutad1app_z_2 - (strutad1_y_2 * strutam0a_y - (strutad1p_z_2 * strutam1app_z -
       strutad1_x_2 * strutam0a_x))))));
-  const Real t714 = t339 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t328 * bias_strut + t334 * t703));
-  const Real t717 = t333 * (t703 - t327 * t714);
-  const Real t725 = t717 - t352 * zdot[0];
-  const Real t727 = t314 * (struts0am_z_2 * t714 + (bias_strut + struts0am_x * t717)) - t357 * zdot[0];
-  const Real t729 = t714 - t349 * zdot[0];
+  const Real t713 = t338 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
+      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t327 * bias_strut + t333 * t702));
+  const Real t716 = t332 * (t702 + t326 * t713);
+  const Real t724 = t716 - t351 * zdot[0];
+  const Real t726 = t313 * (struts0am_z_2 * t713 - (bias_strut + struts0am_x * t716)) + t356 * zdot[0];
+  const Real t728 = t713 + t348 * zdot[0];
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -1354,15 +1352,15 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
-  const Real S0b_zz = Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y -
-      (Real(0.6499999999999999) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x *
-      q1r1_x * Real(0.6499999999999999) - q1r1_y * S1at1r0_y) + Real(4.592300000000001)))))) - Real(0.0202);
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (Real(0.04) * h1at1_y -
+      (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
+      S1at1r0_z)))) - Real(0.0202) - Real(4.592300000000001));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
-  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_x * strutd_x + strutd_y * strutd_y) +
+      Real(1e-18);
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z - strutd_y *
       strutam0v_x)) / spring_damper_l;
@@ -1405,22 +1403,22 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aK1_x = Real(0.6499999999999999) * w1p_x;
   const Real aK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real aK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
-  const Real au1_x = t369 - Real(2.0) * w1p_x;
-  const Real au1_y = t370 - Real(2.0) * w1p_y;
-  const Real au1_z = t371 + Real(2.0) * w1p_z;
+  const Real au1_x = t368 - Real(2.0) * w1p_x;
+  const Real au1_y = t369 - Real(2.0) * w1p_y;
+  const Real au1_z = t370 + Real(2.0) * w1p_z;
   const Real aSu1_x = Real(0.6499999999999999) * au1_x;
   const Real aSu1_y = Real(0.1824) * au1_z - Real(0.3842000000000001) * au1_y;
   const Real aSu1_z = Real(2.2228) * au1_z - Real(0.1824) * au1_y;
   const Real auh1 = Real(1.14) * au1_y - Real(6.08) * au1_z;
-  const Real auw1 = t371 * au1_z + (t369 * au1_x + t370 * au1_y);
-  const Real aef1_x = t369 * auh1 - (t727 * Real(6.08) - (tyre_forcef1_x - t729 * Real(1.14)));
-  const Real aef1_y = t370 * auh1 + (t725 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * auw1));
-  const Real aef1_z = t371 * auh1 + (Real(6.08) * auw1 + (tyre_forcef1_z + t725 * Real(1.14)));
-  const Real aen1_x = t371 * aSu1_y + (t370 * aSu1_z - (t725 * Real(2.607) + (Real(0.12) * tyre_forcef1_y +
+  const Real auw1 = t370 * au1_z + (t368 * au1_x + t369 * au1_y);
+  const Real aef1_x = t368 * auh1 + (t726 * Real(6.08) + (tyre_forcef1_x + t728 * Real(1.14)));
+  const Real aef1_y = t369 * auh1 + (t724 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * auw1));
+  const Real aef1_z = t370 * auh1 + (Real(6.08) * auw1 + (tyre_forcef1_z + t724 * Real(1.14)));
+  const Real aen1_x = t370 * aSu1_y + (t369 * aSu1_z - (t724 * Real(2.607) + (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real aen1_y = t371 * aSu1_x - (t369 * aSu1_z + (t729 * Real(0.1824) + (t727 * Real(2.8728) -
+  const Real aen1_y = t370 * aSu1_x - (t368 * aSu1_z - (t728 * Real(0.1824) + (t726 * Real(2.8728) +
       (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real aen1_z = t370 * aSu1_x + (t369 * aSu1_y + (t727 * Real(0.1824) + (t729 * Real(1.0342) +
+  const Real aen1_z = t369 * aSu1_x + (t368 * aSu1_y - (t726 * Real(0.1824) + (t728 * Real(1.0342) -
       (Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
   const Real af1p_x = q1r1_z * aef1_z + (q1r1_x * aef1_x + q1r1_y * aef1_y);
   const Real af1p_y = q1r2_z * aef1_z - (q1r2_x * aef1_x - q1r2_y * aef1_y);
@@ -1430,8 +1428,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       - (aal1_y * Real(2.8728) + (Real(0.01) * spring_damperfb1_z - Real(0.2) * spring_damperfb1_x))))));
   const Real tau_1_2 = aen1_z + (w1p_y * aK1_x - (w1p_x * aK1_y - (Real(0.1824) * aal1_y - (Real(1.14) * aa1_x
       + (aal1_z * Real(1.0342) + (Real(0.01) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_x))))));
-  tau[0] = -(t349 * tau_1_2 - (t357 * tau_1_1 + (t352 * tau_1_0 + (Real(0.34) * af1p_y - (Real(0.02) * af1p_x
-      + (q1r0_z * aen1_z + (q1r0_y * aen1_y + (q1r0_x * aen1_x + (adn0_z + (aQp0 + (strutax1_x *
+  tau[0] = -(t348 * tau_1_2 - (t356 * tau_1_1 + (t351 * tau_1_0 + (Real(0.34) * af1p_y - (Real(0.02) * af1p_x
+      + (q1r0_z * aen1_z + (q1r0_y * aen1_y + (q1r0_x * aen1_x - (adn0_z - (aQp0 + (strutax1_x *
       spring_damperf_z - strutax1_y * spring_damperf_y)))))))))));
 }
 
@@ -1461,13 +1459,13 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_y * Real(0.03) + (q1r1_z * Real(0.2) - (q1r1_x * Real(0.01) - Real(0.34)));
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_z * Real(0.2) + (q1r2_x * Real(0.01) + Real(0.02)));
+  const Real strutax1p_x = q1r1_y * Real(0.03) - (q1r1_x * Real(0.01) - q1r1_z * Real(0.2)) + Real(0.34);
+  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_x * Real(0.01) + q1r2_z * Real(0.2)) + Real(0.02);
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
+  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -1493,7 +1491,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
@@ -1526,44 +1524,44 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t314 = Real(1.0) / struts0am_y;
-  const Real t315 = struts1am_y * t314;
-  const Real t327 = struts0am_z_2 * t315 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t313 = Real(1.0) / struts0am_y;
+  const Real t314 = struts1am_y * t313;
+  const Real t326 = struts0am_z_2 * t314 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t328 = tie_rods0bm_y * t314;
-  const Real t333 = Real(1.0) / (struts0am_x * t315 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t327 = tie_rods0bm_y * t313;
+  const Real t332 = Real(1.0) / (struts0am_x * t314 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t334 = (struts0am_x * t328 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t333;
-  const Real t339 = Real(1.0) / (t327 * t334 - (struts0am_z_2 * t328 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t333 = (struts0am_x * t327 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t332;
+  const Real t338 = Real(1.0) / (t326 * t333 - (struts0am_z_2 * t327 - (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t343 = struts0am_z * t315 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t342 = struts0am_z * t314 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t349 = t339 * (t334 * t343 - (struts0am_z * t328 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+  const Real t348 = t338 * (t333 * t342 - (struts0am_z * t327 - (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t352 = t333 * (t343 - t327 * t349);
-  const Real t362 = tie_rods0at * t339;
-  const Real t364 = t333 * (t327 * t362);
-  const Real t369 = t352 * state.z[0] + t364;
-  const Real t370 = t314 * (struts0am_z_2 * t349 - (struts0am_z - struts0am_x * t352)) * state.z[0] + t314 *
-      (struts0am_x * t364 - struts0am_z_2 * t362);
-  const Real t371 = t349 * state.z[0] - t362;
+  const Real t351 = t332 * (t342 - t326 * t348);
+  const Real t361 = tie_rods0at * t338;
+  const Real t363 = t332 * (t326 * t361);
+  const Real t368 = t351 * state.z[0] - t363;
+  const Real t369 = t313 * (struts0am_z_2 * t348 - (struts0am_z - struts0am_x * t351)) * state.z[0] - t313 *
+      (struts0am_x * t363 - struts0am_z_2 * t361);
+  const Real t370 = t348 * state.z[0] + t361;
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
   const Real S1at1r0_z = q1r1_z * Real(2.2228) - q1r1_y * Real(0.1824);
   const Real S1at1r1_y = q1r2_z * Real(0.1824) - q1r2_y * Real(0.3842000000000001);
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
-  const Real S0b_zz = Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y -
-      (Real(0.6499999999999999) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x *
-      q1r1_x * Real(0.6499999999999999) - q1r1_y * S1at1r0_y) + Real(4.592300000000001)))))) - Real(0.0202);
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (Real(0.04) * h1at1_y -
+      (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
+      S1at1r0_z)))) - Real(0.0202) - Real(4.592300000000001));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -1573,12 +1571,12 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
   const Real v1_y = q1r1_y * v1o_x - q1r2_y * v1o_y;
   const Real v1_z = q1r1_z * v1o_x - q1r2_z * v1o_y;
-  const Real v1P_x = t371 * Real(1.14) + t370 * Real(6.08);
-  const Real v1L_x = t369 * Real(2.607);
-  const Real v1L_y = t370 * Real(2.8728) + t371 * Real(0.1824);
-  const Real v1L_z = t371 * Real(1.0342) + t370 * Real(0.1824);
-  const Real T2 = (derivative * derivative * Real(3.0) - (state.z[0] * v0L_z - (t371 * v1L_z + (t369 * v1L_x +
-      t370 * v1L_y)))) * Real(0.5) + (Real(1.14) * (t369 * v1_z) + (Real(6.08) * (t369 * v1_y) - (v1_x * v1P_x
+  const Real v1P_x = t370 * Real(1.14) + t369 * Real(6.08);
+  const Real v1L_x = t368 * Real(2.607);
+  const Real v1L_y = t369 * Real(2.8728) + t370 * Real(0.1824);
+  const Real v1L_z = t370 * Real(1.0342) + t369 * Real(0.1824);
+  const Real T2 = (derivative * derivative * Real(3.0) + (state.z[0] * v0L_z + (t370 * v1L_z + (t368 * v1L_x +
+      t369 * v1L_y)))) * Real(0.5) + (Real(1.14) * (t368 * v1_z) + (Real(6.08) * (t368 * v1_y) - (v1_x * v1P_x
       - (w1p_z * v1L_z - (w1p_x * v1L_x + w1p_y * v1L_y)))));
   return T2;
 }
@@ -1599,7 +1597,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -1609,16 +1607,16 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_y * Real(0.03) + (q1r1_z * Real(0.2) - (q1r1_x * Real(0.01) - Real(0.34)));
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_z * Real(0.2) + (q1r2_x * Real(0.01) + Real(0.02)));
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = c0 * strutax1p_x + s0 * strutax1p_y + Real(0.36) - Real(0.59);
-  const Real strutd_z = c0 * strutax1p_y - s0 * strutax1p_x - Real(0.21) + Real(0.79);
-  const Real h1c_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08) - Real(13.770000000000001);
-  const Real h1c_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08) - Real(0.76);
-  const Real hg2_z = c0 * h1c_y - s0 * h1c_x + Real(9.03) + Real(0.81);
-  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+  const Real strutax1p_x = q1r1_x * Real(0.01) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03)) - Real(0.34);
+  const Real strutax1p_y = q1r2_x * Real(0.01) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03) + Real(0.02));
+  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_y = s0 * strutax1p_y - (c0 * strutax1p_x + Real(0.22999999999999998));
+  const Real strutd_z = s0 * strutax1p_x + (c0 * strutax1p_y + Real(0.5800000000000001));
+  const Real h1c_x = q1r1_z * Real(6.08) - (q1r1_y * Real(1.14) - Real(13.770000000000001));
+  const Real h1c_y = q1r2_z * Real(6.08) - (q1r2_y * Real(1.14) - Real(0.76));
+  const Real hg2_z = s0 * h1c_x - (c0 * h1c_y - Real(9.84));
+  const Real spring_damper_ll = strutd_x * strutd_x + (strutd_y * strutd_y + strutd_z * strutd_z +
+      Real(1e-18));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_e = spring_damper_l - model.free_length;
   const Real V = hg2_z * Real(9.81) + spring_damper_e * spring_damper_e * model.c8;
@@ -1642,7 +1640,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -1652,14 +1650,13 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) - (q1r1_x * Real(0.01) -
-      Real(0.34)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (q1r2_x * Real(0.01) +
-      Real(0.02)));
-  const Real wheel_centerx0_z = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + Real(0.21));
-  const Real wheel_centerx1p_z = q1r0_y * Real(0.06) + (q1r0_z * Real(0.12) + (Real(0.01) + q1r0_x *
-      Real(0.01)));
-  const Real wheel_centerx0_y = s0 * wheel_centerx1p_y + (c0 * wheel_centerx1p_x - Real(0.36));
+  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - Real(0.34) - q1r1_z * Real(0.12) + q1r1_y * Real(0.06);
+  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + Real(0.02) + q1r2_z * Real(0.12) - q1r2_y * Real(0.06);
+  const Real wheel_centerx1_y = c0 * wheel_centerx1p_y + s0 * wheel_centerx1p_x;
+  const Real wheel_centerx0_z = wheel_centerx1_y - Real(0.21);
+  const Real wheel_centerx1p_z = Real(0.01) + q1r0_x * Real(0.01) + q1r0_z * Real(0.12) + q1r0_y * Real(0.06);
+  const Real wheel_centerx1_x = c0 * wheel_centerx1p_x - s0 * wheel_centerx1p_y;
+  const Real wheel_centerx0_y = wheel_centerx1_x - Real(0.36);
   const Real wheel_centere11_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real wheel_centere11_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real wheel_centere11_z = c0 * q1r1_z + s0 * q1r2_z;
@@ -1691,106 +1688,104 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t8 = t2 * Real(0.01);
   const Real t11 = t1 * Real(0.03);
   const Real t12 = t1 * Real(0.01);
-  const Real t17 = t2 * Real(0.34) + t1 * Real(0.02) + Real(0.36);
-  const Real t20 = t2 * Real(0.02) - t1 * Real(0.34) - Real(0.21);
+  const Real t17 = t1 * Real(0.02) + (t2 * Real(0.34) + Real(0.36));
+  const Real t20 = t1 * Real(0.34) - (t2 * Real(0.02) - Real(0.21));
   const Real t22 = t17 - Real(0.59);
-  const Real t24 = t20 + Real(0.79);
+  const Real t24 = t20 - Real(0.79);
   const Real t26 = t2 * Real(0.35112344158839165);
   const Real t28 = t2 * Real(0.9363291775690445);
   const Real t29 = t1 * Real(0.35112344158839165);
   const Real t30 = t1 * Real(0.9363291775690445);
-  const Real t43 = t8 * t28 - (t6 * t26 + (t11 * t29 - t12 * t30));
-  const Real t45 = t22 * t30 + t24 * t28;
-  const Real t46 = t22 * t28 - t24 * t30;
+  const Real t43 = t12 * t30 - (t11 * t29 + (t6 * t26 - t8 * t28));
+  const Real t45 = t22 * t30 - t24 * t28;
+  const Real t46 = t22 * t28 + t24 * t30;
   const Real t48 = t2 * Real(0.2088879845220991);
   const Real t50 = t2 * Real(0.9156733568092016);
   const Real t52 = t2 * Real(0.3433775088034506);
   const Real t53 = t1 * Real(0.2088879845220991);
   const Real t54 = t1 * Real(0.9156733568092016);
   const Real t55 = t1 * Real(0.3433775088034506);
-  const Real t75 = t6 * t50 - (Real(0.2) * (t2 * t48) - (t8 * t52 + (t12 * t55 - (t1 * t53 * Real(0.2) - t11 *
-      t54))));
-  const Real t82 = detail::cosine(state.t * model.rate);
-  const Real t88 = (t82 - Real(1.0)) * model.c1 - (Real(0.36) - t17);
-  const Real t90 = t20 + Real(0.27);
-  const Real t93 = (t22 * t29 + t24 * t26) / t45;
-  const Real t94 = (t22 * t55 + t24 * t52) / t45;
-  const Real t95 = (t22 * t54 + t24 * t50) / t45;
-  const Real t96 = (t22 * t53 + t24 * t48) / t45;
-  const Real t97 = t93 * t96;
-  const Real t99 = t95 + t93 * t94;
-  const Real t101 = t96 * t96;
-  const Real t104 = t97 * t97 + (t99 * t99 + t101);
-  const Real t125 = (t75 * (t93 * t99) + t43 * (t101 + t95 * t99)) / t104;
-  const Real t126 = (t75 * t99 - t43 * (t94 * t99 + t96 * t97)) / t104;
-  const Real t127 = (t75 * (t96 + t93 * t97) + t43 * (t95 * t97 - t94 * t96)) / t104;
-  const Real t132 = t45 * t45 + t46 * t46 + Real(0.0014027397260273973);
-  const Real t140 = (t125 * t125 + (t126 * t126 - (t132 - t127 * t127))) / t104;
-  const Real t143 = detail::square_root(-t140);
-  const Real t147 = t125 + t97 * t143;
-  const Real t148 = t126 + t96 * t143;
-  const Real t149 = t127 - t99 * t143;
-  const Real t154 = t1 * t90 - t2 * t88;
-  const Real t155 = t2 * t90 + t1 * t88;
-  const Real t169 = t147 * t147 + (t149 * t149 + t148 * t148);
-  const Real t170 = Real(1.0) / t169;
-  const Real t178 = t170 * (t147 * Real(0.14) - (t149 * Real(0.07) - Real(0.02) * t148));
-  const Real t183 = t45 * t155 - t46 * t154 + Real(0.00524344339438665);
-  const Real t187 = Real(0.14) - t147 * t178;
-  const Real t188 = Real(0.02) - t148 * t178;
-  const Real t189 = Real(0.07) + t149 * t178;
-  const Real t190 = t170 * t183;
-  const Real t195 = Real(0.14) - t190 * Real(0.03745316710276178);
-  const Real t196 = t154 + t46 * t190;
-  const Real t197 = t155 - t45 * t190;
-  const Real t202 = t187 * t187 + (t189 * t189 + t188 * t188);
-  const Real t208 = Real(1.0) / (t195 * t195 + (t197 * t197 + t196 * t196));
-  const Real t210 = (t88 * t88 + (t90 * t90 + Real(0.024900000000000005) + Real(0.019600000000000003)) -
-      Real(0.10250000000000001)) * Real(0.5) - t178 * t183;
-  const Real t211 = t208 * t210;
-  const Real t226 = t170 * (t208 * (t202 - t210 * t211));
-  const Real t230 = Real(1.0) / detail::square_root(t169);
-  const Real t232 = Real(1.0) / detail::square_root(t202);
-  const Real t233 = Real(0.03745316710276178) * t230;
-  const Real t234 = t46 * t230;
-  const Real t235 = t45 * t230;
-  const Real t236 = detail::square_root(t226) * t232;
-  const Real t240 = t211 * t232;
-  const Real t244 = (t45 * t196 + t46 * t197) * t236 - t195 * t240;
-  const Real t245 = (Real(0.03745316710276178) * t197 - t45 * t195) * t236 - t196 * t240;
-  const Real t246 = (t46 * t195 + Real(0.03745316710276178) * t196) * t236 + t197 * t240;
-  const Real t247 = t147 * t230;
-  const Real t248 = t148 * t230;
-  const Real t249 = t149 * t230;
-  const Real t250 = t187 * t232;
-  const Real t251 = t188 * t232;
-  const Real t252 = t189 * t232;
-  const Real t270 = detail::square_root(-(t251 - (t247 - (t247 * t251 - (Real(1.0) + t248 * t250)))));
-  const Real t272 = Real(0.5) * (Real(1.0) / t270);
-  const Real t275 = t272 * (t248 * t252 - (t249 - t249 * t251));
-  const Real t278 = t272 * (t249 * t250 + (t252 + t247 * t252));
-  const Real t280 = t272 * (t248 + t250);
-  const Real t281 = Real(0.5) * t270;
-  const Real t287 = detail::square_root(-(t245 - (t233 - (t233 * t245 - (Real(1.0) - t234 * t244)))));
-  const Real t289 = Real(0.5) * (Real(1.0) / t287);
-  const Real t292 = t289 * (t234 * t246 + (t235 - t235 * t245));
-  const Real t295 = t289 * (t235 * t244 + (t246 + t233 * t246));
-  const Real t297 = t289 * (t234 - t244);
-  const Real t298 = Real(0.5) * t287;
-  const Real t313 = t280 * t292 - (t275 * t297 + (t281 * t295 - t278 * t298));
-  const Real t316 = t281 * t292 - (t275 * t298 + (t278 * t297 - t280 * t295));
-  const Real t319 = t278 * t292 - (t275 * t295 + (t280 * t298 - t281 * t297));
-  const Real t326 = t275 * t292 + (t280 * t297 + (t278 * t295 + t281 * t298));
-  const Real t328 = t326 - state.y[1];
-  const Real t331 = t313 + state.y[2];
-  const Real t334 = t316 - state.y[3];
-  const Real t337 = t319 - state.y[4];
-  closed.y[1] = t326;
-  closed.y[2] = -t313;
-  closed.y[3] = t316;
-  closed.y[4] = t319;
-  closed.regularity = -(t140 / (t132 / t104) * (t226 / (t170 * (t202 * t208))));
-  closed.opening = t337 * t337 + (t334 * t334 + (t328 * t328 + t331 * t331));
+  const Real t74 = t12 * t55 + (t11 * t54 + (t8 * t52 + (t6 * t50 - (t1 * t53 + t2 * t48) * Real(0.2))));
+  const Real t81 = detail::cosine(state.t * model.rate);
+  const Real t87 = t17 - (Real(0.36) - (t81 - Real(1.0)) * model.c1);
+  const Real t89 = t20 - Real(0.27);
+  const Real t92 = (t22 * t29 - t24 * t26) / t45;
+  const Real t93 = (t22 * t55 - t24 * t52) / t45;
+  const Real t94 = (t22 * t54 - t24 * t50) / t45;
+  const Real t95 = (t22 * t53 - t24 * t48) / t45;
+  const Real t96 = t92 * t95;
+  const Real t98 = t94 + t92 * t93;
+  const Real t100 = t95 * t95;
+  const Real t103 = t100 + (t98 * t98 + t96 * t96);
+  const Real t124 = (t74 * (t92 * t98) + t43 * (t100 + t94 * t98)) / t103;
+  const Real t125 = (t74 * t98 - t43 * (t93 * t98 + t95 * t96)) / t103;
+  const Real t126 = (t74 * (t95 + t92 * t96) + t43 * (t94 * t96 - t93 * t95)) / t103;
+  const Real t131 = t46 * t46 + (t45 * t45 + Real(0.0014027397260273973));
+  const Real t139 = (t126 * t126 - (t131 - (t125 * t125 + t124 * t124))) / t103;
+  const Real t142 = detail::square_root(-t139);
+  const Real t146 = t124 + t96 * t142;
+  const Real t147 = t125 + t95 * t142;
+  const Real t148 = t126 - t98 * t142;
+  const Real t153 = t1 * t89 + t2 * t87;
+  const Real t154 = t2 * t89 - t1 * t87;
+  const Real t164 = t147 * t147 + (t148 * t148 + t146 * t146);
+  const Real t165 = Real(1.0) / t164;
+  const Real t173 = t165 * (Real(0.02) * t147 - (t148 * Real(0.07) - t146 * Real(0.14)));
+  const Real t178 = t46 * t153 - (t45 * t154 - Real(0.00524344339438665));
+  const Real t182 = Real(0.14) - t146 * t173;
+  const Real t183 = Real(0.02) - t147 * t173;
+  const Real t184 = Real(0.07) + t148 * t173;
+  const Real t185 = t165 * t178;
+  const Real t190 = Real(0.14) - t185 * Real(0.03745316710276178);
+  const Real t191 = t153 - t46 * t185;
+  const Real t192 = t154 + t45 * t185;
+  const Real t197 = t183 * t183 + (t184 * t184 + t182 * t182);
+  const Real t203 = Real(1.0) / (t191 * t191 + (t192 * t192 + t190 * t190));
+  const Real t205 = (t89 * t89 + (t87 * t87 - Real(0.057999999999999996))) * Real(0.5) - t173 * t178;
+  const Real t206 = t203 * t205;
+  const Real t221 = t165 * (t203 * (t197 - t205 * t206));
+  const Real t225 = Real(1.0) / detail::square_root(t164);
+  const Real t227 = Real(1.0) / detail::square_root(t197);
+  const Real t228 = Real(0.03745316710276178) * t225;
+  const Real t229 = t46 * t225;
+  const Real t230 = t45 * t225;
+  const Real t231 = detail::square_root(t221) * t227;
+  const Real t235 = t206 * t227;
+  const Real t239 = (t45 * t191 + t46 * t192) * t231 + t190 * t235;
+  const Real t240 = (Real(0.03745316710276178) * t192 + t45 * t190) * t231 - t191 * t235;
+  const Real t241 = (t46 * t190 - Real(0.03745316710276178) * t191) * t231 - t192 * t235;
+  const Real t242 = t146 * t225;
+  const Real t243 = t147 * t225;
+  const Real t244 = t148 * t225;
+  const Real t245 = t182 * t227;
+  const Real t246 = t183 * t227;
+  const Real t247 = t184 * t227;
+  const Real t264 = detail::square_root(t243 * t245 + (Real(1.0) - (t242 * t246 - (t242 - t246))));
+  const Real t266 = Real(0.5) * (Real(1.0) / t264);
+  const Real t269 = t266 * (t244 * t246 - (t244 - t243 * t247));
+  const Real t272 = t266 * (t242 * t247 + (t247 + t244 * t245));
+  const Real t274 = t266 * (t243 + t245);
+  const Real t275 = Real(0.5) * t264;
+  const Real t280 = detail::square_root(t229 * t239 + (Real(1.0) + (t228 * t240 + (t228 + t240))));
+  const Real t282 = Real(0.5) * (Real(1.0) / t280);
+  const Real t285 = t282 * (t230 * t240 + (t230 + t229 * t241));
+  const Real t288 = t282 * (t228 * t241 + (t241 - t230 * t239));
+  const Real t290 = t282 * (t229 + t239);
+  const Real t291 = Real(0.5) * t280;
+  const Real t306 = t272 * t291 - (t275 * t288 + (t269 * t290 - t274 * t285));
+  const Real t309 = t274 * t288 - (t272 * t290 + (t269 * t291 - t275 * t285));
+  const Real t312 = t275 * t290 - (t274 * t291 + (t269 * t288 - t272 * t285));
+  const Real t319 = t275 * t291 + (t272 * t288 + (t274 * t290 + t269 * t285));
+  const Real t321 = t319 - state.y[1];
+  const Real t324 = t306 + state.y[2];
+  const Real t327 = t309 - state.y[3];
+  const Real t330 = t312 - state.y[4];
+  closed.y[1] = t319;
+  closed.y[2] = -t306;
+  closed.y[3] = t309;
+  closed.y[4] = t312;
+  closed.regularity = -(t139 / (t131 / t103) * (t221 / (t165 * (t197 * t203))));
+  closed.opening = t324 * t324 + (t321 * t321 + (t327 * t327 + t330 * t330));
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
@@ -1812,7 +1807,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -1822,155 +1817,155 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_y * Real(0.03) + (q1r1_z * Real(0.2) - (q1r1_x * Real(0.01) - Real(0.34)));
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_z * Real(0.2) + (q1r2_x * Real(0.01) + Real(0.02)));
-  const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
-  const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutax1p_x = q1r1_x * Real(0.01) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03)) - Real(0.34);
+  const Real strutax1p_y = q1r2_x * Real(0.01) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03) + Real(0.02));
+  const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
+  const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
+  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_y = strutax1_x + Real(0.59) - Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
   const Real strutad1_x = c0 * strutad1p_x + s0 * strutad1p_y;
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
-  const Real g_strut = strutd_z * strutad1_y + (strutd_x * strutad1p_z + strutd_y * strutad1_x);
-  const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
+  const Real g_strut = strutd_y * strutad1_x + (strutd_x * strutad1p_z - strutd_z * strutad1_y);
+  const Real strutad1p_x_2 = q1r1_z * Real(0.2088879845220991) + (q1r1_x * Real(0.3433775088034506) - q1r1_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_z * Real(0.2088879845220991) - (q1r0_x * Real(0.3433775088034506) - q1r0_y *
+      Real(0.9156733568092016));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real g_strut_2 = strutd_z * strutad1_y_2 + (strutd_x * strutad1p_z_2 + strutd_y * strutad1_x_2);
+  const Real g_strut_2 = strutd_y * strutad1_x_2 - (strutd_x * strutad1p_z_2 + strutd_z * strutad1_y_2);
   const Real expression = state.t * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
-  const Real tie_rodll = tie_rodd_z * tie_rodd_z + (tie_rodd_x * tie_rodd_x + tie_rodd_y * tie_rodd_y);
+  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
+  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
+      Real(0.13))));
+  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real tie_rodll = tie_rodd_y * tie_rodd_y + (tie_rodd_x * tie_rodd_x + tie_rodd_z * tie_rodd_z);
   const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
-  const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
+  const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
+  const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
   const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
+  const Real struts0af1_y = q1r1_y * struts0af1p_x + (q1r0_y * strutad1p_z + q1r2_y * struts0af1p_y);
+  const Real struts0af1_z = q1r1_z * struts0af1p_x - (q1r0_z * strutad1p_z - q1r2_z * struts0af1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
+  const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * struts0af1p_x + (q1r0_x * strutad1p_z - q1r2_x * struts0af1p_y);
+  const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
+  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
   const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
   const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r1_y * struts1af1p_x - (q1r0_y * strutad1p_z_2 - q1r2_y * struts1af1p_y);
+  const Real struts1af1_z = q1r1_z * struts1af1p_x + (q1r0_z * strutad1p_z_2 + q1r2_z * struts1af1p_y);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
-  const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
+  const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1af1_x = q1r1_x * struts1af1p_x - (q1r0_x * strutad1p_z_2 + q1r2_x * struts1af1p_y);
+  const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
+      (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
-  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t333 = Real(1.0) / struts0am_y;
-  const Real t334 = struts1am_y * t333;
-  const Real t346 = struts0am_z_2 * t334 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t347 = tie_rods0bm_y * t333;
-  const Real t352 = Real(1.0) / (struts0am_x * t334 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t353 = (struts0am_x * t347 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t352;
-  const Real t358 = Real(1.0) / (t346 * t353 - (struts0am_z_2 * t347 - (Real(0.14) * tie_rods0bf1_y -
-      Real(0.02) * tie_rods0bf1_x)));
-  const Real t362 = struts0am_z * t334 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t368 = t358 * (t353 * t362 - (struts0am_z * t347 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
-      * tie_rods0bf0_x)));
-  const Real t371 = t352 * (t362 - t346 * t368);
-  const Real t381 = tie_rods0at * t358;
-  const Real t383 = t352 * (t346 * t381);
-  const Real t388 = t371 * state.z[0] + t383;
-  const Real t389 = t333 * (struts0am_z_2 * t368 - (struts0am_z - struts0am_x * t371)) * state.z[0] + t333 *
-      (struts0am_x * t383 - struts0am_z_2 * t381);
-  const Real t390 = t368 * state.z[0] - t381;
-  const Real strutam1t_x = Real(0.2) * t389 - Real(0.03) * t390;
-  const Real strutam1t_y = Real(0.01) * t390 + Real(0.2) * t388;
-  const Real strutam1t_z = Real(0.01) * t389 + Real(0.03) * t388;
-  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
-  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
-  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
+  const Real t332 = Real(1.0) / struts0am_y;
+  const Real t333 = struts1am_y * t332;
+  const Real t345 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
+      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t333))));
+  const Real t346 = tie_rods0bm_y * t332;
+  const Real t351 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
+      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t333)))));
+  const Real t352 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t346)) * t351;
+  const Real t357 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
+      t346 + t345 * t352)));
+  const Real t361 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
+      t333));
+  const Real t367 = t357 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
+      t346 + t352 * t361)));
+  const Real t370 = t351 * (t361 + t345 * t367);
+  const Real t380 = tie_rods0at * t357;
+  const Real t382 = t351 * (t345 * t380);
+  const Real t387 = t370 * state.z[0] - t382;
+  const Real t388 = t332 * (struts0am_x * t370 - (struts0am_z + struts0am_z_2 * t367)) * state.z[0] - t332 *
+      (struts0am_x * t382 - struts0am_z_2 * t380);
+  const Real t389 = t367 * state.z[0] - t380;
+  const Real strutam1t_x = Real(0.2) * t388 - Real(0.03) * t389;
+  const Real strutam1t_y = Real(0.01) * t389 - Real(0.2) * t387;
+  const Real strutam1t_z = Real(0.01) * t388 - Real(0.03) * t387;
+  const Real strutam1vpp_x = q1r1_y * strutam1t_y - (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
+  const Real strutam1vpp_y = q1r2_y * strutam1t_y + (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
+  const Real strutam1vpp_z = q1r0_y * strutam1t_y - (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
   const Real strutam0t_x = strutax1_y * state.z[0];
   const Real strutam0t_y = strutax1_x * state.z[0];
-  const Real strutam0v_x = strutam0t_x - (c0 * strutam1vpp_x + s0 * strutam1vpp_y);
-  const Real strutam0v_y = strutam0t_y + (c0 * strutam1vpp_y - s0 * strutam1vpp_x);
-  const Real strutad1t_x = Real(0.35112344158839165) * t390;
-  const Real strutad1t_y = Real(0.9363291775690445) * t390;
-  const Real strutad1t_z = Real(0.35112344158839165) * t388 - Real(0.9363291775690445) * t389;
-  const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
-  const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
-  const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
+  const Real strutam0v_x = s0 * strutam1vpp_y + (c0 * strutam1vpp_x - strutam0t_x);
+  const Real strutam0v_y = s0 * strutam1vpp_x - (c0 * strutam1vpp_y - strutam0t_y);
+  const Real strutad1t_x = Real(0.35112344158839165) * t389;
+  const Real strutad1t_y = Real(0.9363291775690445) * t389;
+  const Real strutad1t_z = Real(0.35112344158839165) * t387 + Real(0.9363291775690445) * t388;
+  const Real strutad1vpp_x = q1r1_y * strutad1t_y - (q1r1_x * strutad1t_x + q1r1_z * strutad1t_z);
+  const Real strutad1vpp_y = q1r2_y * strutad1t_y + (q1r2_x * strutad1t_x - q1r2_z * strutad1t_z);
+  const Real strutad1vpp_z = q1r0_y * strutad1t_y - (q1r0_x * strutad1t_x - q1r0_z * strutad1t_z);
   const Real strutad0t_x = strutad1_y * state.z[0];
   const Real strutad0t_y = strutad1_x * state.z[0];
-  const Real strutad0v_x = strutad0t_x - (c0 * strutad1vpp_x + s0 * strutad1vpp_y);
-  const Real strutad0v_y = strutad0t_y + (c0 * strutad1vpp_y - s0 * strutad1vpp_x);
-  const Real rate_strut = strutd_z * strutad0v_y - (strutd_y * strutad0v_x + (strutd_x * strutad1vpp_z -
-      (strutad1_y * strutam0v_y - (strutad1p_z * strutam1vpp_z + strutad1_x * strutam0v_x))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t389 + Real(0.9156733568092016) * t390;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t390 - Real(0.2088879845220991) * t388;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t389 + Real(0.9156733568092016) * t388;
-  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
-  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
-  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
+  const Real strutad0v_x = s0 * strutad1vpp_y + (c0 * strutad1vpp_x + strutad0t_x);
+  const Real strutad0v_y = s0 * strutad1vpp_x - (c0 * strutad1vpp_y - strutad0t_y);
+  const Real rate_strut = strutad1_x * strutam0v_x + (strutad1p_z * strutam1vpp_z - (strutad1_y * strutam0v_y
+      - (strutd_x * strutad1vpp_z + (strutd_y * strutad0v_x + strutd_z * strutad0v_y))));
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t388 + Real(0.9156733568092016) * t389;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t389 + Real(0.2088879845220991) * t387;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t388 - Real(0.9156733568092016) * t387;
+  const Real strutad1vpp_x_2 = q1r1_y * strutad1t_y_2 + (q1r1_x * strutad1t_x_2 - q1r1_z * strutad1t_z_2);
+  const Real strutad1vpp_y_2 = q1r2_y * strutad1t_y_2 - (q1r2_x * strutad1t_x_2 + q1r2_z * strutad1t_z_2);
+  const Real strutad1vpp_z_2 = q1r0_y * strutad1t_y_2 + (q1r0_x * strutad1t_x_2 + q1r0_z * strutad1t_z_2);
   const Real strutad0t_x_2 = strutad1_y_2 * state.z[0];
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
-  const Real strutad0v_x_2 = strutad0t_x_2 - (c0 * strutad1vpp_x_2 + s0 * strutad1vpp_y_2);
-  const Real strutad0v_y_2 = strutad0t_y_2 + (c0 * strutad1vpp_y_2 - s0 * strutad1vpp_x_2);
-  const Real rate_strut_2 = strutd_z * strutad0v_y_2 - (strutd_y * strutad0v_x_2 + (strutd_x * strutad1vpp_z_2
-      - (strutad1_y_2 * strutam0v_y - (strutad1p_z_2 * strutam1vpp_z + strutad1_x_2 * strutam0v_x))));
-  const Real tie_rodbm1t_x = Real(0.07) * t389 - Real(0.02) * t390;
-  const Real tie_rodbm1t_y = Real(0.14) * t390 + Real(0.07) * t388;
-  const Real tie_rodbm1t_z = Real(0.14) * t389 + Real(0.02) * t388;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real strutad0v_x_2 = s0 * strutad1vpp_y_2 + (c0 * strutad1vpp_x_2 + strutad0t_x_2);
+  const Real strutad0v_y_2 = s0 * strutad1vpp_x_2 - (c0 * strutad1vpp_y_2 - strutad0t_y_2);
+  const Real rate_strut_2 = strutad1_x_2 * strutam0v_x - (strutad1p_z_2 * strutam1vpp_z + (strutad1_y_2 *
+      strutam0v_y - (strutd_x * strutad1vpp_z_2 + (strutd_y * strutad0v_x_2 + strutd_z * strutad0v_y_2))));
+  const Real tie_rodbm1t_x = Real(0.07) * t388 - Real(0.02) * t389;
+  const Real tie_rodbm1t_y = Real(0.14) * t389 - Real(0.07) * t387;
+  const Real tie_rodbm1t_z = Real(0.14) * t388 - Real(0.02) * t387;
+  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
+  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm0t_y + (c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x);
-  const Real tie_roddv_y = tie_rodbm0t_x - (s0 * tie_rodbm1vpp_y + (derivative + c0 * tie_rodbm1vpp_x));
-  const Real tie_rodlv = Real(3.123475237772121) * (tie_rodd_y * tie_roddv_y + (tie_rodd_x * tie_rodbm1vpp_z +
-      tie_rodd_z * tie_rodbm0v_y));
-  g[0] = -g_strut;
+  const Real tie_rodbm0v_y = s0 * tie_rodbm1vpp_x - (c0 * tie_rodbm1vpp_y - tie_rodbm0t_y);
+  const Real tie_roddv_y = c0 * tie_rodbm1vpp_x + (derivative + (s0 * tie_rodbm1vpp_y - tie_rodbm0t_x));
+  const Real tie_rodlv = Real(3.123475237772121) * (tie_rodd_z * tie_rodbm0v_y + (tie_rodd_x * tie_rodbm1vpp_z
+      + tie_rodd_y * tie_roddv_y));
+  g[0] = g_strut;
   g[1] = g_strut_2;
   g[2] = g_tie_rod;
   g_rate[0] = rate_strut;
-  g_rate[1] = -rate_strut_2;
+  g_rate[1] = rate_strut_2;
   g_rate[2] = tie_rodlv;
 }
 
@@ -2007,9 +2002,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutax1p_y = q1r2_y * Real(0.03) + (t44 + q1r2_z * Real(0.2));
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_z * Real(0.2) + (q1r0_x * Real(0.01) + Real(0.04)));
-  const Real strutd_y = strutax1_x + Real(0.36) - Real(0.59);
-  const Real strutd_z = strutax1_y - Real(0.21) + Real(0.79);
+  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
+  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
+  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -2035,7 +2030,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
       Real(0.13);
   const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
-  const Real tie_rodd_z = Real(0.21) - tie_rodbx1_y - Real(0.27);
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
   const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
@@ -2068,38 +2063,38 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t314 = Real(1.0) / struts0am_y;
-  const Real t315 = struts1am_y * t314;
-  const Real t327 = struts0am_z_2 * t315 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t313 = Real(1.0) / struts0am_y;
+  const Real t314 = struts1am_y * t313;
+  const Real t326 = struts0am_z_2 * t314 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t328 = tie_rods0bm_y * t314;
-  const Real t333 = Real(1.0) / (struts0am_x * t315 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t327 = tie_rods0bm_y * t313;
+  const Real t332 = Real(1.0) / (struts0am_x * t314 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t334 = (struts0am_x * t328 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t333;
-  const Real t339 = Real(1.0) / (t327 * t334 - (struts0am_z_2 * t328 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t333 = (struts0am_x * t327 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t332;
+  const Real t338 = Real(1.0) / (t326 * t333 - (struts0am_z_2 * t327 - (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t343 = struts0am_z * t315 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t342 = struts0am_z * t314 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t349 = t339 * (t334 * t343 - (struts0am_z * t328 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+  const Real t348 = t338 * (t333 * t342 - (struts0am_z * t327 - (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t352 = t333 * (t343 - t327 * t349);
-  const Real t357 = t314 * (struts0am_z_2 * t349 - (struts0am_z - struts0am_x * t352));
-  const Real t362 = tie_rods0at * t339;
-  const Real t364 = t333 * (t327 * t362);
-  const Real t369 = t352 * state.z[0] + t364;
-  const Real t370 = t357 * state.z[0] + t314 * (struts0am_x * t364 - struts0am_z_2 * t362);
-  const Real t371 = t349 * state.z[0] - t362;
-  const Real strutam1t_x = Real(0.2) * t370 - Real(0.03) * t371;
-  const Real strutam1t_y = Real(0.01) * t371 + Real(0.2) * t369;
-  const Real strutam1t_z = Real(0.01) * t370 + Real(0.03) * t369;
+  const Real t351 = t332 * (t342 - t326 * t348);
+  const Real t356 = t313 * (struts0am_z_2 * t348 - (struts0am_z - struts0am_x * t351));
+  const Real t361 = tie_rods0at * t338;
+  const Real t363 = t332 * (t326 * t361);
+  const Real t368 = t351 * state.z[0] - t363;
+  const Real t369 = t356 * state.z[0] - t313 * (struts0am_x * t363 - struts0am_z_2 * t361);
+  const Real t370 = t348 * state.z[0] + t361;
+  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
+  const Real strutam1t_y = Real(0.01) * t370 + Real(0.2) * t368;
+  const Real strutam1t_z = Real(0.01) * t369 + Real(0.03) * t368;
   const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
   const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
   const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
@@ -2109,9 +2104,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = strutam1vp_x - strutam0t_x;
   const Real strutam0v_y = strutam1vp_y + strutam0t_y;
-  const Real strutad1t_x = Real(0.35112344158839165) * t371;
-  const Real strutad1t_y = Real(0.9363291775690445) * t371;
-  const Real strutad1t_z = Real(0.35112344158839165) * t369 - Real(0.9363291775690445) * t370;
+  const Real strutad1t_x = Real(0.35112344158839165) * t370;
+  const Real strutad1t_y = Real(0.9363291775690445) * t370;
+  const Real strutad1t_z = Real(0.35112344158839165) * t368 - Real(0.9363291775690445) * t369;
   const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
   const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
   const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
@@ -2121,9 +2116,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutad0t_y = strutad1_x * state.z[0];
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
-  const Real strutam1a_x = t370 * strutam1t_z + t371 * strutam1t_y;
-  const Real strutam1a_y = t369 * strutam1t_z - t371 * strutam1t_x;
-  const Real strutam1a_z = t369 * strutam1t_y + t370 * strutam1t_x;
+  const Real strutam1a_x = t369 * strutam1t_z + t370 * strutam1t_y;
+  const Real strutam1a_y = t368 * strutam1t_z - t370 * strutam1t_x;
+  const Real strutam1a_z = t368 * strutam1t_y + t369 * strutam1t_x;
   const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
   const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
   const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
@@ -2131,9 +2126,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutam0b_y = strutam0t_y + Real(2.0) * strutam1vp_y;
   const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
   const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
-  const Real strutad1a_x = t370 * strutad1t_z - t371 * strutad1t_y;
-  const Real strutad1a_y = t369 * strutad1t_z + t371 * strutad1t_x;
-  const Real strutad1a_z = t369 * strutad1t_y + t370 * strutad1t_x;
+  const Real strutad1a_x = t369 * strutad1t_z - t370 * strutad1t_y;
+  const Real strutad1a_y = t368 * strutad1t_z + t370 * strutad1t_x;
+  const Real strutad1a_z = t368 * strutad1t_y + t369 * strutad1t_x;
   const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
   const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
   const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
@@ -2145,9 +2140,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
       strutam0v_x * strutad0v_x)) - (strutd_z * strutad0a_y + (strutd_y * strutad0a_x + (strutd_x *
       strutad1app_z + (strutad1_y * strutam0a_y - (strutad1p_z * strutam1app_z - strutad1_x *
       strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t370 + Real(0.9156733568092016) * t371;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t371 - Real(0.2088879845220991) * t369;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t370 + Real(0.9156733568092016) * t369;
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 - Real(0.2088879845220991) * t368;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 + Real(0.9156733568092016) * t368;
   const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
   const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
   const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
@@ -2157,9 +2152,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
   const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
-  const Real strutad1a_x_2 = t370 * strutad1t_z_2 + t371 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t369 * strutad1t_z_2 + t371 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t369 * strutad1t_y_2 - t370 * strutad1t_x_2;
+  const Real strutad1a_x_2 = t369 * strutad1t_z_2 + t370 * strutad1t_y_2;
+  const Real strutad1a_y_2 = t368 * strutad1t_z_2 + t370 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t368 * strutad1t_y_2 - t369 * strutad1t_x_2;
   const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
   const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
   const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
@@ -2167,9 +2162,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutad0b_y_2 = strutad0t_y_2 + Real(2.0) * strutad1vp_y_2;
   const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
   const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t370 - Real(0.02) * t371;
-  const Real tie_rodbm1t_y = Real(0.14) * t371 + Real(0.07) * t369;
-  const Real tie_rodbm1t_z = Real(0.14) * t370 + Real(0.02) * t369;
+  const Real tie_rodbm1t_x = Real(0.07) * t369 - Real(0.02) * t370;
+  const Real tie_rodbm1t_y = Real(0.14) * t370 + Real(0.07) * t368;
+  const Real tie_rodbm1t_z = Real(0.14) * t369 + Real(0.02) * t368;
   const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
@@ -2180,9 +2175,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t370 * tie_rodbm1t_z + t371 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t369 * tie_rodbm1t_z - t371 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t369 * tie_rodbm1t_y + t370 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t369 * tie_rodbm1t_z + t370 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t368 * tie_rodbm1t_z - t370 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t368 * tie_rodbm1t_y + t369 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
@@ -2191,15 +2186,15 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
   const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
       tie_rodbm1app_x));
-  const Real t703 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t315 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
+  const Real t702 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
+      * strutad0v_x_2)) - (t314 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
       (strutd_x * strutad1app_z_2 - (strutad1_y_2 * strutam0a_y - (strutad1p_z_2 * strutam1app_z -
       strutad1_x_2 * strutam0a_x))))));
-  const Real t714 = t339 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t328 * bias_strut + t334 * t703));
-  const Real t717 = t333 * (t703 - t327 * t714);
-  const Real t722 = t314 * (struts0am_z_2 * t714 + (bias_strut + struts0am_x * t717));
+  const Real t713 = t338 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
+      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t327 * bias_strut + t333 * t702));
+  const Real t716 = t332 * (t702 + t326 * t713);
+  const Real t721 = t313 * (struts0am_z_2 * t713 - (bias_strut + struts0am_x * t716));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -2219,8 +2214,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
-  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_x * strutd_x + strutd_y * strutd_y) +
+      Real(1e-18);
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z - strutd_y *
       strutam0v_x)) / spring_damper_l;
@@ -2243,8 +2238,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real push1_2 = Real(0.01) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_x;
   const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
   const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - (input.u[0] +
-      Real(0.3275))));
+  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - input.u[0])) +
+      Real(0.3275);
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -2266,67 +2261,64 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.6499999999999999) * w1p_x;
   const Real rK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real rK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
-  const Real t955 = w1p_y * rK1_z;
-  const Real t956 = w1p_z * rK1_y;
-  const Real t958 = w1p_x * rK1_z;
-  const Real t959 = w1p_z * rK1_x;
-  const Real t961 = w1p_x * rK1_y;
-  const Real t962 = w1p_y * rK1_x;
-  const Real ru1_x = t369 - Real(2.0) * w1p_x;
-  const Real ru1_y = t370 - Real(2.0) * w1p_y;
-  const Real ru1_z = t371 + Real(2.0) * w1p_z;
+  const Real t953 = w1p_y * rK1_z;
+  const Real t954 = w1p_z * rK1_y;
+  const Real t956 = w1p_x * rK1_z;
+  const Real t957 = w1p_z * rK1_x;
+  const Real t959 = w1p_x * rK1_y;
+  const Real t960 = w1p_y * rK1_x;
+  const Real ru1_x = t368 - Real(2.0) * w1p_x;
+  const Real ru1_y = t369 - Real(2.0) * w1p_y;
+  const Real ru1_z = t370 + Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.6499999999999999) * ru1_x;
   const Real rSu1_y = Real(0.1824) * ru1_z - Real(0.3842000000000001) * ru1_y;
   const Real rSu1_z = Real(2.2228) * ru1_z - Real(0.1824) * ru1_y;
   const Real ruh1 = Real(1.14) * ru1_y - Real(6.08) * ru1_z;
-  const Real ruw1 = t371 * ru1_z + (t369 * ru1_x + t370 * ru1_y);
-  const Real t994 = t370 * rSu1_z;
-  const Real t995 = t371 * rSu1_y;
-  const Real t998 = t369 * rSu1_z;
-  const Real t999 = t371 * rSu1_x;
-  const Real t1002 = t369 * rSu1_y;
-  const Real t1003 = t370 * rSu1_x;
-  const Real ref1_x = t369 * ruh1 - (t722 * Real(6.08) - (tyre_forcef1_x - t714 * Real(1.14)));
-  const Real ref1_y = t370 * ruh1 + (t717 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * ruw1));
-  const Real ref1_z = t371 * ruh1 + (Real(6.08) * ruw1 + (tyre_forcef1_z + t717 * Real(1.14)));
-  const Real ren1_x = t995 + (t994 - (tyre_forcem_x + t717 * Real(2.607)));
-  const Real ren1_y = t999 - (t998 + (t714 * Real(0.1824) - (tyre_forcem_y - t722 * Real(2.8728))));
-  const Real ren1_z = t1003 + (t1002 + (t722 * Real(0.1824) + (tyre_forcem_z + t714 * Real(1.0342))));
+  const Real ruw1 = t370 * ru1_z + (t368 * ru1_x + t369 * ru1_y);
+  const Real t992 = t369 * rSu1_z;
+  const Real t993 = t370 * rSu1_y;
+  const Real t996 = t368 * rSu1_z;
+  const Real t997 = t370 * rSu1_x;
+  const Real t1000 = t368 * rSu1_y;
+  const Real t1001 = t369 * rSu1_x;
+  const Real ref1_x = t368 * ruh1 + (t721 * Real(6.08) + (tyre_forcef1_x + t713 * Real(1.14)));
+  const Real ref1_y = t369 * ruh1 + (t716 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * ruw1));
+  const Real ref1_z = t370 * ruh1 + (Real(6.08) * ruw1 + (tyre_forcef1_z + t716 * Real(1.14)));
+  const Real ren1_x = t993 + (t992 - (tyre_forcem_x + t716 * Real(2.607)));
+  const Real ren1_y = t997 - (t996 - (t713 * Real(0.1824) + (tyre_forcem_y + t721 * Real(2.8728))));
+  const Real ren1_z = t1001 + (t1000 - (t721 * Real(0.1824) - (tyre_forcem_z - t713 * Real(1.0342))));
   const Real rf1p_x = q1r1_z * ref1_z + (q1r1_x * ref1_x + q1r1_y * ref1_y);
   const Real rf1p_y = q1r2_z * ref1_z - (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real tau_1_0 = ren1_x + (t956 - (t955 - (Real(6.08) * ra1_y + (push1_0 + Real(1.14) * ra1_z))));
-  const Real tau_1_1 = ren1_y - (t959 - (t958 - (push1_1 + Real(6.08) * ra1_x)));
-  const Real tau_1_2 = ren1_z + (t962 - (t961 + (push1_2 - Real(1.14) * ra1_x)));
-  const Real t1065 = Real(1.0) / (t349 * (p_3_1n_z - (t349 * Real(1.0342) - (p_3_1n_z - t357 * Real(0.1824))))
-      + (t352 * (p_1_1n_z + (p_1_1n_z - t352 * Real(2.607))) - (t357 * (p_2_1n_z + (t349 * Real(0.1824) +
-      (p_2_1n_z + t357 * Real(2.8728)))) - (Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y -
-      (Real(0.6499999999999999) * (q1r2_x * q1r2_x) - (h1at1_x * Real(0.68) - (q1r1_z * S1at1r0_z + (q1r1_x *
-      q1r1_x * Real(0.6499999999999999) - q1r1_y * S1at1r0_y) + Real(4.592300000000001)))))) -
-      Real(0.0202))))) * (t349 * tau_1_2 - (t357 * tau_1_1 + (t352 * tau_1_0 + (Real(0.34) * rf1p_y -
-      (Real(0.02) * rf1p_x + (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x *
-      spring_damperf_z - strutax1_y * spring_damperf_y))))))))));
-  const Real ral1_x = q1r0_x * t1065;
-  const Real ral1_y = q1r0_y * t1065;
-  const Real ral1_z = q1r0_z * t1065;
-  const Real ra1o_x_2 = ra1o_x - Real(0.02) * t1065;
-  const Real ra1o_y_2 = ra1o_y - Real(0.34) * t1065;
+  const Real tau_1_0 = ren1_x + (t954 - (t953 - (Real(6.08) * ra1_y + (push1_0 + Real(1.14) * ra1_z))));
+  const Real tau_1_1 = ren1_y - (t957 - (t956 - (push1_1 + Real(6.08) * ra1_x)));
+  const Real tau_1_2 = ren1_z + (t960 - (t959 + (push1_2 - Real(1.14) * ra1_x)));
+  const Real t1063 = Real(1.0) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t351 *
+      (p_1_1n_z + (p_1_1n_z - t351 * Real(2.607))) - (t348 * (t348 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z -
+      t356 * Real(0.1824)))) + (t356 * (t348 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t356 * Real(2.8728)))) -
+      (Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y *
+      S1at1r0_y - q1r1_z * S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001))) * (t348 * tau_1_2 -
+      (t356 * tau_1_1 + (t351 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x + (q1r0_z * ren1_z +
+      (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x * spring_damperf_z - strutax1_y *
+      spring_damperf_y))))))))));
+  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t1063;
+  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t1063;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real t1092 = t714 + t349 * t1065 + ral1_z;
-  const Real t1094 = t722 + t357 * t1065 - ral1_y;
-  const Real tau_1_1_2 = Real(0.1824) * t1092 + (Real(2.8728) * t1094 + (t998 - (t999 + (tyre_forcem_y -
-      (Real(6.08) * ra1_x_2 - (t958 - (push1_1 + t959)))))));
-  const Real t1104 = t314 * tau_1_1_2;
-  const Real t1117 = t333 * (Real(2.607) * (t717 + t352 * t1065 - ral1_x) + (struts0am_x * t1104 - (t994 +
-      (t995 - (tyre_forcem_x - (Real(6.08) * ra1_y_2 + (Real(1.14) * ra1_z_2 - (t955 - (push1_0 +
-      t956)))))))));
-  const Real t1132 = t339 * (Real(0.1824) * t1094 + (Real(1.0342) * t1092 - (t327 * t1117 - (struts0am_z_2 *
-      t1104 + (t1002 + (t1003 + (tyre_forcem_z + (Real(1.14) * ra1_x_2 - (t961 + (push1_2 - t962))))))))));
-  const Real t1134 = t1117 + t334 * t1132;
-  lambda[0] = -(t328 * t1132 + (t1104 - t315 * t1134));
-  lambda[1] = t1134;
-  lambda[2] = -t1132;
+  const Real t1083 = t713 + t1063 * (q1r0_z + t348);
+  const Real t1087 = t721 - t1063 * (q1r0_y - t356);
+  const Real tau_1_1_2 = Real(2.8728) * t1087 + (Real(0.1824) * t1083 - (t996 - (t997 + (tyre_forcem_y -
+      (Real(6.08) * ra1_x_2 - (t956 - (push1_1 + t957)))))));
+  const Real t1097 = t313 * tau_1_1_2;
+  const Real t1112 = t332 * (Real(2.607) * (t716 + t1063 * (q1r0_x - t351)) - (struts0am_x * t1097 + (t992 +
+      (t993 - (tyre_forcem_x - (Real(6.08) * ra1_y_2 + (Real(1.14) * ra1_z_2 - (t953 - (push1_0 +
+      t954)))))))));
+  const Real t1127 = t338 * (Real(1.0342) * t1083 + (Real(0.1824) * t1087 + (t326 * t1112 + (struts0am_z_2 *
+      t1097 - (t1000 + (t1001 + (tyre_forcem_z + (Real(1.14) * ra1_x_2 - (t959 + (push1_2 - t960))))))))));
+  const Real t1129 = t1112 - t333 * t1127;
+  lambda[0] = t327 * t1127 + (t1097 + t314 * t1129);
+  lambda[1] = t1129;
+  lambda[2] = -t1127;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -10,7 +10,7 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // Left out
-// - base inertial parameters: what a joint's motion does not feel is counted with the parent (15 operations
+// - base inertial parameters: what a joint's motion does not feel is counted with the parent (14 operations
 //   of forward_dynamics)
 // - snapped rotations: rotations by multiples of a right angle are permutations (758 operations of
 //   forward_dynamics)

@@ -65,25 +65,25 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression_2 = expression * Real(0.5);
   const Real platform_body_S_xx = Real(0.5) * expression_2;
   const Real mr_x = parameters.payload * Real(0.08);
-  const Real S_xx_3 = platform_body_S_xx + Real(0.08) * mr_x;
+  const Real S_xx_2 = platform_body_S_xx + Real(0.08) * mr_x;
   h_x = mr_x * Real(0.8660254037844387);
   h_y = mr_x * Real(0.49999999999999994);
-  const Real SR_x = S_xx_3 * Real(0.8660254037844387);
-  const Real SR_y = S_xx_3 * Real(0.49999999999999994);
-  const Real SR_x_2 = platform_body_S_xx * Real(0.49999999999999994);
-  const Real SR_y_2 = platform_body_S_xx * Real(0.8660254037844387);
   const Real mr_x_2 = Real(0.19485571585149872) * parameters.payload;
   const Real mr_y = Real(0.11249999999999999) * parameters.payload;
-  S_xx = Real(0.19485571585149872) * mr_x_2;
-  S_yy = Real(0.11249999999999999) * mr_y;
+  const Real S_xx_3 = Real(0.19485571585149872) * mr_x_2;
+  const Real S_yy_2 = Real(0.11249999999999999) * mr_y;
   const Real platform_m = parameters.payload + Real(0.3);
   platform_h_x = mr_x_2 + Real(0.029228357377724806);
   platform_h_y = mr_y + Real(0.016874999999999998);
   const Real mr_x_3 = Real(0.19485571585149872) * platform_m;
   const Real mr_y_2 = Real(0.11249999999999999) * platform_m;
-  S_xx_2 = Real(0.19485571585149872) * mr_x_3;
-  S_yy_2 = Real(0.11249999999999999) * mr_y_2;
-  S2b_zz = Real(0.8660254037844387) * (SR_x + SR_y_2) + Real(0.49999999999999994) * (SR_y + SR_x_2);
+  S_xx = Real(0.19485571585149872) * mr_x_3;
+  S_yy = Real(0.11249999999999999) * mr_y_2;
+  const Real t34 = platform_body_S_xx + S_xx_2;
+  S2b_zz = Real(0.8660254037844387) * (Real(0.8660254037844387) * t34) + Real(0.49999999999999994) *
+      (Real(0.49999999999999994) * t34);
+  c5 = S_xx_3 + (Real(0.0037968750000000003) + (S_yy_2 + Real(0.0012656249999999998)));
+  c8 = S_xx + (Real(0.005062500000000001) + (S_yy + Real(0.0016875)));
 }
 
 template <class Real>
@@ -377,7 +377,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real t404 = t384 - t204 * t400;
   const Real t408 = t154 * t404 - (t368 - t188 * t400);
   const Real t412 = t120 * t408 + (t140 * t404 + (t354 + t174 * t400));
-  const Real D6 = s6 * r6_x * Real(0.03375) - Real(0.03375) * (c6 * r6_y);
+  const Real D6 = (s6 * r6_x - c6 * r6_y) * Real(0.03375);
   const Real E6 = D6 + Real(0.0050625);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
@@ -389,26 +389,25 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real E2 = D2 + model.S2b_zz;
   const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
   const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + E2 + model.S_xx + Real(0.0037968750000000003) + model.S_yy +
-      Real(0.0012656249999999998);
+  const Real J1 = D2 + E2 + model.c5;
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
   const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t476 = t284 * E2 - (E1 + t288 * J1);
-  const Real t480 = t284 * model.S2b_zz + (p_2_1n_z - t288 * E2);
-  const Real t482 = t280 * Real(0.0050625);
-  const Real t484 = t276 * Real(0.0050625);
-  const Real t524 = t350 * J1 - t346 * E2;
-  const Real t527 = t350 * E2 - t346 * model.S2b_zz;
-  const Real t529 = E4 - t342 * Real(0.0050625);
-  const Real t531 = t338 * Real(0.0050625);
-  M[0][0] = t284 * (p_2_1n_z + t480) + (t288 * (E1 - t476) + (t276 * t484 + (t280 * t482 - (D1 - E1 -
-      model.S_xx_2 - Real(0.005062500000000001) - model.S_yy_2 - Real(0.0016875) - Real(0.002)))));
-  M[0][1] = M[1][0] = t338 * t484 + (t342 * t482 + (t346 * t480 - (t280 * E4 + t350 * t476)));
-  M[0][2] = M[2][0] = -(t400 * t484 + (t404 * t482 + (t408 * t480 - (t276 * E6 + t412 * t476))));
-  M[1][1] = -(t342 * (E4 + t529) - (t338 * t531 - (t346 * t527 - (t350 * t524 + (Real(0.002) + (E4 + (D4 +
-      Real(0.021937500000000002))))))));
-  M[1][2] = M[2][1] = -(t400 * t531 - (t404 * t529 + (t408 * t527 + (t338 * E6 - t412 * t524))));
+  const Real t469 = t284 * E2 - (E1 + t288 * J1);
+  const Real t473 = t284 * model.S2b_zz + (p_2_1n_z - t288 * E2);
+  const Real t475 = t280 * Real(0.0050625);
+  const Real t477 = t276 * Real(0.0050625);
+  const Real t517 = t350 * J1 - t346 * E2;
+  const Real t520 = t350 * E2 - t346 * model.S2b_zz;
+  const Real t522 = E4 - t342 * Real(0.0050625);
+  const Real t524 = t338 * Real(0.0050625);
+  M[0][0] = t288 * (E1 - t469) + (t284 * (p_2_1n_z + t473) + (t276 * t477 + (t280 * t475 - (D1 - E1)))) +
+      Real(0.002) + Real(0.0016875) + model.S_yy + Real(0.005062500000000001) + model.S_xx;
+  M[0][1] = M[1][0] = t338 * t477 + (t342 * t475 + (t346 * t473 - (t280 * E4 + t350 * t469)));
+  M[0][2] = M[2][0] = -(t400 * t477 + (t404 * t475 + (t408 * t473 - (t276 * E6 + t412 * t469))));
+  M[1][1] = -(t342 * (E4 + t522) - (t338 * t524 - (t346 * t520 - (t350 * t517 + (Real(0.002) + (D4 + E4))))) -
+      Real(0.021937500000000002));
+  M[1][2] = M[2][1] = -(t400 * t524 - (t404 * t522 + (t408 * t520 + (t338 * E6 - t412 * t517))));
   M[2][2] = -(t400 * (E6 + (E6 - t400 * Real(0.0050625))) - (Real(0.0050625) * (t404 * t404) - (t408 * (t412 *
       E2 - t408 * model.S2b_zz) - (t412 * (t412 * J1 - t408 * E2) + (Real(0.002) + (Real(0.021937500000000002)
       + (D6 + E6)))))));
@@ -466,95 +465,95 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t112 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
-  const Real t120 = t112 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
-      pin2ax2_x)));
+  const Real t112 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x)));
+  const Real t120 = t112 * (pin2ax_x * pin2ax2_x - (pin2ax_y * pin2ax2_y + (pin3ax_y * pin3ax2_y - pin3ax_x *
+      pin3ax2_x)));
   const Real t122 = pin2ax_y + pin2ax2_y * t120;
   const Real t124 = pin2ax_x - pin2ax2_x * t120;
   const Real t126 = pin3ax_y + pin3ax2_y * t120;
   const Real t128 = pin3ax_x - pin3ax2_x * t120;
-  const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
+  const Real t136 = Real(1.0) / (t124 * t124 + (t122 * t122 + (t126 * t126 + t128 * t128)));
   const Real t140 = t112 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t142 = pin2bx_y - pin2ax2_y * t140;
   const Real t144 = pin2bx_x - pin2ax2_x * t140;
   const Real t145 = pin3ax2_y * t140;
   const Real t146 = pin3ax2_x * t140;
-  const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
-  const Real t156 = t142 - t122 * t154;
-  const Real t158 = t144 + t124 * t154;
-  const Real t160 = t145 + t126 * t154;
-  const Real t162 = t146 - t128 * t154;
-  const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
+  const Real t154 = t136 * (t124 * t144 - (t122 * t142 - (t126 * t145 - t128 * t146)));
+  const Real t156 = t142 + t122 * t154;
+  const Real t158 = t144 - t124 * t154;
+  const Real t160 = t145 - t126 * t154;
+  const Real t162 = t146 + t128 * t154;
+  const Real t170 = Real(1.0) / (t158 * t158 + (t156 * t156 + (t160 * t160 + t162 * t162)));
   const Real t174 = t112 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t175 = pin2ax2_y * t174;
   const Real t176 = pin2ax2_x * t174;
   const Real t178 = pin3bx_y - pin3ax2_y * t174;
   const Real t180 = pin3bx_x + pin3ax2_x * t174;
-  const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
+  const Real t188 = t136 * (t124 * t176 - (t122 * t175 - (t126 * t178 + t128 * t180)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
   const Real t194 = t178 - t126 * t188;
   const Real t196 = t180 - t128 * t188;
-  const Real t204 = t170 * (t162 * t196 - (t160 * t194 + (t156 * t190 + t158 * t192)));
-  const Real t206 = t190 + t156 * t204;
-  const Real t208 = t192 + t158 * t204;
-  const Real t210 = t194 + t160 * t204;
-  const Real t212 = t196 - t162 * t204;
-  const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
+  const Real t204 = t170 * (t158 * t192 + (t156 * t190 + (t160 * t194 - t162 * t196)));
+  const Real t206 = t190 - t156 * t204;
+  const Real t208 = t192 - t158 * t204;
+  const Real t210 = t194 - t160 * t204;
+  const Real t212 = t196 + t162 * t204;
+  const Real t220 = Real(1.0) / (t208 * t208 + (t206 * t206 + (t210 * t210 + t212 * t212)));
+  const Real t228 = t112 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
+      pin3ax2_x * pin3ax1_x)));
   const Real t230 = pin2ax1_y + pin2ax2_y * t228;
   const Real t232 = pin2ax1_x - pin2ax2_x * t228;
   const Real t234 = pin3ax1_y + pin3ax2_y * t228;
   const Real t236 = pin3ax1_x - pin3ax2_x * t228;
-  const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
+  const Real t244 = t136 * (t124 * t232 + (t122 * t230 + (t126 * t234 + t128 * t236)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
   const Real t250 = t234 - t126 * t244;
   const Real t252 = t236 - t128 * t244;
-  const Real t260 = t170 * (t162 * t252 - (t160 * t250 - (t156 * t246 - t158 * t248)));
-  const Real t276 = t220 * (t212 * (t252 - t162 * t260) + (t210 * (t250 + t160 * t260) - (t206 * (t246 - t156
-      * t260) - t208 * (t248 + t158 * t260))));
+  const Real t260 = t170 * (t158 * t248 - (t156 * t246 - (t160 * t250 - t162 * t252)));
+  const Real t276 = t220 * (t208 * (t248 - t158 * t260) - (t206 * (t246 + t156 * t260) - (t210 * (t250 - t160
+      * t260) + t212 * (t252 + t162 * t260))));
   const Real t280 = t260 - t204 * t276;
-  const Real t284 = t154 * t280 - (t244 - t188 * t276);
-  const Real t288 = t120 * t284 + (t140 * t280 + (t228 + t174 * t276));
+  const Real t284 = t188 * t276 - (t244 - t154 * t280);
+  const Real t288 = t174 * t276 + (t228 - (t140 * t280 - t120 * t284));
   const Real t297 = t112 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t299 = pin2bx4_y - pin2ax2_y * t297;
   const Real t301 = pin2bx4_x + pin2ax2_x * t297;
   const Real t302 = pin3ax2_y * t297;
   const Real t303 = pin3ax2_x * t297;
-  const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
+  const Real t311 = t136 * (t124 * t301 + (t122 * t299 - (t126 * t302 - t128 * t303)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
   const Real t317 = t302 + t126 * t311;
   const Real t319 = t303 - t128 * t311;
-  const Real t327 = t170 * (t162 * t319 + (t160 * t317 + (t156 * t313 - t158 * t315)));
-  const Real t343 = t220 * (t212 * (t319 - t162 * t327) - (t210 * (t317 - t160 * t327) + (t206 * (t313 - t156
-      * t327) - t208 * (t315 + t158 * t327))));
+  const Real t327 = t170 * (t158 * t315 - (t156 * t313 + (t160 * t317 + t162 * t319)));
+  const Real t343 = t220 * (t208 * (t315 - t158 * t327) - (t206 * (t313 + t156 * t327) + (t210 * (t317 + t160
+      * t327) - t212 * (t319 + t162 * t327))));
   const Real t347 = t327 - t204 * t343;
-  const Real t351 = t154 * t347 - (t311 - t188 * t343);
-  const Real t355 = t120 * t351 + (t140 * t347 - (t297 - t174 * t343));
+  const Real t351 = t188 * t343 - (t311 - t154 * t347);
+  const Real t355 = t174 * t343 - (t297 + (t140 * t347 - t120 * t351));
   const Real t364 = t112 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t365 = pin2ax2_y * t364;
   const Real t366 = pin2ax2_x * t364;
   const Real t368 = pin3bx6_y - pin3ax2_y * t364;
   const Real t370 = pin3bx6_x - pin3ax2_x * t364;
-  const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
-  const Real t380 = t365 - t122 * t378;
-  const Real t382 = t366 + t124 * t378;
-  const Real t384 = t368 + t126 * t378;
-  const Real t386 = t370 - t128 * t378;
-  const Real t394 = t170 * (t162 * t386 + (t160 * t384 + (t156 * t380 + t158 * t382)));
-  const Real t410 = t220 * (t212 * (t386 - t162 * t394) - (t210 * (t384 - t160 * t394) + (t206 * (t380 - t156
-      * t394) + t208 * (t382 - t158 * t394))));
+  const Real t378 = t136 * (t124 * t366 - (t122 * t365 - (t126 * t368 - t128 * t370)));
+  const Real t380 = t365 + t122 * t378;
+  const Real t382 = t366 - t124 * t378;
+  const Real t384 = t368 - t126 * t378;
+  const Real t386 = t370 + t128 * t378;
+  const Real t394 = t170 * (t158 * t382 + (t156 * t380 + (t160 * t384 + t162 * t386)));
+  const Real t410 = t220 * (t208 * (t382 - t158 * t394) + (t206 * (t380 - t156 * t394) + (t210 * (t384 - t160
+      * t394) - t212 * (t386 - t162 * t394))));
   const Real t414 = t394 - t204 * t410;
-  const Real t418 = t154 * t414 - (t378 - t188 * t410);
-  const Real t422 = t120 * t418 + (t140 * t414 + (t364 + t174 * t410));
-  const Real t426 = t422 * state.z[2] - (t288 * state.z[0] + t355 * state.z[1]);
-  const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
-  const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
-  const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
+  const Real t418 = t188 * t410 - (t378 - t154 * t414);
+  const Real t422 = t174 * t410 - (t364 + (t140 * t414 - t120 * t418));
+  const Real t426 = t355 * state.z[1] + (t288 * state.z[0] + t422 * state.z[2]);
+  const Real t429 = t351 * state.z[1] + (t284 * state.z[0] + t418 * state.z[2]);
+  const Real t432 = t347 * state.z[1] + (t280 * state.z[0] + t414 * state.z[2]);
+  const Real t435 = t343 * state.z[1] + (t276 * state.z[0] + t410 * state.z[2]);
   const Real pin2am2t_x = pin2ax_y * t429;
   const Real pin2am1t_x = pin2ax2_y * t426;
   const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
@@ -567,20 +566,20 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
   const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
   const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2am0b_y = pin2am0t_y - Real(2.0) * pin2am1v_y;
+  const Real pin2am0b_y = pin2am0t_y + Real(2.0) * pin2am1v_y;
   const Real pin2bm4t_y = pin2bx_x * t432;
   const Real pin2bm4a_x = t432 * pin2bm4t_y;
   const Real pin2bm3t_y = pin2bx4_x * state.z[1];
   const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
-  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t426
-      * pin2am1b_y)));
+  const Real pin2da_x = t426 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
+      * pin2bm3b_y)));
   const Real pin2am2a_y = t429 * pin2am2t_x;
   const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
-  const Real pin2am0b_x = pin2am0t_x - pin2am1v_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x + pin2am1v_x * Real(2.0);
   const Real pin2bm4a_y = t432 * pin2bm4t_x;
   const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
-  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t426
-      * pin2am1b_x)));
+  const Real pin2da_y = t426 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
+      * pin2bm3b_x)));
   const Real pin3am2t_x = pin3ax_y * t429;
   const Real pin3am1t_x = pin3ax2_y * t426;
   const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
@@ -593,46 +592,46 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
   const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
   const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3am0b_y = pin3am0t_y - Real(2.0) * pin3am1v_y;
+  const Real pin3am0b_y = pin3am0t_y + Real(2.0) * pin3am1v_y;
   const Real pin3bm6t_y = pin3bx_x * t435;
   const Real pin3bm6a_x = t435 * pin3bm6t_y;
   const Real pin3bm5t_y = pin3bx6_x * state.z[2];
-  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
-  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t426
-      * pin3am1b_y)));
+  const Real pin3bm5b_y = pin3bm5t_y + Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = t426 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
+      * pin3bm5b_y)));
   const Real pin3am2a_y = t429 * pin3am2t_x;
   const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
-  const Real pin3am0b_x = pin3am0t_x - Real(2.0) * pin3am1v_x;
+  const Real pin3am0b_x = pin3am0t_x + Real(2.0) * pin3am1v_x;
   const Real pin3bm6a_y = t435 * pin3bm6t_x;
-  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
-  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t426
-      * pin3am1b_x)));
-  const Real t528 = t112 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
-      pin2da_y)));
-  const Real t530 = pin2da_x - pin2ax2_y * t528;
+  const Real pin3bm5b_x = pin3bm5t_x - Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = t426 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
+      * pin3bm5b_x)));
+  const Real t528 = t112 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
+      pin3da_y)));
+  const Real t530 = pin2da_x + pin2ax2_y * t528;
   const Real t532 = pin2da_y - pin2ax2_x * t528;
   const Real t534 = pin3da_x + pin3ax2_y * t528;
   const Real t536 = pin3da_y - pin3ax2_x * t528;
-  const Real t544 = t136 * (t128 * t536 + (t126 * t534 - (t122 * t530 - t124 * t532)));
-  const Real t546 = t530 + t122 * t544;
+  const Real t544 = t136 * (t124 * t532 + (t122 * t530 + (t126 * t534 + t128 * t536)));
+  const Real t546 = t530 - t122 * t544;
   const Real t548 = t532 - t124 * t544;
   const Real t550 = t534 - t126 * t544;
   const Real t552 = t536 - t128 * t544;
-  const Real t560 = t170 * (t162 * t552 - (t160 * t550 + (t156 * t546 + t158 * t548)));
-  const Real t576 = t220 * (t212 * (t552 - t162 * t560) + (t210 * (t550 + t160 * t560) + (t206 * (t546 + t156
-      * t560) + t208 * (t548 + t158 * t560))));
+  const Real t560 = t170 * (t158 * t548 - (t156 * t546 - (t160 * t550 - t162 * t552)));
+  const Real t576 = t220 * (t208 * (t548 - t158 * t560) - (t206 * (t546 + t156 * t560) - (t210 * (t550 - t160
+      * t560) + t212 * (t552 + t162 * t560))));
   const Real t580 = t560 - t204 * t576;
-  const Real t584 = t154 * t580 - (t544 - t188 * t576);
-  const Real t588 = t120 * t584 + (t140 * t580 + (t528 + t174 * t576));
+  const Real t584 = t188 * t576 - (t544 - t154 * t580);
+  const Real t588 = t174 * t576 + (t528 - (t140 * t580 - t120 * t584));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
   const Real h2b_x = c2 * model.h_x - s2 * model.h_y;
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real w1_z = state.z[0] - t426;
+  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
+  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
+  const Real w1_z = state.z[0] + t426;
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
@@ -642,42 +641,41 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real kW1w22 = w1_z * w1_z;
   const Real ka2o_x = ka1o_x - r2_x * kW1w22;
   const Real ka2o_y = ka1o_y + r2_y * kW1w22;
-  const Real zw_2 = t429 * (w1_z + (t429 + w1_z));
+  const Real zw_2 = t429 * (w1_z - (t429 - w1_z));
   const Real kdf2_x = h2b_x * zw_2;
   const Real kdf2_y = h2b_y * zw_2;
   const Real kW3w22 = state.z[1] * state.z[1];
   const Real ka4o_x = r4_x * kW3w22;
   const Real ka4o_y = r4_y * kW3w22;
-  const Real zw_4 = t432 * (t432 + (state.z[1] + state.z[1]));
+  const Real zw_4 = t432 * (state.z[1] + (state.z[1] + t432));
   const Real kdf4_x = h4b_x * zw_4;
   const Real kdf4_y = h4b_y * zw_4;
   const Real kW5w22 = state.z[2] * state.z[2];
   const Real ka6o_x = r6_x * kW5w22;
   const Real ka6o_y = r6_y * kW5w22;
-  const Real zw_6 = t435 * (t435 - (state.z[2] + state.z[2]));
+  const Real zw_6 = t435 * (state.z[2] + (state.z[2] + t435));
   const Real kdf6_x = h6b_x * zw_6;
   const Real kdf6_y = h6b_y * zw_6;
   const Real kf2c_x = kdf1_x - kdf2_x;
-  const Real kf2c_y = kdf1_y - kdf2_y;
+  const Real kf2c_y = kdf1_y + kdf2_y;
   const Real kn2c_z = r2_x * kdf2_y + r2_y * kdf2_x;
-  const Real E6 = r6_x * h6b_x - r6_y * h6b_y + Real(0.0050625);
-  const Real E4 = r4_y * h4b_y + (Real(0.0050625) + r4_x * h4b_x);
+  const Real E6 = r6_y * h6b_y - (r6_x * h6b_x + Real(0.0050625));
+  const Real E4 = r4_x * h4b_x + (Real(0.0050625) + r4_y * h4b_y);
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
-  const Real J1 = D2 + E2 + model.S_xx + Real(0.0037968750000000003) + model.S_yy +
-      Real(0.0012656249999999998);
-  const Real E1 = r1_y * h1_y - (J1 - r1_x * h1_x);
-  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t715 = t584 * E2 - (t588 * J1 + (kn2c_z - (h1_x * ka1o_y - h1_y * ka1o_x)));
-  const Real t718 = t584 * model.S2b_zz - (t588 * E2 - (h2b_x * ka2o_y - h2b_y * ka2o_x));
-  const Real t720 = t580 * Real(0.0050625) - (h4b_x * ka4o_y - h4b_y * ka4o_x);
-  const Real t722 = t576 * Real(0.0050625) - (h6b_x * ka6o_y + h6b_y * ka6o_x);
-  k[0] = t276 * t722 + (t280 * t720 + (t284 * t718 - (t288 * t715 - (t584 * p_2_1n_z - (t588 * E1 + (r1_y *
-      kf2c_x - (kn2c_z + r1_x * kf2c_y)))))));
-  k[1] = t343 * t722 + (t347 * t720 + (t351 * t718 - (t355 * t715 + (t580 * E4 - (r4_x * kdf4_y - r4_y *
-      kdf4_x)))));
-  k[2] = -(t410 * t722 + (t414 * t720 + (t418 * t718 - (t422 * t715 + (t576 * E6 + (r6_x * kdf6_y + r6_y *
-      kdf6_x))))));
+  const Real J1 = E2 + (D2 + model.c5);
+  const Real E1 = r1_x * h1_x - (J1 + r1_y * h1_y);
+  const Real p_2_1n_z = r1_x * h2b_x - (E2 - r1_y * h2b_y);
+  const Real t709 = h1_y * ka1o_x + (h1_x * ka1o_y + (kn2c_z - (t588 * J1 - t584 * E2)));
+  const Real t712 = h2b_y * ka2o_x - (h2b_x * ka2o_y - (t588 * E2 - t584 * model.S2b_zz));
+  const Real t714 = h4b_y * ka4o_x - (h4b_x * ka4o_y + t580 * Real(0.0050625));
+  const Real t716 = h6b_y * ka6o_x + (h6b_x * ka6o_y - t576 * Real(0.0050625));
+  k[0] = r1_x * kf2c_y - (kn2c_z - (r1_y * kf2c_x - (t588 * E1 - (t584 * p_2_1n_z - (t288 * t709 + (t284 *
+      t712 + (t280 * t714 + t276 * t716)))))));
+  k[1] = -(r4_y * kdf4_x - (r4_x * kdf4_y + (t580 * E4 - (t355 * t709 + (t351 * t712 + (t347 * t714 + t343 *
+      t716))))));
+  k[2] = r6_y * kdf6_x + (r6_x * kdf6_y - (t576 * E6 + (t422 * t709 + (t418 * t712 + (t414 * t714 + t410 *
+      t716)))));
 }
 
 template <class Real>
@@ -743,95 +741,95 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t112 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
-  const Real t120 = t112 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
-      pin2ax2_x)));
+  const Real t112 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x)));
+  const Real t120 = t112 * (pin2ax_x * pin2ax2_x - (pin2ax_y * pin2ax2_y + (pin3ax_y * pin3ax2_y - pin3ax_x *
+      pin3ax2_x)));
   const Real t122 = pin2ax_y + pin2ax2_y * t120;
   const Real t124 = pin2ax_x - pin2ax2_x * t120;
   const Real t126 = pin3ax_y + pin3ax2_y * t120;
   const Real t128 = pin3ax_x - pin3ax2_x * t120;
-  const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
+  const Real t136 = Real(1.0) / (t124 * t124 + (t122 * t122 + (t126 * t126 + t128 * t128)));
   const Real t140 = t112 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t142 = pin2bx_y - pin2ax2_y * t140;
   const Real t144 = pin2bx_x - pin2ax2_x * t140;
   const Real t145 = pin3ax2_y * t140;
   const Real t146 = pin3ax2_x * t140;
-  const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
-  const Real t156 = t142 - t122 * t154;
-  const Real t158 = t144 + t124 * t154;
-  const Real t160 = t145 + t126 * t154;
-  const Real t162 = t146 - t128 * t154;
-  const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
+  const Real t154 = t136 * (t124 * t144 - (t122 * t142 - (t126 * t145 - t128 * t146)));
+  const Real t156 = t142 + t122 * t154;
+  const Real t158 = t144 - t124 * t154;
+  const Real t160 = t145 - t126 * t154;
+  const Real t162 = t146 + t128 * t154;
+  const Real t170 = Real(1.0) / (t158 * t158 + (t156 * t156 + (t160 * t160 + t162 * t162)));
   const Real t174 = t112 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t175 = pin2ax2_y * t174;
   const Real t176 = pin2ax2_x * t174;
   const Real t178 = pin3bx_y - pin3ax2_y * t174;
   const Real t180 = pin3bx_x + pin3ax2_x * t174;
-  const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
+  const Real t188 = t136 * (t124 * t176 - (t122 * t175 - (t126 * t178 + t128 * t180)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
   const Real t194 = t178 - t126 * t188;
   const Real t196 = t180 - t128 * t188;
-  const Real t204 = t170 * (t162 * t196 - (t160 * t194 + (t156 * t190 + t158 * t192)));
-  const Real t206 = t190 + t156 * t204;
-  const Real t208 = t192 + t158 * t204;
-  const Real t210 = t194 + t160 * t204;
-  const Real t212 = t196 - t162 * t204;
-  const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
+  const Real t204 = t170 * (t158 * t192 + (t156 * t190 + (t160 * t194 - t162 * t196)));
+  const Real t206 = t190 - t156 * t204;
+  const Real t208 = t192 - t158 * t204;
+  const Real t210 = t194 - t160 * t204;
+  const Real t212 = t196 + t162 * t204;
+  const Real t220 = Real(1.0) / (t208 * t208 + (t206 * t206 + (t210 * t210 + t212 * t212)));
+  const Real t228 = t112 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
+      pin3ax2_x * pin3ax1_x)));
   const Real t230 = pin2ax1_y + pin2ax2_y * t228;
   const Real t232 = pin2ax1_x - pin2ax2_x * t228;
   const Real t234 = pin3ax1_y + pin3ax2_y * t228;
   const Real t236 = pin3ax1_x - pin3ax2_x * t228;
-  const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
+  const Real t244 = t136 * (t124 * t232 + (t122 * t230 + (t126 * t234 + t128 * t236)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
   const Real t250 = t234 - t126 * t244;
   const Real t252 = t236 - t128 * t244;
-  const Real t260 = t170 * (t162 * t252 - (t160 * t250 - (t156 * t246 - t158 * t248)));
-  const Real t276 = t220 * (t212 * (t252 - t162 * t260) + (t210 * (t250 + t160 * t260) - (t206 * (t246 - t156
-      * t260) - t208 * (t248 + t158 * t260))));
+  const Real t260 = t170 * (t158 * t248 - (t156 * t246 - (t160 * t250 - t162 * t252)));
+  const Real t276 = t220 * (t208 * (t248 - t158 * t260) - (t206 * (t246 + t156 * t260) - (t210 * (t250 - t160
+      * t260) + t212 * (t252 + t162 * t260))));
   const Real t280 = t260 - t204 * t276;
-  const Real t284 = t154 * t280 - (t244 - t188 * t276);
-  const Real t288 = t120 * t284 + (t140 * t280 + (t228 + t174 * t276));
+  const Real t284 = t188 * t276 - (t244 - t154 * t280);
+  const Real t288 = t174 * t276 + (t228 - (t140 * t280 - t120 * t284));
   const Real t297 = t112 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t299 = pin2bx4_y - pin2ax2_y * t297;
   const Real t301 = pin2bx4_x + pin2ax2_x * t297;
   const Real t302 = pin3ax2_y * t297;
   const Real t303 = pin3ax2_x * t297;
-  const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
+  const Real t311 = t136 * (t124 * t301 + (t122 * t299 - (t126 * t302 - t128 * t303)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
   const Real t317 = t302 + t126 * t311;
   const Real t319 = t303 - t128 * t311;
-  const Real t327 = t170 * (t162 * t319 + (t160 * t317 + (t156 * t313 - t158 * t315)));
-  const Real t343 = t220 * (t212 * (t319 - t162 * t327) - (t210 * (t317 - t160 * t327) + (t206 * (t313 - t156
-      * t327) - t208 * (t315 + t158 * t327))));
+  const Real t327 = t170 * (t158 * t315 - (t156 * t313 + (t160 * t317 + t162 * t319)));
+  const Real t343 = t220 * (t208 * (t315 - t158 * t327) - (t206 * (t313 + t156 * t327) + (t210 * (t317 + t160
+      * t327) - t212 * (t319 + t162 * t327))));
   const Real t347 = t327 - t204 * t343;
-  const Real t351 = t154 * t347 - (t311 - t188 * t343);
-  const Real t355 = t120 * t351 + (t140 * t347 - (t297 - t174 * t343));
+  const Real t351 = t188 * t343 - (t311 - t154 * t347);
+  const Real t355 = t174 * t343 - (t297 + (t140 * t347 - t120 * t351));
   const Real t364 = t112 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t365 = pin2ax2_y * t364;
   const Real t366 = pin2ax2_x * t364;
   const Real t368 = pin3bx6_y - pin3ax2_y * t364;
   const Real t370 = pin3bx6_x - pin3ax2_x * t364;
-  const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
-  const Real t380 = t365 - t122 * t378;
-  const Real t382 = t366 + t124 * t378;
-  const Real t384 = t368 + t126 * t378;
-  const Real t386 = t370 - t128 * t378;
-  const Real t394 = t170 * (t162 * t386 + (t160 * t384 + (t156 * t380 + t158 * t382)));
-  const Real t410 = t220 * (t212 * (t386 - t162 * t394) - (t210 * (t384 - t160 * t394) + (t206 * (t380 - t156
-      * t394) + t208 * (t382 - t158 * t394))));
+  const Real t378 = t136 * (t124 * t366 - (t122 * t365 - (t126 * t368 - t128 * t370)));
+  const Real t380 = t365 + t122 * t378;
+  const Real t382 = t366 - t124 * t378;
+  const Real t384 = t368 - t126 * t378;
+  const Real t386 = t370 + t128 * t378;
+  const Real t394 = t170 * (t158 * t382 + (t156 * t380 + (t160 * t384 + t162 * t386)));
+  const Real t410 = t220 * (t208 * (t382 - t158 * t394) + (t206 * (t380 - t156 * t394) + (t210 * (t384 - t160
+      * t394) - t212 * (t386 - t162 * t394))));
   const Real t414 = t394 - t204 * t410;
-  const Real t418 = t154 * t414 - (t378 - t188 * t410);
-  const Real t422 = t120 * t418 + (t140 * t414 + (t364 + t174 * t410));
-  const Real t426 = t422 * state.z[2] - (t288 * state.z[0] + t355 * state.z[1]);
-  const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
-  const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
-  const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
+  const Real t418 = t188 * t410 - (t378 - t154 * t414);
+  const Real t422 = t174 * t410 - (t364 + (t140 * t414 - t120 * t418));
+  const Real t426 = t355 * state.z[1] + (t288 * state.z[0] + t422 * state.z[2]);
+  const Real t429 = t351 * state.z[1] + (t284 * state.z[0] + t418 * state.z[2]);
+  const Real t432 = t347 * state.z[1] + (t280 * state.z[0] + t414 * state.z[2]);
+  const Real t435 = t343 * state.z[1] + (t276 * state.z[0] + t410 * state.z[2]);
   const Real pin2am2t_x = pin2ax_y * t429;
   const Real pin2am1t_x = pin2ax2_y * t426;
   const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
@@ -844,20 +842,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
   const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
   const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2am0b_y = pin2am0t_y - Real(2.0) * pin2am1v_y;
+  const Real pin2am0b_y = pin2am0t_y + Real(2.0) * pin2am1v_y;
   const Real pin2bm4t_y = pin2bx_x * t432;
   const Real pin2bm4a_x = t432 * pin2bm4t_y;
   const Real pin2bm3t_y = pin2bx4_x * state.z[1];
   const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
-  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t426
-      * pin2am1b_y)));
+  const Real pin2da_x = t426 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
+      * pin2bm3b_y)));
   const Real pin2am2a_y = t429 * pin2am2t_x;
   const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
-  const Real pin2am0b_x = pin2am0t_x - pin2am1v_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x + pin2am1v_x * Real(2.0);
   const Real pin2bm4a_y = t432 * pin2bm4t_x;
   const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
-  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t426
-      * pin2am1b_x)));
+  const Real pin2da_y = t426 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
+      * pin2bm3b_x)));
   const Real pin3am2t_x = pin3ax_y * t429;
   const Real pin3am1t_x = pin3ax2_y * t426;
   const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
@@ -870,37 +868,37 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
   const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
   const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3am0b_y = pin3am0t_y - Real(2.0) * pin3am1v_y;
+  const Real pin3am0b_y = pin3am0t_y + Real(2.0) * pin3am1v_y;
   const Real pin3bm6t_y = pin3bx_x * t435;
   const Real pin3bm6a_x = t435 * pin3bm6t_y;
   const Real pin3bm5t_y = pin3bx6_x * state.z[2];
-  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
-  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t426
-      * pin3am1b_y)));
+  const Real pin3bm5b_y = pin3bm5t_y + Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = t426 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
+      * pin3bm5b_y)));
   const Real pin3am2a_y = t429 * pin3am2t_x;
   const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
-  const Real pin3am0b_x = pin3am0t_x - Real(2.0) * pin3am1v_x;
+  const Real pin3am0b_x = pin3am0t_x + Real(2.0) * pin3am1v_x;
   const Real pin3bm6a_y = t435 * pin3bm6t_x;
-  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
-  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t426
-      * pin3am1b_x)));
-  const Real t528 = t112 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
-      pin2da_y)));
-  const Real t530 = pin2da_x - pin2ax2_y * t528;
+  const Real pin3bm5b_x = pin3bm5t_x - Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = t426 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
+      * pin3bm5b_x)));
+  const Real t528 = t112 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
+      pin3da_y)));
+  const Real t530 = pin2da_x + pin2ax2_y * t528;
   const Real t532 = pin2da_y - pin2ax2_x * t528;
   const Real t534 = pin3da_x + pin3ax2_y * t528;
   const Real t536 = pin3da_y - pin3ax2_x * t528;
-  const Real t544 = t136 * (t128 * t536 + (t126 * t534 - (t122 * t530 - t124 * t532)));
-  const Real t546 = t530 + t122 * t544;
+  const Real t544 = t136 * (t124 * t532 + (t122 * t530 + (t126 * t534 + t128 * t536)));
+  const Real t546 = t530 - t122 * t544;
   const Real t548 = t532 - t124 * t544;
   const Real t550 = t534 - t126 * t544;
   const Real t552 = t536 - t128 * t544;
-  const Real t560 = t170 * (t162 * t552 - (t160 * t550 + (t156 * t546 + t158 * t548)));
-  const Real t576 = t220 * (t212 * (t552 - t162 * t560) + (t210 * (t550 + t160 * t560) + (t206 * (t546 + t156
-      * t560) + t208 * (t548 + t158 * t560))));
+  const Real t560 = t170 * (t158 * t548 - (t156 * t546 - (t160 * t550 - t162 * t552)));
+  const Real t576 = t220 * (t208 * (t548 - t158 * t560) - (t206 * (t546 + t156 * t560) - (t210 * (t550 - t160
+      * t560) + t212 * (t552 + t162 * t560))));
   const Real t580 = t560 - t204 * t576;
-  const Real t584 = t154 * t580 - (t544 - t188 * t576);
-  const Real ral1o_z = t120 * t584 + (t140 * t580 + (t528 + t174 * t576));
+  const Real t584 = t188 * t576 - (t544 - t154 * t580);
+  const Real ral1o_z = t174 * t576 + (t528 - (t140 * t580 - t120 * t584));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
@@ -913,34 +911,33 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + E2 + model.S_xx + Real(0.0037968750000000003) + model.S_yy +
-      Real(0.0012656249999999998);
-  const Real D1 = r1_x * h1_x + r1_y * h1_y;
+  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
+  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
+  const Real J1 = E2 + (D2 + model.c5);
+  const Real D1 = r1_x * h1_x - r1_y * h1_y;
   const Real E1 = J1 - D1;
-  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t665 = t355 * J1 - t351 * E2;
-  const Real t668 = t355 * E2 - t351 * model.S2b_zz;
-  const Real t670 = E4 - t347 * Real(0.0050625);
-  const Real t671 = t343 * Real(0.0050625);
-  const Real t683 = t422 * J1 - t418 * E2;
-  const Real t686 = t422 * E2 - t418 * model.S2b_zz;
-  const Real t688 = t414 * Real(0.0050625);
-  const Real t690 = E6 - t410 * Real(0.0050625);
-  const Real t699 = t276 * t690 - (t280 * t688 - (t284 * t686 - (t288 * t683 + (t422 * E1 + t418 *
-      p_2_1n_z))));
-  const Real t707 = t343 * t690 - (t347 * t688 - (t351 * t686 + (t414 * E4 - t355 * t683)));
-  const Real t722 = Real(1.0) / (t410 * (E6 + t690) - (t414 * t688 - (t418 * t686 - (t422 * t683 + (D6 + E6 +
-      Real(0.021937500000000002) + Real(0.002))))));
-  const Real t723 = t707 * t722;
-  const Real t741 = t699 * t723 + (t276 * t671 - (t280 * t670 + (t284 * t668 - (t288 * t665 + (t355 * E1 +
-      t351 * p_2_1n_z)))));
-  const Real t742 = t699 * t722;
-  const Real t744 = Real(1.0) / (t347 * (E4 + t670) - (t707 * t723 + (t343 * t671 - (t351 * t668 - (t355 *
-      t665 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
-  const Real t745 = t741 * t744;
-  const Real w1_z = state.z[0] - t426;
+  const Real p_2_1n_z = r1_x * h2b_x - (E2 - r1_y * h2b_y);
+  const Real t653 = t355 * J1 - t351 * E2;
+  const Real t656 = t355 * E2 - t351 * model.S2b_zz;
+  const Real t658 = E4 + t347 * Real(0.0050625);
+  const Real t659 = t343 * Real(0.0050625);
+  const Real t671 = t422 * J1 - t418 * E2;
+  const Real t674 = t422 * E2 - t418 * model.S2b_zz;
+  const Real t676 = t414 * Real(0.0050625);
+  const Real t678 = E6 + t410 * Real(0.0050625);
+  const Real t687 = t418 * p_2_1n_z + (t422 * E1 + (t288 * t671 - (t284 * t674 - (t280 * t676 + t276 *
+      t678))));
+  const Real t695 = t355 * t671 + (t414 * E4 - (t351 * t674 - (t347 * t676 + t343 * t678)));
+  const Real t708 = Real(1.0) / (E6 + (D6 + (t422 * t671 - (t418 * t674 - (t414 * t676 + (t410 * (E6 + t678) +
+      Real(0.0239375)))))));
+  const Real t709 = t695 * t708;
+  const Real t729 = t351 * p_2_1n_z + (t355 * E1 + (t288 * t653 - (t284 * t656 - (t280 * t658 + (t276 * t659 -
+      t687 * t709)))));
+  const Real t730 = t687 * t708;
+  const Real t732 = Real(1.0) / (D4 + (E4 + (t355 * t653 - (t351 * t656 - (t343 * t659 - (t695 * t709 - t347 *
+      (E4 + t658)))) + Real(0.002))) + Real(0.021937500000000002));
+  const Real t733 = t729 * t732;
+  const Real w1_z = state.z[0] + t426;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
@@ -950,46 +947,46 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real zw_1 = t426 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
   const Real rW1w22 = w1_z * w1_z;
-  const Real ra2o_x = r2_y * ral1o_z - (ra1o_x - r2_x * rW1w22);
-  const Real ra2o_y = r2_y * rW1w22 + (ra1o_y - r2_x * ral1o_z);
-  const Real zw_2 = t429 * (w1_z + (t429 + w1_z));
-  const Real rdf2_x = t584 * h2b_y + h2b_x * zw_2;
-  const Real rdf2_y = t584 * h2b_x - h2b_y * zw_2;
+  const Real ra2o_x = r2_x * rW1w22 - (ra1o_x - r2_y * ral1o_z);
+  const Real ra2o_y = r2_x * ral1o_z - (ra1o_y + r2_y * rW1w22);
+  const Real zw_2 = t429 * (w1_z - (t429 - w1_z));
+  const Real rdf2_x = t584 * h2b_y - h2b_x * zw_2;
+  const Real rdf2_y = t584 * h2b_x + h2b_y * zw_2;
   const Real rdn2_z = t584 * model.S2b_zz;
   const Real rW3w22 = state.z[1] * state.z[1];
   const Real ra4o_x = r4_x * rW3w22;
   const Real ra4o_y = r4_y * rW3w22;
-  const Real zw_4 = t432 * (t432 + (state.z[1] + state.z[1]));
-  const Real rdf4_x = t580 * h4b_y + h4b_x * zw_4;
-  const Real rdf4_y = t580 * h4b_x - h4b_y * zw_4;
+  const Real zw_4 = t432 * (state.z[1] + (state.z[1] + t432));
+  const Real rdf4_x = t580 * h4b_y - h4b_x * zw_4;
+  const Real rdf4_y = t580 * h4b_x + h4b_y * zw_4;
   const Real rdn4_z = t580 * Real(0.0050625);
   const Real rW5w22 = state.z[2] * state.z[2];
   const Real ra6o_x = r6_x * rW5w22;
   const Real ra6o_y = r6_y * rW5w22;
-  const Real zw_6 = t435 * (t435 - (state.z[2] + state.z[2]));
+  const Real zw_6 = t435 * (state.z[2] + (state.z[2] + t435));
   const Real rdf6_x = t576 * h6b_y - h6b_x * zw_6;
   const Real rdf6_y = t576 * h6b_x + h6b_y * zw_6;
   const Real rdn6_z = t576 * Real(0.0050625);
-  const Real rf2c_x = rdf2_x - (ral1o_z * h1_y + h1_x * zw_1);
-  const Real rf2c_y = rdf2_y - (ral1o_z * h1_x - h1_y * zw_1);
-  const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y - (rdn1_z - rdn2_z));
-  const Real rQ1_0 = rn2c_z - (h1_x * ra1o_y - h1_y * ra1o_x);
-  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
-  const Real rQ4_0 = rdn4_z - (h4b_x * ra4o_y - h4b_y * ra4o_x);
-  const Real rQ6_0 = rdn6_z - (h6b_x * ra6o_y + h6b_y * ra6o_x);
-  const Real t882 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
-      rdf6_y + (push5_0 + rdn6_z))))));
-  const Real t891 = t723 * t882 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
-      rdf4_x + (r4_x * rdf4_y - (push3_0 - rdn4_z)))))));
-  const Real t903 = Real(1.0) / (t284 * (p_2_1n_z + (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 *
-      (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t741 * t745 + (t699 * t742 + (Real(0.0050625) * (t276 * t276) +
-      (Real(0.0050625) * (t280 * t280) + (Real(0.002) - (D1 - E1 - model.S_xx_2 - Real(0.005062500000000001) -
-      model.S_yy_2 - Real(0.0016875))))))))) * (t745 * t891 + (t742 * t882 - (t276 * rQ6_0 + (t280 * rQ4_0 +
-      (t284 * rQ2_0 + (t288 * rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y + (push0_0 + rn2c_z)))))))));
-  const Real t906 = t744 * t891 - t745 * t903;
-  zdot[0] = -t903;
-  zdot[1] = t906;
-  zdot[2] = t723 * t906 + (t722 * t882 - t742 * t903);
+  const Real rf2c_x = h1_x * zw_1 + (ral1o_z * h1_y + rdf2_x);
+  const Real rf2c_y = h1_y * zw_1 - (ral1o_z * h1_x - rdf2_y);
+  const Real rn2c_z = rdn2_z - (rdn1_z - (r2_x * rdf2_y - r2_y * rdf2_x));
+  const Real rQ1_0 = h1_y * ra1o_x + (h1_x * ra1o_y + rn2c_z);
+  const Real rQ2_0 = h2b_x * ra2o_y + (ral1o_z * model.S2b_zz - (h2b_y * ra2o_x + rdn2_z));
+  const Real rQ4_0 = h4b_y * ra4o_x - (h4b_x * ra4o_y + rdn4_z);
+  const Real rQ6_0 = h6b_y * ra6o_x + (h6b_x * ra6o_y - rdn6_z);
+  const Real t875 = rdn6_z + (push5_0 + (r6_x * rdf6_y - (r6_y * rdf6_x + (t422 * rQ1_0 + (t418 * rQ2_0 +
+      (t414 * rQ4_0 + t410 * rQ6_0))))));
+  const Real t884 = rdn4_z + (push3_0 + (r4_x * rdf4_y + (r4_y * rdf4_x - (t355 * rQ1_0 + (t351 * rQ2_0 +
+      (t347 * rQ4_0 + (t343 * rQ6_0 + t709 * t875)))))));
+  const Real t896 = Real(1.0) / (E1 - (D1 - (Real(0.002) - (t687 * t730 + (t729 * t733 + (t284 * (t288 * E2 -
+      (p_2_1n_z + (p_2_1n_z + t284 * model.S2b_zz))) - (t288 * (t288 * J1 + (E1 + (E1 - t284 * E2))) +
+      (Real(0.0050625) * (t280 * t280 + t276 * t276) + model.S_xx + Real(0.005062500000000001) + model.S_yy +
+      Real(0.0016875))))))))) * (rn2c_z - (push0_0 + (r1_x * rf2c_y + (r1_y * rf2c_x - (t288 * rQ1_0 + (t284 *
+      rQ2_0 + (t280 * rQ4_0 + (t276 * rQ6_0 + (t730 * t875 + t733 * t884)))))))));
+  const Real t899 = t732 * t884 + t733 * t896;
+  zdot[0] = -t896;
+  zdot[1] = t899;
+  zdot[2] = t730 * t896 + (t708 * t875 - t709 * t899);
 }
 
 template <class Real>
@@ -1045,95 +1042,95 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t112 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
-  const Real t120 = t112 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
-      pin2ax2_x)));
+  const Real t112 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x)));
+  const Real t120 = t112 * (pin2ax_x * pin2ax2_x - (pin2ax_y * pin2ax2_y + (pin3ax_y * pin3ax2_y - pin3ax_x *
+      pin3ax2_x)));
   const Real t122 = pin2ax_y + pin2ax2_y * t120;
   const Real t124 = pin2ax_x - pin2ax2_x * t120;
   const Real t126 = pin3ax_y + pin3ax2_y * t120;
   const Real t128 = pin3ax_x - pin3ax2_x * t120;
-  const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
+  const Real t136 = Real(1.0) / (t124 * t124 + (t122 * t122 + (t126 * t126 + t128 * t128)));
   const Real t140 = t112 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t142 = pin2bx_y - pin2ax2_y * t140;
   const Real t144 = pin2bx_x - pin2ax2_x * t140;
   const Real t145 = pin3ax2_y * t140;
   const Real t146 = pin3ax2_x * t140;
-  const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
-  const Real t156 = t142 - t122 * t154;
-  const Real t158 = t144 + t124 * t154;
-  const Real t160 = t145 + t126 * t154;
-  const Real t162 = t146 - t128 * t154;
-  const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
+  const Real t154 = t136 * (t124 * t144 - (t122 * t142 - (t126 * t145 - t128 * t146)));
+  const Real t156 = t142 + t122 * t154;
+  const Real t158 = t144 - t124 * t154;
+  const Real t160 = t145 - t126 * t154;
+  const Real t162 = t146 + t128 * t154;
+  const Real t170 = Real(1.0) / (t158 * t158 + (t156 * t156 + (t160 * t160 + t162 * t162)));
   const Real t174 = t112 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t175 = pin2ax2_y * t174;
   const Real t176 = pin2ax2_x * t174;
   const Real t178 = pin3bx_y - pin3ax2_y * t174;
   const Real t180 = pin3bx_x + pin3ax2_x * t174;
-  const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
+  const Real t188 = t136 * (t124 * t176 - (t122 * t175 - (t126 * t178 + t128 * t180)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
   const Real t194 = t178 - t126 * t188;
   const Real t196 = t180 - t128 * t188;
-  const Real t204 = t170 * (t162 * t196 - (t160 * t194 + (t156 * t190 + t158 * t192)));
-  const Real t206 = t190 + t156 * t204;
-  const Real t208 = t192 + t158 * t204;
-  const Real t210 = t194 + t160 * t204;
-  const Real t212 = t196 - t162 * t204;
-  const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
+  const Real t204 = t170 * (t158 * t192 + (t156 * t190 + (t160 * t194 - t162 * t196)));
+  const Real t206 = t190 - t156 * t204;
+  const Real t208 = t192 - t158 * t204;
+  const Real t210 = t194 - t160 * t204;
+  const Real t212 = t196 + t162 * t204;
+  const Real t220 = Real(1.0) / (t208 * t208 + (t206 * t206 + (t210 * t210 + t212 * t212)));
+  const Real t228 = t112 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
+      pin3ax2_x * pin3ax1_x)));
   const Real t230 = pin2ax1_y + pin2ax2_y * t228;
   const Real t232 = pin2ax1_x - pin2ax2_x * t228;
   const Real t234 = pin3ax1_y + pin3ax2_y * t228;
   const Real t236 = pin3ax1_x - pin3ax2_x * t228;
-  const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
+  const Real t244 = t136 * (t124 * t232 + (t122 * t230 + (t126 * t234 + t128 * t236)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
   const Real t250 = t234 - t126 * t244;
   const Real t252 = t236 - t128 * t244;
-  const Real t260 = t170 * (t162 * t252 - (t160 * t250 - (t156 * t246 - t158 * t248)));
-  const Real t276 = t220 * (t212 * (t252 - t162 * t260) + (t210 * (t250 + t160 * t260) - (t206 * (t246 - t156
-      * t260) - t208 * (t248 + t158 * t260))));
+  const Real t260 = t170 * (t158 * t248 - (t156 * t246 - (t160 * t250 - t162 * t252)));
+  const Real t276 = t220 * (t208 * (t248 - t158 * t260) - (t206 * (t246 + t156 * t260) - (t210 * (t250 - t160
+      * t260) + t212 * (t252 + t162 * t260))));
   const Real t280 = t260 - t204 * t276;
-  const Real t284 = t154 * t280 - (t244 - t188 * t276);
-  const Real t288 = t120 * t284 + (t140 * t280 + (t228 + t174 * t276));
+  const Real t284 = t188 * t276 - (t244 - t154 * t280);
+  const Real t288 = t174 * t276 + (t228 - (t140 * t280 - t120 * t284));
   const Real t297 = t112 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t299 = pin2bx4_y - pin2ax2_y * t297;
   const Real t301 = pin2bx4_x + pin2ax2_x * t297;
   const Real t302 = pin3ax2_y * t297;
   const Real t303 = pin3ax2_x * t297;
-  const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
+  const Real t311 = t136 * (t124 * t301 + (t122 * t299 - (t126 * t302 - t128 * t303)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
   const Real t317 = t302 + t126 * t311;
   const Real t319 = t303 - t128 * t311;
-  const Real t327 = t170 * (t162 * t319 + (t160 * t317 + (t156 * t313 - t158 * t315)));
-  const Real t343 = t220 * (t212 * (t319 - t162 * t327) - (t210 * (t317 - t160 * t327) + (t206 * (t313 - t156
-      * t327) - t208 * (t315 + t158 * t327))));
+  const Real t327 = t170 * (t158 * t315 - (t156 * t313 + (t160 * t317 + t162 * t319)));
+  const Real t343 = t220 * (t208 * (t315 - t158 * t327) - (t206 * (t313 + t156 * t327) + (t210 * (t317 + t160
+      * t327) - t212 * (t319 + t162 * t327))));
   const Real t347 = t327 - t204 * t343;
-  const Real t351 = t154 * t347 - (t311 - t188 * t343);
-  const Real t355 = t120 * t351 + (t140 * t347 - (t297 - t174 * t343));
+  const Real t351 = t188 * t343 - (t311 - t154 * t347);
+  const Real t355 = t174 * t343 - (t297 + (t140 * t347 - t120 * t351));
   const Real t364 = t112 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t365 = pin2ax2_y * t364;
   const Real t366 = pin2ax2_x * t364;
   const Real t368 = pin3bx6_y - pin3ax2_y * t364;
   const Real t370 = pin3bx6_x - pin3ax2_x * t364;
-  const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
-  const Real t380 = t365 - t122 * t378;
-  const Real t382 = t366 + t124 * t378;
-  const Real t384 = t368 + t126 * t378;
-  const Real t386 = t370 - t128 * t378;
-  const Real t394 = t170 * (t162 * t386 + (t160 * t384 + (t156 * t380 + t158 * t382)));
-  const Real t410 = t220 * (t212 * (t386 - t162 * t394) - (t210 * (t384 - t160 * t394) + (t206 * (t380 - t156
-      * t394) + t208 * (t382 - t158 * t394))));
+  const Real t378 = t136 * (t124 * t366 - (t122 * t365 - (t126 * t368 - t128 * t370)));
+  const Real t380 = t365 + t122 * t378;
+  const Real t382 = t366 - t124 * t378;
+  const Real t384 = t368 - t126 * t378;
+  const Real t386 = t370 + t128 * t378;
+  const Real t394 = t170 * (t158 * t382 + (t156 * t380 + (t160 * t384 + t162 * t386)));
+  const Real t410 = t220 * (t208 * (t382 - t158 * t394) + (t206 * (t380 - t156 * t394) + (t210 * (t384 - t160
+      * t394) - t212 * (t386 - t162 * t394))));
   const Real t414 = t394 - t204 * t410;
-  const Real t418 = t154 * t414 - (t378 - t188 * t410);
-  const Real t422 = t120 * t418 + (t140 * t414 + (t364 + t174 * t410));
-  const Real t426 = t422 * state.z[2] - (t288 * state.z[0] + t355 * state.z[1]);
-  const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
-  const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
-  const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
+  const Real t418 = t188 * t410 - (t378 - t154 * t414);
+  const Real t422 = t174 * t410 - (t364 + (t140 * t414 - t120 * t418));
+  const Real t426 = t355 * state.z[1] + (t288 * state.z[0] + t422 * state.z[2]);
+  const Real t429 = t351 * state.z[1] + (t284 * state.z[0] + t418 * state.z[2]);
+  const Real t432 = t347 * state.z[1] + (t280 * state.z[0] + t414 * state.z[2]);
+  const Real t435 = t343 * state.z[1] + (t276 * state.z[0] + t410 * state.z[2]);
   const Real pin2am2t_x = pin2ax_y * t429;
   const Real pin2am1t_x = pin2ax2_y * t426;
   const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
@@ -1146,20 +1143,20 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
   const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
   const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2am0b_y = pin2am0t_y - Real(2.0) * pin2am1v_y;
+  const Real pin2am0b_y = pin2am0t_y + Real(2.0) * pin2am1v_y;
   const Real pin2bm4t_y = pin2bx_x * t432;
   const Real pin2bm4a_x = t432 * pin2bm4t_y;
   const Real pin2bm3t_y = pin2bx4_x * state.z[1];
   const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
-  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t426
-      * pin2am1b_y)));
+  const Real pin2da_x = t426 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
+      * pin2bm3b_y)));
   const Real pin2am2a_y = t429 * pin2am2t_x;
   const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
-  const Real pin2am0b_x = pin2am0t_x - pin2am1v_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x + pin2am1v_x * Real(2.0);
   const Real pin2bm4a_y = t432 * pin2bm4t_x;
   const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
-  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t426
-      * pin2am1b_x)));
+  const Real pin2da_y = t426 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
+      * pin2bm3b_x)));
   const Real pin3am2t_x = pin3ax_y * t429;
   const Real pin3am1t_x = pin3ax2_y * t426;
   const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
@@ -1172,59 +1169,55 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
   const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
   const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3am0b_y = pin3am0t_y - Real(2.0) * pin3am1v_y;
+  const Real pin3am0b_y = pin3am0t_y + Real(2.0) * pin3am1v_y;
   const Real pin3bm6t_y = pin3bx_x * t435;
   const Real pin3bm6a_x = t435 * pin3bm6t_y;
   const Real pin3bm5t_y = pin3bx6_x * state.z[2];
-  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
-  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t426
-      * pin3am1b_y)));
+  const Real pin3bm5b_y = pin3bm5t_y + Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = t426 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
+      * pin3bm5b_y)));
   const Real pin3am2a_y = t429 * pin3am2t_x;
   const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
-  const Real pin3am0b_x = pin3am0t_x - Real(2.0) * pin3am1v_x;
+  const Real pin3am0b_x = pin3am0t_x + Real(2.0) * pin3am1v_x;
   const Real pin3bm6a_y = t435 * pin3bm6t_x;
-  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
-  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t426
-      * pin3am1b_x)));
-  const Real t528 = t112 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
-      pin2da_y)));
-  const Real t530 = pin2da_x - pin2ax2_y * t528;
+  const Real pin3bm5b_x = pin3bm5t_x - Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = t426 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
+      * pin3bm5b_x)));
+  const Real t528 = t112 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
+      pin3da_y)));
+  const Real t530 = pin2da_x + pin2ax2_y * t528;
   const Real t532 = pin2da_y - pin2ax2_x * t528;
   const Real t534 = pin3da_x + pin3ax2_y * t528;
   const Real t536 = pin3da_y - pin3ax2_x * t528;
-  const Real t544 = t136 * (t128 * t536 + (t126 * t534 - (t122 * t530 - t124 * t532)));
-  const Real t546 = t530 + t122 * t544;
+  const Real t544 = t136 * (t124 * t532 + (t122 * t530 + (t126 * t534 + t128 * t536)));
+  const Real t546 = t530 - t122 * t544;
   const Real t548 = t532 - t124 * t544;
   const Real t550 = t534 - t126 * t544;
   const Real t552 = t536 - t128 * t544;
-  const Real t560 = t170 * (t162 * t552 - (t160 * t550 + (t156 * t546 + t158 * t548)));
-  const Real t576 = t220 * (t212 * (t552 - t162 * t560) + (t210 * (t550 + t160 * t560) + (t206 * (t546 + t156
-      * t560) + t208 * (t548 + t158 * t560))));
+  const Real t560 = t170 * (t158 * t548 - (t156 * t546 - (t160 * t550 - t162 * t552)));
+  const Real t576 = t220 * (t208 * (t548 - t158 * t560) - (t206 * (t546 + t156 * t560) - (t210 * (t550 - t160
+      * t560) + t212 * (t552 + t162 * t560))));
   const Real t580 = t560 - t204 * t576;
-  const Real t584 = t154 * t580 - (t544 - t188 * t576);
-  const Real t603 = t422 * zdot[2] - (t355 * zdot[1] + (t288 * zdot[0] - (t120 * t584 + (t140 * t580 + (t528 +
-      t174 * t576)))));
-  const Real t607 = t418 * zdot[2] - (t351 * zdot[1] - (t584 - t284 * zdot[0]));
-  const Real t611 = t414 * zdot[2] - (t347 * zdot[1] - (t580 - t280 * zdot[0]));
-  const Real t615 = t410 * zdot[2] - (t343 * zdot[1] - (t576 - t276 * zdot[0]));
+  const Real t584 = t188 * t576 - (t544 - t154 * t580);
+  const Real t603 = t174 * t576 + (t528 - (t140 * t580 - (t120 * t584 - (t288 * zdot[0] + (t355 * zdot[1] +
+      t422 * zdot[2])))));
+  const Real t607 = t284 * zdot[0] - (t584 - (t351 * zdot[1] + t418 * zdot[2]));
+  const Real t611 = t280 * zdot[0] - (t580 - (t347 * zdot[1] + t414 * zdot[2]));
+  const Real t615 = t276 * zdot[0] - (t576 - (t343 * zdot[1] + t410 * zdot[2]));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
-  const Real J5 = D6 + D6 + Real(0.0050625) + Real(0.021937500000000002);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (Real(0.0050625) + (Real(0.021937500000000002) + D4));
   const Real h2b_x = c2 * model.h_x - s2 * model.h_y;
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + (D2 + model.S2b_zz) + model.S_xx + Real(0.0037968750000000003) + model.S_yy +
-      Real(0.0012656249999999998);
-  const Real D1 = r1_x * h1_x + r1_y * h1_y;
-  const Real J0 = D1 - (J1 - D1) - model.S_xx_2 - Real(0.005062500000000001) - model.S_yy_2 - Real(0.0016875);
-  const Real w1_z = state.z[0] - t426;
+  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
+  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
+  const Real J1 = D2 + (D2 + model.c5 + model.S2b_zz);
+  const Real D1 = r1_x * h1_x - r1_y * h1_y;
+  const Real w1_z = state.z[0] + t426;
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_y * zdot[0] + r1_x * aW0w22;
   const Real aa1o_y = r1_x * zdot[0] - r1_y * aW0w22;
@@ -1232,39 +1225,39 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real adn1_z = t603 * J1;
   const Real aal1o_z = zdot[0] - t603;
   const Real aW1w22 = w1_z * w1_z;
-  const Real aa2o_x = r2_y * aal1o_z + (aa1o_x - r2_x * aW1w22);
-  const Real aa2o_y = r2_y * aW1w22 - (aa1o_y - r2_x * aal1o_z);
-  const Real zw_2 = t429 * (w1_z + (t429 + w1_z));
+  const Real aa2o_x = r2_x * aW1w22 - (aa1o_x + r2_y * aal1o_z);
+  const Real aa2o_y = r2_x * aal1o_z - (aa1o_y - r2_y * aW1w22);
+  const Real zw_2 = t429 * (w1_z - (t429 - w1_z));
   const Real adf2_x = t607 * h2b_y + h2b_x * zw_2;
   const Real adf2_y = t607 * h2b_x - h2b_y * zw_2;
   const Real adn2_z = t607 * model.S2b_zz;
   const Real aW3w22 = state.z[1] * state.z[1];
   const Real aa4o_x = r4_y * zdot[1] + r4_x * aW3w22;
   const Real aa4o_y = r4_x * zdot[1] - r4_y * aW3w22;
-  const Real zw_4 = t432 * (t432 + (state.z[1] + state.z[1]));
+  const Real zw_4 = t432 * (state.z[1] + (state.z[1] + t432));
   const Real adf4_x = t611 * h4b_y + h4b_x * zw_4;
   const Real adf4_y = t611 * h4b_x - h4b_y * zw_4;
   const Real adn4_z = t611 * Real(0.0050625);
   const Real aW5w22 = state.z[2] * state.z[2];
   const Real aa6o_x = r6_y * zdot[2] - r6_x * aW5w22;
   const Real aa6o_y = r6_x * zdot[2] + r6_y * aW5w22;
-  const Real zw_6 = t435 * (t435 - (state.z[2] + state.z[2]));
-  const Real adf6_x = t615 * h6b_y - h6b_x * zw_6;
-  const Real adf6_y = t615 * h6b_x + h6b_y * zw_6;
+  const Real zw_6 = t435 * (state.z[2] + (state.z[2] + t435));
+  const Real adf6_x = t615 * h6b_y + h6b_x * zw_6;
+  const Real adf6_y = t615 * h6b_x - h6b_y * zw_6;
   const Real adn6_z = t615 * Real(0.0050625);
-  const Real af2c_x = adf2_x - (t603 * h1_y + h1_x * zw_1);
-  const Real af2c_y = adf2_y - (t603 * h1_x - h1_y * zw_1);
-  const Real an2c_z = r2_y * adf2_x - (r2_x * adf2_y - (adn1_z - adn2_z));
-  const Real aQ1_0 = an2c_z + (h1_y * aa1o_x - (zdot[0] * J1 - h1_x * aa1o_y));
-  const Real aQ2_0 = adn2_z - (h2b_y * aa2o_x - (model.S2b_zz * aal1o_z + h2b_x * aa2o_y));
-  const Real aQ4_0 = adn4_z + (h4b_y * aa4o_x + (zdot[1] * Real(0.0050625) + h4b_x * aa4o_y));
-  const Real aQ6_0 = adn6_z + (h6b_y * aa6o_x - (zdot[2] * Real(0.0050625) + h6b_x * aa6o_y));
-  tau[0] = -(zdot[0] * (J0 - Real(0.002)) + (t276 * aQ6_0 + (t280 * aQ4_0 + (t284 * aQ2_0 + (t288 * aQ1_0 +
-      (r1_y * af2c_x + (an2c_z + r1_x * af2c_y)))))));
-  tau[1] = zdot[1] * (J3 + Real(0.002)) - (t343 * aQ6_0 + (t347 * aQ4_0 + (t351 * aQ2_0 + (t355 * aQ1_0 -
-      (r4_y * adf4_x + (adn4_z + r4_x * adf4_y))))));
-  tau[2] = zdot[2] * (J5 + Real(0.002)) + (t410 * aQ6_0 + (t414 * aQ4_0 + (t418 * aQ2_0 + (t422 * aQ1_0 +
-      (r6_y * adf6_x - (adn6_z + r6_x * adf6_y))))));
+  const Real af2c_x = h1_x * zw_1 + (t603 * h1_y - adf2_x);
+  const Real af2c_y = h1_y * zw_1 - (t603 * h1_x + adf2_y);
+  const Real an2c_z = adn2_z + (adn1_z + (r2_x * adf2_y - r2_y * adf2_x));
+  const Real aQ1_0 = h1_x * aa1o_y - (zdot[0] * J1 + (h1_y * aa1o_x - an2c_z));
+  const Real aQ2_0 = h2b_x * aa2o_y + (model.S2b_zz * aal1o_z + (h2b_y * aa2o_x - adn2_z));
+  const Real aQ4_0 = h4b_x * aa4o_y + (zdot[1] * Real(0.0050625) + (h4b_y * aa4o_x + adn4_z));
+  const Real aQ6_0 = h6b_x * aa6o_y + (zdot[2] * Real(0.0050625) - (h6b_y * aa6o_x - adn6_z));
+  tau[0] = -(r1_x * af2c_y + (an2c_z + (r1_y * af2c_x + (t288 * aQ1_0 + (t284 * aQ2_0 - (t280 * aQ4_0 + (t276
+      * aQ6_0 - zdot[0] * (D1 - (J1 - (D1 - model.c8)) - Real(0.002)))))))));
+  tau[1] = r4_x * adf4_y + (adn4_z + (r4_y * adf4_x - (t355 * aQ1_0 + (t351 * aQ2_0 - (t347 * aQ4_0 + (t343 *
+      aQ6_0 + zdot[1] * (Real(0.002) + (D4 + (D4 + Real(0.0050625) + Real(0.021937500000000002))))))))));
+  tau[2] = r6_x * adf6_y + (adn6_z - (r6_y * adf6_x + (t422 * aQ1_0 + (t418 * aQ2_0 - (t414 * aQ4_0 + (t410 *
+      aQ6_0 + zdot[2] * (Real(0.002) + (D6 + (D6 + Real(0.027000000000000003))))))))));
 }
 
 template <class Real>
@@ -1319,109 +1312,108 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t101 = r1_x - t97;
   const Real t102 = r1_y + t98;
   const Real t103 = r1_x - t99;
-  const Real t112 = Real(1.0) / (t99 * t99 + (t98 * t98 + (t96 * t96 + t97 * t97)));
-  const Real t120 = t112 * (pin3ax_x * t99 - (pin3ax_y * t98 + (pin2ax_y * t96 - pin2ax_x * t97)));
+  const Real t112 = Real(1.0) / (t97 * t97 + (t96 * t96 + (t98 * t98 + t99 * t99)));
+  const Real t120 = t112 * (pin2ax_x * t97 - (pin2ax_y * t96 + (pin3ax_y * t98 - pin3ax_x * t99)));
   const Real t122 = pin2ax_y + t96 * t120;
   const Real t124 = pin2ax_x - t97 * t120;
   const Real t126 = pin3ax_y + t98 * t120;
   const Real t128 = pin3ax_x - t99 * t120;
-  const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
+  const Real t136 = Real(1.0) / (t124 * t124 + (t122 * t122 + (t126 * t126 + t128 * t128)));
   const Real t140 = t112 * (pin2bx_y * t96 + pin2bx_x * t97);
   const Real t142 = pin2bx_y - t96 * t140;
   const Real t144 = pin2bx_x - t97 * t140;
   const Real t145 = t98 * t140;
   const Real t146 = t99 * t140;
-  const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
-  const Real t156 = t142 - t122 * t154;
-  const Real t158 = t144 + t124 * t154;
-  const Real t160 = t145 + t126 * t154;
-  const Real t162 = t146 - t128 * t154;
-  const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
+  const Real t154 = t136 * (t124 * t144 - (t122 * t142 - (t126 * t145 - t128 * t146)));
+  const Real t156 = t142 + t122 * t154;
+  const Real t158 = t144 - t124 * t154;
+  const Real t160 = t145 - t126 * t154;
+  const Real t162 = t146 + t128 * t154;
+  const Real t170 = Real(1.0) / (t158 * t158 + (t156 * t156 + (t160 * t160 + t162 * t162)));
   const Real t174 = t112 * (pin3bx_y * t98 - pin3bx_x * t99);
   const Real t175 = t96 * t174;
   const Real t176 = t97 * t174;
   const Real t178 = pin3bx_y - t98 * t174;
   const Real t180 = pin3bx_x + t99 * t174;
-  const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
+  const Real t188 = t136 * (t124 * t176 - (t122 * t175 - (t126 * t178 + t128 * t180)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
   const Real t194 = t178 - t126 * t188;
   const Real t196 = t180 - t128 * t188;
-  const Real t204 = t170 * (t162 * t196 - (t160 * t194 + (t156 * t190 + t158 * t192)));
-  const Real t206 = t190 + t156 * t204;
-  const Real t208 = t192 + t158 * t204;
-  const Real t210 = t194 + t160 * t204;
-  const Real t212 = t196 - t162 * t204;
-  const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (t99 * t103 - (t98 * t102 + (t96 * t100 - t97 * t101)));
+  const Real t204 = t170 * (t158 * t192 + (t156 * t190 + (t160 * t194 - t162 * t196)));
+  const Real t206 = t190 - t156 * t204;
+  const Real t208 = t192 - t158 * t204;
+  const Real t210 = t194 - t160 * t204;
+  const Real t212 = t196 + t162 * t204;
+  const Real t220 = Real(1.0) / (t208 * t208 + (t206 * t206 + (t210 * t210 + t212 * t212)));
+  const Real t228 = t112 * (t97 * t101 - (t96 * t100 + (t98 * t102 - t99 * t103)));
   const Real t230 = t100 + t96 * t228;
   const Real t232 = t101 - t97 * t228;
   const Real t234 = t102 + t98 * t228;
   const Real t236 = t103 - t99 * t228;
-  const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
+  const Real t244 = t136 * (t124 * t232 + (t122 * t230 + (t126 * t234 + t128 * t236)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
   const Real t250 = t234 - t126 * t244;
   const Real t252 = t236 - t128 * t244;
-  const Real t260 = t170 * (t162 * t252 - (t160 * t250 - (t156 * t246 - t158 * t248)));
-  const Real t276 = t220 * (t212 * (t252 - t162 * t260) + (t210 * (t250 + t160 * t260) - (t206 * (t246 - t156
-      * t260) - t208 * (t248 + t158 * t260))));
+  const Real t260 = t170 * (t158 * t248 - (t156 * t246 - (t160 * t250 - t162 * t252)));
+  const Real t276 = t220 * (t208 * (t248 - t158 * t260) - (t206 * (t246 + t156 * t260) - (t210 * (t250 - t160
+      * t260) + t212 * (t252 + t162 * t260))));
   const Real t280 = t260 - t204 * t276;
-  const Real t284 = t154 * t280 - (t244 - t188 * t276);
+  const Real t284 = t188 * t276 - (t244 - t154 * t280);
   const Real t297 = t112 * (t94 * t96 - t95 * t97);
   const Real t299 = t94 - t96 * t297;
   const Real t301 = t95 + t97 * t297;
   const Real t302 = t98 * t297;
   const Real t303 = t99 * t297;
-  const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
+  const Real t311 = t136 * (t124 * t301 + (t122 * t299 - (t126 * t302 - t128 * t303)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
   const Real t317 = t302 + t126 * t311;
   const Real t319 = t303 - t128 * t311;
-  const Real t327 = t170 * (t162 * t319 + (t160 * t317 + (t156 * t313 - t158 * t315)));
-  const Real t343 = t220 * (t212 * (t319 - t162 * t327) - (t210 * (t317 - t160 * t327) + (t206 * (t313 - t156
-      * t327) - t208 * (t315 + t158 * t327))));
+  const Real t327 = t170 * (t158 * t315 - (t156 * t313 + (t160 * t317 + t162 * t319)));
+  const Real t343 = t220 * (t208 * (t315 - t158 * t327) - (t206 * (t313 + t156 * t327) + (t210 * (t317 + t160
+      * t327) - t212 * (t319 + t162 * t327))));
   const Real t347 = t327 - t204 * t343;
-  const Real t351 = t154 * t347 - (t311 - t188 * t343);
+  const Real t351 = t188 * t343 - (t311 - t154 * t347);
   const Real t364 = t112 * (pin3bx6_y * t98 + pin3bx6_x * t99);
   const Real t365 = t96 * t364;
   const Real t366 = t97 * t364;
   const Real t368 = pin3bx6_y - t98 * t364;
   const Real t370 = pin3bx6_x - t99 * t364;
-  const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
-  const Real t380 = t365 - t122 * t378;
-  const Real t382 = t366 + t124 * t378;
-  const Real t384 = t368 + t126 * t378;
-  const Real t386 = t370 - t128 * t378;
-  const Real t394 = t170 * (t162 * t386 + (t160 * t384 + (t156 * t380 + t158 * t382)));
-  const Real t410 = t220 * (t212 * (t386 - t162 * t394) - (t210 * (t384 - t160 * t394) + (t206 * (t380 - t156
-      * t394) + t208 * (t382 - t158 * t394))));
+  const Real t378 = t136 * (t124 * t366 - (t122 * t365 - (t126 * t368 - t128 * t370)));
+  const Real t380 = t365 + t122 * t378;
+  const Real t382 = t366 - t124 * t378;
+  const Real t384 = t368 - t126 * t378;
+  const Real t386 = t370 + t128 * t378;
+  const Real t394 = t170 * (t158 * t382 + (t156 * t380 + (t160 * t384 + t162 * t386)));
+  const Real t410 = t220 * (t208 * (t382 - t158 * t394) + (t206 * (t380 - t156 * t394) + (t210 * (t384 - t160
+      * t394) - t212 * (t386 - t162 * t394))));
   const Real t414 = t394 - t204 * t410;
-  const Real t418 = t154 * t414 - (t378 - t188 * t410);
-  const Real t426 = (t120 * t418 + (t140 * t414 + (t364 + t174 * t410))) * state.z[2] - ((t120 * t284 + (t140
-      * t280 + (t228 + t174 * t276))) * state.z[0] + (t120 * t351 + (t140 * t347 - (t297 - t174 * t343))) *
-      state.z[1]);
-  const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
-  const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
-  const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
+  const Real t418 = t188 * t410 - (t378 - t154 * t414);
+  const Real t426 = (t174 * t343 - (t297 + (t140 * t347 - t120 * t351))) * state.z[1] + ((t174 * t276 + (t228
+      - (t140 * t280 - t120 * t284))) * state.z[0] + (t174 * t410 - (t364 + (t140 * t414 - t120 * t418))) *
+      state.z[2]);
+  const Real t429 = t351 * state.z[1] + (t284 * state.z[0] + t418 * state.z[2]);
+  const Real t432 = t347 * state.z[1] + (t280 * state.z[0] + t414 * state.z[2]);
+  const Real t435 = t343 * state.z[1] + (t276 * state.z[0] + t410 * state.z[2]);
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
-  const Real J5 = D6 + D6 + Real(0.0050625) + Real(0.021937500000000002);
+  const Real J5 = D6 + (D6 + Real(0.027000000000000003));
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (Real(0.0050625) + (Real(0.021937500000000002) + D4));
+  const Real J3 = D4 + (D4 + Real(0.0050625) + Real(0.021937500000000002));
   const Real h2b_x = c2 * model.h_x - s2 * model.h_y;
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + (D2 + model.S2b_zz) + model.S_xx + Real(0.0037968750000000003) + model.S_yy +
-      Real(0.0012656249999999998);
-  const Real D1 = r1_x * h1_x + r1_y * h1_y;
-  const Real J0 = D1 - (J1 - D1) - model.S_xx_2 - Real(0.005062500000000001) - model.S_yy_2 - Real(0.0016875);
-  const Real w1_z = state.z[0] - t426;
+  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
+  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
+  const Real J1 = D2 + (D2 + model.c5 + model.S2b_zz);
+  const Real D1 = r1_x * h1_x - r1_y * h1_y;
+  const Real J0 = D1 - (J1 - (D1 - model.c8));
+  const Real w1_z = state.z[0] + t426;
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
@@ -1445,11 +1437,11 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v6P_x = t435 * h6b_y;
   const Real v6P_y = t435 * h6b_x;
   const Real v6L_z = t435 * Real(0.0050625);
-  const Real T_rotor = (state.z[2] * v5L_z + (state.z[1] * v3L_z - (state.z[0] * v0L_z - (t426 * v1L_z + (t429
-      * v2L_z + (t432 * v4L_z + t435 * v6L_z)))))) * Real(0.5) + ((state.z[2] * state.z[2] + (state.z[0] *
-      state.z[0] + state.z[1] * state.z[1])) * Real(0.001) - (v6o_y * v6P_y - (v6o_x * v6P_x - (state.z[2] *
-      v6L_z - (v4o_y * v4P_y + (v4o_x * v4P_x + (state.z[1] * v4L_z - (v2o_y * v2P_y + (v2o_x * v2P_x - (w1_z
-      * v2L_z + (v1o_y * v1P_y - (state.z[0] * v1L_z - v1o_x * v1P_x))))))))))));
+  const Real T_rotor = v1o_x * v1P_x + (state.z[0] * v1L_z - (v1o_y * v1P_y + (w1_z * v2L_z - (v2o_x * v2P_x +
+      (v2o_y * v2P_y + (state.z[1] * v4L_z + (v4o_x * v4P_x + (v4o_y * v4P_y + (state.z[2] * v6L_z - (v6o_x *
+      v6P_x - (v6o_y * v6P_y + ((t435 * v6L_z + (t432 * v4L_z + (t429 * v2L_z + (t426 * v1L_z - (state.z[0] *
+      v0L_z - (state.z[1] * v3L_z + state.z[2] * v5L_z)))))) * Real(0.5) + (state.z[1] * state.z[1] +
+      (state.z[0] * state.z[0] + state.z[2] * state.z[2])) * Real(0.001)))))))))))));
   return T_rotor;
 }
 
@@ -2094,95 +2086,95 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t112 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
-  const Real t120 = t112 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
-      pin2ax2_x)));
+  const Real t112 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x)));
+  const Real t120 = t112 * (pin2ax_x * pin2ax2_x - (pin2ax_y * pin2ax2_y + (pin3ax_y * pin3ax2_y - pin3ax_x *
+      pin3ax2_x)));
   const Real t122 = pin2ax_y + pin2ax2_y * t120;
   const Real t124 = pin2ax_x - pin2ax2_x * t120;
   const Real t126 = pin3ax_y + pin3ax2_y * t120;
   const Real t128 = pin3ax_x - pin3ax2_x * t120;
-  const Real t136 = Real(1.0) / (t128 * t128 + (t126 * t126 + (t122 * t122 + t124 * t124)));
+  const Real t136 = Real(1.0) / (t124 * t124 + (t122 * t122 + (t126 * t126 + t128 * t128)));
   const Real t140 = t112 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t142 = pin2bx_y - pin2ax2_y * t140;
   const Real t144 = pin2bx_x - pin2ax2_x * t140;
   const Real t145 = pin3ax2_y * t140;
   const Real t146 = pin3ax2_x * t140;
-  const Real t154 = t136 * (t128 * t146 - (t126 * t145 - (t122 * t142 - t124 * t144)));
-  const Real t156 = t142 - t122 * t154;
-  const Real t158 = t144 + t124 * t154;
-  const Real t160 = t145 + t126 * t154;
-  const Real t162 = t146 - t128 * t154;
-  const Real t170 = Real(1.0) / (t162 * t162 + (t160 * t160 + (t156 * t156 + t158 * t158)));
+  const Real t154 = t136 * (t124 * t144 - (t122 * t142 - (t126 * t145 - t128 * t146)));
+  const Real t156 = t142 + t122 * t154;
+  const Real t158 = t144 - t124 * t154;
+  const Real t160 = t145 - t126 * t154;
+  const Real t162 = t146 + t128 * t154;
+  const Real t170 = Real(1.0) / (t158 * t158 + (t156 * t156 + (t160 * t160 + t162 * t162)));
   const Real t174 = t112 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t175 = pin2ax2_y * t174;
   const Real t176 = pin2ax2_x * t174;
   const Real t178 = pin3bx_y - pin3ax2_y * t174;
   const Real t180 = pin3bx_x + pin3ax2_x * t174;
-  const Real t188 = t136 * (t128 * t180 + (t126 * t178 - (t122 * t175 - t124 * t176)));
+  const Real t188 = t136 * (t124 * t176 - (t122 * t175 - (t126 * t178 + t128 * t180)));
   const Real t190 = t175 + t122 * t188;
   const Real t192 = t176 - t124 * t188;
   const Real t194 = t178 - t126 * t188;
   const Real t196 = t180 - t128 * t188;
-  const Real t204 = t170 * (t162 * t196 - (t160 * t194 + (t156 * t190 + t158 * t192)));
-  const Real t206 = t190 + t156 * t204;
-  const Real t208 = t192 + t158 * t204;
-  const Real t210 = t194 + t160 * t204;
-  const Real t212 = t196 - t162 * t204;
-  const Real t220 = Real(1.0) / (t212 * t212 + (t210 * t210 + (t206 * t206 + t208 * t208)));
-  const Real t228 = t112 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
+  const Real t204 = t170 * (t158 * t192 + (t156 * t190 + (t160 * t194 - t162 * t196)));
+  const Real t206 = t190 - t156 * t204;
+  const Real t208 = t192 - t158 * t204;
+  const Real t210 = t194 - t160 * t204;
+  const Real t212 = t196 + t162 * t204;
+  const Real t220 = Real(1.0) / (t208 * t208 + (t206 * t206 + (t210 * t210 + t212 * t212)));
+  const Real t228 = t112 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
+      pin3ax2_x * pin3ax1_x)));
   const Real t230 = pin2ax1_y + pin2ax2_y * t228;
   const Real t232 = pin2ax1_x - pin2ax2_x * t228;
   const Real t234 = pin3ax1_y + pin3ax2_y * t228;
   const Real t236 = pin3ax1_x - pin3ax2_x * t228;
-  const Real t244 = t136 * (t128 * t236 + (t126 * t234 + (t122 * t230 + t124 * t232)));
+  const Real t244 = t136 * (t124 * t232 + (t122 * t230 + (t126 * t234 + t128 * t236)));
   const Real t246 = t230 - t122 * t244;
   const Real t248 = t232 - t124 * t244;
   const Real t250 = t234 - t126 * t244;
   const Real t252 = t236 - t128 * t244;
-  const Real t260 = t170 * (t162 * t252 - (t160 * t250 - (t156 * t246 - t158 * t248)));
-  const Real t276 = t220 * (t212 * (t252 - t162 * t260) + (t210 * (t250 + t160 * t260) - (t206 * (t246 - t156
-      * t260) - t208 * (t248 + t158 * t260))));
+  const Real t260 = t170 * (t158 * t248 - (t156 * t246 - (t160 * t250 - t162 * t252)));
+  const Real t276 = t220 * (t208 * (t248 - t158 * t260) - (t206 * (t246 + t156 * t260) - (t210 * (t250 - t160
+      * t260) + t212 * (t252 + t162 * t260))));
   const Real t280 = t260 - t204 * t276;
-  const Real t284 = t154 * t280 - (t244 - t188 * t276);
-  const Real t288 = t120 * t284 + (t140 * t280 + (t228 + t174 * t276));
+  const Real t284 = t188 * t276 - (t244 - t154 * t280);
+  const Real t288 = t174 * t276 + (t228 - (t140 * t280 - t120 * t284));
   const Real t297 = t112 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t299 = pin2bx4_y - pin2ax2_y * t297;
   const Real t301 = pin2bx4_x + pin2ax2_x * t297;
   const Real t302 = pin3ax2_y * t297;
   const Real t303 = pin3ax2_x * t297;
-  const Real t311 = t136 * (t128 * t303 - (t126 * t302 - (t122 * t299 + t124 * t301)));
+  const Real t311 = t136 * (t124 * t301 + (t122 * t299 - (t126 * t302 - t128 * t303)));
   const Real t313 = t299 - t122 * t311;
   const Real t315 = t301 - t124 * t311;
   const Real t317 = t302 + t126 * t311;
   const Real t319 = t303 - t128 * t311;
-  const Real t327 = t170 * (t162 * t319 + (t160 * t317 + (t156 * t313 - t158 * t315)));
-  const Real t343 = t220 * (t212 * (t319 - t162 * t327) - (t210 * (t317 - t160 * t327) + (t206 * (t313 - t156
-      * t327) - t208 * (t315 + t158 * t327))));
+  const Real t327 = t170 * (t158 * t315 - (t156 * t313 + (t160 * t317 + t162 * t319)));
+  const Real t343 = t220 * (t208 * (t315 - t158 * t327) - (t206 * (t313 + t156 * t327) + (t210 * (t317 + t160
+      * t327) - t212 * (t319 + t162 * t327))));
   const Real t347 = t327 - t204 * t343;
-  const Real t351 = t154 * t347 - (t311 - t188 * t343);
-  const Real t355 = t120 * t351 + (t140 * t347 - (t297 - t174 * t343));
+  const Real t351 = t188 * t343 - (t311 - t154 * t347);
+  const Real t355 = t174 * t343 - (t297 + (t140 * t347 - t120 * t351));
   const Real t364 = t112 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t365 = pin2ax2_y * t364;
   const Real t366 = pin2ax2_x * t364;
   const Real t368 = pin3bx6_y - pin3ax2_y * t364;
   const Real t370 = pin3bx6_x - pin3ax2_x * t364;
-  const Real t378 = t136 * (t128 * t370 - (t126 * t368 - (t122 * t365 - t124 * t366)));
-  const Real t380 = t365 - t122 * t378;
-  const Real t382 = t366 + t124 * t378;
-  const Real t384 = t368 + t126 * t378;
-  const Real t386 = t370 - t128 * t378;
-  const Real t394 = t170 * (t162 * t386 + (t160 * t384 + (t156 * t380 + t158 * t382)));
-  const Real t410 = t220 * (t212 * (t386 - t162 * t394) - (t210 * (t384 - t160 * t394) + (t206 * (t380 - t156
-      * t394) + t208 * (t382 - t158 * t394))));
+  const Real t378 = t136 * (t124 * t366 - (t122 * t365 - (t126 * t368 - t128 * t370)));
+  const Real t380 = t365 + t122 * t378;
+  const Real t382 = t366 - t124 * t378;
+  const Real t384 = t368 - t126 * t378;
+  const Real t386 = t370 + t128 * t378;
+  const Real t394 = t170 * (t158 * t382 + (t156 * t380 + (t160 * t384 + t162 * t386)));
+  const Real t410 = t220 * (t208 * (t382 - t158 * t394) + (t206 * (t380 - t156 * t394) + (t210 * (t384 - t160
+      * t394) - t212 * (t386 - t162 * t394))));
   const Real t414 = t394 - t204 * t410;
-  const Real t418 = t154 * t414 - (t378 - t188 * t410);
-  const Real t422 = t120 * t418 + (t140 * t414 + (t364 + t174 * t410));
-  const Real t426 = t422 * state.z[2] - (t288 * state.z[0] + t355 * state.z[1]);
-  const Real t429 = t418 * state.z[2] - (t284 * state.z[0] + t351 * state.z[1]);
-  const Real t432 = t414 * state.z[2] - (t280 * state.z[0] + t347 * state.z[1]);
-  const Real t435 = t410 * state.z[2] - (t276 * state.z[0] + t343 * state.z[1]);
+  const Real t418 = t188 * t410 - (t378 - t154 * t414);
+  const Real t422 = t174 * t410 - (t364 + (t140 * t414 - t120 * t418));
+  const Real t426 = t355 * state.z[1] + (t288 * state.z[0] + t422 * state.z[2]);
+  const Real t429 = t351 * state.z[1] + (t284 * state.z[0] + t418 * state.z[2]);
+  const Real t432 = t347 * state.z[1] + (t280 * state.z[0] + t414 * state.z[2]);
+  const Real t435 = t343 * state.z[1] + (t276 * state.z[0] + t410 * state.z[2]);
   const Real pin2am2t_x = pin2ax_y * t429;
   const Real pin2am1t_x = pin2ax2_y * t426;
   const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
@@ -2195,20 +2187,20 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
   const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
   const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2am0b_y = pin2am0t_y - Real(2.0) * pin2am1v_y;
+  const Real pin2am0b_y = pin2am0t_y + Real(2.0) * pin2am1v_y;
   const Real pin2bm4t_y = pin2bx_x * t432;
   const Real pin2bm4a_x = t432 * pin2bm4t_y;
   const Real pin2bm3t_y = pin2bx4_x * state.z[1];
   const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
-  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t426
-      * pin2am1b_y)));
+  const Real pin2da_x = t426 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
+      * pin2bm3b_y)));
   const Real pin2am2a_y = t429 * pin2am2t_x;
   const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
-  const Real pin2am0b_x = pin2am0t_x - pin2am1v_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x + pin2am1v_x * Real(2.0);
   const Real pin2bm4a_y = t432 * pin2bm4t_x;
   const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
-  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t426
-      * pin2am1b_x)));
+  const Real pin2da_y = t426 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
+      * pin2bm3b_x)));
   const Real pin3am2t_x = pin3ax_y * t429;
   const Real pin3am1t_x = pin3ax2_y * t426;
   const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
@@ -2221,37 +2213,37 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
   const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
   const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3am0b_y = pin3am0t_y - Real(2.0) * pin3am1v_y;
+  const Real pin3am0b_y = pin3am0t_y + Real(2.0) * pin3am1v_y;
   const Real pin3bm6t_y = pin3bx_x * t435;
   const Real pin3bm6a_x = t435 * pin3bm6t_y;
   const Real pin3bm5t_y = pin3bx6_x * state.z[2];
-  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
-  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t426
-      * pin3am1b_y)));
+  const Real pin3bm5b_y = pin3bm5t_y + Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = t426 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
+      * pin3bm5b_y)));
   const Real pin3am2a_y = t429 * pin3am2t_x;
   const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
-  const Real pin3am0b_x = pin3am0t_x - Real(2.0) * pin3am1v_x;
+  const Real pin3am0b_x = pin3am0t_x + Real(2.0) * pin3am1v_x;
   const Real pin3bm6a_y = t435 * pin3bm6t_x;
-  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
-  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t426
-      * pin3am1b_x)));
-  const Real t528 = t112 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
-      pin2da_y)));
-  const Real t530 = pin2da_x - pin2ax2_y * t528;
+  const Real pin3bm5b_x = pin3bm5t_x - Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = t426 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
+      * pin3bm5b_x)));
+  const Real t528 = t112 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
+      pin3da_y)));
+  const Real t530 = pin2da_x + pin2ax2_y * t528;
   const Real t532 = pin2da_y - pin2ax2_x * t528;
   const Real t534 = pin3da_x + pin3ax2_y * t528;
   const Real t536 = pin3da_y - pin3ax2_x * t528;
-  const Real t544 = t136 * (t128 * t536 + (t126 * t534 - (t122 * t530 - t124 * t532)));
-  const Real t546 = t530 + t122 * t544;
+  const Real t544 = t136 * (t124 * t532 + (t122 * t530 + (t126 * t534 + t128 * t536)));
+  const Real t546 = t530 - t122 * t544;
   const Real t548 = t532 - t124 * t544;
   const Real t550 = t534 - t126 * t544;
   const Real t552 = t536 - t128 * t544;
-  const Real t560 = t170 * (t162 * t552 - (t160 * t550 + (t156 * t546 + t158 * t548)));
-  const Real t576 = t220 * (t212 * (t552 - t162 * t560) + (t210 * (t550 + t160 * t560) + (t206 * (t546 + t156
-      * t560) + t208 * (t548 + t158 * t560))));
+  const Real t560 = t170 * (t158 * t548 - (t156 * t546 - (t160 * t550 - t162 * t552)));
+  const Real t576 = t220 * (t208 * (t548 - t158 * t560) - (t206 * (t546 + t156 * t560) - (t210 * (t550 - t160
+      * t560) + t212 * (t552 + t162 * t560))));
   const Real t580 = t560 - t204 * t576;
-  const Real t584 = t154 * t580 - (t544 - t188 * t576);
-  const Real ral1o_z = t120 * t584 + (t140 * t580 + (t528 + t174 * t576));
+  const Real t584 = t188 * t576 - (t544 - t154 * t580);
+  const Real ral1o_z = t174 * t576 + (t528 - (t140 * t580 - t120 * t584));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
@@ -2264,34 +2256,33 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + E2 + model.S_xx + Real(0.0037968750000000003) + model.S_yy +
-      Real(0.0012656249999999998);
-  const Real D1 = r1_x * h1_x + r1_y * h1_y;
+  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
+  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
+  const Real J1 = E2 + (D2 + model.c5);
+  const Real D1 = r1_x * h1_x - r1_y * h1_y;
   const Real E1 = J1 - D1;
-  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t665 = t355 * J1 - t351 * E2;
-  const Real t668 = t355 * E2 - t351 * model.S2b_zz;
-  const Real t670 = E4 - t347 * Real(0.0050625);
-  const Real t671 = t343 * Real(0.0050625);
-  const Real t683 = t422 * J1 - t418 * E2;
-  const Real t686 = t422 * E2 - t418 * model.S2b_zz;
-  const Real t688 = t414 * Real(0.0050625);
-  const Real t690 = E6 - t410 * Real(0.0050625);
-  const Real t699 = t276 * t690 - (t280 * t688 - (t284 * t686 - (t288 * t683 + (t422 * E1 + t418 *
-      p_2_1n_z))));
-  const Real t707 = t343 * t690 - (t347 * t688 - (t351 * t686 + (t414 * E4 - t355 * t683)));
-  const Real t722 = Real(1.0) / (t410 * (E6 + t690) - (t414 * t688 - (t418 * t686 - (t422 * t683 + (D6 + E6 +
-      Real(0.021937500000000002) + Real(0.002))))));
-  const Real t723 = t707 * t722;
-  const Real t741 = t699 * t723 + (t276 * t671 - (t280 * t670 + (t284 * t668 - (t288 * t665 + (t355 * E1 +
-      t351 * p_2_1n_z)))));
-  const Real t742 = t699 * t722;
-  const Real t744 = Real(1.0) / (t347 * (E4 + t670) - (t707 * t723 + (t343 * t671 - (t351 * t668 - (t355 *
-      t665 + (Real(0.002) + (E4 + (D4 + Real(0.021937500000000002)))))))));
-  const Real t745 = t741 * t744;
-  const Real w1_z = state.z[0] - t426;
+  const Real p_2_1n_z = r1_x * h2b_x - (E2 - r1_y * h2b_y);
+  const Real t653 = t355 * J1 - t351 * E2;
+  const Real t656 = t355 * E2 - t351 * model.S2b_zz;
+  const Real t658 = E4 + t347 * Real(0.0050625);
+  const Real t659 = t343 * Real(0.0050625);
+  const Real t671 = t422 * J1 - t418 * E2;
+  const Real t674 = t422 * E2 - t418 * model.S2b_zz;
+  const Real t676 = t414 * Real(0.0050625);
+  const Real t678 = E6 + t410 * Real(0.0050625);
+  const Real t687 = t418 * p_2_1n_z + (t422 * E1 + (t288 * t671 - (t284 * t674 - (t280 * t676 + t276 *
+      t678))));
+  const Real t695 = t355 * t671 + (t414 * E4 - (t351 * t674 - (t347 * t676 + t343 * t678)));
+  const Real t708 = Real(1.0) / (E6 + (D6 + (t422 * t671 - (t418 * t674 - (t414 * t676 + (t410 * (E6 + t678) +
+      Real(0.0239375)))))));
+  const Real t709 = t695 * t708;
+  const Real t729 = t351 * p_2_1n_z + (t355 * E1 + (t288 * t653 - (t284 * t656 - (t280 * t658 + (t276 * t659 -
+      t687 * t709)))));
+  const Real t730 = t687 * t708;
+  const Real t732 = Real(1.0) / (D4 + (E4 + (t355 * t653 - (t351 * t656 - (t343 * t659 - (t695 * t709 - t347 *
+      (E4 + t658)))) + Real(0.002))) + Real(0.021937500000000002));
+  const Real t733 = t729 * t732;
+  const Real w1_z = state.z[0] + t426;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
@@ -2301,76 +2292,76 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real zw_1 = t426 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
   const Real rW1w22 = w1_z * w1_z;
-  const Real t789 = r2_x * rW1w22;
-  const Real ra2o_x = r2_y * ral1o_z - (ra1o_x - t789);
-  const Real t794 = r2_y * rW1w22;
-  const Real ra2o_y = t794 + (ra1o_y - r2_x * ral1o_z);
-  const Real zw_2 = t429 * (w1_z + (t429 + w1_z));
-  const Real t804 = h2b_x * zw_2;
-  const Real rdf2_x = t584 * h2b_y + t804;
-  const Real t807 = h2b_y * zw_2;
-  const Real rdf2_y = t584 * h2b_x - t807;
+  const Real t782 = r2_x * rW1w22;
+  const Real ra2o_x = t782 - (ra1o_x - r2_y * ral1o_z);
+  const Real t787 = r2_y * rW1w22;
+  const Real ra2o_y = r2_x * ral1o_z - (ra1o_y + t787);
+  const Real zw_2 = t429 * (w1_z - (t429 - w1_z));
+  const Real t797 = h2b_x * zw_2;
+  const Real rdf2_x = t584 * h2b_y - t797;
+  const Real t800 = h2b_y * zw_2;
+  const Real rdf2_y = t584 * h2b_x + t800;
   const Real rdn2_z = t584 * model.S2b_zz;
   const Real rW3w22 = state.z[1] * state.z[1];
   const Real ra4o_x = r4_x * rW3w22;
   const Real ra4o_y = r4_y * rW3w22;
-  const Real zw_4 = t432 * (t432 + (state.z[1] + state.z[1]));
-  const Real rdf4_x = t580 * h4b_y + h4b_x * zw_4;
-  const Real rdf4_y = t580 * h4b_x - h4b_y * zw_4;
+  const Real zw_4 = t432 * (state.z[1] + (state.z[1] + t432));
+  const Real rdf4_x = t580 * h4b_y - h4b_x * zw_4;
+  const Real rdf4_y = t580 * h4b_x + h4b_y * zw_4;
   const Real rdn4_z = t580 * Real(0.0050625);
   const Real rW5w22 = state.z[2] * state.z[2];
   const Real ra6o_x = r6_x * rW5w22;
   const Real ra6o_y = r6_y * rW5w22;
-  const Real zw_6 = t435 * (t435 - (state.z[2] + state.z[2]));
+  const Real zw_6 = t435 * (state.z[2] + (state.z[2] + t435));
   const Real rdf6_x = t576 * h6b_y - h6b_x * zw_6;
   const Real rdf6_y = t576 * h6b_x + h6b_y * zw_6;
   const Real rdn6_z = t576 * Real(0.0050625);
-  const Real rf2c_x = rdf2_x - (ral1o_z * h1_y + h1_x * zw_1);
-  const Real rf2c_y = rdf2_y - (ral1o_z * h1_x - h1_y * zw_1);
-  const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y - (rdn1_z - rdn2_z));
-  const Real rQ1_0 = rn2c_z - (h1_x * ra1o_y - h1_y * ra1o_x);
-  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
-  const Real rQ4_0 = rdn4_z - (h4b_x * ra4o_y - h4b_y * ra4o_x);
-  const Real rQ6_0 = rdn6_z - (h6b_x * ra6o_y + h6b_y * ra6o_x);
-  const Real t882 = t410 * rQ6_0 + (t414 * rQ4_0 + (t418 * rQ2_0 + (t422 * rQ1_0 + (r6_y * rdf6_x - (r6_x *
-      rdf6_y + (push5_0 + rdn6_z))))));
-  const Real t891 = t723 * t882 - (t343 * rQ6_0 + (t347 * rQ4_0 + (t351 * rQ2_0 + (t355 * rQ1_0 - (r4_y *
-      rdf4_x + (r4_x * rdf4_y - (push3_0 - rdn4_z)))))));
-  const Real t903 = Real(1.0) / (t284 * (p_2_1n_z + (t284 * model.S2b_zz + (p_2_1n_z - t288 * E2))) + (t288 *
-      (E1 - (t284 * E2 - (E1 + t288 * J1))) + (t741 * t745 + (t699 * t742 + (Real(0.0050625) * (t276 * t276) +
-      (Real(0.0050625) * (t280 * t280) + (Real(0.002) - (D1 - E1 - model.S_xx_2 - Real(0.005062500000000001) -
-      model.S_yy_2 - Real(0.0016875))))))))) * (t745 * t891 + (t742 * t882 - (t276 * rQ6_0 + (t280 * rQ4_0 +
-      (t284 * rQ2_0 + (t288 * rQ1_0 + (r1_y * rf2c_x + (r1_x * rf2c_y + (push0_0 + rn2c_z)))))))));
-  const Real t906 = t744 * t891 - t745 * t903;
-  const Real t911 = t723 * t906 + (t722 * t882 - t742 * t903);
-  const Real t927 = t418 * t911 - (t351 * t906 - (t584 + t284 * t903));
-  const Real ra1o_x_2 = ra1o_x - r1_y * t903;
-  const Real ra1o_y_2 = ra1o_y + r1_x * t903;
-  const Real ral1o_z_2 = t903 + (t422 * t911 - (t355 * t906 - (ral1o_z + t288 * t903)));
-  const Real ra2o_x_2 = r2_y * ral1o_z_2 + (t789 - ra1o_x_2);
-  const Real ra2o_y_2 = r2_x * ral1o_z_2 - (t794 + ra1o_y_2);
-  const Real rdf2_x_2 = t804 + h2b_y * t927;
-  const Real rdf2_y_2 = t807 - h2b_x * t927;
-  const Real rdn2_z_2 = model.S2b_zz * t927;
-  const Real ra4o_x_2 = ra4o_x + r4_y * t906;
-  const Real ra4o_y_2 = ra4o_y - r4_x * t906;
-  const Real ra6o_x_2 = ra6o_x - r6_y * t911;
-  const Real ra6o_y_2 = ra6o_y + r6_x * t911;
-  const Real rQ1_0_2 = J1 * ral1o_z_2 + (r2_y * rdf2_x_2 + (r2_x * rdf2_y_2 - (rdn2_z_2 + (h1_x * ra1o_y_2 -
-      h1_y * ra1o_x_2))));
-  const Real t981 = t120 * rQ1_0_2 + (rdn2_z_2 + (h2b_y * ra2o_x_2 - (model.S2b_zz * ral1o_z_2 + h2b_x *
-      ra2o_y_2)));
-  const Real t989 = Real(0.0050625) * (t906 + (t414 * t911 - (t347 * t906 - (t580 + t280 * t903)))) + (t154 *
-      t981 + (t140 * rQ1_0_2 - (h4b_x * ra4o_y_2 - h4b_y * ra4o_x_2)));
-  const Real t1000 = t112 * rQ1_0_2;
-  const Real t1005 = t136 * t981;
-  const Real t1010 = t170 * t989;
-  const Real t1015 = t220 * (Real(0.0050625) * (t911 - (t410 * t911 - (t343 * t906 - (t576 + t276 * t903)))) +
-      (t204 * t989 - (t188 * t981 + (t174 * rQ1_0_2 - (h6b_x * ra6o_y_2 + h6b_y * ra6o_x_2)))));
-  lambda[0] = -(t206 * t1015 + (t156 * t1010 - (pin2ax2_y * t1000 + t122 * t1005)));
-  lambda[1] = -(t208 * t1015 + (t158 * t1010 - (pin2ax2_x * t1000 - t124 * t1005)));
-  lambda[2] = t210 * t1015 + (t160 * t1010 + (pin3ax2_y * t1000 + t126 * t1005));
-  lambda[3] = -(t212 * t1015 - (t162 * t1010 + (pin3ax2_x * t1000 - t128 * t1005)));
+  const Real rf2c_x = h1_x * zw_1 + (ral1o_z * h1_y + rdf2_x);
+  const Real rf2c_y = h1_y * zw_1 - (ral1o_z * h1_x - rdf2_y);
+  const Real rn2c_z = rdn2_z - (rdn1_z - (r2_x * rdf2_y - r2_y * rdf2_x));
+  const Real rQ1_0 = h1_y * ra1o_x + (h1_x * ra1o_y + rn2c_z);
+  const Real rQ2_0 = h2b_x * ra2o_y + (ral1o_z * model.S2b_zz - (h2b_y * ra2o_x + rdn2_z));
+  const Real rQ4_0 = h4b_y * ra4o_x - (h4b_x * ra4o_y + rdn4_z);
+  const Real rQ6_0 = h6b_y * ra6o_x + (h6b_x * ra6o_y - rdn6_z);
+  const Real t875 = rdn6_z + (push5_0 + (r6_x * rdf6_y - (r6_y * rdf6_x + (t422 * rQ1_0 + (t418 * rQ2_0 +
+      (t414 * rQ4_0 + t410 * rQ6_0))))));
+  const Real t884 = rdn4_z + (push3_0 + (r4_x * rdf4_y + (r4_y * rdf4_x - (t355 * rQ1_0 + (t351 * rQ2_0 +
+      (t347 * rQ4_0 + (t343 * rQ6_0 + t709 * t875)))))));
+  const Real t896 = Real(1.0) / (E1 - (D1 - (Real(0.002) - (t687 * t730 + (t729 * t733 + (t284 * (t288 * E2 -
+      (p_2_1n_z + (p_2_1n_z + t284 * model.S2b_zz))) - (t288 * (t288 * J1 + (E1 + (E1 - t284 * E2))) +
+      (Real(0.0050625) * (t280 * t280 + t276 * t276) + model.S_xx + Real(0.005062500000000001) + model.S_yy +
+      Real(0.0016875))))))))) * (rn2c_z - (push0_0 + (r1_x * rf2c_y + (r1_y * rf2c_x - (t288 * rQ1_0 + (t284 *
+      rQ2_0 + (t280 * rQ4_0 + (t276 * rQ6_0 + (t730 * t875 + t733 * t884)))))))));
+  const Real t899 = t732 * t884 + t733 * t896;
+  const Real t904 = t730 * t896 + (t708 * t875 - t709 * t899);
+  const Real t917 = t284 * t896 + (t584 - (t351 * t899 + t418 * t904));
+  const Real ra1o_x_2 = ra1o_x - r1_y * t896;
+  const Real ra1o_y_2 = ra1o_y + r1_x * t896;
+  const Real ral1o_z_2 = t288 * t896 + (ral1o_z - (t355 * t899 - (t896 - t422 * t904)));
+  const Real ra2o_x_2 = ra1o_x_2 - (t782 + r2_y * ral1o_z_2);
+  const Real ra2o_y_2 = ra1o_y_2 + (t787 - r2_x * ral1o_z_2);
+  const Real rdf2_x_2 = t797 - h2b_y * t917;
+  const Real rdf2_y_2 = t800 + h2b_x * t917;
+  const Real rdn2_z_2 = model.S2b_zz * t917;
+  const Real ra4o_x_2 = ra4o_x + r4_y * t899;
+  const Real ra4o_y_2 = ra4o_y - r4_x * t899;
+  const Real ra6o_x_2 = ra6o_x - r6_y * t904;
+  const Real ra6o_y_2 = ra6o_y + r6_x * t904;
+  const Real rQ1_0_2 = h1_y * ra1o_x_2 + (h1_x * ra1o_y_2 + (rdn2_z_2 + (r2_x * rdf2_y_2 + (r2_y * rdf2_x_2 -
+      J1 * ral1o_z_2))));
+  const Real t968 = h2b_x * ra2o_y_2 - (model.S2b_zz * ral1o_z_2 + (h2b_y * ra2o_x_2 - (rdn2_z_2 - t120 *
+      rQ1_0_2)));
+  const Real t979 = h4b_y * ra4o_x_2 - (h4b_x * ra4o_y_2 + (t140 * rQ1_0_2 + (t154 * t968 + Real(0.0050625) *
+      (t280 * t896 + (t580 - (t347 * t899 + (t899 + t414 * t904)))))));
+  const Real t993 = t112 * rQ1_0_2;
+  const Real t998 = t136 * t968;
+  const Real t1003 = t170 * t979;
+  const Real t1008 = t220 * (h6b_y * ra6o_x_2 + (h6b_x * ra6o_y_2 + (t174 * rQ1_0_2 - (t188 * t968 + (t204 *
+      t979 + Real(0.0050625) * (t276 * t896 + (t576 - (t343 * t899 + (t904 + t410 * t904)))))))));
+  lambda[0] = t122 * t998 - (pin2ax2_y * t993 + (t156 * t1003 + t206 * t1008));
+  lambda[1] = -(t124 * t998 + (pin2ax2_x * t993 + (t158 * t1003 + t208 * t1008)));
+  lambda[2] = t126 * t998 - (pin3ax2_y * t993 - (t160 * t1003 + t210 * t1008));
+  lambda[3] = -(t128 * t998 + (pin3ax2_x * t993 - (t162 * t1003 - t212 * t1008)));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

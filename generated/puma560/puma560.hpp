@@ -13,8 +13,8 @@
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (18 operations
 //   of forward_dynamics)
 // - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
-//   (38 operations of forward_dynamics)
-// - snapped rotations: rotations by multiples of a right angle are permutations (259 operations of
+//   (37 operations of forward_dynamics)
+// - snapped rotations: rotations by multiples of a right angle are permutations (258 operations of
 //   forward_dynamics)
 // - common factors: factors that several terms of a sum share are multiplied once (1 operations of
 //   forward_dynamics)

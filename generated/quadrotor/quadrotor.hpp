@@ -129,7 +129,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[6]) noexcept;
 
 /// Kinetic energy, J.
-/// 31 operations (20 mul, 11 add and sub, 0 div), 0 sin and cos.
+/// 29 operations (18 mul, 11 add and sub, 0 div), 0 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 

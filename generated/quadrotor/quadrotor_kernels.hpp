@@ -97,17 +97,17 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];
   const Real half_0_2 = Real(0.5) * state.z[5];
-  const Real qdot_0_0 = half_0_2 * state.y[6] + (half_0_0 * state.y[4] + half_0_1 * state.y[5]);
-  const Real qdot_0_1 = half_0_1 * state.y[6] - (half_0_0 * state.y[3] + half_0_2 * state.y[5]);
-  const Real qdot_0_2 = half_0_0 * state.y[6] + (half_0_1 * state.y[3] - half_0_2 * state.y[4]);
-  const Real qdot_0_3 = half_0_0 * state.y[5] - (half_0_2 * state.y[3] + half_0_1 * state.y[4]);
+  const Real qdot_0_0 = half_0_0 * state.y[4] + half_0_1 * state.y[5] + half_0_2 * state.y[6];
+  const Real qdot_0_1 = half_0_0 * state.y[3] + half_0_2 * state.y[5] - half_0_1 * state.y[6];
+  const Real qdot_0_2 = half_0_1 * state.y[3] - half_0_2 * state.y[4] + half_0_0 * state.y[6];
+  const Real qdot_0_3 = half_0_2 * state.y[3] + half_0_1 * state.y[4] - half_0_0 * state.y[5];
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
   ydot[3] = -qdot_0_0;
-  ydot[4] = -qdot_0_1;
+  ydot[4] = qdot_0_1;
   ydot[5] = qdot_0_2;
-  ydot[6] = -qdot_0_3;
+  ydot[6] = qdot_0_3;
 }
 
 template <class Real>
@@ -137,21 +137,21 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[6][6]) noexce
 
 template <class Real>
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
-  const Real kSu0_x = state.z[3] * Real(1.4672772e-05) - (state.z[5] * Real(7.18277e-07) + state.z[4] *
-      Real(8.30806e-07));
-  const Real kSu0_y = state.z[4] * Real(1.458888e-05) - (Real(8.30806e-07) * state.z[3] + state.z[5] *
-      Real(1.800197e-06));
-  const Real kSu0_z = state.z[4] * Real(1.800197e-06) - (state.z[5] * Real(1.9828299999999994e-06) -
-      Real(7.18277e-07) * state.z[3]);
+  const Real kSu0_x = state.z[5] * Real(7.18277e-07) + state.z[4] * Real(8.30806e-07) - state.z[3] *
+      Real(1.4672772e-05);
+  const Real kSu0_y = Real(8.30806e-07) * state.z[3] + state.z[5] * Real(1.800197e-06) - state.z[4] *
+      Real(1.458888e-05);
+  const Real kSu0_z = state.z[5] * Real(1.9828299999999994e-06) - Real(7.18277e-07) * state.z[3] - state.z[4]
+      * Real(1.800197e-06);
   const Real kdn0_x = state.z[4] * kSu0_z + state.z[5] * kSu0_y;
   const Real kdn0_y = state.z[3] * kSu0_z + state.z[5] * kSu0_x;
   const Real kdn0_z = state.z[3] * kSu0_y - state.z[4] * kSu0_x;
   k[0] = Real(0.0);
   k[1] = Real(0.0);
   k[2] = Real(0.0);
-  k[3] = -kdn0_x;
-  k[4] = kdn0_y;
-  k[5] = kdn0_z;
+  k[3] = kdn0_x;
+  k[4] = -kdn0_y;
+  k[5] = -kdn0_z;
 }
 
 template <class Real>
@@ -301,7 +301,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -311,54 +311,54 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q0r2_x = q013 - q002;
   const Real q0r2_y = q023 + q001;
   const Real q0r2_z = q022 + t23;
-  const Real vrel0_x = q0r2_x * state.z[2] - (q0r0_x * state.z[0] - q0r1_x * state.z[1]);
-  const Real vrel0_y = q0r2_y * state.z[2] + (q0r0_y * state.z[0] - q0r1_y * state.z[1]);
-  const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
-  const Real framev0pp_x = q0r0_z * vrel0_z + (q0r0_x * vrel0_x - q0r0_y * vrel0_y);
+  const Real vrel0_x = q0r0_x * state.z[0] - q0r1_x * state.z[1] - q0r2_x * state.z[2];
+  const Real vrel0_y = q0r0_y * state.z[0] - q0r1_y * state.z[1] + q0r2_y * state.z[2];
+  const Real vrel0_z = q0r0_z * state.z[0] + q0r1_z * state.z[1] - q0r2_z * state.z[2];
+  const Real framev0pp_x = q0r0_x * vrel0_x + q0r0_y * vrel0_y + q0r0_z * vrel0_z;
   const Real expression = framev0pp_x * model.drag;
-  const Real framev0pp_y = q0r1_z * vrel0_z - (q0r1_x * vrel0_x - q0r1_y * vrel0_y);
+  const Real framev0pp_y = q0r1_x * vrel0_x + q0r1_y * vrel0_y - q0r1_z * vrel0_z;
   const Real expression_2 = model.drag * framev0pp_y;
-  const Real framev0pp_z = q0r2_z * vrel0_z + (q0r2_x * vrel0_x + q0r2_y * vrel0_y);
+  const Real framev0pp_z = q0r2_x * vrel0_x - q0r2_y * vrel0_y + q0r2_z * vrel0_z;
   const Real expression_3 = model.drag * framev0pp_z;
-  const Real force5f0_x = q0r2_x * expression_3 + (q0r0_x * expression - q0r1_x * expression_2);
-  const Real force5f0_y = q0r2_y * expression_3 - (q0r0_y * expression - q0r1_y * expression_2);
-  const Real force5f0_z = q0r2_z * expression_3 + (q0r0_z * expression + q0r1_z * expression_2);
-  const Real aSu0_x = state.z[3] * Real(1.4672772e-05) - (state.z[5] * Real(7.18277e-07) + state.z[4] *
-      Real(8.30806e-07));
-  const Real aSu0_y = state.z[4] * Real(1.458888e-05) - (Real(8.30806e-07) * state.z[3] + state.z[5] *
-      Real(1.800197e-06));
-  const Real aSu0_z = state.z[4] * Real(1.800197e-06) - (state.z[5] * Real(1.9828299999999994e-06) -
-      Real(7.18277e-07) * state.z[3]);
-  const Real adn0_x = state.z[5] * aSu0_y + (state.z[4] * aSu0_z + (Real(8.30806e-07) * zdot[4] + (zdot[3] *
-      Real(1.657171e-05) + Real(7.18277e-07) * zdot[5])));
-  const Real adn0_y = state.z[5] * aSu0_x + (state.z[3] * aSu0_z - (Real(1.800197e-06) * zdot[5] + (zdot[4] *
-      Real(1.6655602e-05) + Real(8.30806e-07) * zdot[3])));
-  const Real adn0_z = state.z[4] * aSu0_x - (state.z[3] * aSu0_y - (zdot[5] * Real(2.9261652e-05) +
-      (Real(7.18277e-07) * zdot[3] + Real(1.800197e-06) * zdot[4])));
+  const Real force5f0_x = q0r0_x * expression + q0r1_x * expression_2 + q0r2_x * expression_3;
+  const Real force5f0_y = q0r0_y * expression + q0r1_y * expression_2 - q0r2_y * expression_3;
+  const Real force5f0_z = q0r0_z * expression - q0r1_z * expression_2 + q0r2_z * expression_3;
+  const Real aSu0_x = state.z[5] * Real(7.18277e-07) + state.z[4] * Real(8.30806e-07) - state.z[3] *
+      Real(1.4672772e-05);
+  const Real aSu0_y = Real(8.30806e-07) * state.z[3] + state.z[5] * Real(1.800197e-06) - state.z[4] *
+      Real(1.458888e-05);
+  const Real aSu0_z = state.z[5] * Real(1.9828299999999994e-06) - Real(7.18277e-07) * state.z[3] - state.z[4]
+      * Real(1.800197e-06);
+  const Real adn0_x = zdot[3] * Real(1.657171e-05) + Real(7.18277e-07) * zdot[5] + Real(8.30806e-07) * zdot[4]
+      - state.z[4] * aSu0_z - state.z[5] * aSu0_y;
+  const Real adn0_y = zdot[4] * Real(1.6655602e-05) + Real(8.30806e-07) * zdot[3] + Real(1.800197e-06) *
+      zdot[5] + state.z[3] * aSu0_z + state.z[5] * aSu0_x;
+  const Real adn0_z = Real(7.18277e-07) * zdot[3] + Real(1.800197e-06) * zdot[4] + zdot[5] *
+      Real(2.9261652e-05) + state.z[3] * aSu0_y - state.z[4] * aSu0_x;
+  const Real aext0f_x = q0r0_x * force5f0_x + q0r0_y * force5f0_y + q0r0_z * force5f0_z;
+  const Real aext0f_y = q0r1_x * force5f0_x + q0r1_y * force5f0_y - q0r1_z * force5f0_z;
+  const Real aext0f_z = q0r2_x * force5f0_x - q0r2_y * force5f0_y + q0r2_z * force5f0_z;
   const Real fall0_z = zdot[2] + Real(9.81);
-  const Real tauf0 = zdot[0] * Real(0.028) - (q0r0_z * force5f0_z + (q0r0_x * force5f0_x - q0r0_y *
-      force5f0_y));
-  const Real tauf1 = Real(0.028) * zdot[1] - (q0r1_z * force5f0_z - (q0r1_x * force5f0_x - q0r1_y *
-      force5f0_y));
-  const Real tauf2 = fall0_z * Real(0.028) + (q0r2_z * force5f0_z + (q0r2_x * force5f0_x + q0r2_y *
-      force5f0_y));
+  const Real tauf0 = aext0f_x + zdot[0] * Real(0.028);
+  const Real tauf1 = aext0f_y - Real(0.028) * zdot[1];
+  const Real tauf2 = aext0f_z - fall0_z * Real(0.028);
   tau[0] = tauf0;
-  tau[1] = tauf1;
-  tau[2] = tauf2;
+  tau[1] = -tauf1;
+  tau[2] = -tauf2;
   tau[3] = adn0_x;
-  tau[4] = -adn0_y;
+  tau[4] = adn0_y;
   tau[5] = adn0_z;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real Tfree = (state.z[3] * (state.z[4] * Real(7846740816333997.0) + (state.z[3] *
-      Real(1.5651537573567146e+17) + state.z[5] * Real(6783934460432320.0))) + state.z[4] * (state.z[5] *
-      Real(1.7002379950724974e+16) + (state.z[4] * Real(1.5730771327363325e+17) + state.z[3] *
-      Real(7846740816333997.0)))) * Real(5.293955920339377e-23) + (Real(0.014) * (state.z[2] * state.z[2]) +
-      (Real(0.014) * (state.z[1] * state.z[1]) + (state.z[5] * (state.z[5] * Real(1.3818424463819552e+17) +
-      (state.z[3] * Real(3391967230216160.0) + state.z[4] * Real(8501189975362487.0))) *
-      Real(1.0587911840678754e-22) + state.z[0] * state.z[0] * Real(0.014))));
+  const Real Tfree = (state.z[0] * state.z[0] + (state.z[1] * state.z[1] + state.z[2] * state.z[2])) *
+      Real(0.014) + (state.z[5] * (state.z[4] * Real(8501189975362487.0) + (state.z[3] *
+      Real(3391967230216160.0) + state.z[5] * Real(1.3818424463819552e+17))) * Real(1.0587911840678754e-22) +
+      (state.z[3] * (state.z[5] * Real(6783934460432320.0) + (state.z[3] * Real(1.5651537573567146e+17) +
+      state.z[4] * Real(7846740816333997.0))) + state.z[4] * (state.z[3] * Real(7846740816333997.0) +
+      (state.z[4] * Real(1.5730771327363325e+17) + state.z[5] * Real(1.7002379950724974e+16)))) *
+      Real(5.293955920339377e-23));
   return Tfree;
 }
 
@@ -383,7 +383,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;

@@ -91,10 +91,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   const Real expression = state.t * model.rate;
   const Real s = detail::sine(expression);
+  const Real push1_0 = state.y[0] * Real(900.0) + state.z[0] * Real(15.0);
   const Real bQp12 = s * model.c1;
-  const Real b_0 = bQp12 - (state.y[0] * Real(900.0) + state.z[0] * Real(15.0));
+  const Real b_0 = push1_0 - bQp12;
   const Real y_0 = b_0 * Real(0.125);
-  zdot[0] = y_0;
+  zdot[0] = -y_0;
 }
 
 template <class Real>
@@ -131,13 +132,14 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real expression = state.t * model.rate;
   const Real s = detail::sine(expression);
   const Real derivative = s * model.c2;
+  const Real push1_0 = state.y[0] * Real(900.0) + state.z[0] * Real(15.0);
   const Real bQp12 = derivative * Real(8.0);
-  const Real b_0 = bQp12 - (state.y[0] * Real(900.0) + state.z[0] * Real(15.0));
+  const Real b_0 = push1_0 - bQp12;
   const Real y_0 = b_0 * Real(0.125);
   const Real drivedf0t_z = derivative * Real(48.0);
   const Real drivedf1t_z = Real(8.0) * y_0;
-  const Real drivef1c_z = drivedf0t_z - drivedf1t_z;
-  const Real outla1L_z = derivative - y_0;
+  const Real drivef1c_z = drivedf0t_z + drivedf1t_z;
+  const Real outla1L_z = derivative + y_0;
   result.table_force = -drivef1c_z;
   result.cart_acceleration.a[0] = -outla1L_z;
   result.cart_acceleration.a[1] = Real(0.0);

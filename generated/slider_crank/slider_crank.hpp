@@ -126,7 +126,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 27 operations (16 mul, 10 add and sub, 1 div), 4 sin and cos.
+/// 26 operations (15 mul, 10 add and sub, 1 div), 4 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
@@ -168,7 +168,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 26 operations (15 mul, 10 add and sub, 1 div), 4 sin and cos.
+/// 24 operations (15 mul, 8 add and sub, 1 div), 4 sin and cos.
 template <class Real>
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept;

@@ -66,8 +66,8 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& inp
 template <class Real>
 Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression = parameters.flywheel * Real(0.5);
-  const Real t10 = Real(0.5) * expression;
-  crankshaft_S_xx = t10 + (expression - t10);
+  const Real t3 = Real(0.5) * expression;
+  crankshaft_S_xx = t3 + (expression - t3);
 }
 
 template <class Real>
@@ -94,10 +94,11 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real t21 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
+  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
+  const Real t22 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
   ydot[0] = state.z[0];
-  ydot[1] = t21 * state.z[0];
-  ydot[2] = -((piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * state.z[0]);
+  ydot[1] = t22 * state.z[0];
+  ydot[2] = -((piston_pinbx1_y + piston_pinbx_y * t22) * state.z[0]);
 }
 
 template <class Real>
@@ -180,8 +181,8 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real q_2 = input.u[0] - Real(4.7088);
-  q[0] = (piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * q_2 - (Real(9.81) * (t21 * h1b_y) + (h0_y *
-      Real(9.81) + input.u[1]));
+  q[0] = -((h0_y + t21 * h1b_y) * Real(9.81) + (input.u[1] - (piston_pinbx_y * t21 + (r1_y + piston_pinbx_y))
+      * q_2));
 }
 
 template <class Real>
@@ -337,8 +338,9 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  result.piston_speed = -((piston_pinbx_y * (piston_pinbx1_x * (Real(1.0) / piston_pinbx_x)) + (r1_y +
-      piston_pinbx_y)) * state.z[0]);
+  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
+  result.piston_speed = -((piston_pinbx1_y + piston_pinbx_y * (piston_pinbx1_x * (Real(1.0) /
+      piston_pinbx_x))) * state.z[0]);
 }
 
 template <class Real>
@@ -385,12 +387,11 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
   const Real piston_pind_y = piston_pinbx1_y - Real(0.006);
   const Real t26 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
-  const Real t30 = t26 * state.z[0];
+  const Real t29 = t26 * state.z[0];
   g[0] = piston_pind_x;
   g[1] = piston_pind_y;
-  g_rate[0] = -(piston_pinbx_y * t30 + state.z[0] * (piston_pinbx1_y - (piston_pinbx1_y + piston_pinbx_y *
-      t26)));
-  g_rate[1] = piston_pinbx1_x * state.z[0] - piston_pinbx_x * t30;
+  g_rate[0] = -(piston_pinbx_y * t29 - piston_pinbx_y * t26 * state.z[0]);
+  g_rate[1] = piston_pinbx1_x * state.z[0] - piston_pinbx_x * t29;
 }
 
 template <class Real>

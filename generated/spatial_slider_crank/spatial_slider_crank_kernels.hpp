@@ -105,12 +105,12 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real t22 = Real(0.08) * (c0 * (Real(1.0) / ballbx_x));
   const Real t25 = Real(1.0) / ballbx3_y * (ballax_x - ballbx_y * s2 * t22);
   const Real t28 = ballbx3_x * t25 - c2 * ballbx_y * t22;
-  const Real S2b_zz = s3 * s3 * Real(0.014849999999999999) - Real(0.01505) - Real(0.0002);
+  const Real S2b_zz = s3 * s3 * Real(0.014849999999999999) - Real(0.01525);
   const Real v2L_z = t25 * S2b_zz;
   const Real v3p_y = c2 * t28;
-  const Real T3 = (t28 * t28 * Real(2.5) - (t25 * v2L_z - t22 * t22 * Real(0.01525))) * Real(0.5) +
-      (Real(0.075) * (v3p_y * (s3 * t22)) - (t28 * (t25 * (c3 * s2)) * Real(0.075) - Real(5e-05)));
-  M[0][0] = T3 * Real(2.0);
+  const Real T3 = (t28 * (t25 * (c3 * s2)) - v3p_y * (s3 * t22)) * Real(0.075) + ((t25 * v2L_z - (t28 * t28 *
+      Real(2.5) + Real(0.01525) * (t22 * t22))) * Real(0.5) - Real(5e-05));
+  M[0][0] = -(T3 * Real(2.0));
 }
 
 template <class Real>
@@ -144,6 +144,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real ballbm3ap_y = c2 * ballbm3a_x;
   const Real ballbm2t_x = ballbx3_y * t30;
   const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
+  const Real ballbm2a_y = ballbm3ap_y + t30 * ballbm2b_x;
   const Real ballam0t_x = ballax_y * state.z[0];
   const Real ballam0t_y = ballax_x * state.z[0];
   const Real ballam0a_x = state.z[0] * ballam0t_y;
@@ -152,9 +153,11 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real ballam0a_y = state.z[0] * ballam0t_x;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
   const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
-  const Real t54 = t20 * ballda_y;
-  const Real t59 = t21 * (t18 * t54 - (t30 * ballbm2b_y - (ballam0a_y - ballbm3ap_x)));
-  const Real t64 = t17 * t54 + (ballbx3_x * t59 - (ballbm3ap_y + t30 * ballbm2b_x));
+  const Real ballbm2a_x = ballbm3ap_x + t30 * ballbm2b_y;
+  const Real ballda_z = ballam0a_y - ballbm2a_x;
+  const Real t57 = t20 * ballda_y;
+  const Real t60 = t21 * (ballda_z + t18 * t57);
+  const Real t64 = ballbm2a_y - ballbx3_x * t60 - t17 * t57;
   const Real S3b_t = s3 * Real(0.014849999999999999);
   const Real S3b_xy = c3 * S3b_t;
   const Real h3b_x = c3 * Real(0.075);
@@ -170,12 +173,14 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real kdf3_x = h3b_x * zw_3;
   const Real kdf3_z = z2_3 * kax3;
   const Real kdn3_y = kKx3 * z2_3;
-  const Real S2b_zz = s3 * S3b_t - Real(0.01505) - Real(0.0002);
+  const Real kf2b_y = c2 * kdf3_x + s2 * kdf3_z;
+  const Real kf2_y = kdf2_y + kf2b_y;
+  const Real S3b_xx = s3 * S3b_t - Real(0.01505);
+  const Real S2b_zz = S3b_xx - Real(0.0002);
   const Real h2b_x = s2 * h3b_x;
   const Real p_3_3F_y = c2 * h3b_y;
-  k[0] = t22 * (t54 * Real(0.01525) - (kQp3 + t64 * p_3_3F_y)) + ((ballbx3_x * t25 - t17 * t22) * (t54 *
-      p_3_3F_y + (t59 * h2b_x - (t64 * Real(2.5) + (s2 * kdf3_z + (kdf2_y + c2 * kdf3_x))))) + t25 * (t59 *
-      S2b_zz + (kdn3_y + t64 * h2b_x)));
+  k[0] = -((ballbx3_x * t25 - t17 * t22) * (kf2_y - (t64 * Real(2.5) + t60 * h2b_x + t57 * p_3_3F_y)) - t25 *
+      (kdn3_y - (t64 * h2b_x - t60 * S2b_zz)) + t22 * (kQp3 - (t64 * p_3_3F_y + t57 * Real(0.01525))));
 }
 
 template <class Real>
@@ -189,9 +194,8 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Rea
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
-  const Real t20 = s3 * s2 * (Real(0.08) * (c0 * (Real(1.0) / ballbx_x)));
-  q[0] = -(Real(1.0) / ballbx3_y * (ballax_x - Real(0.3) * t20) * (c2 * c3) * Real(0.73575) + t20 *
-      Real(0.73575));
+  const Real t20 = Real(0.08) * (s3 * s2 * (c0 * (Real(1.0) / ballbx_x)));
+  q[0] = -((t20 + Real(1.0) / ballbx3_y * (ballax_x - Real(0.3) * t20) * (c2 * c3)) * Real(0.73575));
 }
 
 template <class Real>
@@ -236,25 +240,25 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real ballbm3ap_x = s2 * ballbm3a_x;
   const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
   const Real t54 = t20 * ballda_y;
-  const Real t59 = t21 * (t18 * t54 - (t30 * ballbm2b_y - (ballam0a_y - ballbm3ap_x)));
-  const Real t64 = t17 * t54 + (ballbx3_x * t59 - (ballbm3ap_y + t30 * ballbm2b_x));
+  const Real t59 = t21 * (ballbm3ap_x - (ballam0a_y - (t30 * ballbm2b_y - t18 * t54)));
+  const Real t64 = t30 * ballbm2b_x + (ballbm3ap_y + (ballbx3_x * t59 - t17 * t54));
   const Real S3b_t = s3 * Real(0.014849999999999999);
   const Real h3b_x = c3 * Real(0.075);
   const Real h3b_y = s3 * Real(0.075);
-  const Real S2b_zz = s3 * S3b_t - Real(0.01505) - Real(0.0002);
+  const Real S2b_zz = s3 * S3b_t - Real(0.01525);
   const Real h2b_x = s2 * h3b_x;
   const Real v2P_y = t25 * h2b_x;
   const Real v2L_z = t25 * S2b_zz;
   const Real v3p_y = c2 * t28;
   const Real v3P_x = t22 * h3b_y;
-  const Real T3 = (t28 * t28 * Real(2.5) - (t25 * v2L_z - t22 * t22 * Real(0.01525))) * Real(0.5) + (v3p_y *
-      v3P_x - (t28 * v2P_y - Real(5e-05)));
+  const Real T3 = t28 * v2P_y - (v3p_y * v3P_x + (Real(0.01525) * (t22 * t22) + (t28 * t28 * Real(2.5) - t25 *
+      v2L_z)) * Real(0.5) + Real(5e-05));
   const Real S3b_xy = c3 * S3b_t;
   const Real h2b_y = c2 * h3b_x;
   const Real rdf1t_z = t64 * Real(2.5);
   const Real zw_2 = t30 * t30;
   const Real rdn2_z = t59 * S2b_zz;
-  const Real rL2a_y = s2 * Real(9.81) - c2 * t64;
+  const Real rL2a_y = s2 * Real(9.81) + c2 * t64;
   const Real rKx3 = t30 * S3b_xy;
   const Real z2_3 = t31 * Real(2.0);
   const Real zw_3 = t31 * t31;
@@ -263,10 +267,10 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real rdf3_z = z2_3 * rax3;
   const Real rdn3_y = rKx3 * z2_3;
   const Real rdn3_z = t54 * Real(0.01525);
-  const Real rf1_z = s2 * rdf3_z - (c2 * rdf3_x - (h2b_y * zw_2 + (rdf1t_z - t59 * h2b_x)));
-  const Real rQ2_0 = rdn3_y + (rdn2_z + (h2b_y * Real(9.81) + t64 * h2b_x));
-  const Real rQ3_0 = rdn3_z - (t30 * rKx3 - h3b_y * rL2a_y);
-  zdot[0] = Real(1.0) / (Real(2.0) * T3) * (t22 * rQ3_0 - (t28 * rf1_z - t25 * rQ2_0));
+  const Real rf1_z = t59 * h2b_x - (rdf1t_z - (h2b_y * zw_2 - (c2 * rdf3_x - s2 * rdf3_z)));
+  const Real rQ2_0 = t64 * h2b_x - (h2b_y * Real(9.81) - (rdn2_z - rdn3_y));
+  const Real rQ3_0 = h3b_y * rL2a_y - (t30 * rKx3 - rdn3_z);
+  zdot[0] = Real(1.0) / (Real(2.0) * T3) * (t25 * rQ2_0 + (t28 * rf1_z - t22 * rQ3_0));
 }
 
 template <class Real>
@@ -302,6 +306,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ballbm3ap_y = c2 * ballbm3a_x;
   const Real ballbm2t_x = ballbx3_y * t30;
   const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
+  const Real ballbm2a_y = ballbm3ap_y + t30 * ballbm2b_x;
   const Real ballam0t_x = ballax_y * state.z[0];
   const Real ballam0t_y = ballax_x * state.z[0];
   const Real ballam0a_x = state.z[0] * ballam0t_y;
@@ -310,24 +315,30 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ballam0a_y = state.z[0] * ballam0t_x;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
   const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
-  const Real t54 = t20 * ballda_y;
-  const Real t59 = t21 * (t18 * t54 - (t30 * ballbm2b_y - (ballam0a_y - ballbm3ap_x)));
-  const Real t67 = t28 * zdot[0] + (t17 * t54 + (ballbx3_x * t59 - (ballbm3ap_y + t30 * ballbm2b_x)));
-  const Real t69 = t59 + t25 * zdot[0];
-  const Real t71 = t54 - t22 * zdot[0];
+  const Real ballbm2a_x = ballbm3ap_x + t30 * ballbm2b_y;
+  const Real ballda_z = ballam0a_y - ballbm2a_x;
+  const Real t57 = t20 * ballda_y;
+  const Real t60 = t21 * (ballda_z + t18 * t57);
+  const Real t67 = ballbm2a_y - ballbx3_x * t60 - t17 * t57 - t28 * zdot[0];
+  const Real t69 = t60 + t25 * zdot[0];
+  const Real t71 = t57 - t22 * zdot[0];
   const Real S3b_t = s3 * Real(0.014849999999999999);
+  const Real S3b_xx = s3 * S3b_t - Real(0.01505);
   const Real S3b_xy = c3 * S3b_t;
   const Real h3b_x = c3 * Real(0.075);
   const Real h3b_y = s3 * Real(0.075);
-  const Real S2b_zz = s3 * S3b_t - Real(0.01505) - Real(0.0002);
+  const Real S2b_zz = S3b_xx - Real(0.0002);
   const Real h2b_x = s2 * h3b_x;
   const Real h2b_y = c2 * h3b_x;
   const Real adn0_z = zdot[0] * Real(0.0001);
   const Real adf1t_z = t67 * Real(2.5);
+  const Real aQp2 = h2b_y * Real(9.81) - t67 * h2b_x;
   const Real zw_2 = t30 * t30;
+  const Real adf2_y = t69 * h2b_x - h2b_y * zw_2;
   const Real adn2_z = t69 * S2b_zz;
-  const Real aL2a_y = s2 * Real(9.81) - c2 * t67;
+  const Real aL2a_y = s2 * Real(9.81) + c2 * t67;
   const Real aKx3 = t30 * S3b_xy;
+  const Real aQp3 = t30 * aKx3 - h3b_y * aL2a_y;
   const Real z2_3 = t31 * Real(2.0);
   const Real zw_3 = t31 * t31;
   const Real aax3 = t30 * h3b_y;
@@ -335,10 +346,13 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real adf3_z = z2_3 * aax3;
   const Real adn3_y = aKx3 * z2_3;
   const Real adn3_z = t71 * Real(0.01525);
-  const Real af1_z = s2 * adf3_z - (c2 * adf3_x - (h2b_y * zw_2 + (adf1t_z - t69 * h2b_x)));
-  const Real aQ2_0 = adn3_y + (adn2_z + (h2b_y * Real(9.81) + t67 * h2b_x));
-  const Real aQ3_0 = adn3_z - (t30 * aKx3 - h3b_y * aL2a_y);
-  tau[0] = -(t22 * aQ3_0 + (t25 * aQ2_0 - (adn0_z + t28 * af1_z)));
+  const Real af2b_y = c2 * adf3_x - s2 * adf3_z;
+  const Real af2_y = adf2_y + af2b_y;
+  const Real an2_z = adn2_z + adn3_y;
+  const Real af1_z = adf1t_z + af2_y;
+  const Real aQ2_0 = aQp2 + an2_z;
+  const Real aQ3_0 = aQp3 - adn3_z;
+  tau[0] = adn0_z - t28 * af1_z - t25 * aQ2_0 + t22 * aQ3_0;
 }
 
 template <class Real>
@@ -359,12 +373,12 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real t30 = (ballbx3_x * t25 - c2 * ballbx_y * t22) * state.z[0];
   const Real t31 = t25 * state.z[0];
   const Real t32 = t22 * state.z[0];
-  const Real S2b_zz = s3 * s3 * Real(0.014849999999999999) - Real(0.01505) - Real(0.0002);
+  const Real S2b_zz = s3 * s3 * Real(0.014849999999999999) - Real(0.01525);
   const Real v2L_z = t31 * S2b_zz;
   const Real v3p_y = c2 * t30;
-  const Real T3 = (t30 * t30 * Real(2.5) + (state.z[0] * state.z[0] * Real(0.0001) - (t31 * v2L_z - t32 * t32
-      * Real(0.01525)))) * Real(0.5) - (t30 * (t31 * (c3 * s2)) * Real(0.075) - Real(0.075) * (v3p_y * (s3 *
-      t32)));
+  const Real T3 = (t30 * t30 * Real(2.5) + (state.z[0] * state.z[0] * Real(0.0001) - (t31 * v2L_z -
+      Real(0.01525) * (t32 * t32)))) * Real(0.5) - (t30 * (t31 * (c3 * s2)) - v3p_y * (s3 * t32)) *
+      Real(0.075);
   return T3;
 }
 
@@ -436,12 +450,12 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t58 = t32 * t44;
   const Real t59 = state.y[3] - t30;
   const Real t61 = state.y[2] - t57;
-  const Real t64 = t58 - state.y[1];
+  const Real t65 = t58 - state.y[1];
   closed.y[3] = t30;
   closed.y[2] = t57;
   closed.y[1] = t58;
   closed.regularity = -((t7 * Real(11.11111111111111) - Real(1.0)) * (Real(1.0) - t37 / t36));
-  closed.opening = t64 * t64 + (t59 * t59 + t61 * t61);
+  closed.opening = t59 * t59 + t61 * t61 + t65 * t65;
   state = closed;
 }
 
@@ -458,11 +472,13 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
+  const Real ballax0_y = ballax_x - Real(0.1);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real balld_y = ballbx_y - (ballax_x - Real(0.1));
+  const Real balld_y = ballax0_y - ballbx_y;
   const Real ballax_y = Real(0.08) * c0;
+  const Real ballax0_z = ballax_y + Real(0.12);
   const Real ballbx3_x = ballbx_x * s2;
-  const Real balld_z = ballbx3_x - (ballax_y + Real(0.12));
+  const Real balld_z = ballax0_z - ballbx3_x;
   const Real t30 = ballax_y * (Real(1.0) / ballbx_x);
   const Real t33 = Real(1.0) / ballbx3_y * (ballax_x - ballbx_y * s2 * t30);
   const Real t39 = t33 * state.z[0];
@@ -470,20 +486,22 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real ballbm3t_x = ballbx_y * t40;
   const Real ballbm3vp_y = c2 * ballbm3t_x;
   const Real ballbm2t_y = ballbx3_x * t39;
-  const Real ballbm1vl_z = ballbm2t_y - ((ballbx3_x * t33 - c2 * ballbx_y * t30) * state.z[0] + ballbm3vp_y);
+  const Real ballbm2v_y = ballbm3vp_y - ballbm2t_y;
+  const Real ballbm1vl_z = (ballbx3_x * t33 - c2 * ballbx_y * t30) * state.z[0] + ballbm2v_y;
   const Real ballbm3t_y = ballbx_x * t40;
   const Real ballbm3vp_x = s2 * ballbm3t_x;
   const Real ballbm2t_x = ballbx3_y * t39;
   const Real ballam0t_x = ballax_y * state.z[0];
   const Real balldv_y = ballbm3t_y - ballam0t_x;
   const Real ballam0t_y = ballax_x * state.z[0];
-  const Real balldv_z = ballbm2t_x + (ballbm3vp_x - ballam0t_y);
+  const Real ballbm2v_x = ballbm3vp_x + ballbm2t_x;
+  const Real balldv_z = ballam0t_y - ballbm2v_x;
   g[0] = -ballbx1_x;
-  g[1] = -balld_y;
-  g[2] = balld_z;
-  g_rate[0] = -ballbm1vl_z;
+  g[1] = balld_y;
+  g[2] = -balld_z;
+  g_rate[0] = ballbm1vl_z;
   g_rate[1] = -balldv_y;
-  g_rate[2] = -balldv_z;
+  g_rate[2] = balldv_z;
 }
 
 template <class Real>
@@ -528,56 +546,56 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real ballbm3ap_x = s2 * ballbm3a_x;
   const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
   const Real t54 = t20 * ballda_y;
-  const Real t59 = t21 * (t18 * t54 - (t30 * ballbm2b_y - (ballam0a_y - ballbm3ap_x)));
-  const Real t64 = t17 * t54 + (ballbx3_x * t59 - (ballbm3ap_y + t30 * ballbm2b_x));
+  const Real t59 = t21 * (ballbm3ap_x - (ballam0a_y - (t30 * ballbm2b_y - t18 * t54)));
+  const Real t64 = t30 * ballbm2b_x + (ballbm3ap_y + (ballbx3_x * t59 - t17 * t54));
   const Real S3b_t = s3 * Real(0.014849999999999999);
   const Real h3b_x = c3 * Real(0.075);
   const Real h3b_y = s3 * Real(0.075);
-  const Real S2b_zz = s3 * S3b_t - Real(0.01505) - Real(0.0002);
+  const Real S2b_zz = s3 * S3b_t - Real(0.01525);
   const Real h2b_x = s2 * h3b_x;
   const Real v2P_y = t25 * h2b_x;
   const Real v2L_z = t25 * S2b_zz;
   const Real v3p_y = c2 * t28;
   const Real v3P_x = t22 * h3b_y;
-  const Real T3 = (t28 * t28 * Real(2.5) - (t25 * v2L_z - t22 * t22 * Real(0.01525))) * Real(0.5) + (v3p_y *
-      v3P_x - (t28 * v2P_y - Real(5e-05)));
+  const Real T3 = t28 * v2P_y - (v3p_y * v3P_x + (Real(0.01525) * (t22 * t22) + (t28 * t28 * Real(2.5) - t25 *
+      v2L_z)) * Real(0.5) + Real(5e-05));
   const Real S3b_xy = c3 * S3b_t;
   const Real h2b_y = c2 * h3b_x;
   const Real rdf1t_z = t64 * Real(2.5);
-  const Real t103 = h2b_y * Real(9.81);
+  const Real t100 = h2b_y * Real(9.81);
   const Real zw_2 = t30 * t30;
-  const Real t107 = h2b_y * zw_2;
+  const Real t104 = h2b_y * zw_2;
   const Real rdn2_z = t59 * S2b_zz;
-  const Real t109 = s2 * Real(9.81);
-  const Real rL2a_y = t109 - c2 * t64;
+  const Real t106 = s2 * Real(9.81);
+  const Real rL2a_y = t106 + c2 * t64;
   const Real rKx3 = t30 * S3b_xy;
-  const Real t113 = t30 * rKx3;
+  const Real t110 = t30 * rKx3;
   const Real z2_3 = t31 * Real(2.0);
   const Real zw_3 = t31 * t31;
   const Real rax3 = t30 * h3b_y;
-  const Real t119 = h3b_x * zw_3;
-  const Real rdf3_x = t54 * h3b_y - t119;
+  const Real t116 = h3b_x * zw_3;
+  const Real rdf3_x = t54 * h3b_y - t116;
   const Real rdf3_z = z2_3 * rax3;
   const Real rdn3_y = rKx3 * z2_3;
   const Real rdn3_z = t54 * Real(0.01525);
-  const Real t125 = s2 * rdf3_z;
-  const Real rf1_z = t125 - (c2 * rdf3_x - (t107 + (rdf1t_z - t59 * h2b_x)));
-  const Real rQ2_0 = rdn3_y + (rdn2_z + (t103 + t64 * h2b_x));
-  const Real rQ3_0 = rdn3_z - (t113 - h3b_y * rL2a_y);
-  const Real t140 = Real(1.0) / (Real(2.0) * T3) * (t22 * rQ3_0 - (t28 * rf1_z - t25 * rQ2_0));
-  const Real t142 = t64 + t28 * t140;
-  const Real t144 = t59 + t25 * t140;
-  const Real t146 = t54 - t22 * t140;
-  const Real rdf1t_z_2 = Real(2.5) * t142;
-  const Real rdn2_z_2 = S2b_zz * t144;
-  const Real rL2a_y_2 = t109 - c2 * t142;
-  const Real rdf3_x_2 = t119 - h3b_y * t146;
-  const Real rdn3_z_2 = Real(0.01525) * t146;
-  const Real rf1_z_2 = c2 * rdf3_x_2 + (t125 - (h2b_x * t144 - (t107 + rdf1t_z_2)));
-  const Real t168 = t21 * (ballbx3_x * rf1_z_2 - (rdn2_z_2 + (rdn3_y + (t103 + h2b_x * t142))));
-  lambda[0] = -rf1_z_2;
-  lambda[1] = -(t20 * (t18 * t168 + (t17 * rf1_z_2 + (rdn3_z_2 - (t113 - h3b_y * rL2a_y_2)))));
-  lambda[2] = t168;
+  const Real t122 = s2 * rdf3_z;
+  const Real rf1_z = t59 * h2b_x - (rdf1t_z - (t104 - (c2 * rdf3_x - t122)));
+  const Real rQ2_0 = t64 * h2b_x - (t100 - (rdn2_z - rdn3_y));
+  const Real rQ3_0 = h3b_y * rL2a_y - (t110 - rdn3_z);
+  const Real t137 = Real(1.0) / (Real(2.0) * T3) * (t25 * rQ2_0 + (t28 * rf1_z - t22 * rQ3_0));
+  const Real t139 = t64 - t28 * t137;
+  const Real t141 = t59 - t25 * t137;
+  const Real t143 = t54 - t22 * t137;
+  const Real rdf1t_z_2 = Real(2.5) * t139;
+  const Real rdn2_z_2 = S2b_zz * t141;
+  const Real rL2a_y_2 = t106 + c2 * t139;
+  const Real rdf3_x_2 = t116 - h3b_y * t143;
+  const Real rdn3_z_2 = Real(0.01525) * t143;
+  const Real rf1_z_2 = rdf1t_z_2 - (t104 + (h2b_x * t141 + (t122 + c2 * rdf3_x_2)));
+  const Real t165 = t21 * (h2b_x * t139 - (t100 + (rdn3_y - (rdn2_z_2 - ballbx3_x * rf1_z_2))));
+  lambda[0] = rf1_z_2;
+  lambda[1] = -(t20 * (h3b_y * rL2a_y_2 - (t110 - (rdn3_z_2 - (t17 * rf1_z_2 - t18 * t165)))));
+  lambda[2] = t165;
 }
 
 template <class Real>

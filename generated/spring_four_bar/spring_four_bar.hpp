@@ -140,26 +140,26 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 48 operations (27 mul, 16 add and sub, 4 div), 6 sin and cos.
+/// 46 operations (25 mul, 16 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 115 operations (68 mul, 41 add and sub, 5 div), 6 sin and cos.
+/// 114 operations (67 mul, 41 add and sub, 5 div), 6 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 110 operations (63 mul, 42 add and sub, 4 div), 6 sin and cos.
+/// 108 operations (62 mul, 41 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 43 operations (27 mul, 14 add and sub, 2 div), 6 sin and cos.
+/// 42 operations (27 mul, 13 add and sub, 2 div), 6 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -189,14 +189,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 135 operations (79 mul, 50 add and sub, 5 div), 6 sin and cos.
+/// 134 operations (78 mul, 50 add and sub, 5 div), 6 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 633 operations.
+/// 629 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

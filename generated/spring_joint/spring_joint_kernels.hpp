@@ -56,6 +56,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression_3 = parameters.damping_ratio * Real(2.0);
   const Real expression_4 = detail::square_root(k);
   expression_2 = expression_3 * expression_4;
+  c3 = k * Real(0.5);
 }
 
 template <class Real>
@@ -101,7 +102,8 @@ template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[3]) noexcept {
   const Real c2 = detail::cosine(state.y[2]);
   const Real push0_0 = state.y[0] * model.k + state.z[0] * model.expression_2;
-  const Real q_1 = model.k * state.y[1] + model.expression_2 * state.z[1] + Real(9.81);
+  const Real push1_0 = model.k * state.y[1] + model.expression_2 * state.z[1];
+  const Real q_1 = push1_0 + Real(9.81);
   const Real q_2 = c2 * Real(4.905);
   q[0] = push0_0;
   q[1] = q_1;
@@ -115,30 +117,35 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(state.y[2], s2, c2);
   const Real h2b_x = c2 * Real(0.5);
   const Real h2b_y = s2 * Real(0.5);
+  const Real push0_0 = state.y[0] * model.k + state.z[0] * model.expression_2;
+  const Real push1_0 = model.k * state.y[1] + model.expression_2 * state.z[1];
   const Real bQp2 = h2b_x * Real(9.81);
   const Real zw_2 = state.z[2] * state.z[2];
   const Real bdf2_x = h2b_x * zw_2;
   const Real bdf2_y = h2b_y * zw_2;
+  const Real bQ1_0 = Real(9.81) - bdf2_y;
+  const Real b_0 = push0_0 - bdf2_x;
+  const Real b_1 = push1_0 + bQ1_0;
   const Real L_2_1 = h2b_x * Real(3.0);
   const Real H2_1_1 = h2b_x * L_2_1 - Real(1.0);
   const Real H2_1_0 = h2b_y * L_2_1;
   const Real L_2_0 = h2b_y * Real(3.0);
-  const Real u2_1 = bQp2 * L_2_1 + (bdf2_y - (Real(9.81) + (model.k * state.y[1] + model.expression_2 *
-      state.z[1])));
+  const Real H2_0_0 = Real(1.0) - h2b_y * L_2_0;
+  const Real u2_1 = b_1 - bQp2 * L_2_1;
+  const Real u2_0 = b_0 + bQp2 * L_2_0;
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = H2_1_0 * L_1_0 + (Real(1.0) - h2b_y * L_2_0);
-  const Real u1_0 = u2_1 * L_1_0 - (bQp2 * L_2_0 - (bdf2_x - (state.y[0] * model.k + state.z[0] *
-      model.expression_2)));
+  const Real H1_0_0 = H2_0_0 + H2_1_0 * L_1_0;
+  const Real u1_0 = u2_0 + u2_1 * L_1_0;
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = u1_0 * invD_0;
   const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
   const Real y_2 = bQp2 * Real(3.0);
-  const Real zdot_2 = L_2_0 * y_0 - (y_2 - L_2_1 * zdot_1);
-  zdot[0] = y_0;
-  zdot[1] = -zdot_1;
-  zdot[2] = zdot_2;
+  const Real zdot_2 = y_2 + (L_2_1 * zdot_1 + L_2_0 * y_0);
+  zdot[0] = -y_0;
+  zdot[1] = zdot_1;
+  zdot[2] = -zdot_2;
 }
 
 template <class Real>
@@ -148,26 +155,31 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(state.y[2], s2, c2);
   const Real h2b_x = c2 * Real(0.5);
   const Real h2b_y = s2 * Real(0.5);
+  const Real push0_0 = state.y[0] * model.k + state.z[0] * model.expression_2;
+  const Real push1_0 = model.k * state.y[1] + model.expression_2 * state.z[1];
   const Real aa1c_z = zdot[1] + Real(9.81);
+  const Real aQp2 = h2b_y * zdot[0] - h2b_x * aa1c_z;
   const Real zw_2 = state.z[2] * state.z[2];
+  const Real adf2_x = h2b_y * zdot[2] + h2b_x * zw_2;
+  const Real adf2_y = h2b_x * zdot[2] - h2b_y * zw_2;
   const Real adn2_z = zdot[2] * Real(0.3333333333333333);
-  const Real aQ2_0 = adn2_z - (h2b_y * zdot[0] - h2b_x * aa1c_z);
-  const Real tau_0_0 = h2b_x * zw_2 + (h2b_y * zdot[2] - (zdot[0] + (state.y[0] * model.k + state.z[0] *
-      model.expression_2)));
-  const Real tau_1_0 = h2b_y * zw_2 - (h2b_x * zdot[2] + (zdot[1] + (Real(9.81) + (model.k * state.y[1] +
-      model.expression_2 * state.z[1]))));
-  tau[0] = -tau_0_0;
-  tau[1] = -tau_1_0;
-  tau[2] = aQ2_0;
+  const Real af1_z = zdot[1] + adf2_y;
+  const Real af0_z = zdot[0] - adf2_x;
+  const Real aQ1_0 = Real(9.81) + af1_z;
+  const Real aQ2_0 = aQp2 - adn2_z;
+  const Real tau_0_0 = push0_0 + af0_z;
+  const Real tau_1_0 = push1_0 + aQ1_0;
+  tau[0] = tau_0_0;
+  tau[1] = tau_1_0;
+  tau[2] = -aQ2_0;
 }
 
 template <class Real>
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real T2 = Real(0.5) * (state.z[1] * state.z[1] + (state.z[0] * state.z[0] + state.z[2] * state.z[2] *
-      Real(0.3333333333333333))) - (state.z[0] * (s2 * state.z[2]) * Real(0.5) - Real(0.5) * (state.z[1] * (c2
-      * state.z[2])));
+  const Real T2 = (state.z[0] * (state.z[0] - s2 * state.z[2]) + (state.z[2] * state.z[2] *
+      Real(0.3333333333333333) + state.z[1] * (state.z[1] + c2 * state.z[2]))) * Real(0.5);
   return T2;
 }
 
@@ -176,8 +188,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real s2 = detail::sine(state.y[2]);
   const Real h2b_y = s2 * Real(0.5);
   const Real h1c_x = h2b_y + state.y[1];
-  const Real V = h1c_x * Real(9.81) + Real(0.5) * (state.y[0] * state.y[0] * model.k + model.k * (state.y[1] *
-      state.y[1]));
+  const Real V = h1c_x * Real(9.81) + (state.y[0] * state.y[0] + state.y[1] * state.y[1]) * model.c3;
   return V;
 }
 

@@ -108,14 +108,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real bQp0 = h0b_y * Real(9.81);
   const Real bL0a_x = c0 * Real(9.81);
   const Real bL0w22 = state.z[0] * state.z[0];
+  const Real ba1o_x = bL0a_x + state.y[1] * bL0w22;
   const Real bn1c_z = state.y[1] * (state.z[0] * state.z[1]) * Real(2.0);
   const Real bQ0_0 = bQp0 + bn1c_z;
-  const Real b_1 = state.y[1] * bL0w22 - (push1_0 - bL0a_x);
+  const Real b_1 = push1_0 - ba1o_x;
   const Real S1c_xx = state.y[1] * state.y[1];
   const Real invD_0 = Real(1.0) / S1c_xx;
   const Real y_0 = bQ0_0 * invD_0;
   zdot[0] = -y_0;
-  zdot[1] = b_1;
+  zdot[1] = -b_1;
 }
 
 template <class Real>
@@ -131,9 +132,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real adn0_z = S1c_xx * zdot[0];
   const Real aL0a_x = c0 * Real(9.81);
   const Real aL0w22 = state.z[0] * state.z[0];
+  const Real aa1o_x = aL0a_x + state.y[1] * aL0w22;
   const Real an1c_z = state.y[1] * (state.z[0] * state.z[1]) * Real(2.0);
-  const Real aQ0_0 = an1c_z + (aQp0 + adn0_z);
-  const Real tau_1_0 = zdot[1] - (state.y[1] * aL0w22 - (push1_0 - aL0a_x));
+  const Real an0_z = adn0_z + an1c_z;
+  const Real aQ0_0 = aQp0 + an0_z;
+  const Real aQ1_0 = aa1o_x - zdot[1];
+  const Real tau_1_0 = push1_0 - aQ1_0;
   tau[0] = aQ0_0;
   tau[1] = tau_1_0;
 }

@@ -124,7 +124,7 @@ template <class Real>
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[7]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 149 operations (96 mul, 50 add and sub, 3 div), 14 sin and cos.
+/// 148 operations (96 mul, 49 add and sub, 3 div), 14 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
@@ -135,13 +135,13 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 47 operations (27 mul, 17 add and sub, 2 div), 6 sin and cos.
+/// 46 operations (26 mul, 17 add and sub, 2 div), 6 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 356 operations (222 mul, 128 add and sub, 5 div), 14 sin and cos.
+/// 353 operations (222 mul, 125 add and sub, 5 div), 14 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
@@ -154,7 +154,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 159 operations (106 mul, 50 add and sub, 3 div), 14 sin and cos.
+/// 157 operations (106 mul, 48 add and sub, 3 div), 14 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -184,14 +184,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 452 operations (276 mul, 170 add and sub, 5 div), 14 sin and cos.
+/// 449 operations (276 mul, 167 add and sub, 5 div), 14 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[6]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 2021 operations.
+/// 2009 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -188,15 +188,14 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
   const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + D6 - Real(8.03380146e-07) - Real(3.981529833e-05);
+  const Real J5 = D6 + (D6 - Real(4.0618678475999995e-05));
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (Real(8.03380146e-07) + D4) + Real(6.6455736e-05);
+  const Real J3 = D4 + (D4 + Real(6.6455736e-05) + Real(8.03380146e-07));
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + D1 + Real(9.237125e-07) + Real(2.4094568e-06);
   const Real v1P_x = t80 * h1b_y;
   const Real v1P_y = t80 * h1b_x;
   const Real v1L_z = t80 * Real(9.237125e-07);
@@ -212,9 +211,10 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real v6P_x = t104 * h6b_y;
   const Real v6P_y = t104 * h6b_x;
   const Real v6L_z = t104 * Real(8.03380146e-07);
-  const Real T6 = (t100 * v5L_z - (t92 * v3L_z + (t84 * t84 * Real(1.6170147425e-05) + (J0 + (t80 * v1L_z +
-      (t96 * v4L_z + t104 * v6L_z)))))) * Real(0.5) + (v6o_y * v6P_y + (v6o_x * v6P_x - (t100 * v6L_z - (v4o_y
-      * v4P_y + (v4o_x * v4P_x + (t92 * v4L_z - (r1_x * v1P_y + (v1L_z - r1_y * v1P_x))))))));
+  const Real T6 = r1_y * v1P_x - (v1L_z + (r1_x * v1P_y - (t92 * v4L_z + (v4o_x * v4P_x + (v4o_y * v4P_y -
+      (t100 * v6L_z - (v6o_x * v6P_x + (v6o_y * v6P_y - (t104 * v6L_z + (t96 * v4L_z + (t80 * v1L_z + (D1 +
+      (D1 + (Real(9.237125e-07) + (t84 * t84 * Real(1.6170147425e-05) + (t92 * v3L_z - t100 * v5L_z) +
+      Real(2.4094568e-06)))))))) * Real(0.5)))))))));
   M[0][0] = -(T6 * Real(2.0));
 }
 
@@ -299,64 +299,82 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real loop4am4a_x = t109 * loop4am4t_y;
   const Real loop4am3t_y = loop4ax4_x * t108;
   const Real loop4am3b_y = loop4am3t_y - Real(2.0) * loop4am4t_y;
+  const Real loop4am3a_x = loop4am4a_x + t108 * loop4am3b_y;
+  const Real loop4da_x = loop3bm0a_x - loop4am3a_x;
   const Real loop4am4a_y = t109 * loop4am4t_x;
   const Real loop4am3b_x = loop4am3t_x - Real(2.0) * loop4am4t_x;
+  const Real loop4am3a_y = loop4am4a_y + t108 * loop4am3b_x;
+  const Real loop4da_y = loop3bm0a_y + loop4am3a_y;
   const Real loop6am6t_x = loop6ax_y * t111;
   const Real loop6am5t_x = loop6ax6_y * t110;
   const Real loop6am6t_y = loop6ax_x * t111;
   const Real loop6am6a_x = t111 * loop6am6t_y;
   const Real loop6am5t_y = loop6ax6_x * t110;
   const Real loop6am5b_y = loop6am5t_y - Real(2.0) * loop6am6t_y;
+  const Real loop6am5a_x = loop6am6a_x - t110 * loop6am5b_y;
+  const Real loop6da_x = loop3bm0a_x + loop6am5a_x;
   const Real loop6am6a_y = t111 * loop6am6t_x;
   const Real loop6am5b_x = loop6am5t_x - Real(2.0) * loop6am6t_x;
-  const Real t160 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
-  const Real t165 = loop3bx_y * t160;
-  const Real t168 = t165 - (t108 * loop4am3b_y - (loop3bm0a_x - loop4am4a_x));
-  const Real t169 = loop3bx_x * t160;
-  const Real t172 = t169 - (t108 * loop4am3b_x + (loop3bm0a_y + loop4am4a_y));
-  const Real t176 = t72 * (loop4ax_x * t168 + loop4ax_y * t172);
-  const Real t180 = t72 * (loop4ax4_x * t168 + loop4ax4_y * t172);
-  const Real t183 = t165 - (t110 * loop6am5b_y - (loop3bm0a_x + loop6am6a_x));
-  const Real t186 = t169 + (t110 * loop6am5b_x - (loop3bm0a_y + loop6am6a_y));
-  const Real t190 = t76 * (loop6ax_x * t183 - loop6ax_y * t186);
-  const Real t194 = t76 * (loop6ax6_x * t183 - loop6ax6_y * t186);
+  const Real loop6am5a_y = loop6am6a_y - t110 * loop6am5b_x;
+  const Real loop6da_y = loop3bm0a_y + loop6am5a_y;
+  const Real t168 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
+  const Real t173 = loop3bx_y * t168;
+  const Real t174 = loop4da_x + t173;
+  const Real t175 = loop3bx_x * t168;
+  const Real t176 = loop4da_y - t175;
+  const Real t180 = t72 * (loop4ax_x * t174 - loop4ax_y * t176);
+  const Real t184 = t72 * (loop4ax4_x * t174 - loop4ax4_y * t176);
+  const Real t185 = loop6da_x + t173;
+  const Real t186 = loop6da_y - t175;
+  const Real t190 = t76 * (loop6ax_x * t185 + loop6ax_y * t186);
+  const Real t194 = t76 * (loop6ax6_x * t185 + loop6ax6_y * t186);
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
+  const Real w1_z = state.z[0] + t106;
+  const Real w4_z = t108 - t109;
+  const Real w6_z = t110 + t111;
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
-  const Real zw_1 = t106 * (t106 + (state.z[0] + state.z[0]));
+  const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
+  const Real zw_1 = t106 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
   const Real kW3w22 = t108 * t108;
   const Real ka4o_x = r4_x * kW3w22;
   const Real ka4o_y = r4_y * kW3w22;
-  const Real zw_4 = t109 * (t109 - (t108 + t108));
+  const Real kQp4 = h4b_x * ka4o_y - h4b_y * ka4o_x;
+  const Real zw_4 = t109 * (t108 + w4_z);
   const Real kdf4_x = h4b_x * zw_4;
   const Real kdf4_y = h4b_y * zw_4;
   const Real kW5w22 = t110 * t110;
   const Real ka6o_x = r6_x * kW5w22;
   const Real ka6o_y = r6_y * kW5w22;
-  const Real zw_6 = t111 * (t111 + (t110 + t110));
+  const Real kQp6 = h6b_x * ka6o_y - h6b_y * ka6o_x;
+  const Real zw_6 = t111 * (t110 + w6_z);
   const Real kdf6_x = h6b_x * zw_6;
   const Real kdf6_y = h6b_y * zw_6;
+  const Real kn6c_z = r6_x * kdf6_y - r6_y * kdf6_x;
+  const Real kn4c_z = r4_x * kdf4_y - r4_y * kdf4_x;
+  const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
   const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
   const Real E6 = D6 - Real(8.03380146e-07);
-  const Real J5 = D6 + E6 - Real(3.981529833e-05);
+  const Real Jc6 = D6 + E6;
+  const Real J5 = Jc6 - Real(3.981529833e-05);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
   const Real E4 = Real(8.03380146e-07) + D4;
-  const Real J3 = D4 + E4 + Real(6.6455736e-05);
-  const Real E1 = r1_x * h1b_x - r1_y * h1b_y + Real(9.237125e-07);
-  k[0] = -(t104 * (t194 * Real(8.03380146e-07) - (t190 * E6 - (h6b_x * ka6o_y - h6b_y * ka6o_x))) - (t100 *
-      (t194 * E6 + (t190 * J5 - (r6_x * kdf6_y - r6_y * kdf6_x))) - (t96 * (t180 * Real(8.03380146e-07) -
-      (t176 * E4 - (h4b_x * ka4o_y - h4b_y * ka4o_x))) - (t92 * (t180 * E4 - (t176 * J3 - (r4_x * kdf4_y -
-      r4_y * kdf4_x))) + (t84 * (t68 * (loop3bx_x * loop3da_x + loop3bx_y * loop3da_y)) *
-      Real(1.6170147425e-05) + (t80 * (t160 * Real(9.237125e-07) + (h1b_x * ka1o_y + h1b_y * ka1o_x)) + (t160
-      * E1 - (r1_x * kdf1_y + r1_y * kdf1_x))))))));
+  const Real Jc4 = D4 + E4;
+  const Real J3 = Jc4 + Real(6.6455736e-05);
+  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
+  const Real E1 = D1 + Real(9.237125e-07);
+  k[0] = -(kn1c_z - t168 * E1 - t80 * (kQp1 + t168 * Real(9.237125e-07)) - t84 * (t68 * (loop3bx_x * loop3da_x
+      + loop3bx_y * loop3da_y)) * Real(1.6170147425e-05) + t92 * (kn4c_z + (t180 * J3 - t184 * E4)) + t96 *
+      (kQp4 - (t180 * E4 - t184 * Real(8.03380146e-07))) + t100 * (kn6c_z - (t190 * J5 + t194 * E6)) + t104 *
+      (kQp6 - (t190 * E6 - t194 * Real(8.03380146e-07))));
 }
 
 template <class Real>
@@ -386,8 +404,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real spring1f_x = spring1d_x * spring1_Tl;
   const Real spring1f_y = spring1d_y * spring1_Tl;
   const Real push2_0 = spring1bx_x * spring1f_y - spring1bx_y * spring1f_x;
-  q[0] = -(Real(1.0) / (s2 * loop3bx_y * Real(0.035) - Real(0.035) * (loop3bx_x * c2)) * (loop3bx_x *
-      loop3bx1_y + loop3bx1_x * loop3bx_y) * push2_0 + model.drive);
+  q[0] = -(Real(1.0) / ((s2 * loop3bx_y - loop3bx_x * c2) * Real(0.035)) * (loop3bx_x * loop3bx1_y +
+      loop3bx1_x * loop3bx_y) * push2_0 + model.drive);
 }
 
 template <class Real>
@@ -484,27 +502,26 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real loop6am5b_x = loop6am5t_x - Real(2.0) * loop6am6t_x;
   const Real t160 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
   const Real t165 = loop3bx_y * t160;
-  const Real t168 = t165 - (t108 * loop4am3b_y - (loop3bm0a_x - loop4am4a_x));
+  const Real t168 = loop4am4a_x - (loop3bm0a_x - (t108 * loop4am3b_y - t165));
   const Real t169 = loop3bx_x * t160;
-  const Real t172 = t169 - (t108 * loop4am3b_x + (loop3bm0a_y + loop4am4a_y));
+  const Real t172 = loop4am4a_y + (loop3bm0a_y + (t108 * loop4am3b_x - t169));
   const Real t176 = t72 * (loop4ax_x * t168 + loop4ax_y * t172);
   const Real t180 = t72 * (loop4ax4_x * t168 + loop4ax4_y * t172);
-  const Real t183 = t165 - (t110 * loop6am5b_y - (loop3bm0a_x + loop6am6a_x));
-  const Real t186 = t169 + (t110 * loop6am5b_x - (loop3bm0a_y + loop6am6a_y));
-  const Real t190 = t76 * (loop6ax_x * t183 - loop6ax_y * t186);
-  const Real t194 = t76 * (loop6ax6_x * t183 - loop6ax6_y * t186);
+  const Real t183 = loop6am6a_x + (loop3bm0a_x - (t110 * loop6am5b_y - t165));
+  const Real t186 = loop6am6a_y + (loop3bm0a_y - (t110 * loop6am5b_x + t169));
+  const Real t190 = t76 * (loop6ax_x * t183 + loop6ax_y * t186);
+  const Real t194 = t76 * (loop6ax6_x * t183 + loop6ax6_y * t186);
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
   const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + D6 - Real(8.03380146e-07) - Real(3.981529833e-05);
+  const Real J5 = D6 + (D6 - Real(4.0618678475999995e-05));
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (Real(8.03380146e-07) + D4) + Real(6.6455736e-05);
+  const Real J3 = D4 + (D4 + Real(6.6455736e-05) + Real(8.03380146e-07));
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + D1 + Real(9.237125e-07) + Real(2.4094568e-06);
   const Real v1P_x = t80 * h1b_y;
   const Real v1P_y = t80 * h1b_x;
   const Real v1L_z = t80 * Real(9.237125e-07);
@@ -520,14 +537,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real v6P_x = t104 * h6b_y;
   const Real v6P_y = t104 * h6b_x;
   const Real v6L_z = t104 * Real(8.03380146e-07);
-  const Real T6 = (t100 * v5L_z - (t92 * v3L_z + (t84 * t84 * Real(1.6170147425e-05) + (J0 + (t80 * v1L_z +
-      (t96 * v4L_z + t104 * v6L_z)))))) * Real(0.5) + (v6o_y * v6P_y + (v6o_x * v6P_x - (t100 * v6L_z - (v4o_y
-      * v4P_y + (v4o_x * v4P_x + (t92 * v4L_z - (r1_x * v1P_y + (v1L_z - r1_y * v1P_x))))))));
+  const Real T6 = r1_y * v1P_x - (v1L_z + (r1_x * v1P_y - (t92 * v4L_z + (v4o_x * v4P_x + (v4o_y * v4P_y -
+      (t100 * v6L_z - (v6o_x * v6P_x + (v6o_y * v6P_y - (t104 * v6L_z + (t96 * v4L_z + (t80 * v1L_z + (D1 +
+      (D1 + (Real(9.237125e-07) + (t84 * t84 * Real(1.6170147425e-05) + (t92 * v3L_z - t100 * v5L_z) +
+      Real(2.4094568e-06)))))))) * Real(0.5)))))))));
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
-  const Real spring1d_x = spring1bx_x - Real(0.03635) - Real(0.014);
-  const Real spring1d_y = spring1bx_y - Real(0.03273) + Real(0.072);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1d_x = spring1bx_x - Real(0.05035);
+  const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
+  const Real spring1_ll = spring1d_x * spring1d_x + (spring1d_y * spring1d_y + Real(1e-18));
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
@@ -536,16 +554,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = r1_y * rW0w22;
-  const Real zw_1 = t106 * (t106 + (state.z[0] + state.z[0]));
+  const Real zw_1 = t106 * (state.z[0] + (state.z[0] + t106));
   const Real rdf1_x = t160 * h1b_y + h1b_x * zw_1;
   const Real rdf1_y = t160 * h1b_x - h1b_y * zw_1;
   const Real rdn1_z = t160 * Real(9.237125e-07);
   const Real rdn2_z = t68 * (loop3bx_x * loop3da_x + loop3bx_y * loop3da_y) * Real(1.6170147425e-05);
   const Real rdn3_z = t176 * J3;
   const Real rW3w22 = t108 * t108;
-  const Real ra4o_x = r4_y * t176 + r4_x * rW3w22;
-  const Real ra4o_y = r4_x * t176 - r4_y * rW3w22;
-  const Real zw_4 = t109 * (t109 - (t108 + t108));
+  const Real ra4o_x = r4_y * t176 - r4_x * rW3w22;
+  const Real ra4o_y = r4_x * t176 + r4_y * rW3w22;
+  const Real zw_4 = t109 * (t108 + (t108 - t109));
   const Real rdf4_x = t180 * h4b_y - h4b_x * zw_4;
   const Real rdf4_y = t180 * h4b_x + h4b_y * zw_4;
   const Real rdn4_z = t180 * Real(8.03380146e-07);
@@ -553,18 +571,18 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rW5w22 = t110 * t110;
   const Real ra6o_x = r6_y * t190 + r6_x * rW5w22;
   const Real ra6o_y = r6_x * t190 - r6_y * rW5w22;
-  const Real zw_6 = t111 * (t111 + (t110 + t110));
+  const Real zw_6 = t111 * (t110 + (t110 + t111));
   const Real rdf6_x = t194 * h6b_y + h6b_x * zw_6;
   const Real rdf6_y = t194 * h6b_x - h6b_y * zw_6;
   const Real rdn6_z = t194 * Real(8.03380146e-07);
-  const Real rn6c_z = r6_y * rdf6_x + (r6_x * rdf6_y + (rdn5_z - rdn6_z));
-  const Real rn4c_z = r4_y * rdf4_x + (r4_x * rdf4_y - (rdn3_z - rdn4_z));
-  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y + h1b_y * ra1o_x);
-  const Real rQ4_0 = rdn4_z - (h4b_y * ra4o_x + (t176 * Real(8.03380146e-07) + h4b_x * ra4o_y));
-  const Real rQ6_0 = rdn6_z - (h6b_y * ra6o_x - (t190 * Real(8.03380146e-07) - h6b_x * ra6o_y));
-  const Real tau_2_0 = rdn2_z + (spring1bx_x * spring1f_y - spring1bx_y * spring1f_x);
-  zdot[0] = Real(1.0) / (Real(2.0) * T6) * (t104 * rQ6_0 - (t100 * rn6c_z - (t96 * rQ4_0 - (t92 * rn4c_z +
-      (t84 * tau_2_0 + (t80 * rQ1_0 - (r1_y * rdf1_x - (rdn1_z + r1_x * rdf1_y) - model.drive)))))));
+  const Real rn6c_z = rdn6_z - (rdn5_z + (r6_x * rdf6_y + r6_y * rdf6_x));
+  const Real rn4c_z = rdn4_z - (rdn3_z - (r4_x * rdf4_y + r4_y * rdf4_x));
+  const Real rQ1_0 = h1b_y * ra1o_x + (h1b_x * ra1o_y + rdn1_z);
+  const Real rQ4_0 = h4b_x * ra4o_y + (t176 * Real(8.03380146e-07) + (h4b_y * ra4o_x - rdn4_z));
+  const Real rQ6_0 = h6b_x * ra6o_y - (t190 * Real(8.03380146e-07) - (h6b_y * ra6o_x - rdn6_z));
+  const Real tau_2_0 = spring1bx_y * spring1f_x - (spring1bx_x * spring1f_y + rdn2_z);
+  zdot[0] = -(Real(1.0) / (Real(2.0) * T6) * (r1_x * rdf1_y + (rdn1_z - (r1_y * rdf1_x - (t80 * rQ1_0 - (t84 *
+      tau_2_0 + (t92 * rn4c_z + (t96 * rQ4_0 + (t100 * rn6c_z - t104 * rQ6_0)))) + model.drive)))));
 }
 
 template <class Real>
@@ -649,55 +667,76 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real loop4am4a_x = t109 * loop4am4t_y;
   const Real loop4am3t_y = loop4ax4_x * t108;
   const Real loop4am3b_y = loop4am3t_y - Real(2.0) * loop4am4t_y;
+  const Real loop4am3a_x = loop4am4a_x + t108 * loop4am3b_y;
+  const Real loop4da_x = loop3bm0a_x - loop4am3a_x;
   const Real loop4am4a_y = t109 * loop4am4t_x;
   const Real loop4am3b_x = loop4am3t_x - Real(2.0) * loop4am4t_x;
+  const Real loop4am3a_y = loop4am4a_y + t108 * loop4am3b_x;
+  const Real loop4da_y = loop3bm0a_y + loop4am3a_y;
   const Real loop6am6t_x = loop6ax_y * t111;
   const Real loop6am5t_x = loop6ax6_y * t110;
   const Real loop6am6t_y = loop6ax_x * t111;
   const Real loop6am6a_x = t111 * loop6am6t_y;
   const Real loop6am5t_y = loop6ax6_x * t110;
   const Real loop6am5b_y = loop6am5t_y - Real(2.0) * loop6am6t_y;
+  const Real loop6am5a_x = loop6am6a_x - t110 * loop6am5b_y;
+  const Real loop6da_x = loop3bm0a_x + loop6am5a_x;
   const Real loop6am6a_y = t111 * loop6am6t_x;
   const Real loop6am5b_x = loop6am5t_x - Real(2.0) * loop6am6t_x;
-  const Real t160 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
-  const Real t165 = loop3bx_y * t160;
-  const Real t168 = t165 - (t108 * loop4am3b_y - (loop3bm0a_x - loop4am4a_x));
-  const Real t169 = loop3bx_x * t160;
-  const Real t172 = t169 - (t108 * loop4am3b_x + (loop3bm0a_y + loop4am4a_y));
-  const Real t183 = t165 - (t110 * loop6am5b_y - (loop3bm0a_x + loop6am6a_x));
-  const Real t186 = t169 + (t110 * loop6am5b_x - (loop3bm0a_y + loop6am6a_y));
-  const Real t197 = t160 - t80 * zdot[0];
-  const Real t201 = t72 * (loop4ax_x * t168 + loop4ax_y * t172) + t92 * zdot[0];
-  const Real t203 = t72 * (loop4ax4_x * t168 + loop4ax4_y * t172) + t96 * zdot[0];
-  const Real t205 = t76 * (loop6ax_x * t183 - loop6ax_y * t186) + t100 * zdot[0];
-  const Real t207 = t76 * (loop6ax6_x * t183 - loop6ax6_y * t186) + t104 * zdot[0];
+  const Real loop6am5a_y = loop6am6a_y - t110 * loop6am5b_x;
+  const Real loop6da_y = loop3bm0a_y + loop6am5a_y;
+  const Real t168 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
+  const Real t173 = loop3bx_y * t168;
+  const Real t174 = loop4da_x + t173;
+  const Real t175 = loop3bx_x * t168;
+  const Real t176 = loop4da_y - t175;
+  const Real t185 = loop6da_x + t173;
+  const Real t186 = loop6da_y - t175;
+  const Real t197 = t168 - t80 * zdot[0];
+  const Real t201 = t72 * (loop4ax_x * t174 - loop4ax_y * t176) + t92 * zdot[0];
+  const Real t203 = t72 * (loop4ax4_x * t174 - loop4ax4_y * t176) + t96 * zdot[0];
+  const Real t205 = t76 * (loop6ax_x * t185 + loop6ax_y * t186) + t100 * zdot[0];
+  const Real t207 = t76 * (loop6ax6_x * t185 + loop6ax6_y * t186) + t104 * zdot[0];
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
   const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + D6 - Real(8.03380146e-07) - Real(3.981529833e-05);
+  const Real E6 = D6 - Real(8.03380146e-07);
+  const Real Jc6 = D6 + E6;
+  const Real J5 = Jc6 - Real(3.981529833e-05);
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (Real(8.03380146e-07) + D4) + Real(6.6455736e-05);
+  const Real E4 = Real(8.03380146e-07) + D4;
+  const Real Jc4 = D4 + E4;
+  const Real J3 = Jc4 + Real(6.6455736e-05);
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + D1 + Real(9.237125e-07) + Real(2.4094568e-06);
+  const Real E1 = D1 + Real(9.237125e-07);
+  const Real Jc1 = D1 + E1;
+  const Real J0 = Jc1 + Real(2.4094568e-06);
+  const Real w1_z = state.z[0] + t106;
+  const Real w4_z = t108 - t109;
+  const Real w6_z = t110 + t111;
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
-  const Real spring1d_x = spring1bx_x - Real(0.03635) - Real(0.014);
-  const Real spring1d_y = spring1bx_y - Real(0.03273) + Real(0.072);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1bx2_x = spring1bx_x - Real(0.03635);
+  const Real spring1bx2_y = spring1bx_y - Real(0.03273);
+  const Real spring1d_x = spring1bx2_x - Real(0.014);
+  const Real spring1d_y = spring1bx2_y + Real(0.072);
+  const Real spring1_ll = spring1d_x * spring1d_x + Real(1e-18) + spring1d_y * spring1d_y;
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
   const Real spring1f_x = spring1d_x * spring1_Tl;
   const Real spring1f_y = spring1d_y * spring1_Tl;
+  const Real push2_0 = spring1bx_x * spring1f_y - spring1bx_y * spring1f_x;
   const Real adn0_z = zdot[0] * J0;
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_y * zdot[0] + r1_x * aW0w22;
   const Real aa1o_y = r1_x * zdot[0] - r1_y * aW0w22;
-  const Real zw_1 = t106 * (t106 + (state.z[0] + state.z[0]));
+  const Real aQp1 = zdot[0] * Real(9.237125e-07) + h1b_x * aa1o_y - h1b_y * aa1o_x;
+  const Real zw_1 = t106 * (state.z[0] + w1_z);
   const Real adf1_x = t197 * h1b_y + h1b_x * zw_1;
   const Real adf1_y = t197 * h1b_x - h1b_y * zw_1;
   const Real adn1_z = t197 * Real(9.237125e-07);
@@ -707,26 +746,30 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aW3w22 = t108 * t108;
   const Real aa4o_x = r4_y * t201 + r4_x * aW3w22;
   const Real aa4o_y = r4_x * t201 - r4_y * aW3w22;
-  const Real zw_4 = t109 * (t109 - (t108 + t108));
-  const Real adf4_x = t203 * h4b_y - h4b_x * zw_4;
-  const Real adf4_y = t203 * h4b_x + h4b_y * zw_4;
+  const Real aQp4 = t201 * Real(8.03380146e-07) + h4b_x * aa4o_y + h4b_y * aa4o_x;
+  const Real zw_4 = t109 * (t108 + w4_z);
+  const Real adf4_x = t203 * h4b_y + h4b_x * zw_4;
+  const Real adf4_y = t203 * h4b_x - h4b_y * zw_4;
   const Real adn4_z = t203 * Real(8.03380146e-07);
   const Real adn5_z = t205 * J5;
   const Real aW5w22 = t110 * t110;
   const Real aa6o_x = r6_y * t205 + r6_x * aW5w22;
   const Real aa6o_y = r6_x * t205 - r6_y * aW5w22;
-  const Real zw_6 = t111 * (t111 + (t110 + t110));
+  const Real aQp6 = t205 * Real(8.03380146e-07) - h6b_x * aa6o_y - h6b_y * aa6o_x;
+  const Real zw_6 = t111 * (t110 + w6_z);
   const Real adf6_x = t207 * h6b_y + h6b_x * zw_6;
   const Real adf6_y = t207 * h6b_x - h6b_y * zw_6;
   const Real adn6_z = t207 * Real(8.03380146e-07);
-  const Real an6c_z = r6_y * adf6_x + (r6_x * adf6_y + (adn5_z - adn6_z));
-  const Real an4c_z = r4_y * adf4_x + (r4_x * adf4_y - (adn3_z - adn4_z));
-  const Real aQ1_0 = adn1_z + (h1b_y * aa1o_x - (zdot[0] * Real(9.237125e-07) + h1b_x * aa1o_y));
-  const Real aQ4_0 = adn4_z - (h4b_y * aa4o_x + (t201 * Real(8.03380146e-07) + h4b_x * aa4o_y));
-  const Real aQ6_0 = adn6_z - (h6b_y * aa6o_x - (t205 * Real(8.03380146e-07) - h6b_x * aa6o_y));
-  const Real tau_2_0 = adn2_z + (spring1bx_x * spring1f_y - spring1bx_y * spring1f_x);
-  tau[0] = t104 * aQ6_0 - (t100 * an6c_z - (t96 * aQ4_0 - (t92 * an4c_z + (t84 * tau_2_0 + (t80 * aQ1_0 -
-      (r1_y * adf1_x - (r1_x * adf1_y - (adn0_z - adn1_z)) - model.drive))))));
+  const Real an6c_z = adn6_z - (adn5_z + (r6_x * adf6_y + r6_y * adf6_x));
+  const Real an4c_z = adn4_z - (adn3_z - (r4_x * adf4_y + r4_y * adf4_x));
+  const Real an1c_z = adn1_z - (adn0_z - (r1_x * adf1_y - r1_y * adf1_x));
+  const Real aQ1_0 = aQp1 - adn1_z;
+  const Real aQ4_0 = aQp4 - adn4_z;
+  const Real aQ6_0 = aQp6 + adn6_z;
+  const Real tau_0_0 = an1c_z + model.drive;
+  const Real tau_2_0 = push2_0 + adn2_z;
+  tau[0] = -(tau_0_0 - t80 * aQ1_0 + t84 * tau_2_0 + t92 * an4c_z + t96 * aQ4_0 - t100 * an6c_z - t104 *
+      aQ6_0);
 }
 
 template <class Real>
@@ -786,15 +829,15 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
   const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + D6 - Real(8.03380146e-07) - Real(3.981529833e-05);
+  const Real J5 = D6 + (D6 - Real(4.0618678475999995e-05));
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (Real(8.03380146e-07) + D4) + Real(6.6455736e-05);
+  const Real J3 = D4 + (D4 + Real(6.6455736e-05) + Real(8.03380146e-07));
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + D1 + Real(9.237125e-07) + Real(2.4094568e-06);
+  const Real J0 = D1 + (D1 + Real(3.3331692999999997e-06));
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
@@ -813,10 +856,10 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v6P_x = t111 * h6b_y;
   const Real v6P_y = t111 * h6b_x;
   const Real v6L_z = t111 * Real(8.03380146e-07);
-  const Real T6 = (t110 * v5L_z - (t108 * v3L_z + (t107 * t107 * Real(1.6170147425e-05) + (state.z[0] * v0L_z
-      + (t106 * v1L_z + (t109 * v4L_z + t111 * v6L_z)))))) * Real(0.5) + (v6o_y * v6P_y + (v6o_x * v6P_x -
-      (t110 * v6L_z - (v4o_y * v4P_y + (v4o_x * v4P_x + (t108 * v4L_z - (v1o_y * v1P_y + (state.z[0] * v1L_z -
-      v1o_x * v1P_x))))))));
+  const Real T6 = v1o_x * v1P_x - (state.z[0] * v1L_z + (v1o_y * v1P_y - (t108 * v4L_z + (v4o_x * v4P_x +
+      (v4o_y * v4P_y - (t110 * v6L_z - (v6o_x * v6P_x + (v6o_y * v6P_y - (t111 * v6L_z + (t109 * v4L_z + (t106
+      * v1L_z + (state.z[0] * v0L_z + (t107 * t107 * Real(1.6170147425e-05) + (t108 * v3L_z - t110 *
+      v5L_z)))))) * Real(0.5)))))))));
   return -T6;
 }
 
@@ -824,9 +867,13 @@ template <class Real>
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real spring1d_x = c2 * Real(0.02) + (s2 * Real(0.018) - Real(0.03635)) - Real(0.014);
-  const Real spring1d_y = s2 * Real(0.02) - (c2 * Real(0.018) - Real(0.03273)) - Real(0.072);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
+  const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
+  const Real spring1bx2_x = spring1bx_x - Real(0.03635);
+  const Real spring1bx2_y = spring1bx_y - Real(0.03273);
+  const Real spring1d_x = spring1bx2_x - Real(0.014);
+  const Real spring1d_y = spring1bx2_y + Real(0.072);
+  const Real spring1_ll = spring1d_x * spring1d_x + Real(1e-18) + spring1d_y * spring1d_y;
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real V = spring1_e * spring1_e * model.c2;
@@ -958,14 +1005,16 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
+  const Real loop3ax2_x = loop3ax_x - Real(0.03635);
   const Real loop3bx_x = c1 * Real(0.028);
   const Real loop3bx1_x = r1_x + loop3bx_x;
-  const Real loop3d_x = loop3bx1_x - (loop3ax_x - Real(0.03635));
+  const Real loop3d_x = loop3ax2_x - loop3bx1_x;
   const Real r1_y = s0 * Real(0.007);
   const Real loop3ax_y = Real(0.035) * c2;
+  const Real loop3ax2_y = loop3ax_y - Real(0.03273);
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
-  const Real loop3d_y = loop3bx1_y + (loop3ax_y - Real(0.03273));
+  const Real loop3d_y = loop3ax2_y + loop3bx1_y;
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
   Real t36, t37;
@@ -975,11 +1024,13 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real r4_x = c3 * Real(0.04);
   const Real loop4ax_x = s4 * Real(0.02);
   const Real loop4ax4_x = r4_x + loop4ax_x;
-  const Real loop4d_x = loop3bx1_x - loop4ax4_x + Real(0.06934);
+  const Real loop4ax3_x = loop4ax4_x - Real(0.06934);
+  const Real loop4d_x = loop3bx1_x - loop4ax3_x;
   const Real r4_y = s3 * Real(0.04);
   const Real loop4ax_y = c4 * Real(0.02);
   const Real loop4ax4_y = r4_y + loop4ax_y;
-  const Real loop4d_y = loop3bx1_y - loop4ax4_y + Real(0.00227);
+  const Real loop4ax3_y = loop4ax4_y - Real(0.00227);
+  const Real loop4d_y = loop3bx1_y - loop4ax3_y;
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   Real t62, t63;
@@ -989,11 +1040,13 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real r6_x = Real(0.04) * s5;
   const Real loop6ax_x = Real(0.02) * c6;
   const Real loop6ax6_x = r6_x - loop6ax_x;
-  const Real loop6d_x = loop6ax6_x - (loop3bx1_x + Real(0.06934));
+  const Real loop6ax5_x = Real(0.06934) - loop6ax6_x;
+  const Real loop6d_x = loop3bx1_x + loop6ax5_x;
   const Real r6_y = Real(0.04) * c5;
   const Real loop6ax_y = Real(0.02) * s6;
   const Real loop6ax6_y = r6_y - loop6ax_y;
-  const Real loop6d_y = loop6ax6_y + (loop3bx1_y + Real(0.00227));
+  const Real loop6ax5_y = Real(0.00227) + loop6ax6_y;
+  const Real loop6d_y = loop3bx1_y + loop6ax5_y;
   const Real t84 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
   const Real t88 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
   const Real t92 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
@@ -1018,26 +1071,30 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real loop3dv_y = loop3am2t_y - loop3bm0v_y;
   const Real loop4am4t_x = loop4ax_y * t125;
   const Real loop4am3t_x = loop4ax4_y * t124;
-  const Real loop4dv_x = loop4am3t_x + (loop3bm0v_x - loop4am4t_x);
+  const Real loop4am3v_x = loop4am4t_x - loop4am3t_x;
+  const Real loop4dv_x = loop3bm0v_x - loop4am3v_x;
   const Real loop4am4t_y = loop4ax_x * t125;
   const Real loop4am3t_y = loop4ax4_x * t124;
-  const Real loop4dv_y = loop4am3t_y - (loop3bm0v_y + loop4am4t_y);
+  const Real loop4am3v_y = loop4am4t_y - loop4am3t_y;
+  const Real loop4dv_y = loop3bm0v_y + loop4am3v_y;
   const Real loop6am6t_x = loop6ax_y * t127;
   const Real loop6am5t_x = loop6ax6_y * t126;
-  const Real loop6dv_x = loop6am5t_x + (loop3bm0v_x - loop6am6t_x);
+  const Real loop6am5v_x = loop6am6t_x - loop6am5t_x;
+  const Real loop6dv_x = loop3bm0v_x - loop6am5v_x;
   const Real loop6am6t_y = loop6ax_x * t127;
   const Real loop6am5t_y = loop6ax6_x * t126;
-  const Real loop6dv_y = loop6am5t_y + (loop3bm0v_y - loop6am6t_y);
-  g[0] = loop3d_x;
+  const Real loop6am5v_y = loop6am6t_y - loop6am5t_y;
+  const Real loop6dv_y = loop3bm0v_y - loop6am5v_y;
+  g[0] = -loop3d_x;
   g[1] = loop3d_y;
   g[2] = loop4d_x;
   g[3] = loop4d_y;
-  g[4] = -loop6d_x;
+  g[4] = loop6d_x;
   g[5] = loop6d_y;
   g_rate[0] = -loop3dv_x;
   g_rate[1] = -loop3dv_y;
   g_rate[2] = loop4dv_x;
-  g_rate[3] = -loop4dv_y;
+  g_rate[3] = loop4dv_y;
   g_rate[4] = loop6dv_x;
   g_rate[5] = loop6dv_y;
 }
@@ -1137,27 +1194,26 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t160 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
   const Real t164 = t68 * (loop3bx_x * loop3da_x + loop3bx_y * loop3da_y);
   const Real t165 = loop3bx_y * t160;
-  const Real t168 = t165 - (t108 * loop4am3b_y - (loop3bm0a_x - loop4am4a_x));
+  const Real t168 = loop4am4a_x - (loop3bm0a_x - (t108 * loop4am3b_y - t165));
   const Real t169 = loop3bx_x * t160;
-  const Real t172 = t169 - (t108 * loop4am3b_x + (loop3bm0a_y + loop4am4a_y));
+  const Real t172 = loop4am4a_y + (loop3bm0a_y + (t108 * loop4am3b_x - t169));
   const Real t176 = t72 * (loop4ax_x * t168 + loop4ax_y * t172);
   const Real t180 = t72 * (loop4ax4_x * t168 + loop4ax4_y * t172);
-  const Real t183 = t165 - (t110 * loop6am5b_y - (loop3bm0a_x + loop6am6a_x));
-  const Real t186 = t169 + (t110 * loop6am5b_x - (loop3bm0a_y + loop6am6a_y));
-  const Real t190 = t76 * (loop6ax_x * t183 - loop6ax_y * t186);
-  const Real t194 = t76 * (loop6ax6_x * t183 - loop6ax6_y * t186);
+  const Real t183 = loop6am6a_x + (loop3bm0a_x - (t110 * loop6am5b_y - t165));
+  const Real t186 = loop6am6a_y + (loop3bm0a_y - (t110 * loop6am5b_x + t169));
+  const Real t190 = t76 * (loop6ax_x * t183 + loop6ax_y * t186);
+  const Real t194 = t76 * (loop6ax6_x * t183 + loop6ax6_y * t186);
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
   const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + D6 - Real(8.03380146e-07) - Real(3.981529833e-05);
+  const Real J5 = D6 + (D6 - Real(4.0618678475999995e-05));
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (Real(8.03380146e-07) + D4) + Real(6.6455736e-05);
+  const Real J3 = D4 + (D4 + Real(6.6455736e-05) + Real(8.03380146e-07));
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + D1 + Real(9.237125e-07) + Real(2.4094568e-06);
   const Real v1P_x = t80 * h1b_y;
   const Real v1P_y = t80 * h1b_x;
   const Real v1L_z = t80 * Real(9.237125e-07);
@@ -1173,14 +1229,15 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real v6P_x = t104 * h6b_y;
   const Real v6P_y = t104 * h6b_x;
   const Real v6L_z = t104 * Real(8.03380146e-07);
-  const Real T6 = (t100 * v5L_z - (t92 * v3L_z + (t84 * t84 * Real(1.6170147425e-05) + (J0 + (t80 * v1L_z +
-      (t96 * v4L_z + t104 * v6L_z)))))) * Real(0.5) + (v6o_y * v6P_y + (v6o_x * v6P_x - (t100 * v6L_z - (v4o_y
-      * v4P_y + (v4o_x * v4P_x + (t92 * v4L_z - (r1_x * v1P_y + (v1L_z - r1_y * v1P_x))))))));
+  const Real T6 = r1_y * v1P_x - (v1L_z + (r1_x * v1P_y - (t92 * v4L_z + (v4o_x * v4P_x + (v4o_y * v4P_y -
+      (t100 * v6L_z - (v6o_x * v6P_x + (v6o_y * v6P_y - (t104 * v6L_z + (t96 * v4L_z + (t80 * v1L_z + (D1 +
+      (D1 + (Real(9.237125e-07) + (t84 * t84 * Real(1.6170147425e-05) + (t92 * v3L_z - t100 * v5L_z) +
+      Real(2.4094568e-06)))))))) * Real(0.5)))))))));
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
-  const Real spring1d_x = spring1bx_x - Real(0.03635) - Real(0.014);
-  const Real spring1d_y = spring1bx_y - Real(0.03273) + Real(0.072);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1d_x = spring1bx_x - Real(0.05035);
+  const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
+  const Real spring1_ll = spring1d_x * spring1d_x + (spring1d_y * spring1d_y + Real(1e-18));
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
@@ -1190,79 +1247,79 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = r1_y * rW0w22;
-  const Real zw_1 = t106 * (t106 + (state.z[0] + state.z[0]));
+  const Real zw_1 = t106 * (state.z[0] + (state.z[0] + t106));
   const Real rdf1_x = t160 * h1b_y + h1b_x * zw_1;
   const Real rdf1_y = t160 * h1b_x - h1b_y * zw_1;
   const Real rdn1_z = t160 * Real(9.237125e-07);
   const Real rdn2_z = t164 * Real(1.6170147425e-05);
   const Real rdn3_z = t176 * J3;
   const Real rW3w22 = t108 * t108;
-  const Real t326 = r4_x * rW3w22;
-  const Real ra4o_x = r4_y * t176 + t326;
-  const Real t329 = r4_y * rW3w22;
-  const Real ra4o_y = r4_x * t176 - t329;
-  const Real zw_4 = t109 * (t109 - (t108 + t108));
-  const Real t338 = h4b_x * zw_4;
-  const Real rdf4_x = t180 * h4b_y - t338;
-  const Real t341 = h4b_y * zw_4;
-  const Real rdf4_y = t180 * h4b_x + t341;
+  const Real t321 = r4_x * rW3w22;
+  const Real ra4o_x = r4_y * t176 - t321;
+  const Real t324 = r4_y * rW3w22;
+  const Real ra4o_y = r4_x * t176 + t324;
+  const Real zw_4 = t109 * (t108 + (t108 - t109));
+  const Real t333 = h4b_x * zw_4;
+  const Real rdf4_x = t180 * h4b_y - t333;
+  const Real t336 = h4b_y * zw_4;
+  const Real rdf4_y = t180 * h4b_x + t336;
   const Real rdn4_z = t180 * Real(8.03380146e-07);
   const Real rdn5_z = t190 * J5;
   const Real rW5w22 = t110 * t110;
-  const Real t347 = r6_x * rW5w22;
-  const Real ra6o_x = r6_y * t190 + t347;
-  const Real t350 = r6_y * rW5w22;
-  const Real ra6o_y = r6_x * t190 - t350;
-  const Real zw_6 = t111 * (t111 + (t110 + t110));
-  const Real t359 = h6b_x * zw_6;
-  const Real rdf6_x = t194 * h6b_y + t359;
-  const Real t362 = h6b_y * zw_6;
-  const Real rdf6_y = t194 * h6b_x - t362;
+  const Real t342 = r6_x * rW5w22;
+  const Real ra6o_x = r6_y * t190 + t342;
+  const Real t345 = r6_y * rW5w22;
+  const Real ra6o_y = r6_x * t190 - t345;
+  const Real zw_6 = t111 * (t110 + (t110 + t111));
+  const Real t354 = h6b_x * zw_6;
+  const Real rdf6_x = t194 * h6b_y + t354;
+  const Real t357 = h6b_y * zw_6;
+  const Real rdf6_y = t194 * h6b_x - t357;
   const Real rdn6_z = t194 * Real(8.03380146e-07);
-  const Real rn6c_z = r6_y * rdf6_x + (r6_x * rdf6_y + (rdn5_z - rdn6_z));
-  const Real rn4c_z = r4_y * rdf4_x + (r4_x * rdf4_y - (rdn3_z - rdn4_z));
-  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y + h1b_y * ra1o_x);
-  const Real rQ4_0 = rdn4_z - (h4b_y * ra4o_x + (t176 * Real(8.03380146e-07) + h4b_x * ra4o_y));
-  const Real rQ6_0 = rdn6_z - (h6b_y * ra6o_x - (t190 * Real(8.03380146e-07) - h6b_x * ra6o_y));
+  const Real rn6c_z = rdn6_z - (rdn5_z + (r6_x * rdf6_y + r6_y * rdf6_x));
+  const Real rn4c_z = rdn4_z - (rdn3_z - (r4_x * rdf4_y + r4_y * rdf4_x));
+  const Real rQ1_0 = h1b_y * ra1o_x + (h1b_x * ra1o_y + rdn1_z);
+  const Real rQ4_0 = h4b_x * ra4o_y + (t176 * Real(8.03380146e-07) + (h4b_y * ra4o_x - rdn4_z));
+  const Real rQ6_0 = h6b_x * ra6o_y - (t190 * Real(8.03380146e-07) - (h6b_y * ra6o_x - rdn6_z));
   const Real tau_2_0 = push2_0 + rdn2_z;
-  const Real t402 = Real(1.0) / (Real(2.0) * T6) * (t104 * rQ6_0 - (t100 * rn6c_z - (t96 * rQ4_0 - (t92 *
-      rn4c_z + (t84 * tau_2_0 + (t80 * rQ1_0 - (r1_y * rdf1_x - (rdn1_z + r1_x * rdf1_y) - model.drive)))))));
-  const Real t408 = t176 + t92 * t402;
-  const Real t410 = t180 + t96 * t402;
-  const Real t412 = t190 + t100 * t402;
-  const Real t414 = t194 + t104 * t402;
-  const Real ra1o_x_2 = ra1o_x + r1_y * t402;
-  const Real ra1o_y_2 = ra1o_y - r1_x * t402;
-  const Real rdn2_z_2 = Real(1.6170147425e-05) * (t164 - t84 * t402);
-  const Real rdn3_z_2 = J3 * t408;
-  const Real ra4o_x_2 = t326 + r4_y * t408;
-  const Real ra4o_y_2 = t329 - r4_x * t408;
-  const Real rdf4_x_2 = t338 - h4b_y * t410;
-  const Real rdf4_y_2 = t341 + h4b_x * t410;
-  const Real rdn4_z_2 = Real(8.03380146e-07) * t410;
-  const Real rdn5_z_2 = J5 * t412;
-  const Real ra6o_x_2 = t347 + r6_y * t412;
-  const Real ra6o_y_2 = t350 - r6_x * t412;
-  const Real rdf6_x_2 = t359 + h6b_y * t414;
-  const Real rdf6_y_2 = t362 - h6b_x * t414;
-  const Real rdn6_z_2 = Real(8.03380146e-07) * t414;
-  const Real rn6c_z_2 = r6_y * rdf6_x_2 - (r6_x * rdf6_y_2 - (rdn5_z_2 - rdn6_z_2));
-  const Real rn4c_z_2 = r4_y * rdf4_x_2 - (r4_x * rdf4_y_2 - (rdn3_z_2 - rdn4_z_2));
-  const Real rQ4_0_2 = rdn4_z_2 - (h4b_y * ra4o_x_2 + (Real(8.03380146e-07) * t408 - h4b_x * ra4o_y_2));
-  const Real rQ6_0_2 = rdn6_z_2 - (h6b_y * ra6o_x_2 - (Real(8.03380146e-07) * t412 + h6b_x * ra6o_y_2));
+  const Real t397 = Real(1.0) / (Real(2.0) * T6) * (r1_x * rdf1_y + (rdn1_z - (r1_y * rdf1_x - (t80 * rQ1_0 +
+      (t84 * tau_2_0 - (t92 * rn4c_z + (t96 * rQ4_0 + (t100 * rn6c_z - t104 * rQ6_0)))) + model.drive))));
+  const Real t402 = t176 + t92 * t397;
+  const Real t404 = t180 + t96 * t397;
+  const Real t406 = t190 - t100 * t397;
+  const Real t408 = t194 - t104 * t397;
+  const Real ra1o_x_2 = ra1o_x - r1_y * t397;
+  const Real ra1o_y_2 = ra1o_y + r1_x * t397;
+  const Real rdn2_z_2 = Real(1.6170147425e-05) * (t164 + t84 * t397);
+  const Real rdn3_z_2 = J3 * t402;
+  const Real ra4o_x_2 = t321 - r4_y * t402;
+  const Real ra4o_y_2 = t324 + r4_x * t402;
+  const Real rdf4_x_2 = t333 - h4b_y * t404;
+  const Real rdf4_y_2 = t336 + h4b_x * t404;
+  const Real rdn4_z_2 = Real(8.03380146e-07) * t404;
+  const Real rdn5_z_2 = J5 * t406;
+  const Real ra6o_x_2 = t342 + r6_y * t406;
+  const Real ra6o_y_2 = t345 - r6_x * t406;
+  const Real rdf6_x_2 = t354 + h6b_y * t408;
+  const Real rdf6_y_2 = t357 - h6b_x * t408;
+  const Real rdn6_z_2 = Real(8.03380146e-07) * t408;
+  const Real rn6c_z_2 = rdn6_z_2 - (rdn5_z_2 - (r6_x * rdf6_y_2 - r6_y * rdf6_x_2));
+  const Real rn4c_z_2 = rdn4_z_2 - (rdn3_z_2 - (r4_x * rdf4_y_2 - r4_y * rdf4_x_2));
+  const Real rQ4_0_2 = h4b_x * ra4o_y_2 + (Real(8.03380146e-07) * t402 - (h4b_y * ra4o_x_2 + rdn4_z_2));
+  const Real rQ6_0_2 = h6b_x * ra6o_y_2 + (Real(8.03380146e-07) * t406 - (h6b_y * ra6o_x_2 - rdn6_z_2));
   const Real tau_2_0_2 = push2_0 + rdn2_z_2;
-  const Real t468 = t76 * (loop6ax_x * rn6c_z_2 - loop6ax6_x * rQ6_0_2);
-  const Real t472 = t76 * (loop6ax_y * rn6c_z_2 - loop6ax6_y * rQ6_0_2);
-  const Real t476 = t72 * (loop4ax_x * rn4c_z_2 + loop4ax4_x * rQ4_0_2);
-  const Real t480 = t72 * (loop4ax_y * rn4c_z_2 + loop4ax4_y * rQ4_0_2);
-  const Real t490 = loop3bx_x * (t472 + t480) - (loop3bx_y * (t468 - t476) + (Real(9.237125e-07) * (t402 -
-      (t160 - t80 * t402)) - (h1b_x * ra1o_y_2 + h1b_y * ra1o_x_2)));
-  lambda[0] = t68 * (loop3ax_x * t490 + loop3bx_x * tau_2_0_2);
-  lambda[1] = -(t68 * (loop3ax_y * t490 + loop3bx_y * tau_2_0_2));
-  lambda[2] = -t476;
-  lambda[3] = -t480;
-  lambda[4] = t468;
-  lambda[5] = -t472;
+  const Real t462 = t76 * (loop6ax_x * rn6c_z_2 + loop6ax6_x * rQ6_0_2);
+  const Real t466 = t76 * (loop6ax_y * rn6c_z_2 + loop6ax6_y * rQ6_0_2);
+  const Real t470 = t72 * (loop4ax_x * rn4c_z_2 + loop4ax4_x * rQ4_0_2);
+  const Real t474 = t72 * (loop4ax_y * rn4c_z_2 + loop4ax4_y * rQ4_0_2);
+  const Real t485 = h1b_y * ra1o_x_2 + (h1b_x * ra1o_y_2 + (Real(9.237125e-07) * (t80 * t397 + (t160 + t397))
+      - (loop3bx_x * (t466 - t474) - loop3bx_y * (t462 + t470))));
+  lambda[0] = t68 * (loop3ax_x * t485 + loop3bx_x * tau_2_0_2);
+  lambda[1] = -(t68 * (loop3ax_y * t485 + loop3bx_y * tau_2_0_2));
+  lambda[2] = -t470;
+  lambda[3] = -t474;
+  lambda[4] = -t462;
+  lambda[5] = t466;
 }
 
 template <class Real>

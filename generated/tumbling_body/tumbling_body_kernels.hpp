@@ -85,17 +85,17 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];
   const Real half_0_2 = Real(0.5) * state.z[5];
-  const Real qdot_0_0 = half_0_2 * state.y[6] + (half_0_0 * state.y[4] + half_0_1 * state.y[5]);
-  const Real qdot_0_1 = half_0_1 * state.y[6] - (half_0_0 * state.y[3] + half_0_2 * state.y[5]);
-  const Real qdot_0_2 = half_0_0 * state.y[6] + (half_0_1 * state.y[3] - half_0_2 * state.y[4]);
-  const Real qdot_0_3 = half_0_0 * state.y[5] - (half_0_2 * state.y[3] + half_0_1 * state.y[4]);
+  const Real qdot_0_0 = half_0_0 * state.y[4] + half_0_1 * state.y[5] + half_0_2 * state.y[6];
+  const Real qdot_0_1 = half_0_0 * state.y[3] + half_0_2 * state.y[5] - half_0_1 * state.y[6];
+  const Real qdot_0_2 = half_0_1 * state.y[3] - half_0_2 * state.y[4] + half_0_0 * state.y[6];
+  const Real qdot_0_3 = half_0_2 * state.y[3] + half_0_1 * state.y[4] - half_0_0 * state.y[5];
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
   ydot[3] = -qdot_0_0;
-  ydot[4] = -qdot_0_1;
+  ydot[4] = qdot_0_1;
   ydot[5] = qdot_0_2;
-  ydot[6] = -qdot_0_3;
+  ydot[6] = qdot_0_3;
 }
 
 template <class Real>
@@ -184,9 +184,8 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
 
 template <class Real>
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real Tfree = state.z[4] * state.z[4] + (state.z[2] * state.z[2] + (state.z[1] * state.z[1] +
-      (state.z[0] * state.z[0] + (state.z[5] * state.z[5] * Real(1.5) + state.z[3] * state.z[3] *
-      Real(0.5)))));
+  const Real Tfree = state.z[5] * state.z[5] * Real(1.5) + state.z[3] * state.z[3] * Real(0.5) + state.z[0] *
+      state.z[0] + state.z[1] * state.z[1] + state.z[2] * state.z[2] + state.z[4] * state.z[4];
   return Tfree;
 }
 
@@ -198,9 +197,8 @@ Real potential_energy(const Model<Real>&, const State<Real>&) noexcept {
 template <class Real>
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  const Real Tfree = state.z[4] * state.z[4] + (state.z[2] * state.z[2] + (state.z[1] * state.z[1] +
-      (state.z[0] * state.z[0] + (state.z[5] * state.z[5] * Real(1.5) + state.z[3] * state.z[3] *
-      Real(0.5)))));
+  const Real Tfree = state.z[5] * state.z[5] * Real(1.5) + state.z[3] * state.z[3] * Real(0.5) + state.z[0] *
+      state.z[0] + state.z[1] * state.z[1] + state.z[2] * state.z[2] + state.z[4] * state.z[4];
   result.energy = Tfree;
 }
 

@@ -18,7 +18,18 @@ struct Arguments {
   std::string folder;
   std::vector<std::string> functions;
   bool explain = false;
+  std::string dump;  ///< pass whose programs are printed, or kAllPasses; empty: none
 };
+
+constexpr const char* kLowered = "lower";
+constexpr const char* kAllPasses = "all";
+
+std::string check_pass(const std::string& pass) {
+  std::vector<std::string> known = passes::pass_names();
+  known.insert(known.begin(), {kAllPasses, kLowered});
+  if (std::find(known.begin(), known.end(), pass) != known.end()) return "";
+  return fmt::format("no pass '{}'; there are {}", pass, fmt::join(known, ", "));
+}
 
 std::string check_function(const std::string& function) {
   const std::vector<std::string> known = emit::function_names();
@@ -37,6 +48,11 @@ int run(const Arguments& arguments) {
     return kUsage;
   }
   if (!arguments.functions.empty()) loaded->options.functions = arguments.functions;
+  if (!arguments.dump.empty())
+    loaded->options.watch = [&](const passes::PassRecord& pass, const ir::Module& module) {
+      if (arguments.dump == kAllPasses || arguments.dump == pass.name)
+        fmt::print("{}", programs_text(pass, module));
+    };
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) {
     print_refusal(compiled.verdict);
@@ -68,6 +84,13 @@ void add_compile(CLI::App& app, int& status) {
       ->check(check_function);
   command->add_flag("--explain", arguments->explain,
                     "print what was compared with what, what each pass did and what was left out");
+  command
+      ->add_flag(
+          fmt::format("--dump-ir{{{}}}", kAllPasses), arguments->dump,
+          fmt::format("print programs, operations and time after each pass; --dump-ir=PASS: after that "
+                      "one of {}, {}",
+                      kLowered, fmt::join(passes::pass_names(), ", ")))
+      ->check(check_pass);
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

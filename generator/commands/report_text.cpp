@@ -55,9 +55,23 @@ std::string passes_text(const std::vector<passes::PassRecord>& passes) {
   };
   std::string text = "  passes (operations of all functions together)\n";
   for (const passes::PassRecord& pass : passes)
-    text += fmt::format("    {:<18} {:<14} {:>7} -> {}\n", pass.name, effect(pass.effect),
-                        pass.operations_before, pass.operations_after);
+    if (pass.round == 1 || pass.operations_before != pass.operations_after)
+      text += fmt::format("    {:<18} {:<14} {:>7} -> {}\n", pass.name, effect(pass.effect),
+                          pass.operations_before, pass.operations_after);
   return text;
+}
+
+std::string programs_text(const passes::PassRecord& pass, const ir::Module& module) {
+  std::string text = pass.seconds == 0 ? fmt::format("# {}\n", pass.name)
+                                       : fmt::format("# {}, round {}: {} -> {} operations, {:.3g} ms\n",
+                                                     pass.name, pass.round, pass.operations_before,
+                                                     pass.operations_after, 1e3 * pass.seconds);
+  const auto add = [&text](const ir::Program& program) {
+    text += fmt::format("# {} operations\n{}", ir::count_operations(program).arithmetic(), print(program));
+  };
+  if (!module.constants.outputs.empty()) add(module.constants);
+  for (const ir::Program& program : module.functions) add(program);
+  return text + "\n";
 }
 
 std::string omissions_text(const std::vector<Omission>& omissions) {

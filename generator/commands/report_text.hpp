@@ -12,6 +12,9 @@ std::string operations_table(const ir::Module& module);
 std::string verdict_text(const validate::Verdict& verdict);
 /// Each function, what it was compared with and how well.
 std::string oracles_text(const validate::Verdict& verdict);
+/// The programs after a pass, with operations and time.
+std::string programs_text(const passes::PassRecord& pass, const ir::Module& module);
+
 std::string passes_text(const std::vector<passes::PassRecord>& passes);
 std::string omissions_text(const std::vector<Omission>& omissions);
 

@@ -27,10 +27,18 @@ SceneShape shape_of(const ModelText& model) {
   for (const OutputDeclaration& output : model.outputs)
     for (const OutputMember& member : output.members)
       numbers += static_cast<std::size_t>(member.rows) * static_cast<std::size_t>(member.columns);
-  return {model.positions.size(), model.velocities.size(),  model.tangent.quaternions.size(),
-          model.outputs.size(),   model.inputs.size(),      numbers,
-          model.rheonomic,        model.constraints.size(), !model.dependents.empty(),
-          model.closings};
+  SceneShape shape;
+  shape.positions = model.positions.size();
+  shape.velocities = model.velocities.size();
+  shape.quaternions = model.tangent.quaternions.size();
+  shape.outputs = model.outputs.size();
+  shape.inputs = model.inputs.size();
+  shape.output_numbers = numbers;
+  shape.time = model.time;
+  shape.constraints = model.constraints.size();
+  shape.has_dependents = !model.dependents.empty();
+  shape.closings = model.closings;
+  return shape;
 }
 
 class Emitter {

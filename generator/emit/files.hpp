@@ -50,7 +50,7 @@ struct ModelText {
   std::string sha256;                                      ///< of the description
   std::vector<std::string> positions, velocities, inputs;  ///< names in order
   model::Tangent tangent;
-  bool rheonomic = false;
+  model::TimeDependence time;
   bool all_derivatives = true;  ///< those of the residual hold all terms
   std::vector<OutputDeclaration> outputs;
   std::vector<ParameterText> parameters;

@@ -5,6 +5,8 @@
 
 namespace jourdain::emit {
 
+using model::TimeDependence;
+
 namespace {
 
 std::vector<FunctionInfo> computed_functions() {
@@ -106,7 +108,11 @@ std::vector<FunctionInfo> derivative_functions() {
                      "r = M zdot - k_bar + q_bar for the given accelerations and inputs, N m or N: zero "
                      "where they fit."),
       array_function("residual_derivatives", true,
-                     {{"M", {z, z}}, {"r_y", {z, z}}, {"r_z", {z, z}}, {"r_u", {z, u}}, {"r_t", {z}, true}},
+                     {{"M", {z, z}},
+                      {"r_y", {z, z}},
+                      {"r_z", {z, z}},
+                      {"r_u", {z, u}},
+                      {"r_t", {z}, &TimeDependence::dynamics}},
                      "Mass matrix, and derivatives of the residual by y, z, u and t at fixed accelerations." +
                          displacement),
       array_function("forward_dynamics_derivatives", false,
@@ -117,8 +123,8 @@ std::vector<FunctionInfo> derivative_functions() {
                       {"B", {x, u}},
                       {"C", {o, x}},
                       {"D", {o, u}},
-                      {"rate_t", {x}, true},
-                      {"output_t", {o}, true}},
+                      {"rate_t", {x}, &TimeDependence::dynamics},
+                      {"output_t", {o}, &TimeDependence::outputs}},
                      "Linearisation at a state and input, not only at an equilibrium; see Linearization."),
   };
   list.back().shape = Shape::kLinearization;
@@ -190,7 +196,7 @@ std::size_t SceneShape::count(Extent extent) const {
 }
 
 bool SceneShape::has(const ArrayResult& array) const {
-  return (rheonomic || !array.rheonomic) &&
+  return (!array.only_if || time.*array.only_if) &&
          std::all_of(array.extents.begin(), array.extents.end(), [this](Extent e) { return count(e) > 0; });
 }
 

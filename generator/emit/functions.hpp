@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "emit/steppers.hpp"
+#include "model/time_dependence.hpp"
 
 namespace jourdain::emit {
 
@@ -35,7 +36,7 @@ enum class Extent {
 struct ArrayResult {
   std::string name;
   std::vector<Extent> extents;
-  bool rheonomic = false;  ///< only where something depends on time
+  bool model::TimeDependence::*only_if = nullptr;  ///< only where this depends on time
 };
 
 struct FunctionInfo {
@@ -56,7 +57,7 @@ struct FunctionInfo {
 struct SceneShape {
   std::size_t positions = 0, velocities = 0, quaternions = 0, outputs = 0;
   std::size_t inputs = 0, output_numbers = 0;
-  bool rheonomic = false;
+  model::TimeDependence time;
   std::size_t constraints = 0;  ///< rows of all loops
   bool has_dependents = false;  ///< some positions follow from others
   int closings =

@@ -120,7 +120,7 @@ void turning_rate(const Real* theta, const Real* omega, Real* rate) noexcept {
 }
 )";
 
-bool has_change(const StepScene& scene) { return scene.shape.rheonomic || scene.shape.inputs > 0; }
+bool has_change(const StepScene& scene) { return scene.shape.time.dynamics || scene.shape.inputs > 0; }
 
 /// Derivatives, and the residual's own change over the step.
 std::string derivatives_text(const StepScene& scene) {
@@ -131,13 +131,13 @@ std::string derivatives_text(const StepScene& scene) {
     text += fmt::format("  Real r_u[{}][{}];\n", shape.velocities, shape.inputs);
     more += ", r_u";
   }
-  if (shape.rheonomic) more += ", step.change";
+  if (shape.time.dynamics) more += ", step.change";
   text += fmt::format(
       "  residual_derivatives(model, state, {}, accelerations.zdot, step.W, step.r_y, step.r_z{});\n",
       inputs ? "input_at(input, state)" : "input", more);
   if (has_change(scene))
     text += fmt::format("  for (int i = 0; i < {}; ++i) step.change[i] = {};\n", shape.velocities,
-                        shape.rheonomic ? "h * step.change[i]" : "Real(0.0)");
+                        shape.time.dynamics ? "h * step.change[i]" : "Real(0.0)");
   if (inputs) text += "  add_input_change(input, state, h, r_u, step.change);\n";
   return text;
 }
@@ -352,7 +352,7 @@ long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, con
   constexpr long kRotate = 26, kTurn = 3 + 24 + kNormaliseOperations, kTurningRate = 26;
   const long displace = scalars + quaternions * kTurn;
   long total = 1 + (method.gamma != 1) + 4 * (n + 2 * pairs) + n + pairs + 2 * squares;
-  if (scene.shape.rheonomic) total += n;
+  if (scene.shape.time.dynamics) total += n;
   if (quaternions > 0) total += 1 + quaternions * (3 + 5 + 2 + n * kRotate);
   for (std::size_t i = 0; i < method.m.size(); ++i) {
     const auto own = [&](const std::vector<double>& factors, double scale) {

@@ -15,7 +15,7 @@ std::string provenance(const ModelText& model, bool has_rate) {
   if (!model.numbers_from.empty()) line("Numbers from: " + comment_text(model.numbers_from));
   line("This file belongs to whoever ran the compiler; no licence of the generator applies to it.");
   text += "//\n";
-  const char* t = model.rheonomic ? ", t" : "";
+  const char* t = model.time.dynamics ? ", t" : "";
   const bool has_multipliers = !model.constraints.empty() && model.dependents.empty();
   line(fmt::format("Equations of motion: M(y{0}) zdot = k_bar(y, z{0}) - q_bar(y, z{0}, u){2}, dy/dt = {1}.",
                    t, has_rate ? "Z(y) z" : "z", has_multipliers ? " - G(y)^T lambda" : ""));

@@ -128,11 +128,11 @@ std::string linearization_struct(const std::vector<FunctionInfo>& functions, con
   for (const FunctionInfo& function : functions)
     if (function.shape == Shape::kLinearization) {
       std::string text = wrapped_doc(
-          "With x = (displacements, velocities), nz each, and o the numbers of all outputs in their order, "
-          "matrices row by "
-          "row: d(dx/dt) = A dx + B du + rate_t dt, do = C dx + D du + output_t dt. The displacement of a "
-          "coordinate is its "
-          "change, that of a quaternion a small rotation in body axes, dquat = 1/2 quat (0, dtheta).",
+          fmt::format("With x = (displacements, velocities), nz each, and o the numbers of all outputs in "
+                      "their order, matrices row by row: d(dx/dt) = A dx + B du{}, do = C dx + D du{}. The "
+                      "displacement of a coordinate is its change, that of a quaternion a small rotation in "
+                      "body axes, dquat = 1/2 quat (0, dtheta).",
+                      scene.time.dynamics ? " + rate_t dt" : "", scene.time.outputs ? " + output_t dt" : ""),
           0);
       text += "template <class Real = double>\nstruct Linearization {\n";
       for (const ArrayResult& array : function.arrays)

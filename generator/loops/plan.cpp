@@ -17,6 +17,7 @@
 #include "loops/sharing_rows.hpp"
 #include "model/checks.hpp"
 #include "model/loop_kinds.hpp"
+#include "model/time_dependence.hpp"
 
 namespace jourdain::loops {
 
@@ -125,7 +126,7 @@ class Planner {
   /// Without freedom all positions follow from time; multipliers are left for what is singular on the way.
   bool treat_determined() {
     const model::LoopOptions& options = mechanism_.loop_options;
-    if (!layout_.rheonomic)
+    if (!model::time_dependence(mechanism_).positions)
       diagnostics_.note(mechanism_.loops.front().where, "the loops leave no degree of freedom",
                         "nothing depends on time either: the mechanism stands still");
     if (options.treatment == LoopTreatment::kMultipliers) return true;

@@ -100,7 +100,7 @@ class LoopProgram {
   /// Bᵀ M B. With one degree of freedom twice the kinetic energy at z = B, where nothing else moves: that costs less than M.
   std::vector<Column> mass_matrix() {
     const std::vector<Column>& B = dependence_.B();
-    if (B.size() == 1 && !system_.layout.rheonomic) {
+    if (B.size() == 1 && !model::time_dependence(system_.mechanism).positions) {
       const Signed T =
           ir::insert(builder_, system_.tree("kinetic_energy"), [&](LeafKind kind, std::size_t i) {
             return kind == LeafKind::kVelocity ? std::optional(B[0][i]) : std::nullopt;
@@ -339,7 +339,7 @@ DerivativeSources derivative_sources(const LoopSystem& system) {
   const bool reduced = system.plan.is_reduced();
   sources.velocities = reduced ? system.plan.independent.size() : system.layout.velocity_count();
   sources.inputs = system.layout.input_count();
-  sources.time = system.layout.rheonomic;
+  sources.time = model::time_dependence(system.mechanism);
   sources.residual = loop_program(system, "residual");
   sources.load = sources.residual;
   sources.zdot = loop_program(system, "forward_dynamics");

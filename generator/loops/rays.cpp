@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/time_dependence.hpp"
 #include "support/uniform.hpp"
 
 namespace jourdain::loops {
@@ -37,7 +38,7 @@ std::vector<Ray> draw_rays(const NumericClosure& closure, const LoopPlan& plan,
     fill(ray.displacement, ray.z.size(), 1);
     fill(ray.velocity, ray.z.size(), 1);
     fill(ray.input, layout.input_count(), 1);
-    if (layout.rheonomic) ray.time = uniform(-1, 1);
+    if (model::time_dependence(mechanism).any()) ray.time = uniform(-1, 1);
   }
   return rays;
 }

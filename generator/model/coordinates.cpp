@@ -15,26 +15,6 @@ constexpr CoordinateKind kCylindrical[] = {{"angle", true}, {"slide", false}};
 constexpr CoordinateKind kUniversal[] = {{"first", true}, {"second", true}};
 constexpr CoordinateKind kPlanar[] = {{"x", false}, {"y", false}, {"angle", true}};
 
-bool depends_on_time(const Expression& expression) {
-  return std::any_of(expression.nodes().begin(), expression.nodes().end(), [](const Expression::Node& node) {
-    return node.op == Expression::Op::kVariable && node.variable.kind == Variable::Kind::kTime;
-  });
-}
-
-bool depends_on_time(const Mechanism& mechanism) {
-  for (const Joint& joint : mechanism.joints)
-    for (const Coordinate& coordinate : joint.coordinates)
-      if (coordinate.motion) return true;
-  for (const Load& load : mechanism.loads)
-    for (std::size_t i = 0; i < 3; ++i)
-      if (depends_on_time(load.force[i]) || depends_on_time(load.moment[i])) return true;
-  for (const CoordinateForce& force : mechanism.coordinate_forces)
-    if (depends_on_time(force.force)) return true;
-  for (const Loop& loop : mechanism.loops)
-    if (depends_on_time(loop.length) || depends_on_time(loop.residual)) return true;
-  return false;
-}
-
 /// Appends "<joint>_<suffix>" for each suffix.
 void add_names(std::vector<std::string>& names, const Joint& joint,
                std::initializer_list<const char*> suffixes) {
@@ -117,7 +97,6 @@ CoordinateLayout lay_out_coordinates(const Mechanism& mechanism) {
   }
   for (const Actuator& actuator : mechanism.actuators) layout.input_names.push_back(actuator.name);
   for (const Input& input : mechanism.inputs) layout.input_names.push_back(input.name);
-  layout.rheonomic = depends_on_time(mechanism);
   return layout;
 }
 

@@ -24,7 +24,6 @@ struct CoordinateLayout {
   std::vector<JointEntries> joints;  ///< by JointIndex
   std::vector<std::string> position_names, velocity_names, input_names;
   std::vector<std::size_t> quaternions;  ///< entry in y of each quaternion's w
-  bool rheonomic = false;  ///< some coordinate is prescribed, or some force or loop depends on time
 
   std::size_t position_count() const { return position_names.size(); }
   std::size_t velocity_count() const { return velocity_names.size(); }

@@ -84,6 +84,8 @@ class Splitting {
 
 }  // namespace
 
-Program split_angles(const Program& program) { return Splitting(program).run(); }
+Program split_angles(const Program& program) {
+  return settled(program, [](const Program& p) { return Splitting(p).run(); });
+}
 
 }  // namespace jourdain::passes

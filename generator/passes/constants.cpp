@@ -46,7 +46,8 @@ class Grouping {
  private:
   bool is_constant(const Node& node) const {
     if (node.op == Op::kLiteral) return true;
-    if (node.op == Op::kLeaf) return node.leaf == ir::LeafKind::kParameter;
+    if (node.op == Op::kLeaf)
+      return node.leaf == ir::LeafKind::kParameter || node.leaf == ir::LeafKind::kConstant;
     return constant_[node.a.value] && (ir::operand_count(node.op) == 1 || constant_[node.b.value]);
   }
 
@@ -93,6 +94,8 @@ class Grouping {
 
 }  // namespace
 
-Program group_constants(const Program& program) { return Grouping(program).run(); }
+Program group_constants(const Program& program) {
+  return settled(program, [](const Program& p) { return Grouping(p).run(); });
+}
 
 }  // namespace jourdain::passes

@@ -28,14 +28,12 @@ class Factoring {
       : program_(program), uses_(ir::use_counts(program)), copy_(program.nodes.size()) {}
 
   Program run() {
-    const std::vector<bool> inner = inner_sums();
+    find_sums();
     for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
-      if (inner[i]) continue;  // rebuilt with the sum that uses it
+      if (rebuilt_with_another_[i]) continue;
       const Node& node = program_.nodes[i];
-      if (is_sum(node)) {
-        std::vector<Term> terms;
-        collect(ValueId(i), false, terms);
-        copy_[i] = rebuild(terms);
+      if (const auto sum = sums_.find(i); sum != sums_.end()) {
+        copy_[i] = rebuild(sum->second);
       } else {
         copy_[i] = builder_.apply(node, copy_[node.a.value], copy_[node.b.value]);
       }
@@ -51,24 +49,28 @@ class Factoring {
 
   bool absorbed(ValueId id) const { return is_sum(program_[id]) && uses_[id.value] == 1; }
 
-  /// Sums that are used once, by another sum.
-  std::vector<bool> inner_sums() const {
-    std::vector<bool> inner(program_.nodes.size(), false);
-    for (const Node& node : program_.nodes) {
-      if (!is_sum(node)) continue;
-      for (ValueId operand : {node.a, node.b})
-        if (absorbed(operand)) inner[operand.value] = true;
+  /// Whole sums whose terms have a factor in common. All others stay as they are.
+  void find_sums() {
+    std::vector<bool> seen(program_.nodes.size(), false);
+    rebuilt_with_another_.assign(program_.nodes.size(), false);
+    for (std::size_t i = program_.nodes.size(); i-- > 0;) {
+      if (!is_sum(program_.nodes[i]) || seen[i]) continue;
+      std::vector<Term> terms;
+      std::vector<ValueId> partial;
+      collect(ValueId(i), false, terms, partial);
+      for (const ValueId id : partial) seen[id.value] = true;
+      for (const ValueId id : partial) rebuilt_with_another_[id.value] = true;
+      sums_[i] = std::move(terms);
     }
-    return inner;
   }
 
-  void collect(ValueId id, bool negative, std::vector<Term>& terms) const {
+  /// Terms of a sum, and the partial sums on the way to them.
+  void collect(ValueId id, bool negative, std::vector<Term>& terms, std::vector<ValueId>& partial) const {
     const Node& node = program_[id];
     const auto operand = [&](ValueId value, bool sign) {
-      if (absorbed(value))
-        collect(value, sign, terms);
-      else
-        terms.push_back({value, sign});
+      if (!absorbed(value)) return terms.push_back({value, sign});
+      partial.push_back(value);
+      collect(value, sign, terms, partial);
     };
     operand(node.a, negative);
     operand(node.b, negative != (node.op == Op::kSubtract));
@@ -126,10 +128,20 @@ class Factoring {
   std::vector<std::size_t> uses_;
   Builder builder_;
   std::vector<Signed> copy_;
+  std::map<std::size_t, std::vector<Term>> sums_;
+  std::vector<bool> rebuilt_with_another_;
 };
 
 }  // namespace
 
-Program factor(const Program& program) { return Factoring(program).run(); }
+Program factor(const Program& program) {
+  const auto operations = [](const Program& p) { return ir::count_operations(p).arithmetic(); };
+  Program best = remove_dead_code(program);
+  for (;;) {
+    Program next = Factoring(best).run();
+    if (operations(next) >= operations(best)) return best;
+    best = std::move(next);
+  }
+}
 
 }  // namespace jourdain::passes

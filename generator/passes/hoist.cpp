@@ -2,7 +2,8 @@
 
 #include <map>
 
-#include "ir/builder.hpp"
+#include "ir/compose.hpp"
+#include "passes/rewrite.hpp"
 
 namespace jourdain::passes {
 
@@ -19,14 +20,13 @@ namespace {
 
 class Hoisting {
  public:
-  explicit Hoisting(const Module& module) : module_(module) {
-    JD_CHECK(module.constants.outputs.empty(), "hoist runs once");
-  }
+  explicit Hoisting(const Module& module)
+      : module_(module), known_(ir::insert(constants_, module.constants)) {}
 
   Module run() {
     Module result;
     for (const Program& function : module_.functions) result.functions.push_back(split(function));
-    result.constants = constants_.finish("constants");
+    result.constants = remove_dead_code(constants_.finish("constants"));
     return result;
   }
 
@@ -47,10 +47,14 @@ class Hoisting {
       const Node& node = function.nodes[i];
       const int operands = ir::operand_count(node.op);
       const bool fixed =
-          (operands == 0 && (node.op == Op::kLiteral || node.leaf == LeafKind::kParameter)) ||
+          (operands == 0 && (node.op == Op::kLiteral || node.leaf == LeafKind::kParameter ||
+                             node.leaf == LeafKind::kConstant)) ||
           (operands >= 1 && copy[node.a.value].fixed && (operands == 1 || copy[node.b.value].fixed));
       if (fixed)
-        copy[i] = {constants_.apply(node, copy[node.a.value].value, copy[node.b.value].value), true};
+        copy[i] = {node.op == Op::kLeaf && node.leaf == LeafKind::kConstant
+                       ? known_[node.index]
+                       : constants_.apply(node, copy[node.a.value].value, copy[node.b.value].value),
+                   true};
       else {
         const Signed a = operands >= 1 ? inside(node.a) : Signed{};  // in order: reading may add a leaf
         const Signed b = operands == 2 ? inside(node.b) : Signed{};
@@ -61,7 +65,7 @@ class Hoisting {
     }
     for (const ir::Output& output : function.outputs)
       body.output(output.name, output.row, output.column, inside(output.value));
-    return body.finish(function.name);
+    return without_unused(body.finish(function.name));
   }
 
   /// A value of the constants program as seen from a function: literals are copied, others become a leaf.
@@ -80,6 +84,7 @@ class Hoisting {
 
   const Module& module_;
   Builder constants_;
+  std::vector<Signed> known_;  ///< constants that the module already has
   std::map<ValueId, std::size_t> index_;
 };
 

@@ -1,7 +1,7 @@
 #include "passes/pipeline.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <chrono>
 
 #include "passes/angles.hpp"
 #include "passes/constants.hpp"
@@ -25,11 +25,7 @@ std::function<Module(const Module&)> each_function(Program (*pass)(const Program
   };
 }
 
-struct Pass {
-  const char* name;
-  Effect effect;
-  std::function<Module(const Module&)> run;
-};
+}  // namespace
 
 /// The pipeline: a new pass is one line here.
 const std::vector<Pass>& pipeline() {
@@ -43,7 +39,11 @@ const std::vector<Pass>& pipeline() {
   return passes;
 }
 
-}  // namespace
+std::vector<std::string> pass_names() {
+  std::vector<std::string> names;
+  for (const Pass& pass : pipeline()) names.emplace_back(pass.name);
+  return names;
+}
 
 std::size_t arithmetic(const Module& module) {
   std::size_t total = ir::count_operations(module.constants).arithmetic();
@@ -51,14 +51,40 @@ std::size_t arithmetic(const Module& module) {
   return total;
 }
 
-Optimised optimise(Module module, const std::vector<std::string>& switched_off) {
+namespace {
+
+constexpr int kMostRounds = 20;  // all models and random programs need at most 4
+
+bool same_operations(const Module& a, const Module& b) {
+  return passes::same_operations(a.constants, b.constants) &&
+         std::equal(a.functions.begin(), a.functions.end(), b.functions.begin(), b.functions.end(),
+                    [](const Program& x, const Program& y) { return passes::same_operations(x, y); });
+}
+
+/// Runs one pass and says what it did.
+PassRecord run(const Pass& pass, Module& module) {
+  using Clock = std::chrono::steady_clock;
+  PassRecord record{pass.name, pass.effect, arithmetic(module), 0, 0, 1};
+  const Clock::time_point start = Clock::now();
+  module = pass.run(module);
+  record.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  record.operations_after = arithmetic(module);
+  return record;
+}
+
+}  // namespace
+
+Optimised optimise(Module module, const std::vector<std::string>& switched_off, const Watch& watch) {
   Optimised result;
-  for (const Pass& pass : pipeline()) {
-    if (std::find(switched_off.begin(), switched_off.end(), pass.name) != switched_off.end()) continue;
-    PassRecord record{pass.name, pass.effect, arithmetic(module), 0};
-    module = pass.run(module);
-    record.operations_after = arithmetic(module);
-    result.records.push_back(record);
+  for (int round = 1; round <= kMostRounds; ++round) {
+    const Module before = module;
+    for (const Pass& pass : pipeline()) {
+      if (std::find(switched_off.begin(), switched_off.end(), pass.name) != switched_off.end()) continue;
+      result.records.push_back(run(pass, module));
+      result.records.back().round = round;
+      if (watch) watch(result.records.back(), module);
+    }
+    if (same_operations(module, before)) break;
   }
   result.module = std::move(module);
   return result;

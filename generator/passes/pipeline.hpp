@@ -1,6 +1,7 @@
-// The passes in their order, with operation counts before and after each.
+// The passes in their order, with operation counts and time of each.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,25 @@ namespace jourdain::passes {
 /// What a pass may change: nothing (the same bits), rounding, or results under an assumption that is printed.
 enum class Effect { kExact, kReassociating, kAssuming };
 
+/// One rewriting of a module. Idempotent: run on its own result it gives the same programs, node by node.
+struct Pass {
+  const char* name;
+  Effect effect;
+  std::function<ir::Module(const ir::Module&)> run;
+};
+
+/// In the order in which they run. So is the whole: of an optimised module it gives the same programs.
+const std::vector<Pass>& pipeline();
+
+std::vector<std::string> pass_names();
+
 struct PassRecord {
   std::string name;
   Effect effect = Effect::kExact;
   std::size_t operations_before = 0,
               operations_after = 0;  ///< arithmetic, all functions and constants together
+  double seconds = 0;                ///< taken by the pass
+  int round = 1;                     ///< the passes run in rounds until one changes nothing
 };
 
 struct Optimised {
@@ -23,8 +38,12 @@ struct Optimised {
   std::vector<PassRecord> records;
 };
 
-/// Runs the pipeline. Names in `switched_off` are left out (to count what a pass saves).
-Optimised optimise(ir::Module module, const std::vector<std::string>& switched_off = {});
+/// Is shown the module after each pass.
+using Watch = std::function<void(const PassRecord&, const ir::Module&)>;
+
+/// Runs the pipeline until it changes nothing. Names in `switched_off` are left out (to count what a pass saves).
+Optimised optimise(ir::Module module, const std::vector<std::string>& switched_off = {},
+                   const Watch& watch = nullptr);
 
 std::size_t arithmetic(const ir::Module& module);
 

@@ -1,5 +1,7 @@
 #include "passes/rewrite.hpp"
 
+#include <algorithm>
+
 namespace jourdain::passes {
 
 using ir::Builder;
@@ -19,7 +21,28 @@ std::vector<bool> needed_values(const Program& program) {
   return needed;
 }
 
-Program remove_dead_code(const Program& program) {
+Program without_unused(const Program& program) {
+  const std::vector<bool> needed = needed_values(program);
+  Program result;
+  result.name = program.name;
+  std::vector<ir::ValueId> place(program.nodes.size());
+  for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+    if (!needed[i]) continue;
+    Node node = program.nodes[i];
+    if (ir::operand_count(node.op) >= 1) node.a = place[node.a.value];
+    if (ir::operand_count(node.op) == 2) node.b = place[node.b.value];
+    place[i] = ir::ValueId(result.nodes.size());
+    result.nodes.push_back(node);
+    result.labels.push_back(program.labels[i]);
+  }
+  result.outputs = program.outputs;
+  for (ir::Output& output : result.outputs) output.value = place[output.value.value];
+  return result;
+}
+
+namespace {
+
+Program swept(const Program& program) {
   const std::vector<bool> needed = needed_values(program);
   Builder builder;
   std::vector<Signed> copy(program.nodes.size());
@@ -31,7 +54,29 @@ Program remove_dead_code(const Program& program) {
   }
   for (const ir::Output& output : program.outputs)
     builder.output(output.name, output.row, output.column, copy[output.value.value]);
-  return builder.finish(program.name);
+  return without_unused(builder.finish(program.name));
 }
+
+bool same_outputs(const Program& a, const Program& b) {
+  return std::equal(a.outputs.begin(), a.outputs.end(), b.outputs.begin(), b.outputs.end(),
+                    [](const ir::Output& x, const ir::Output& y) { return x.value == y.value; });
+}
+
+}  // namespace
+
+bool same_operations(const Program& a, const Program& b) { return a.nodes == b.nodes && same_outputs(a, b); }
+
+Program settled(const Program& program, const Rewriting& rewrite) {
+  constexpr int kMostRuns = 100;  // a cycle would cost idempotence, never correctness
+  Program current = rewrite(program);
+  for (int run = 1; run < kMostRuns; ++run) {
+    Program next = rewrite(current);
+    if (same_operations(next, current)) return next;
+    current = std::move(next);
+  }
+  return current;
+}
+
+Program remove_dead_code(const Program& program) { return settled(program, swept); }
 
 }  // namespace jourdain::passes

@@ -1,14 +1,12 @@
 #include "studies/local_dynamics.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace jourdain::studies {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -68,14 +66,11 @@ double shrinking(const Flow<double>& flow, const std::vector<Local>& locals) {
 }  // namespace
 
 std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
-                             const model::Tangent& tangent, double seconds, const Progress& progress) {
-  const auto begin = Clock::now();
+                             const model::Tangent& tangent, const Progress& progress) {
   std::vector<Local> locals;
   const std::size_t last = reference.points.size() - 1, count = std::min(kPoints, last);
   for (std::size_t k = 0; k <= count; ++k) {
-    const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
     progress("stability", 0.5 * double(k) / double(count));
-    if (spent > seconds) break;
     const Point<double>& point = reference.points[k * last / count];
     LocalCoordinates coordinates = local_coordinates(flow, point, tangent);
     const MatrixXd A = kept(linearisation(flow, point, tangent) * coordinates.embedding, coordinates);

@@ -27,9 +27,9 @@ struct Scene {
   bool damps = false;   ///< volumes in phase space shrink
 };
 
-/// At evenly spaced points of the reference, in time; fewer where `seconds` are over before.
+/// At evenly spaced points of the reference, in time.
 std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
-                             const model::Tangent& tangent, double seconds, const Progress& progress);
+                             const model::Tangent& tangent, const Progress& progress);
 
 /// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing.
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,

@@ -1,6 +1,5 @@
 // Limits of the step length as runs show them, to check the predicted ones against.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "studies/stability.hpp"
@@ -8,8 +7,6 @@
 namespace jourdain::studies {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kDisplacement = 1e-6;  ///< of the largest velocity: small, so that the linear picture holds
 constexpr double kDiverged = 10;        ///< times the largest of the same velocity in the reference
@@ -29,28 +26,28 @@ constexpr double kResolution = 1.005;
 /// One start, many step lengths.
 class Runs {
  public:
-  Runs(const Flow<double>& flow, const jourdain_method& method, const LimitRuns& setting, double seconds)
+  Runs(const Flow<double>& flow, const jourdain_method& method, const LimitRuns& setting, Budget& budget)
       : flow_(flow),
         method_(method),
         start_(setting.start),
         undisplaced_(setting.start),
         damped_(setting.kind == ModeKind::kDamped),
-        stiff_(setting.stiff) {
-    deadline_ =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+        stiff_(setting.stiff),
+        budget_(budget) {
     const double largest = setting.largest.maxCoeff(), scale = largest > 0 ? largest : 1;
     scales_ = setting.largest.cwiseMax(kMoving * scale);
     velocities(start_) +=
         kDisplacement * scale / setting.direction.lpNorm<Eigen::Infinity>() * setting.direction;
     const double wanted = kGrown / std::log(std::max(setting.growth, 1 + 1e-9));
     const double fewest = static_cast<double>(damped_ && !stiff_ ? kFewestDampedSteps : kFewestSteps);
-    const double most = std::min(1.0 * kMostSteps, seconds / kMostRuns / step_time(setting.predicted));
+    const int runs = !damped_ ? 1 : stiff_ ? 1 + kFiner : 2 + 2 * kFiner;
+    const double most = std::min(1.0 * kMostSteps, budget.left() / kMostRuns / (runs * step_time(method)));
     steps_ = static_cast<long>(std::clamp(wanted, fewest, std::max(fewest, most)));
   }
 
   long steps() const { return steps_; }
 
-  /// Nothing where the time is over.
+  /// Nothing where the budget is spent.
   std::optional<bool> diverges(double h) const {
     if (!damped_) return grows(h);
     return stiff_ ? leaves_finer(h) : parts(h);
@@ -66,13 +63,14 @@ class Runs {
   };
   Run run_from(const Point<double>& start) const { return {start, flow_.fresh_memory(method_)}; }
   void advance(Run& run, double h, int ratio = 1) const {
+    budget_.spend(static_cast<double>(kBlock * ratio) * step_time(method_));
     flow_.step(method_, run.point, h / ratio, kBlock * ratio, run.memory);
   }
 
   std::optional<bool> grows(double h) const {
     Run run = run_from(start_);
     for (long done = 0; done < steps_; done += kBlock) {
-      if (Clock::now() > deadline_) return {};
+      if (budget_.is_over()) return {};
       advance(run, h);
       if (beyond(velocities(run.point), kDiverged)) return true;
     }
@@ -82,7 +80,7 @@ class Runs {
   std::optional<bool> leaves_finer(double h) const {
     Run run = run_from(start_), finer = run;
     for (long done = 0; done < steps_; done += kBlock) {
-      if (Clock::now() > deadline_) return {};
+      if (budget_.is_over()) return {};
       advance(run, h);
       advance(finer, h, kFiner);
       if (beyond(velocities(run.point) - velocities(finer.point), 1)) return true;
@@ -94,7 +92,7 @@ class Runs {
     Run run = run_from(start_), other = run_from(undisplaced_), finer = run, finer_other = other;
     double widest = distance(run, other);  // that the motion itself brings about
     for (long done = 0; done < steps_; done += kBlock) {
-      if (Clock::now() > deadline_) return {};
+      if (budget_.is_over()) return {};
       for (Run* each : {&run, &other}) advance(*each, h);
       for (Run* each : {&finer, &finer_other}) advance(*each, h, kFiner);
       widest = std::max(widest, distance(finer, finer_other));
@@ -105,17 +103,6 @@ class Runs {
 
   double distance(Run& a, Run& b) const {
     return (velocities(a.point) - velocities(b.point)).lpNorm<Eigen::Infinity>();
-  }
-
-  /// Of a run and all that go with it, s.
-  double step_time(double predicted) const {
-    constexpr int kSteps = 500;
-    Point<double> point = start_;
-    Memory memory = flow_.fresh_memory(method_);
-    const auto begin = Clock::now();
-    flow_.step(method_, point, predicted / kFiner, kSteps, memory);
-    const double time = std::chrono::duration<double>(Clock::now() - begin).count() / kSteps;
-    return time * (!damped_ ? 1 : stiff_ ? 1 + kFiner : 2 + 2 * kFiner);
   }
 
   Eigen::Map<Eigen::VectorXd> velocities(Point<double>& point) const {
@@ -134,7 +121,7 @@ class Runs {
   long steps_ = 0;
   bool damped_;
   bool stiff_;
-  Clock::time_point deadline_;
+  Budget& budget_;
 };
 
 /// h that holds and h that diverges, a step of kWidening apart, around `predicted`.
@@ -157,8 +144,8 @@ std::optional<std::pair<double, double>> bracket(const Runs& runs, double predic
 }  // namespace
 
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
-                                           const LimitRuns& setting, double seconds) {
-  const Runs runs(flow, method, setting, seconds);
+                                           const LimitRuns& setting, Budget& budget) {
+  const Runs runs(flow, method, setting, budget);
   auto range = bracket(runs, setting.predicted);
   while (range && range->second > range->first * kResolution) {
     const double middle = std::sqrt(range->first * range->second);

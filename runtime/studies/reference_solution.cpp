@@ -1,32 +1,21 @@
 #include "studies/reference_solution.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "studies/cvode.hpp"
 #include "studies/extrapolation.hpp"
+#include "studies/work.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::studies {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kTolerance = 1e-23, kLooserTolerance = 1e-20;
 constexpr double kCvodeTolerance = 1e-13, kLooserCvodeTolerance = 1e-12;
 constexpr long kMostEvaluations = 50000000;     ///< where the user insists
 constexpr double kEvaluationsPerInterval = 45;  ///< of extrapolation to kTolerance, about
-
-/// Wall time of one evaluation, s.
-double evaluation_time(const Flow<LongReal>& flow) {
-  const Point<LongReal> start = flow.start();
-  const auto begin = Clock::now();
-  constexpr int kRuns = 5;
-  for (int i = 0; i < kRuns; ++i) flow.rates(start.t + LongReal(1e-3 * i), start.x);
-  return std::chrono::duration<double>(Clock::now() - begin).count() / kRuns;
-}
 
 /// Largest difference of an entry, over 1 + |x|; `a` has `stride` points for one of `b`.
 template <class Real>
@@ -56,7 +45,7 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
                                                   int halvings, double seconds, bool required,
                                                   const Progress& progress) {
   progress("reference in 50 digits", 0);
-  const double evaluation = evaluation_time(flow);
+  const double evaluation = long_rates_time(flow.table());
   const double coarsest = evaluation * kEvaluationsPerInterval * static_cast<double>(count);
   if (!required && coarsest > seconds) return {};
   int level = 0;

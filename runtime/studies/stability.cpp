@@ -1,7 +1,6 @@
 #include "studies/stability.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -9,7 +8,6 @@ namespace jourdain::studies {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -115,7 +113,7 @@ VectorXd largest_velocities(const Flow<double>& flow, const ReferenceSolution& r
 void observe(const Flow<double>& flow, const ReferenceSolution& reference, const std::vector<Local>& locals,
              double seconds, Stability& result, const Progress& progress) {
   const VectorXd largest = largest_velocities(flow, reference);
-  const auto begin = Clock::now();
+  Budget budget(seconds);
   for (MethodLimit& limit : result.limits) {
     progress("step limits", 0.5 + 0.5 * double(limit.method) / double(result.limits.size()));
     const jourdain_method& method = flow.table().methods[limit.method];
@@ -131,9 +129,10 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
                          growth_beyond(*function, limit, local),
                          limit.kind,
                          limit.h * result.rate < kShort};
-    const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
-    const double share = (seconds - spent) / static_cast<double>(result.limits.size() - limit.method);
-    limit.observed = observe_limit(flow, method, runs, share);
+    const double share = budget.left() / static_cast<double>(result.limits.size() - limit.method);
+    Budget part(share);
+    limit.observed = observe_limit(flow, method, runs, part);
+    budget.spend(share - part.left());
   }
 }
 
@@ -164,7 +163,7 @@ Stability study_stability(const Flow<double>& flow, const ReferenceSolution& ref
                           const model::Tangent& tangent, bool conserves_energy, double seconds,
                           const Progress& progress) {
   Stability result;
-  const std::vector<Local> locals = linearise(flow, reference, tangent, seconds / 4, progress);
+  const std::vector<Local> locals = linearise(flow, reference, tangent, progress);
   if (locals.empty()) return result;
   const Scene scene = describe_scene(flow, reference, locals, conserves_energy);
   result.rate = scene.rate;

@@ -11,6 +11,7 @@
 #include "studies/flow.hpp"
 #include "studies/mode_limits.hpp"
 #include "studies/reference_solution.hpp"
+#include "studies/work.hpp"
 
 namespace jourdain::studies {
 
@@ -45,7 +46,7 @@ struct Stability {
 /// longer steps. Null where the scene is not stiff.
 const MethodLimit* stiff_limit(const Stability& stability);
 
-/// Along `reference`; `tangent` is that of the independent coordinates and says which entries of y are quaternions. Takes about `seconds` at most.
+/// Along `reference`; `tangent` is that of the independent coordinates and says which entries of y are quaternions. `seconds` of nominal work at most, see work.hpp.
 Stability study_stability(const Flow<double>& flow, const ReferenceSolution& reference,
                           const model::Tangent& tangent, bool conserves_energy, double seconds,
                           const Progress& progress);
@@ -69,8 +70,8 @@ struct LimitRuns {
 /// - damped: displaced and undisplaced run are a thousand times as far apart as those with an eighth of the step have been,
 ///   within 500 steps at least. Neither resonance nor trajectories that part by themselves count.
 /// Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, where a million steps and the time do for
-/// that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted one, or `seconds` are over.
+/// that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted one, or the budget is spent.
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
-                                           const LimitRuns& runs, double seconds);
+                                           const LimitRuns& runs, Budget& budget);
 
 }  // namespace jourdain::studies

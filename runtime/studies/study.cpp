@@ -1,19 +1,18 @@
 #include "studies/study.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "model/coordinates.hpp"
+#include "studies/work.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::studies {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr long kFewestIntervals = 4;
+constexpr double kStepsForSources = 2;  ///< in 50 digits, for one step: truncation, and the run itself
 constexpr double kLinear = 0.1;    ///< share of the error by which the parts may miss it in the linear regime
 constexpr double kRegular = 1e-2;  ///< relative error above which no parts are computed
 
@@ -24,8 +23,11 @@ std::size_t best_method(const jourdain_model_table& table) {
   return static_cast<std::size_t>(best - table.methods);
 }
 
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
+/// Of one step of each method in 50 digits, over `duration`.
+double level_time(const jourdain_model_table& table, double h, double duration) {
+  double step = 0;
+  for (int m = 0; m < table.method_count; ++m) step += long_step_time(table.methods[m]);
+  return step * duration / h;
 }
 
 const WorkPoint& point_of(const WorkPrecision& work, std::size_t method, double h) {
@@ -35,20 +37,19 @@ const WorkPoint& point_of(const WorkPrecision& work, std::size_t method, double 
   return work.points.front();
 }
 
-/// Parts of the errors, from the longest step to shorter ones, as far as the time allows.
+/// Parts of the errors, from the longest step to shorter ones, as far as the budget allows.
 std::vector<ErrorSources> study_sources(const Flow<double>& flow, const Flow<LongReal>& long_flow,
                                         const Study& study, const Progress& progress) {
   std::vector<ErrorSources> sources;
   const std::vector<Eigen::MatrixXd> transitions = transition_matrices(flow, study.reference.points);
-  const auto begin = Clock::now();
-  double last_level = 0;
+  Budget budget(study.options.seconds);
   for (const double h : study.steps) {
     const double ratio = h / study.reference.interval;
-    // The next level takes twice the time of the last one.
-    if (ratio < 0.99 || seconds_since(begin) + 2 * last_level > study.options.seconds) break;
-    const auto level_begin = Clock::now();
+    if (ratio < 0.99) break;
+    budget.spend(kStepsForSources * level_time(flow.table(), h, study.judged));
+    if (budget.is_over() && !sources.empty()) break;
     for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
-      progress("error sources", std::min(1.0, seconds_since(begin) / study.options.seconds));
+      progress("error sources", std::clamp(1 - budget.left() / study.options.seconds, 0.0, 1.0));
       const WorkPoint& point = point_of(study.work, m, h);
       const bool regular = point.finite && point.relative_largest.position < kRegular &&
                            point.relative_largest.velocity < 10 * kRegular;
@@ -56,32 +57,29 @@ std::vector<ErrorSources> study_sources(const Flow<double>& flow, const Flow<Lon
       sources.push_back(error_sources(flow, long_flow, m, study.reference, transitions,
                                       static_cast<std::size_t>(std::lround(ratio))));
     }
-    last_level = seconds_since(level_begin);
   }
   std::stable_sort(sources.begin(), sources.end(),
                    [](const ErrorSources& a, const ErrorSources& b) { return a.method < b.method; });
   return sources;
 }
 
-/// Rounding at the steps that `study_sources` left out, as far as the time allows.
+/// Rounding at the steps that `study_sources` left out, as far as the budget allows.
 std::vector<RoundingPoint> study_roundings(const Flow<double>& flow, const Flow<LongReal>& long_flow,
                                            const Study& study, const Progress& progress) {
   std::vector<RoundingPoint> points;
   double shortest = INFINITY;
   for (const ErrorSources& source : study.sources) shortest = std::min(shortest, source.h);
-  const auto begin = Clock::now();
-  double last_level = 0;
+  Budget budget(study.options.seconds / 2);
   for (const double h : study.steps) {
     if (h > 0.99 * shortest) continue;
-    if (seconds_since(begin) + 2 * last_level > study.options.seconds / 2) break;
-    const auto level_begin = Clock::now();
+    budget.spend(level_time(flow.table(), h, study.judged));
+    if (budget.is_over() && !points.empty()) break;
     for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
-      progress("rounding", std::min(1.0, 2 * seconds_since(begin) / study.options.seconds));
+      progress("rounding", std::clamp(1 - 2 * budget.left() / study.options.seconds, 0.0, 1.0));
       const WorkPoint& point = point_of(study.work, m, h);
       if (point.finite && point.relative_largest.position < kRegular)
         points.push_back({m, h, rounding_error(flow, long_flow, m, h, std::lround(study.judged / h))});
     }
-    last_level = seconds_since(level_begin);
   }
   std::stable_sort(points.begin(), points.end(),
                    [](const RoundingPoint& a, const RoundingPoint& b) { return a.method < b.method; });

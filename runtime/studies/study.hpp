@@ -25,7 +25,7 @@ struct StudyOptions {
   Question question;
   bool conserves_energy = false;
   bool forms = true;   ///< compare with equations of the first kind
-  double seconds = 8;  ///< of work for each costly part, about
+  double seconds = 8;  ///< of work for each costly part, nominal: counted, see work.hpp
 };
 
 /// How a method's error comes about, over the steps where the parts could be computed.

@@ -1,4 +1,5 @@
-// Robots on a free root against the accelerations of an independent library.
+// Robots on a free root against accelerations that were computed otherwise: public ones by an independent library, ours in
+// descriptor form.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -88,17 +89,17 @@ double worst_error(const std::vector<Case>& cases, const auto& compute) {
   return worst;
 }
 
-TEST(FreeRoots, MatchAnIndependentLibrary) {
-  for (const std::string robot : {"hyq", "talos_reduced"}) {
-    const std::filesystem::path path = shared_path("data/accelerations") / (robot + ".free.json");
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
-    std::ifstream file(path);
+TEST(FreeRoots, MatchIndependentAccelerations) {
+  const std::vector<std::string> robots = robots_with_accelerations("free");
+  ASSERT_FALSE(robots.empty());
+  for (const std::string& robot : robots) {
+    std::ifstream file(accelerations_path(robot, "free"));
     const json data = json::parse(file);
     model::Mechanism mechanism = free_robot(robot);
     const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
     std::vector<Case> cases;
     for (const json& state : data["states"]) cases.push_back(read_case(data, state, layout));
-    ASSERT_EQ(cases.size(), 20u);
+    ASSERT_GE(cases.size(), 8u);
 
     const auto interpret = [](const Derived& derived) {
       return
@@ -121,7 +122,6 @@ TEST(FreeRoots, MatchAnIndependentLibrary) {
 }
 
 TEST(FreeRoots, TakeFewOperations) {
-  if (!std::filesystem::exists(urdf_path("hyq"))) GTEST_SKIP() << "no " << urdf_path("hyq");
   const auto operations = [](const std::string& robot) {
     const model::Mechanism mechanism = free_robot(robot);
     dynamics::DerivationOptions options;
@@ -130,8 +130,9 @@ TEST(FreeRoots, TakeFewOperations) {
       if (program.name == "forward_dynamics") return ir::count_operations(program).arithmetic();
     return std::size_t(0);
   };
-  EXPECT_EQ(operations("hyq"), 2664u);
-  EXPECT_EQ(operations("talos_reduced"), 8808u);
+  const std::map<std::string, std::size_t> best = {{"biped", 3957}, {"hyq", 2663}, {"talos_reduced", 8784}};
+  for (const auto& [robot, count] : best)
+    if (has_robot(robot)) EXPECT_EQ(operations(robot), count) << robot;
 }
 
 }  // namespace

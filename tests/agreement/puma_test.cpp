@@ -11,8 +11,6 @@ namespace {
 constexpr double kTolerance = 1e-13;
 
 TEST(Puma560, AgreesWithThePublishedOutputs) {
-  if (!std::filesystem::exists(shared_path("reference/puma560.json")))
-    GTEST_SKIP() << "no reference/puma560.json";
   const PumaCase puma = read_puma_case();
   const reference::Reference<double> reference(read_model(model_path("puma560.toml")));
   const auto no_input = reference::VectorX<double>::Zero(Eigen::Index(reference.input_count()));
@@ -24,8 +22,6 @@ TEST(Puma560, AgreesWithThePublishedOutputs) {
 }
 
 TEST(Puma560, ProgramAgreesWithThePublishedOutputs) {
-  if (!std::filesystem::exists(shared_path("reference/puma560.json")))
-    GTEST_SKIP() << "no reference/puma560.json";
   const PumaCase puma = read_puma_case();
   const Derived derived = derive(read_model(model_path("puma560.toml")));
   const auto list = [](const reference::VectorX<double>& v) {

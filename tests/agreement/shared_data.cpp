@@ -46,12 +46,47 @@ std::filesystem::path model_path(const std::string& name) {
   return std::filesystem::path(JOURDAIN_SOURCE_DIR) / "models" / name;
 }
 
-std::filesystem::path shared_path(const std::string& name) {
-  return std::filesystem::path(JOURDAIN_SOURCE_DIR "/../shared") / name;
+std::filesystem::path data_path(const std::string& name) {
+  return std::filesystem::path(JOURDAIN_SOURCE_DIR) / "tests/data" / name;
+}
+
+std::filesystem::path public_data_path(const std::string& name) {
+  return std::filesystem::path(JOURDAIN_SOURCE_DIR "/../shared/data") / name;
+}
+
+std::vector<std::string> robots_with_accelerations(const std::string& root) {
+  std::vector<std::string> robots;
+  for (const std::filesystem::path& folder :
+       {data_path("accelerations"), public_data_path("accelerations")}) {
+    if (folder != data_path("accelerations") && !std::filesystem::exists(folder)) {
+      fmt::print("no public robots in {}: those of tests/data alone\n", folder.string());
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string file = entry.path().filename().string(), end = "." + root + ".json";
+      if (file.ends_with(end)) found.push_back(file.substr(0, file.size() - end.size()));
+    }
+    std::sort(found.begin(), found.end());
+    robots.insert(robots.end(), found.begin(), found.end());
+  }
+  return robots;
+}
+
+std::filesystem::path accelerations_path(const std::string& robot, const std::string& root) {
+  const std::string name = fmt::format("accelerations/{}.{}.json", robot, root);
+  return std::filesystem::exists(data_path(name)) ? data_path(name) : public_data_path(name);
 }
 
 std::filesystem::path urdf_path(const std::string& robot) {
-  return shared_path("data/urdf/" + robot + ".urdf");
+  const std::filesystem::path ours = data_path("robots/" + robot + ".urdf");
+  return std::filesystem::exists(ours) ? ours : public_data_path("urdf/" + robot + ".urdf");
+}
+
+bool has_robot(const std::string& robot) {
+  const bool found = std::filesystem::exists(urdf_path(robot));
+  if (!found) fmt::print("public robot {} is not there: a case less\n", robot);
+  return found;
 }
 
 model::Mechanism read_model(const std::filesystem::path& path, const model::ReadOptions& options) {
@@ -62,15 +97,9 @@ model::Mechanism read_model(const std::filesystem::path& path, const model::Read
 }
 
 std::vector<AccelerationCase> fixed_root_accelerations() {
-  const std::filesystem::path folder = shared_path("data/accelerations");
-  if (!std::filesystem::exists(folder)) return {};
-  std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().string().ends_with(".fixed.json")) paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
   std::vector<AccelerationCase> cases;
-  for (const std::filesystem::path& path : paths) {
-    const json data = read_json(path);
+  for (const std::string& robot : robots_with_accelerations("fixed")) {
+    const json data = read_json(accelerations_path(robot, "fixed"));
     AccelerationCase& read =
         cases.emplace_back(AccelerationCase{data["robot"], data["gravity"], data["joints"], {}});
     for (const json& state : data["states"])
@@ -106,7 +135,7 @@ double normwise_error(const reference::MatrixX<double>& actual, const reference:
 double larger_error(double one, double other) { return one <= other || std::isnan(other) ? other : one; }
 
 PumaCase read_puma_case() {
-  const json data = read_json(shared_path("reference/puma560.json"));
+  const json data = read_json(data_path("reference/puma560.json"));
   reference::MatrixX<double> M(6, 6);
   for (Eigen::Index row = 0; row < 6; ++row) M.row(row) = vector(data["M"][std::size_t(row)]);
   return {vector(data["q"]),

@@ -1,4 +1,5 @@
-// The published and independently computed cases that lie beside the project, as plain data.
+// The published and independently computed cases that tests compare with, as plain data. tests/data is part of the project: what is
+// missing there fails. Public robots that may not be redistributed lie beside the project and add cases where they are.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +14,17 @@ namespace jourdain::tests {
 
 /// A model of the project: models/<name>.
 std::filesystem::path model_path(const std::string& name);
-/// A file of the reference data: <shared folder>/<name>. The folder need not be there: see `exists`.
-std::filesystem::path shared_path(const std::string& name);
+/// tests/data/<name>.
+std::filesystem::path data_path(const std::string& name);
+/// The folder of public robots beside the project; it need not be there.
+std::filesystem::path public_data_path(const std::string& name);
+
+/// Names of the robots with accelerations for that root ("fixed", "free"): ours, and the public ones that are there.
+std::vector<std::string> robots_with_accelerations(const std::string& root);
+/// The file of those accelerations.
+std::filesystem::path accelerations_path(const std::string& robot, const std::string& root);
+/// Is the robot's description there? Says so on the terminal where it is not. Ours always is.
+bool has_robot(const std::string& robot);
 
 /// Reads a model file; throws std::runtime_error with the diagnostics when it has errors.
 model::Mechanism read_model(const std::filesystem::path& path, const model::ReadOptions& options = {});
@@ -33,8 +43,9 @@ struct AccelerationCase {
   std::vector<AccelerationState> states;
 };
 
-/// The `*.fixed.json` of the shared folder in the order of their names; empty where it is absent.
+/// Those of `robots_with_accelerations("fixed")`.
 std::vector<AccelerationCase> fixed_root_accelerations();
+/// Description of a robot of ours, or of a public one.
 std::filesystem::path urdf_path(const std::string& robot);
 
 /// Values of `joints` (same order and count) in the order of the mechanism's coordinates; a coordinate
@@ -59,7 +70,7 @@ struct PumaCase {
   reference::MatrixX<double> M;
 };
 
-/// Reads `shared_path("reference/puma560.json")`.
+/// Reads tests/data/reference/puma560.json.
 PumaCase read_puma_case();
 
 }  // namespace jourdain::tests

@@ -110,6 +110,32 @@ TEST(CommandLine, AMotionThatEndsIsValidatedWhereItIsDefined) {
   expect(jourdain({"check", file}), 0, "ok: motion");
 }
 
+/// Header that `linearize` leaves of a description with an output added.
+std::string linearised(const std::string& description, const std::string& output) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/scene.toml";
+  support::write_file(
+      file, description + "\n[[output]]\nname = \"h\"\nkind = \"expression\"\nvalue = \"" + output + "\"\n");
+  expect(jourdain({"compile", file, "--name", "scene", "--functions",
+                   "linearize,outputs,initial_state,rk4_step,rodas4_step", "-o", folder.path()}),
+         0, "validated");
+  return support::read_file(folder.path() + "/scene.hpp");
+}
+
+TEST(CommandLine, OutputsMayDependOnTimeWhereTheDynamicsDoNot) {
+  const auto contains = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  for (const std::string model : {"pendulum", "four_bar", "spring_four_bar"}) {
+    const std::string description =
+        support::read_file(JOURDAIN_SOURCE_DIR + std::string("/models/") + model + ".toml");
+    const std::string of_time = linearised(description, "t^2 + 3*t"), of_none = linearised(description, "2");
+    EXPECT_TRUE(contains(of_time, "  Real output_t[") && contains(of_time, "+ output_t dt")) << model;
+    EXPECT_FALSE(contains(of_time, "rate_t")) << model;
+    EXPECT_FALSE(contains(of_none, "output_t")) << model;
+  }
+}
+
 TEST(CommandLine, AFolderThatCannotBeMadeIsTheEnvironmentsFault) {
   const support::TemporaryFolder folder;
   const std::string file = folder.path() + "/file";
@@ -145,6 +171,19 @@ TEST(Compile, EmitsOnlyWhatWasAskedFor) {
   EXPECT_NE(header.find("void rk4_step"), std::string::npos);
   EXPECT_EQ(header.find("void mass_matrix"), std::string::npos);
   EXPECT_EQ(header.find("initial_state("), std::string::npos);
+}
+
+TEST(Compile, ShowsTheProgramsAfterAPass) {
+  const support::TemporaryFolder folder;
+  const auto dump = [&](const std::string& option) {
+    return jourdain({"compile", option, "models/pendulum.toml", "-o", folder.path(), "--functions", "k_bar,q_bar"});
+  };
+  const support::ProcessResult one = dump("--dump-ir=hoist"), all = dump("--dump-ir");
+  expect(one, 0, "# hoist, round 1: ");
+  expect(one, 0, "program k_bar\n%0 = 0\nk[0] := %0\n");
+  EXPECT_EQ(one.output.find("# factor"), std::string::npos);
+  for (const char* pass : {"# lower\n", "# factor, round 1", "# hoist, round 2"}) expect(all, 0, pass);
+  expect(dump("--dump-ir=fator"), 2, "no pass 'fator'; there are all, lower, split_angles");
 }
 
 TEST(Compile, AWrongModelWritesNothing) {

@@ -4,6 +4,7 @@
 
 #include "model/coordinates.hpp"
 #include "model/read.hpp"
+#include "model/time_dependence.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::model {
@@ -100,7 +101,7 @@ TEST(ReadLoops, TakesARodWhoseLengthChanges) {
   const double value = m.loops.at(0).length.evaluate<double>(
       std::vector<double>{3.0}, [](double v) { return v; }, [](const Variable&) { return 1.0; });
   EXPECT_DOUBLE_EQ(value, 3 + 0.1 * std::sin(1.0));
-  EXPECT_TRUE(lay_out_coordinates(m).rheonomic);
+  EXPECT_TRUE(time_dependence(m).dynamics);
 }
 
 TEST(ReadLoops, AParameterMayHaveTheNameOfWhatALengthRefuses) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "agreement/shared_data.hpp"
 #include "model/read.hpp"
 #include "support/files.hpp"
 
@@ -128,7 +129,7 @@ TEST(ReadUrdf, LocksJoints) {
   EXPECT_EQ(m.actuators[0].name, "elbow");
 }
 
-/// A real robot and its degrees of freedom.
+/// A robot and its degrees of freedom.
 struct Robot {
   const char* name;
   std::size_t degrees_of_freedom;
@@ -147,35 +148,27 @@ std::vector<std::string> quoted_words(const std::string& json, const std::string
   return words;
 }
 
-class ReadUrdfOf : public testing::TestWithParam<Robot> {};
-
-TEST_P(ReadUrdfOf, ARealRobotGivesNoErrors) {
-  const std::filesystem::path data = std::filesystem::path(JOURDAIN_SOURCE_DIR) / "../shared/data";
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << "robot descriptions are not there: ../shared/data";
-  const std::string name = GetParam().name;
-  support::Diagnostics diagnostics(name + ".urdf",
-                                   support::read_file((data / "urdf" / (name + ".urdf")).string()));
-  const auto mechanism = read_mechanism(diagnostics);
-  ASSERT_TRUE(mechanism.has_value()) << diagnostics.format();
-
-  // The published accelerations name the same joints; their order sorts siblings by name where ours is the
-  // file's.
-  std::vector<std::string> names;
-  for (const JointIndex joint : moving_joints(*mechanism))
-    names.push_back(mechanism->joints[joint.value].name);
-  EXPECT_EQ(names.size(), GetParam().degrees_of_freedom);
-  const std::string reference =
-      support::read_file((data / "accelerations" / (name + ".fixed.json")).string());
-  std::vector<std::string> expected = quoted_words(reference, "\"joints\": [");
-  std::sort(names.begin(), names.end());
-  std::sort(expected.begin(), expected.end());
-  EXPECT_EQ(names, expected);
+TEST(ReadUrdf, RobotsGiveNoErrorsAndTheJointsOfTheirAccelerations) {
+  const Robot robots[] = {{"rail_arm", 6}, {"biped", 15}, {"double_pendulum", 2}, {"ur5", 6},
+                          {"panda", 9},    {"hyq", 12},   {"talos_reduced", 32}};
+  for (const Robot& robot : robots) {
+    if (!tests::has_robot(robot.name)) continue;
+    const std::string path = tests::urdf_path(robot.name).string();
+    support::Diagnostics diagnostics(path, support::read_file(path));
+    const auto mechanism = read_mechanism(diagnostics);
+    ASSERT_TRUE(mechanism.has_value()) << diagnostics.format();
+    // The accelerations name the same joints; the order of siblings may differ.
+    std::vector<std::string> names;
+    for (const JointIndex joint : moving_joints(*mechanism))
+      names.push_back(mechanism->joints[joint.value].name);
+    EXPECT_EQ(names.size(), robot.degrees_of_freedom) << robot.name;
+    std::vector<std::string> expected = quoted_words(
+        support::read_file(tests::accelerations_path(robot.name, "fixed").string()), "\"joints\": [");
+    std::sort(names.begin(), names.end());
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(names, expected);
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(Robots, ReadUrdfOf,
-                         testing::Values(Robot{"double_pendulum", 2}, Robot{"ur5", 6}, Robot{"panda", 9},
-                                         Robot{"hyq", 12}, Robot{"talos_reduced", 32}),
-                         [](const auto& given) { return std::string(given.param.name); });
 
 }  // namespace
 }  // namespace jourdain::model

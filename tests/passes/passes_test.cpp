@@ -1,4 +1,4 @@
-// Every pass on random programs: what it promises, what it keeps, and that a second run changes nothing.
+// Every pass on random programs: what it promises and what it keeps. That a second run changes nothing: pipeline_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +8,6 @@
 #include "passes/constants.hpp"
 #include "passes/factor.hpp"
 #include "passes/hoist.hpp"
-#include "passes/pipeline.hpp"
 #include "passes/random_program.hpp"
 #include "passes/rewrite.hpp"
 
@@ -116,17 +115,6 @@ TEST(Hoist, LeavesNoOperationOnParametersAloneAndGivesTheSameBits) {
   }
 }
 
-TEST(Passes, AreIdempotent) {
-  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
-    const Program clean = remove_dead_code(random_program(seed));
-    EXPECT_EQ(print(remove_dead_code(clean)), print(clean));
-    const Program factored = factor(clean);
-    EXPECT_EQ(operations(factor(factored)), operations(factor(factor(factored))));
-    const Program hoisted = hoist(module_of(clean)).functions[0];
-    EXPECT_EQ(operations(hoist(module_of(hoisted)).functions[0]), operations(hoisted));
-  }
-}
-
 TEST(SplitAngles, KeepsTheDigitsThatASumOfLargeAnglesLoses) {
   Builder b;
   const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1),
@@ -151,14 +139,6 @@ TEST(SplitAngles, LeavesAConstantOffsetInItsSum) {
   b.output("s", 0, -1, b.unary(ir::Op::kSin, b.add(x, b.literal(0.5))));
   const Program program = b.finish("offset");
   EXPECT_EQ(print(split_angles(program)), print(program));
-}
-
-TEST(Pipeline, RecordsWhatEachPassDid) {
-  const Optimised result = optimise(module_of(random_program(7)));
-  ASSERT_EQ(result.records.size(), 5u);
-  EXPECT_EQ(result.records.back().name, "hoist");
-  EXPECT_EQ(result.records.back().operations_after, arithmetic(result.module));
-  EXPECT_EQ(optimise(module_of(random_program(7)), {"factor"}).records.size(), 4u);
 }
 
 }  // namespace

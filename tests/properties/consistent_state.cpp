@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/time_dependence.hpp"
 #include "random.hpp"
 
 namespace jourdain::tests {
@@ -46,12 +47,7 @@ class Closing {
   LoopConstraints<Long> constraints(const LoopState& state) const {
     return form_.loop_constraints(state.t, state.y, state.z);
   }
-  bool rheonomic() const {
-    if (form_.layout().rheonomic) return true;
-    return std::any_of(mechanism_.loops.begin(), mechanism_.loops.end(), [](const model::Loop& loop) {
-      return !loop.length.has_no_variable() || loop.type == model::LoopType::kResidual;
-    });
-  }
+  bool rheonomic() const { return model::time_dependence(mechanism_).any(); }
 
  private:
   static std::optional<LoopState> with_rates(LoopState state, const LoopConstraints<Long>& at) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/time_dependence.hpp"
 #include "random.hpp"
 #include "reference/massless.hpp"
 #include "support/check.hpp"
@@ -336,7 +337,7 @@ reference::State<double> random_state(const model::Mechanism& mechanism, std::ui
       state.z[Eigen::Index(entries.first_velocity + k)] = random.uniform(-2, 2);
   }
   for (const std::size_t q : layout.quaternions) state.y.segment<4>(Eigen::Index(q)).normalize();
-  if (layout.rheonomic) state.t = random.uniform(0, 2);
+  if (model::time_dependence(mechanism).any()) state.t = random.uniform(0, 2);
   return state;
 }
 

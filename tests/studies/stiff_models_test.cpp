@@ -138,10 +138,9 @@ class ElasticArm {
 
 constexpr double kLinks = 1e-5;  // rad
 
+#ifndef JOURDAIN_SANITIZED  // runs by the million are too slow there
+
 TEST(ElasticArm, KeepsItsLinkAnglesAtTwentyTimesTheLimitOfRk4) {
-#ifdef JOURDAIN_SANITIZED
-  GTEST_SKIP() << "runs by the million are too slow under the sanitizers";
-#endif
   EmittedModel model = emitted_model("elastic_arm");
   for (const double k : {1e6, 1e9})
     for (const auto& [ratio, deflection] : {std::pair(0.05, 1.0), {0.05, 1.5}, {0.0, 1.5}}) {
@@ -165,9 +164,6 @@ double slider_error(const Flow<double>& flow, const char* method, double h,
 }
 
 TEST(FlyballGovernor, KeepsItsSliderAtTwentyTimesTheLimitOfRk4) {
-#ifdef JOURDAIN_SANITIZED
-  GTEST_SKIP() << "runs by the million are too slow under the sanitizers";
-#endif
   EmittedModel model = emitted_model("flyball_governor");
   const ConstantInputs none{{}};
   const Flow<double> flow(model.table(), none);
@@ -199,9 +195,6 @@ axis = [0, 0, 1]
 )";
 
 TEST(SpringJoint, TendsToTheTrueJointAndPaysForItInSteps) {
-#ifdef JOURDAIN_SANITIZED
-  GTEST_SKIP() << "runs by the million are too slow under the sanitizers";
-#endif
   constexpr double kDuration = 1,
                    kLimit = 5.85e-3;  // s; RK4's largest stable step at k = 1e4 N/m, seen in the limits above
   const ConstantInputs none{{}};
@@ -233,6 +226,8 @@ TEST(SpringJoint, TendsToTheTrueJointAndPaysForItInSteps) {
   }
   EXPECT_LE(std::fabs(angle(hinge, 0, "rk4", kHingeSteps) - exact), 1e-7);
 }
+
+#endif
 
 }  // namespace
 }  // namespace jourdain::tests

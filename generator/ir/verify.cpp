@@ -1,0 +1,75 @@
+#include "ir/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <tuple>
+
+namespace jourdain::ir {
+
+namespace {
+
+class Inspection {
+ public:
+  Inspection(const Program& program, const LeafCounts& leaves) : program_(program), leaves_(leaves) {}
+
+  std::vector<std::string> run() {
+    if (program_.labels.size() != program_.nodes.size())
+      found("{} labels for {} values", program_.labels.size(), program_.nodes.size());
+    for (std::size_t i = 0; i < program_.nodes.size(); ++i) inspect(i);
+    inspect_outputs();
+    if (list_.empty()) inspect_uses();  // whose operands exist
+    return std::move(list_);
+  }
+
+ private:
+  template <class... T>
+  void found(fmt::format_string<T...> text, T&&... values) {
+    list_.push_back(program_.name + ": " + fmt::format(text, std::forward<T>(values)...));
+  }
+
+  void inspect(std::size_t i) {
+    const Node& node = program_.nodes[i];
+    if (node.op == Op::kLiteral && !std::isfinite(node.literal))
+      found("%{} is the literal {}", i, node.literal);
+    if (node.op == Op::kLeaf && node.index >= leaves_[node.leaf])
+      found("%{} is {}[{}] of {}", i, leaf_name(node.leaf), node.index, leaves_[node.leaf]);
+    const int operands = operand_count(node.op);
+    if (operands >= 1) inspect_operand(i, node.a);
+    if (operands == 2) inspect_operand(i, node.b);
+  }
+
+  void inspect_operand(std::size_t i, ValueId operand) {
+    if (operand.value >= i)
+      found("%{} = {} of %{}, which does not precede it", i, op_name(program_.nodes[i].op), operand.value);
+  }
+
+  void inspect_outputs() {
+    std::set<std::tuple<std::string, int, int>> seen;
+    for (const Output& output : program_.outputs) {
+      if (output.value.value >= program_.nodes.size())
+        found("output '{}' is %{} of {}", output.name, output.value.value, program_.nodes.size());
+      if (!seen.insert({output.name, output.row, output.column}).second)
+        found("output '{}' [{}][{}] is given twice", output.name, output.row, output.column);
+    }
+  }
+
+  void inspect_uses() {
+    const std::vector<std::size_t> uses = use_counts(program_);
+    for (std::size_t i = 0; i < uses.size(); ++i)
+      if (uses[i] == 0) found("%{} is used by nothing", i);
+  }
+
+  const Program& program_;
+  const LeafCounts& leaves_;
+  std::vector<std::string> list_;
+};
+
+}  // namespace
+
+std::vector<std::string> defects(const Program& program, const LeafCounts& leaves) {
+  return Inspection(program, leaves).run();
+}
+
+}  // namespace jourdain::ir

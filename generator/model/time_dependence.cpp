@@ -1,0 +1,125 @@
+#include "model/time_dependence.hpp"
+
+#include <algorithm>
+
+namespace jourdain::model {
+
+namespace {
+
+/// Whether a variable of the expression is of the kind looked for.
+template <class Wanted>
+bool mentions(const Expression& expression, const Wanted& wanted) {
+  return std::any_of(expression.nodes().begin(), expression.nodes().end(), [&](const Expression::Node& node) {
+    return node.op == Expression::Op::kVariable && wanted(node.variable);
+  });
+}
+
+bool mentions_time(const Expression& expression) {
+  return mentions(expression, [](const Variable& v) { return v.kind == Variable::Kind::kTime; });
+}
+
+bool mentions_time(const Vector3& vector) {
+  return std::any_of(vector.begin(), vector.end(), [](const Expression& e) { return mentions_time(e); });
+}
+
+bool is_driven(const Coordinate& coordinate) {
+  return coordinate.motion && mentions_time(*coordinate.motion);
+}
+
+bool is_driven(const Joint& joint) {
+  return std::any_of(joint.coordinates.begin(), joint.coordinates.end(),
+                     [](const Coordinate& c) { return is_driven(c); });
+}
+
+bool positions_depend(const Mechanism& mechanism) {
+  return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
+                     [](const Joint& joint) { return is_driven(joint); }) ||
+         std::any_of(mechanism.loops.begin(), mechanism.loops.end(), [](const Loop& loop) {
+           return mentions_time(loop.length) || mentions_time(loop.residual);
+         });
+}
+
+bool forces_depend(const Mechanism& mechanism) {
+  return std::any_of(mechanism.loads.begin(), mechanism.loads.end(),
+                     [](const Load& l) { return mentions_time(l.force) || mentions_time(l.moment); }) ||
+         std::any_of(mechanism.coordinate_forces.begin(), mechanism.coordinate_forces.end(),
+                     [](const CoordinateForce& f) { return mentions_time(f.force); });
+}
+
+/// Outputs, given what positions and dynamics do.
+class OutputTime {
+ public:
+  OutputTime(const Mechanism& mechanism, const TimeDependence& time) : mechanism_(mechanism), time_(time) {}
+
+  bool depends(const Output& output) const {
+    switch (output.kind) {
+      case OutputKind::kPose:
+      case OutputKind::kVelocity:
+      case OutputKind::kJacobian:
+        return frame_depends(output.frame);
+      case OutputKind::kAcceleration:
+      case OutputKind::kReaction:
+      case OutputKind::kDrive:
+        return time_.dynamics;
+      case OutputKind::kKineticEnergy:
+      case OutputKind::kPotentialEnergy:
+        return time_.positions;
+      case OutputKind::kExpression:
+        return mentions(output.value, [this](const Variable& v) { return depends(v); });
+    }
+    return true;
+  }
+
+ private:
+  bool depends(const Variable& variable) const {
+    switch (variable.kind) {
+      case Variable::Kind::kTime:
+        return true;
+      case Variable::Kind::kPosition:
+      case Variable::Kind::kVelocity:
+        return joint_depends(mechanism_.joints[variable.index]);
+      case Variable::Kind::kFramePosition:
+      case Variable::Kind::kFrameVelocity:
+      case Variable::Kind::kFrameSpin:
+        return frame_depends(FrameIndex(variable.index));
+      case Variable::Kind::kInput:
+      case Variable::Kind::kArgument:
+        return false;
+    }
+    return true;
+  }
+
+  /// Loops carry what moves with time to all coordinates that they determine.
+  bool joint_depends(const Joint& joint) const {
+    return mechanism_.loops.empty() ? is_driven(joint) : time_.positions;
+  }
+
+  bool frame_depends(FrameIndex frame) const {
+    std::optional<BodyIndex> body = mechanism_.frames[frame.value].body;
+    if (!body || !time_.positions) return false;
+    while (body) {
+      const auto joint = std::find_if(mechanism_.joints.begin(), mechanism_.joints.end(),
+                                      [&](const Joint& j) { return j.child == *body; });
+      if (joint == mechanism_.joints.end() || joint_depends(*joint)) return true;
+      body = joint->parent;
+    }
+    return false;
+  }
+
+  const Mechanism& mechanism_;
+  const TimeDependence& time_;
+};
+
+}  // namespace
+
+TimeDependence time_dependence(const Mechanism& mechanism) {
+  TimeDependence time;
+  time.positions = positions_depend(mechanism);
+  time.dynamics = time.positions || forces_depend(mechanism);
+  const OutputTime outputs(mechanism, time);
+  time.outputs = std::any_of(mechanism.outputs.begin(), mechanism.outputs.end(),
+                             [&](const Output& output) { return outputs.depends(output); });
+  return time;
+}
+
+}  // namespace jourdain::model

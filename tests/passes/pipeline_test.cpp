@@ -1,0 +1,105 @@
+// The pipeline on all models with every function: passes are idempotent, so is the whole, and the programs stay sound.
+#include "passes/pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "agreement/shared_data.hpp"
+#include "compile.hpp"
+#include "ir/builder.hpp"
+#include "module_check.hpp"
+#include "passes/random_program.hpp"
+
+namespace jourdain::passes {
+namespace {
+
+using tests::random_program;
+
+constexpr std::uint64_t kPrograms = 300;
+
+std::string text(const ir::Module& module) {
+  std::string all = print(module.constants);
+  for (const ir::Program& program : module.functions) all += print(program);
+  return all;
+}
+
+/// Each pass on its own result, in the pipeline's order, and the pipeline on its own.
+void expect_idempotent(const ir::Module& lowered, const std::string& what) {
+  ir::Module module = lowered;
+  for (const Pass& pass : pipeline()) {
+    module = pass.run(module);
+    EXPECT_EQ(text(pass.run(module)), text(module)) << pass.name << " of " << what;
+  }
+  const ir::Module optimised = optimise(lowered).module;
+  EXPECT_EQ(text(optimise(optimised).module), text(optimised)) << what;
+}
+
+TEST(Passes, AreIdempotentOnRandomPrograms) {
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed)
+    expect_idempotent({{}, {random_program(seed)}}, std::to_string(seed));
+}
+
+/// The programs of a model with every function, as lowered and after each pass.
+struct History {
+  CompiledModel compiled;
+  std::vector<std::pair<std::string, ir::Module>> modules;
+};
+
+History history(const model::Mechanism& mechanism) {
+  History result;
+  CompileOptions options;
+  options.functions = emit::function_names();
+  options.watch = [&](const PassRecord& record, const ir::Module& module) {
+    result.modules.emplace_back(record.name, module);
+  };
+  result.compiled = compile(mechanism, options);
+  return result;
+}
+
+TEST(Passes, AreIdempotentAndKeepProgramsSoundOnEveryModel) {
+  for (const auto& entry : std::filesystem::directory_iterator(tests::model_path(""))) {
+    if (entry.path().extension() != ".toml") continue;
+    const model::Mechanism mechanism = tests::read_model(entry.path());
+    const History passed = history(mechanism);
+    ASSERT_GT(passed.modules.size(), pipeline().size()) << entry.path();
+    expect_idempotent(passed.modules[0].second, entry.path().stem());
+    for (std::size_t k = 1; k < passed.modules.size(); ++k)
+      EXPECT_EQ(module_defects(passed.modules[k].second, passed.compiled.shape, mechanism.parameters.size()),
+                std::vector<std::string>())
+          << passed.modules[k].first << " of " << entry.path();
+  }
+}
+
+TEST(Passes, KeepRandomProgramsSound) {
+  emit::SceneShape shape;
+  shape.positions = 3;
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
+    ir::Program program = random_program(seed);
+    program.name = "k_bar";  // whose arguments it takes
+    optimise({{}, {program}}, {}, [&](const PassRecord& record, const ir::Module& module) {
+      EXPECT_EQ(module_defects(module, shape, 3), std::vector<std::string>())
+          << record.name << " of " << seed;
+    });
+  }
+}
+
+TEST(Pipeline, RecordsWhatEachPassDid) {
+  const Optimised result = optimise({{}, {random_program(7)}});
+  ASSERT_GE(result.records.size(), pipeline().size());
+  EXPECT_EQ(result.records.back().name, "hoist");
+  EXPECT_EQ(result.records.back().operations_after, arithmetic(result.module));
+  for (std::size_t k = 1; k < result.records.size(); ++k)
+    EXPECT_EQ(result.records[k].operations_before, result.records[k - 1].operations_after);
+  for (const PassRecord& record : optimise({{}, {random_program(7)}}, {"factor"}).records)
+    EXPECT_NE(record.name, "factor");
+}
+
+TEST(Pipeline, ComesToRest) {
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed)
+    EXPECT_LE(optimise({{}, {random_program(seed)}}).records.back().round, 5) << seed;
+}
+
+}  // namespace
+}  // namespace jourdain::passes
