@@ -118,6 +118,15 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   return text;
 }
 
+std::vector<std::string> left_out_sentences(const std::vector<Omission>& omissions) {
+  std::vector<std::string> sentences;
+  for (const Omission& omission : omissions)
+    sentences.push_back(omission.saved == 0 ? omission.name + ": " + omission.what
+                                            : fmt::format("{}: {} ({} operations of forward_dynamics)",
+                                                          omission.name, omission.what, omission.saved));
+  return sentences;
+}
+
 std::string validation_sentence(const validate::Verdict& verdict) {
   return fmt::format(
       "{} random states: backward error of M zdot = k_bar - q_bar {:.1e} of the sum of absolute terms "
@@ -285,16 +294,18 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
       mechanism, options.loops ? loops::resized_outputs(mechanism, *options.loops, equations.outputs)
                                : equations.outputs);
   text.assumptions = result.assumptions;
-  for (const Omission& omission : result.omissions)
-    text.left_out.push_back(omission.saved == 0 ? omission.name + ": " + omission.what
-                                                : fmt::format("{}: {} ({} operations of forward_dynamics)",
-                                                              omission.name, omission.what, omission.saved));
+  text.left_out = left_out_sentences(result.omissions);
   text.validation = validation_sentence(result.verdict);
   text.backward_error = result.verdict.backward_error;
   text.condition = result.verdict.condition;
   result.files = emit::emit_files(text, result.functions, result.module);
-  readback::Readback read =
-      readback::read_back(result.files, expected_text(mechanism, options, equations, result));
+  result.expected = expected_text(mechanism, options, equations, result);
+  result.expected.left_out = left_out_sentences(result.omissions);
+  for (const std::string& sentence : result.expected.left_out) result.expected.sentences.push_back(sentence);
+  result.expected.sentences.push_back(validation_sentence(result.verdict));
+  readback::Expected expected = result.expected;
+  expected.module = &result.module;
+  const readback::Readback read = readback::read_back(result.files, expected);
   result.readback = read.record;
   for (const std::string& difference : read.differences)
     result.verdict.failures.push_back("text: " + difference);

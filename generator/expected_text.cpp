@@ -1,7 +1,7 @@
 #include "expected_text.hpp"
 
-#include "loops/outputs.hpp"
 #include "loops/closed_system.hpp"
+#include "loops/outputs.hpp"
 #include "loops/plan.hpp"
 #include "model/coordinates.hpp"
 #include "model/names.hpp"
@@ -27,6 +27,8 @@ void expect_loops(const model::Mechanism& mechanism, const loops::LoopPlan& plan
   expected.constraints = loops::row_names(mechanism);
   expected.dependents = loops::dependent_positions(plan, tree);
   expected.closings = plan.closings();
+  for (const std::string& sentence : loops::sentences(mechanism, plan))
+    expected.sentences.push_back(sentence);
   expected.least_regularity = plan.least_regularity();
   expected.greatest_opening = plan.greatest_opening();
   if (const loops::ProvenBox* box = plan.proven()) {
@@ -58,7 +60,6 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   readback::Expected expected;
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   const model::Tangent tree = model::tangent_of(mechanism, layout);
-  expected.module = &compiled.module;
   expected.name = options.name.empty() ? model::cpp_name(mechanism.name) : options.name;
   expected.title = mechanism.name;
   expected.path = options.path;
@@ -76,6 +77,11 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   expected.quaternions = entries_of(tangent.quaternions);
   expected.rheonomic = layout.rheonomic;
   expected.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
+  expected.assumptions = compiled.assumptions;
+  expected.sentences.insert(expected.sentences.end(), compiled.assumptions.begin(),
+                            compiled.assumptions.end());
+  expected.sentences.push_back("SHA-256 " + options.sha256);
+  if (!mechanism.source.empty()) expected.sentences.push_back("Numbers from: " + mechanism.source);
   expected.backward_error = compiled.verdict.backward_error;
   expected.condition = compiled.verdict.condition;
   for (const emit::FunctionInfo& function : compiled.functions) expected.functions.push_back(function.name);

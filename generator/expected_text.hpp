@@ -6,7 +6,7 @@
 
 namespace jourdain {
 
-/// For `compiled.module`, which must outlive the result.
+/// Without the module.
 readback::Expected expected_text(const model::Mechanism& mechanism, const CompileOptions& options,
                                  const dynamics::Equations& equations, const CompiledModel& compiled);
 

@@ -9,6 +9,9 @@ namespace jourdain::commands {
 
 /// Operations per function by kind, aligned.
 std::string operations_table(const ir::Module& module);
+/// What of the written files was read back and compared.
+std::string readback_text(const readback::Record& record);
+
 std::string verdict_text(const validate::Verdict& verdict);
 std::string passes_text(const std::vector<passes::PassRecord>& passes);
 std::string omissions_text(const std::vector<Omission>& omissions);

@@ -119,6 +119,19 @@ std::string FunctionApi::signature(const Expected& expected, const std::string& 
   return fmt::format("{} {}({}) noexcept", returned, name, list);
 }
 
+std::vector<std::string> FunctionApi::parameter_names() const {
+  std::vector<std::string> names = {"model"};
+  if (result != Result::kState) names.push_back("state");
+  if (takes_input) names.push_back("input");
+  if (takes_acceleration) names.push_back("zdot");
+  if (result == Result::kStep) names.push_back("h");
+  if (history > 0) names.push_back("history");
+  if (implicit) names.push_back("accelerations");
+  for (const ArrayArgument& array : arrays) names.push_back(array.name);
+  if (result == Result::kStruct) names.push_back("result");
+  return names;
+}
+
 std::size_t output_numbers(const Expected& expected) {
   std::size_t numbers = 0;
   for (const ExpectedOutput& output : expected.outputs)

@@ -38,6 +38,8 @@ struct FunctionApi {
 
   /// For number type `real`: "void k_bar(const Model<Real>&, const State<Real>&, Real (&)[7]) noexcept".
   std::string signature(const Expected& expected, const std::string& real) const;
+  /// What the header calls the parameters, in order.
+  std::vector<std::string> parameter_names() const;
 };
 
 /// Nothing where no function has that name.

@@ -70,10 +70,33 @@ void compare(const std::string& what, const std::vector<std::string>& found,
   }
 }
 
+void check_parameter_names(const Unit& unit, const Function& function, const Expected& expected,
+                           Findings& findings) {
+  const std::string& name = unit.symbols.text(function.name);
+  std::vector<std::string> names;
+  for (const Parameter& parameter : function.parameters)
+    names.push_back(unit.symbols.text(parameter.declarator.name));
+  if (const std::optional<FunctionApi> api = api_of(name, expected))
+    findings.expect("names of the parameters of " + name, fmt::format("{}", fmt::join(names, ", ")),
+                    fmt::format("{}", fmt::join(api->parameter_names(), ", ")));
+}
+
+/// What the header says at its top: the sentences, word by word.
+void check_sentences(const Unit& unit, const Expected& expected, Findings& findings) {
+  const std::string text = words(unit.opening_comment);
+  for (const std::string& sentence : expected.sentences) {
+    std::string shown;
+    for (const char c : sentence) shown += c >= ' ' && c <= '~' && c != '\\' ? c : '?';
+    if (text.find(words(shown)) == std::string::npos) findings.add("the header does not say '{}'", shown);
+  }
+}
+
 void check_comments(const Unit& unit, const Expected& expected, Findings& findings) {
+  check_sentences(unit, expected, findings);
   for (const Function* function : unit.functions) {
     if (function->place.file != 0 || function->body) continue;
     const std::string& name = unit.symbols.text(function->name);
+    check_parameter_names(unit, *function, expected, findings);
     if (const auto it = findings.counts.find(name); it != findings.counts.end())
       check_comment(*function, name, operations_sentence(it->second), findings);
     if (const auto it = findings.steps.find(name); it != findings.steps.end() && !expected.velocities.empty())

@@ -55,6 +55,8 @@ struct Expected {
   int closings = 1;  ///< calls of close_loops where dependent positions were not moved along
   double least_regularity = 0, greatest_opening = 0;
   std::vector<ExpectedRange> proven_positions, proven_parameters;
+  std::vector<std::string> assumptions, left_out;  ///< sentences
+  std::vector<std::string> sentences;              ///< all that the header says at its top
   double backward_error = 0, condition = 0;
   std::vector<std::string> functions;  ///< in the order of emission
 };

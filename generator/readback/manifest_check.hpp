@@ -8,7 +8,7 @@
 
 namespace jourdain::readback {
 
-/// Every key must be known and every number and name must be what the other files have; sentences are only read.
+/// Every key must be known and every number, name and sentence must be what the model and the other files have.
 void check_manifest(const std::string& text, const Expected& expected, Findings& findings);
 
 }  // namespace jourdain::readback

@@ -20,6 +20,7 @@ class FileParser : public StatementParser {
       : StatementParser(unit, known, tokens, file), comments_(tokens.comments), file_(file) {}
 
   void read() {
+    if (file_ == 0) unit_.opening_comment = comment();
     while (peek().kind == TokenKind::kDirective)
       unit_.directives[std::size_t(file_)].emplace_back(take().text);
     expect_word("namespace");

@@ -178,6 +178,7 @@ struct Unit {
   std::vector<std::string> files;
   std::vector<std::vector<std::string>> directives;  ///< by file
   std::string name_of_namespace;
+  std::string opening_comment;                  ///< of the first file
   std::vector<const Function*> functions;       ///< declared or defined in namespaces, in order
   std::vector<const Function*> instantiations;  ///< explicit ones of functions
   std::vector<TypeName> struct_instantiations;
