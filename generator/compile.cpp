@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "expected_text.hpp"
 #include "loops/closed_system.hpp"
 #include "loops/outputs.hpp"
 #include "loops/validation.hpp"
@@ -116,6 +117,15 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
     text.parameters.push_back(
         {parameter.name, parameter.value, parameter.unit, parameter.description, parameter.range});
   return text;
+}
+
+std::vector<std::string> left_out_sentences(const std::vector<Omission>& omissions) {
+  std::vector<std::string> sentences;
+  for (const Omission& omission : omissions)
+    sentences.push_back(omission.saved == 0 ? omission.name + ": " + omission.what
+                                            : fmt::format("{}: {} ({} operations of forward_dynamics)",
+                                                          omission.name, omission.what, omission.saved));
+  return sentences;
 }
 
 /// What was compared with what, a sentence each; first how well.
@@ -292,14 +302,23 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
       mechanism, options.loops ? loops::resized_outputs(mechanism, *options.loops, equations.outputs)
                                : equations.outputs);
   text.assumptions = result.assumptions;
-  for (const Omission& omission : result.omissions)
-    text.left_out.push_back(omission.saved == 0 ? omission.name + ": " + omission.what
-                                                : fmt::format("{}: {} ({} operations of forward_dynamics)",
-                                                              omission.name, omission.what, omission.saved));
+  text.left_out = left_out_sentences(result.omissions);
   text.validation = validation_sentences(result.verdict);
   text.backward_error = result.verdict.backward_error;
   text.condition = result.verdict.condition;
   result.files = emit::emit_files(text, result.functions, result.module);
+  result.expected = expected_text(mechanism, options, equations, result);
+  result.expected.left_out = left_out_sentences(result.omissions);
+  for (const std::string& sentence : result.expected.left_out) result.expected.sentences.push_back(sentence);
+  for (const std::string& sentence : validation_sentences(result.verdict))
+    result.expected.sentences.push_back(sentence);
+  readback::Expected expected = result.expected;
+  expected.module = &result.module;
+  const readback::Readback read = readback::read_back(result.files, expected);
+  result.readback = read.record;
+  for (const std::string& difference : read.differences)
+    result.verdict.failures.push_back("text: " + difference);
+  if (!read.differences.empty()) result.files.clear();
 }
 
 }  // namespace jourdain

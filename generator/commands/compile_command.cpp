@@ -62,7 +62,8 @@ int run(const Arguments& arguments) {
   fmt::print("{}: {}\n", loaded->options.name, freedom_text(*loaded));
   for (const emit::File& file : compiled.files)
     fmt::print("  wrote {}\n", (std::filesystem::path(arguments.folder) / file.name).generic_string());
-  fmt::print("{}{}", operations_table(compiled.module), verdict_text(compiled.verdict));
+  fmt::print("{}{}{}", operations_table(compiled.module), verdict_text(compiled.verdict),
+             readback_text(compiled.readback));
   if (arguments.explain)
     fmt::print("{}{}{}", oracles_text(compiled.verdict), passes_text(compiled.passes),
                omissions_text(compiled.omissions));

@@ -41,6 +41,16 @@ std::string oracles_text(const validate::Verdict& verdict) {
   return text;
 }
 
+std::string readback_text(const readback::Record& record) {
+  std::string text =
+      fmt::format("  read back from the files: {} functions, the same as validated in all {} nodes",
+                  record.functions, record.nodes);
+  if (record.steps > 0)
+    text += fmt::format("; {} step{} as defined, at {} random points in 60 digits", record.steps,
+                        record.steps == 1 ? "" : "s", record.points);
+  return text + "\n";
+}
+
 std::string passes_text(const std::vector<passes::PassRecord>& passes) {
   const auto effect = [](passes::Effect e) {
     switch (e) {

@@ -9,6 +9,9 @@ namespace jourdain::commands {
 
 /// Operations per function by kind, aligned.
 std::string operations_table(const ir::Module& module);
+/// What of the written files was read back and compared.
+std::string readback_text(const readback::Record& record);
+
 std::string verdict_text(const validate::Verdict& verdict);
 /// Each function, what it was compared with and how well.
 std::string oracles_text(const validate::Verdict& verdict);
