@@ -265,7 +265,9 @@ void add_report(CLI::App& app, int& status) {
   command->add_option("--reference", arguments->reference, "reference solution")
       ->check(CLI::IsMember({"auto", "extrapolation", "cvode"}))
       ->capture_default_str();
-  command->add_option("--effort", arguments->study.seconds, "s of work for each costly part, on a nominal machine: work is counted, not timed")
+  command
+      ->add_option("--effort", arguments->study.seconds,
+                   "s of work for each costly part, on a nominal machine: work is counted, not timed")
       ->check(CLI::Range(0.1, 1e5))
       ->capture_default_str();
   command->add_flag("!--no-forms", arguments->study.forms,

@@ -1,4 +1,4 @@
-// Time of one step for every model under generated/, double and float: interleaved repeats, medians, and ratios to
+// Time of one step for every model, double and float: interleaved repeats, medians, and ratios to
 // double within the same run, because machines are shared and noisy. Nothing is asserted here.
 #include <fmt/format.h>
 

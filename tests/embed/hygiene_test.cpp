@@ -18,14 +18,16 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> emitted_models() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(JOURDAIN_SOURCE_DIR) / "generated"))
-    names.push_back(entry.path().filename().string());
+  for (const auto& entry : fs::directory_iterator(JOURDAIN_EMITTED)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && name[0] != '.') names.push_back(name);
+  }
   std::sort(names.begin(), names.end());
   return names;
 }
 
 std::string source(const std::string& model) {
-  return fmt::format("{}/generated/{}/{}.cpp", JOURDAIN_SOURCE_DIR, model, model);
+  return fmt::format("{}/{}/{}.cpp", JOURDAIN_EMITTED, model, model);
 }
 
 support::ProcessResult compile(const std::string& compiler, const std::string& input,
@@ -77,7 +79,7 @@ TEST(EmittedCode, InFloatNeverTouchesDouble) {
                           "template void {0}::rk4_step(const {0}::Model<float>&, {0}::State<float>&, const "
                           "{0}::Input<float>&, float) noexcept;\n",
                           model));
-    const std::string include = fmt::format("-I{}/generated/{}", JOURDAIN_SOURCE_DIR, model);
+    const std::string include = fmt::format("-I{}/{}", JOURDAIN_EMITTED, model);
     ASSERT_EQ(compile("g++", unit, object, {"-c", include}).status, 0);
     const std::string assembly = support::run_process({"objdump", "-d", object}).output;
     EXPECT_NE(assembly.find("mulss"), std::string::npos) << model;
@@ -111,7 +113,7 @@ int main() {
   return state.t > 0.999 && M[0][0] > 0 ? 0 : 1;
 }
 )");
-  const std::string include = fmt::format("-I{}/generated/panda", JOURDAIN_SOURCE_DIR);
+  const std::string include = fmt::format("-I{}/panda", JOURDAIN_EMITTED);
   const support::ProcessResult built = compile("g++", unit, program, {include, source("panda")});
   ASSERT_EQ(built.status, 0) << built.output;
   EXPECT_EQ(support::run_process({program}).status, 0);
