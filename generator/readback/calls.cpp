@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "readback/interpreter.hpp"
 #include "readback/tokens.hpp"
@@ -119,7 +120,7 @@ bool Interpreter::matches(const Function& function, const std::vector<Value>& ar
   return candidate.bindings.size() == function.parameters_of_template.size();
 }
 
-/// The one that fits, a function before a template, then the one that takes the fewest things of any type.
+/// The one that fits: a function before a template, then the one that takes the fewest things of any type, then that of fewer types.
 Interpreter::Candidate Interpreter::choose(const std::vector<const Function*>& functions,
                                            const std::vector<Value>& arguments,
                                            const Bindings& explicit_arguments, const std::string& name) {
@@ -129,9 +130,10 @@ Interpreter::Candidate Interpreter::choose(const std::vector<const Function*>& f
     if (matches(*function, arguments, candidate, explicit_arguments.size()))
       fitting.push_back(std::move(candidate));
   }
-  const auto order = [](const Candidate& a, const Candidate& b) {
-    return std::pair(a.function->is_template, a.generic) < std::pair(b.function->is_template, b.generic);
+  const auto rank = [](const Candidate& c) {
+    return std::tuple(c.function->is_template, c.generic, c.function->parameters_of_template.size());
   };
+  const auto order = [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); };
   std::sort(fitting.begin(), fitting.end(), order);
   std::string types;
   for (const Value& argument : arguments)

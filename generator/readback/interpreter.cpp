@@ -10,7 +10,7 @@ namespace jourdain::readback {
 
 namespace {
 
-constexpr long kBudget = 200000000;  ///< operations of a run: a loop without an end ends
+constexpr long kBudget = 20000000;  ///< operations of a run: a loop without an end ends
 
 }  // namespace
 

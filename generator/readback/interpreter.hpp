@@ -1,6 +1,7 @@
 // Executes functions of the text that was read, over any domain of numbers.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <string>
@@ -141,7 +142,7 @@ class Interpreter {
   std::vector<Cell> memory_;
   std::vector<Variable> variables_;
   std::vector<std::size_t> meaning_;  ///< by symbol: 1 + index of its variable
-  std::vector<Frame> frames_;
+  std::deque<Frame> frames_;          ///< references to them outlive calls
   std::map<std::pair<std::string, Symbol>, std::vector<const Function*>> functions_;
   std::map<const Function*, Standin> standins_;
   struct KnownObject {

@@ -5,6 +5,7 @@
 #include "readback/manifest_check.hpp"
 #include "readback/parser.hpp"
 #include "readback/program_check.hpp"
+#include "readback/scope_check.hpp"
 #include "readback/step_check.hpp"
 
 namespace jourdain::readback {
@@ -16,6 +17,7 @@ void check_sources(const std::vector<support::FileText>& files, const Expected& 
   Unit unit;
   parse(unit, {&files[0], &files[1], &files[2]});
   check_structs(unit, expected, findings);
+  check_scopes(unit, findings);
   NodeTable table;
   check_programs(unit, expected, table, findings);
   check_library(unit, findings);

@@ -1,0 +1,34 @@
+#include "readback/compiled_text.hpp"
+
+#include "model/read.hpp"
+#include "support/diagnostics.hpp"
+#include "support/files.hpp"
+
+namespace jourdain::tests {
+
+readback::Expected CompiledText::expected() const {
+  readback::Expected expected = compiled.expected;
+  expected.module = &compiled.module;
+  return expected;
+}
+
+std::vector<std::string> CompiledText::differences(const std::vector<emit::File>& files) const {
+  return readback::differences(files, expected());
+}
+
+CompiledText compiled_text(const std::string& model, const std::vector<std::string>& functions) {
+  const std::string path = std::string(JOURDAIN_SOURCE_DIR) + "/models/" + model + ".toml";
+  support::Diagnostics diagnostics(path, support::read_file(path));
+  const auto mechanism = model::read_mechanism(diagnostics);
+  JD_CHECK(mechanism.has_value(), "{}", diagnostics.format());
+  CompileOptions options;
+  options.path = model + ".toml";
+  if (!functions.empty()) options.functions = functions;
+  CompiledText text = {compile(*mechanism, options)};
+  JD_CHECK(text.compiled.verdict.accepted(), "{}", text.compiled.verdict.failures.front());
+  return text;
+}
+
+std::vector<std::string> every_function() { return emit::function_names(); }
+
+}  // namespace jourdain::tests
