@@ -16,11 +16,11 @@ double leaf(const model::Mechanism& mechanism, const StateNumbers& state, LeafKi
     case LeafKind::kParameter:
       return mechanism.parameters[i].value;
     case LeafKind::kPosition:
-      return state.y[i];
+      return state.y.at(i);
     case LeafKind::kVelocity:
-      return state.z[i];
+      return state.z.at(i);
     case LeafKind::kInput:
-      return state.u[i];
+      return state.u.at(i);
     case LeafKind::kTime:
       return state.t;
     case LeafKind::kAcceleration:
