@@ -29,13 +29,14 @@ class Written {
     program_.nodes.push_back({.op = Op::kLiteral, .literal = value});
     return ValueId(program_.nodes.size() - 1);
   }
-  std::string text(ValueId result) {
+  std::string text(ValueId result) { return lines(result).back(); }
+  std::vector<std::string> lines(ValueId result) {
     program_.labels.assign(program_.nodes.size(), "");
     program_.outputs = {{"r", -1, -1, result}};
     const Body body = print_body(
         program_, Names({}), [](ir::LeafKind, std::size_t i) { return std::string(1, "abcd"[i]); },
         [](const ir::Output&, const std::string& value) { return value; });
-    return body.parts.at(0).lines.at(body.parts[0].lines.size() - 1);
+    return body.parts.at(0).lines;
   }
 
  private:
@@ -128,6 +129,25 @@ TEST(Precedence, ThreeLevelsAreThoseOfTwo) {
   const ValueId inner = w.node(Op::kSubtract, w.leaf(2), w.leaf(3));
   const ValueId product = w.node(Op::kMultiply, w.leaf(1), inner);
   EXPECT_EQ(w.text(w.node(Op::kSubtract, w.leaf(0), product)), "a - b * (c - d)");
+}
+
+TEST(Precedence, SinesAndCosinesAreCalledByTheirNames) {
+  for (const auto& [op, text] : {std::pair{Op::kSin, "const Real t4 = detail::sine(a);"},
+                                 {Op::kCos, "const Real t4 = detail::cosine(a);"}}) {
+    Written w;
+    EXPECT_EQ(w.lines(w.node(op, w.leaf(0)))[0], text);
+  }
+}
+
+TEST(Precedence, ThePairOfAnAngleIsSineThenCosineWhicheverComesFirst) {
+  using Lines = std::vector<std::string>;
+  Written one, other;
+  const ValueId s = one.node(Op::kSin, one.leaf(0)), c = one.node(Op::kCos, one.leaf(0));
+  EXPECT_EQ(one.lines(one.node(Op::kSubtract, s, c)),
+            (Lines{"Real t4, t5;", "detail::sine_cosine(a, t4, t5);", "t4 - t5"}));
+  const ValueId cosine = other.node(Op::kCos, other.leaf(0)), sine = other.node(Op::kSin, other.leaf(0));
+  EXPECT_EQ(other.lines(other.node(Op::kSubtract, cosine, sine)),
+            (Lines{"Real t5, t4;", "detail::sine_cosine(a, t5, t4);", "t4 - t5"}));
 }
 
 TEST(Precedence, ArgumentsOfFunctionsNeedNone) {
