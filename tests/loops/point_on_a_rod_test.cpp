@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "extremes/extreme_scenes.hpp"
-#include "loops/closed_system.hpp"
-#include "model/checks.hpp"
+#include "loops/loop_functions.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -51,40 +50,9 @@ length = 0.5
 )" + loops);
 }
 
-/// The programs of a mechanism with loops, before any pass, at a state of all leaves.
-class Functions {
- public:
-  explicit Functions(const std::string& loops)
-      : mechanism_(rod(loops)), plan_(planned(mechanism_)), closed_(mechanism_, {}, plan_) {}
-
-  std::vector<double> operator()(const std::string& function, const std::vector<double>& y,
-                                 const std::vector<double>& z, const std::vector<double>& zdot = {}) const {
-    ir::LeafValues<double> leaves;
-    leaves[ir::LeafKind::kPosition] = y;
-    leaves[ir::LeafKind::kVelocity] = z;
-    leaves[ir::LeafKind::kAcceleration] = zdot;
-    return ir::interpret(loops::loop_program(closed_.system(), function), leaves);
-  }
-  double output(const std::string& function, const char* name, const std::vector<double>& y) const {
-    const ir::Program program = loops::loop_program(closed_.system(), function);
-    const std::vector<double> values = (*this)(function, y, {0, 0});
-    for (std::size_t k = 0; k < values.size(); ++k)
-      if (program.outputs[k].name == name) return values[k];
-    ADD_FAILURE() << name;
-    return NAN;
-  }
-
- private:
-  static loops::LoopPlan planned(const model::Mechanism& mechanism) {
-    support::Diagnostics diagnostics("model", "");
-    const auto plan = loops::plan_loops(mechanism, diagnostics);
-    JD_CHECK(plan, "{}", diagnostics.format());
-    return *plan;
-  }
-
-  model::Mechanism mechanism_;
-  loops::LoopPlan plan_;
-  loops::ClosedSystem closed_;
+/// Of the rod with these lines in its [loops].
+struct Functions : LoopFunctions {
+  explicit Functions(const std::string& loops) : LoopFunctions(rod(loops)) {}
 };
 
 struct Point {
@@ -154,7 +122,7 @@ TEST(PointOnARod, ClosingIsNewtonsIteration) {
     for (const double start : {-0.5, -0.41, -0.3}) {
       double z = start;
       for (int i = 0; i < iterations; ++i) z -= (0.3 * 0.3 + z * z - l * l) / (2 * z);
-      EXPECT_NEAR(functions.output("close_loops", "y", {0.3, start}), z, kRounding) << iterations;
+      EXPECT_NEAR(functions.closed("close_loops", {0.3, start})[1], z, kRounding) << iterations;
     }
   }
 }
@@ -163,7 +131,7 @@ TEST(PointOnARod, ClosingIsNewtonsIteration) {
 TEST(PointOnARod, ClosingSquaresTheError) {
   const Functions functions("treatment = \"partitioned\"\nindependent = [\"x\"]\niterations = 1");
   for (const double error : {1e-1, -1e-1, 1e-2, -1e-3, 1e-4}) {
-    const double left = functions.output("close_loops", "y", {0.3, -0.4 + error}) + 0.4;
+    const double left = functions.closed("close_loops", {0.3, -0.4 + error})[1] + 0.4;
     EXPECT_NEAR(left, error * error / (2 * (-0.4 + error)), kRounding) << error;
   }
 }
