@@ -54,17 +54,27 @@ ir::LeafValues<Exact> to_exact(const ir::LeafValues<double>& leaves) {
   return exact;
 }
 
-std::optional<std::vector<Exact>> exact_values(const ir::Program& program,
-                                               const ir::LeafValues<Exact>& leaves) {
+std::optional<std::vector<Exact>> exact_nodes(const ir::Program& program,
+                                              const ir::LeafValues<Exact>& leaves) {
   std::vector<Exact> values;
   for (const Node& node : program.nodes) {
     const std::optional<Exact> next = value(node, values, leaves);
     if (!next) return {};
     values.push_back(*next);
   }
+  return values;
+}
+
+std::vector<Exact> outputs_of(const ir::Program& program, const std::vector<Exact>& nodes) {
   std::vector<Exact> outputs;
-  for (const ir::Output& output : program.outputs) outputs.push_back(values[output.value.value]);
+  for (const ir::Output& output : program.outputs) outputs.push_back(nodes[output.value.value]);
   return outputs;
+}
+
+std::optional<std::vector<Exact>> exact_values(const ir::Program& program,
+                                               const ir::LeafValues<Exact>& leaves) {
+  const auto nodes = exact_nodes(program, leaves);
+  return nodes ? std::optional(outputs_of(program, *nodes)) : std::nullopt;
 }
 
 double apart(const std::vector<Exact>& a, const std::vector<Exact>& b) {

@@ -14,7 +14,12 @@ using Exact = cln::cl_R;
 
 ir::LeafValues<Exact> to_exact(const ir::LeafValues<double>& leaves);
 
-/// The outputs of a program, in order; none where it divides by zero or takes the root of a negative number.
+/// All values of a program, in order; none where it divides by zero or takes the root of a negative number.
+std::optional<std::vector<Exact>> exact_nodes(const ir::Program& program,
+                                              const ir::LeafValues<Exact>& leaves);
+
+/// Those of its outputs.
+std::vector<Exact> outputs_of(const ir::Program& program, const std::vector<Exact>& nodes);
 std::optional<std::vector<Exact>> exact_values(const ir::Program& program,
                                                const ir::LeafValues<Exact>& leaves);
 

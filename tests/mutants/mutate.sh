@@ -12,10 +12,9 @@
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 
-scratch=build/mutate
-source=$scratch/source
-build=$scratch/build
-log=$scratch/log
+source=build/mutate          # laid out as this tree is, so that a compiler cache with relative paths knows most of it
+build=$source/build/release
+log=$source/build/log
 patches=tests/mutants/patches
 failures=0
 
@@ -27,15 +26,14 @@ fail() {
 }
 
 copy_tree() {
-  mkdir -p "$source"
+  mkdir -p "$source/build"
   git ls-files --cached --others --exclude-standard | while read -r file; do
     [ -f "$file" ] || continue
     cmp -s "$file" "$source/$file" && continue
     mkdir -p "$source/$(dirname "$file")"
     cp "$file" "$source/$file"
   done
-  cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
-    -DCMAKE_CXX_COMPILER_LAUNCHER=ccache >/dev/null
+  (cd "$source" && cmake --preset release >/dev/null)
 }
 
 compile() { cmake --build "$build" -- --quiet "$@" >"$log" 2>&1; }
@@ -47,7 +45,7 @@ net() {
   if [ "$kind" = refused ]; then
     compile jourdain || return 2
     # shellcheck disable=SC2086
-    (cd "$source" && "../build/jourdain" compile $2 -o ../written) >"$log" 2>&1
+    (cd "$source" && build/release/jourdain compile $2 -o build/written) >"$log" 2>&1
     case $? in
       0) return 0 ;;
       70) return 1 ;;
@@ -85,7 +83,7 @@ ask() {  # ask FAULT: one line of the table
     case $? in
       0) missed+=" $kind $arguments;" ;;
       1) caught+=" $kind $arguments;" ;;
-      *) fail "$fault: '$kind $arguments' does not run; see $log"; cp "$log" "$scratch/$(basename "$fault").log" ;;
+      *) fail "$fault: '$kind $arguments' does not run; see $log"; cp "$log" "$source/build/$(basename "$fault").log" ;;
     esac
   done < <(nets "$fault")
   printf '%-36s |%s%s\n' "$(basename "$fault" .patch)" "${caught:- nothing}" "${missed:+ | NOT by$missed}"
@@ -99,7 +97,7 @@ for name in "$@"; do faults+=("$patches/$name.patch"); done
 copy_tree
 while read -r kind arguments; do
   net "$kind" "$arguments"
-  [ $? = 0 ] || { fail "without a fault '$kind $arguments' fails; see $log"; cp "$log" "$scratch/sound.log"; }
+  [ $? = 0 ] || { fail "without a fault '$kind $arguments' fails; see $log"; cp "$log" "$source/build/sound.log"; }
 done < <(for fault in "${faults[@]}"; do nets "$fault"; done | sort -u)
 [ $failures = 0 ] || exit 1
 

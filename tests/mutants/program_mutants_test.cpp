@@ -33,17 +33,36 @@ ir::Module with(const Subject& subject, const ir::Program* original, ir::Program
   return {subject.module.constants, {std::move(mutant)}};
 }
 
-/// The largest difference of a function's outputs at random states, relative to the largest of them.
-double difference(const Subject& subject, const ir::Program& original, const ir::Program& mutant) {
-  double worst = 0;
+/// How far a mutant is from its original at random states, relative to the largest value of the same list.
+struct Difference {
+  double here = 0, result = 0;  ///< of what was changed, of the outputs
+};
+
+/// What was changed: the value of a node that is another operation, or that stands for another one; an output.
+std::pair<Exact, Exact> changed_value(const Place& place, const std::vector<Exact>& original,
+                                      const ir::Program& mutant, const std::vector<Exact>& nodes) {
+  const std::size_t at = place.site.at;
+  if (place.site.fault >= ProgramFault::kOtherOutput)
+    return {original[place.program->outputs[at].value.value], nodes[mutant.outputs[at].value.value]};
+  const bool bypass = place.site.fault == ProgramFault::kBypass;
+  return {original[at], nodes[bypass ? place.program->nodes[at].a.value : at]};
+}
+
+Difference difference(const Place& place, const ir::Program& mutant) {
+  Difference worst;
+  const Subject& subject = *place.subject;
   for (const ir::LeafValues<double>& state : random_states(subject, kStates)) {
     ir::LeafValues<Exact> leaves = to_exact(state);
     const auto constants = exact_values(subject.module.constants, leaves);
     if (!constants) continue;
     leaves[ir::LeafKind::kConstant] = *constants;
-    const auto expected = exact_values(original, leaves), actual = exact_values(mutant, leaves);
+    const auto expected = exact_nodes(*place.program, leaves), actual = exact_nodes(mutant, leaves);
     if (!expected && !actual) continue;
-    worst = std::max(worst, expected && actual ? apart(*expected, *actual) : INFINITY);
+    if (!expected || !actual) return {INFINITY, INFINITY};
+    const auto [before, after] = changed_value(place, *expected, mutant, *actual);
+    worst.here = std::max(worst.here, apart({before}, {after}));
+    worst.result =
+        std::max(worst.result, apart(outputs_of(*place.program, *expected), outputs_of(mutant, *actual)));
   }
   return worst;
 }
@@ -55,8 +74,11 @@ Net net_of(const Place& place, const ir::Program& mutant) {
   } catch (const std::exception&) {
     return Net::kAssertion;
   }
-  const double apart = difference(s, *place.program, mutant);
-  return apart <= kSame ? Net::kEquivalent : apart <= kHalfUlp ? Net::kBelowRounding : Net::kNone;
+  const Difference apart = difference(place, mutant);
+  if (apart.here <= kSame && apart.result <= kSame) return Net::kSame;
+  return apart.result <= kSame      ? Net::kEquivalent
+         : apart.result <= kHalfUlp ? Net::kBelowRounding
+                                    : Net::kNone;
 }
 
 /// Up to `count` places, seeded, the same number of each function as far as it has them.

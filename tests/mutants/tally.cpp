@@ -8,7 +8,8 @@ void Tally::add(const std::string& fault, Net net, const std::string& where) {
   std::vector<std::size_t>& row = counts_[fault];
   row.resize(kNets);
   ++row[static_cast<std::size_t>(net)];
-  if (net == Net::kNone) escapes_.push_back(fault + ": " + where);
+  if (net == Net::kNone) escapes_.push_back("not caught: " + fault + ": " + where);
+  if (net == Net::kEquivalent) escapes_.push_back("same result: " + fault + ": " + where);
 }
 
 std::size_t Tally::count() const {
@@ -30,14 +31,14 @@ std::string Tally::text() const {
     for (const std::string& cell : cells) row += fmt::format("{:>12}", cell);
     return row + "\n";
   };
-  std::string text = line(
-      stage_, {"assertion", "reference", "validation", "readback", "equivalent", "rounding", "not caught"});
+  std::string text = line(stage_, {"assertion", "reference", "validation", "readback", "same value",
+                                   "same result", "rounding", "not caught"});
   for (const auto& [fault, row] : counts_) {
     std::vector<std::string> cells;
     for (const std::size_t n : row) cells.push_back(n == 0 ? "." : fmt::format("{}", n));
     text += line("  " + fault, cells);
   }
-  for (const std::string& escape : escapes_) text += "  not caught: " + escape + "\n";
+  for (const std::string& escape : escapes_) text += "  " + escape + "\n";
   return text;
 }
 

@@ -12,11 +12,12 @@ enum class Net {
   kReference,      ///< the symbolic equations against the numeric reference
   kValidation,     ///< programs against the symbolic equations
   kReadback,       ///< the text against the programs
-  kEquivalent,     ///< no fault: the same values at random states to forty digits
+  kSame,           ///< no fault: what was changed has the value that it had before
+  kEquivalent,     ///< no fault: the same outputs at random states to forty digits
   kBelowRounding,  ///< another value in the end, by less than half a unit of a double's last place everywhere
   kNone            ///< it would be written
 };
-inline constexpr std::size_t kNets = 7;
+inline constexpr std::size_t kNets = 8;
 
 class Tally {
  public:
