@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "expected_text.hpp"
 #include "loops/closed_system.hpp"
 #include "loops/outputs.hpp"
 #include "loops/validation.hpp"
@@ -292,6 +293,12 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   text.backward_error = result.verdict.backward_error;
   text.condition = result.verdict.condition;
   result.files = emit::emit_files(text, result.functions, result.module);
+  readback::Readback read =
+      readback::read_back(result.files, expected_text(mechanism, options, equations, result));
+  result.readback = read.record;
+  for (const std::string& difference : read.differences)
+    result.verdict.failures.push_back("text: " + difference);
+  if (!read.differences.empty()) result.files.clear();
 }
 
 }  // namespace jourdain

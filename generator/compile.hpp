@@ -12,6 +12,7 @@
 #include "model/coordinates.hpp"
 #include "model/mechanism.hpp"
 #include "passes/pipeline.hpp"
+#include "readback/readback.hpp"
 #include "support/diagnostics.hpp"
 #include "validate/translation.hpp"
 
@@ -49,6 +50,7 @@ struct CompiledModel {
   std::vector<Omission> omissions;
   std::vector<std::string> assumptions;  ///< sentences, as printed in the emitted header
   validate::Verdict verdict;
+  readback::Record readback;      ///< what of `files` was read back and compared
   std::vector<emit::File> files;  ///< empty unless the verdict accepts
 };
 
@@ -60,7 +62,8 @@ void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diag
 CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& options);
 
 /// The last stage of `compile`: validates `model.module` against the equations and the references and, if that succeeds,
-/// fills in `model.files`; otherwise they stay empty.
+/// fills in `model.files`, reads them back and compares them with what was validated; where that fails they stay empty and
+/// `model.verdict` says why.
 void validate_and_emit(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                        const CompileOptions& options, CompiledModel& model);
 

@@ -1,0 +1,62 @@
+// What the finished files must say, as far as it does not come from programs: filled in by the compiler from the mechanism and its
+// plan.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ir/module.hpp"
+
+namespace jourdain::readback {
+
+struct ExpectedParameter {
+  std::string name;
+  double value = 0;
+  std::optional<std::array<double, 2>> range = {};
+};
+
+/// A member of an output; a scalar output has one without a name.
+struct ExpectedMember {
+  std::string name;
+  int rows = 1, columns = 1;
+  bool is_matrix = false;
+};
+
+struct ExpectedOutput {
+  std::string name;
+  std::vector<ExpectedMember> members;
+};
+
+/// A position or parameter and the values that something is proven for.
+struct ExpectedRange {
+  std::size_t index = 0;
+  double low = 0, high = 0;
+};
+
+/// An entry of y and the one of z that moves it: of a quaternion w and ω_x.
+struct ExpectedTangent {
+  std::size_t position = 0, velocity = 0;
+};
+
+struct Expected {
+  const ir::Module* module = nullptr;
+  std::string name;                                                     ///< of namespace and files
+  std::string title, path, sha256;                                      ///< of the description
+  std::vector<std::string> positions, velocities, inputs, constraints;  ///< names in order
+  std::vector<ExpectedParameter> parameters;
+  std::vector<ExpectedOutput> outputs;
+  std::vector<ExpectedTangent> scalars, quaternions;  ///< of the independent coordinates
+  std::vector<std::size_t> dependents;                ///< entries of y that close_loops sets
+  bool rheonomic = false;
+  bool all_derivatives = true;
+  int closings = 1;  ///< calls of close_loops where dependent positions were not moved along
+  double least_regularity = 0, greatest_opening = 0;
+  std::vector<ExpectedRange> proven_positions, proven_parameters;
+  double backward_error = 0, condition = 0;
+  std::vector<std::string> functions;  ///< in the order of emission
+};
+
+}  // namespace jourdain::readback

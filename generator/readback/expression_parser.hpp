@@ -1,0 +1,67 @@
+// Types and expressions by recursive descent: one function per level of precedence.
+#pragma once
+
+#include <set>
+
+#include "readback/syntax.hpp"
+#include "readback/tokens.hpp"
+
+namespace jourdain::readback {
+
+/// A cursor over one file's tokens, with the names that stand for types and templates so far: C++ needs them to tell
+/// declarations from expressions and `a < b` from template arguments.
+class ExpressionParser {
+ public:
+  struct Known {
+    std::set<Symbol> types;  ///< in scope without a namespace in front: parameters of templates, aliases
+    std::set<Symbol> struct_templates, function_templates;
+    std::set<std::pair<Symbol, Symbol>> qualified;  ///< struct templates by namespace
+  };
+
+  ExpressionParser(Unit& unit, Known& known, const Tokens& tokens, int file)
+      : unit_(unit), known_(known), tokens_(tokens), file_(file) {}
+
+  const Expression* expression();
+  TypeName type();
+
+ protected:
+  const Token& peek(std::size_t ahead = 0) const;
+  const Token& take();
+  bool is(std::string_view punctuation, std::size_t ahead = 0) const;
+  bool is_word(std::string_view word, std::size_t ahead = 0) const;
+  bool accept(std::string_view punctuation);
+  bool accept_word(std::string_view word);
+  void expect(std::string_view punctuation);
+  void expect_word(std::string_view word);
+  Symbol expect_name();
+  [[noreturn]] void refuse_here(const std::string& expected) const;
+  Place place() const { return {file_, peek().line}; }
+
+  bool starts_type() const;
+  Declarator declarator(bool may_be_unnamed);
+  void bounds(Declarator& declarator);
+
+  Unit& unit_;
+  Known& known_;
+
+ private:
+  const Expression* level(int precedence);
+  const Expression* unary();
+  const Expression* postfix();
+  const Expression* primary();
+  const Expression* name();
+  const Expression* number();
+  const Expression* list();
+  void arguments(Expression& call, std::string_view close);
+  void template_arguments(TypeName& type);
+  bool is_known_type(Symbol name) const;
+  bool is_struct_template(const std::vector<Symbol>& path) const;
+  Expression& make(ExpressionKind kind);
+
+  const Tokens& tokens_;
+  int file_ = 0;
+  std::size_t at_ = 0;
+  int angle_brackets_ = 0;  ///< inside template arguments '>' ends them
+};
+
+}  // namespace jourdain::readback

@@ -1,0 +1,20 @@
+// Structs, constants, names and declarations of the text against what the model has.
+#pragma once
+
+#include "readback/expected.hpp"
+#include "readback/findings.hpp"
+#include "readback/syntax.hpp"
+
+namespace jourdain::readback {
+
+/// Files, members, sizes, defaults, limits, names.
+void check_structs(const Unit& unit, const Expected& expected, Findings& findings);
+
+/// Every function is declared, defined and instantiated for double and float as the API has it, and nothing else is; the operations that
+/// comments state are those that were counted.
+void check_declarations(const Unit& unit, const Expected& expected, Findings& findings);
+
+/// loops_closed and loops_proven, at their limits, beside them, and where something is not a number.
+void check_guards(const Unit& unit, const Expected& expected, Findings& findings);
+
+}  // namespace jourdain::readback

@@ -1,0 +1,180 @@
+#include "readback/manifest_check.hpp"
+
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "readback/api.hpp"
+#include "readback/methods.hpp"
+#include "readback/tokens.hpp"
+
+namespace jourdain::readback {
+
+namespace {
+
+using nlohmann::json;
+
+/// Of numbers that are written with two digits.
+constexpr double kTwoDigits = 0.06;
+
+/// Parses, and refuses objects that have a key twice.
+json parse_once(const std::string& text) {
+  std::vector<std::set<std::string>> keys;
+  return json::parse(text, [&keys](int, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw Refusal("the key " + value.dump() + " twice");
+    return true;
+  });
+}
+
+class ManifestCheck {
+ public:
+  ManifestCheck(const json& root, const Expected& expected, Findings& findings)
+      : root_(root), expected_(expected), findings_(findings) {}
+
+  void check() {
+    names();
+    loops();
+    parameters();
+    operations();
+    steps();
+    texts();
+    about("backward_error", expected_.backward_error);
+    about("condition", expected_.condition);
+    for (const auto& [key, value] : root_.items())
+      if (!seen_.count(key)) findings_.add("NAME.json has the key {}", key);
+  }
+
+ private:
+  void expect(const std::string& key, const json& wanted) {
+    seen_.insert(key);
+    if (!root_.contains(key) || root_[key] != wanted)
+      findings_.add("NAME.json: {} is {}, must be {}", key,
+                    root_.contains(key) ? root_[key].dump() : "missing", wanted.dump());
+  }
+
+  void names() {
+    std::vector<std::string> outputs;
+    for (const ExpectedOutput& output : expected_.outputs) outputs.push_back(output.name);
+    expect("name", expected_.name);
+    expect("title", expected_.title);
+    expect("model", expected_.path);
+    expect("sha256", expected_.sha256);
+    expect("position_count", expected_.positions.size());
+    expect("velocity_count", expected_.velocities.size());
+    expect("input_count", expected_.inputs.size());
+    expect("output_count", outputs.size());
+    expect("parameter_count", expected_.parameters.size());
+    expect("positions", expected_.positions);
+    expect("velocities", expected_.velocities);
+    expect("inputs", expected_.inputs);
+    expect("outputs", outputs);
+    expect("functions", expected_.functions);
+  }
+
+  json ranges(const std::vector<ExpectedRange>& list, const std::vector<std::string>& names) const {
+    json object = json::object();
+    for (const ExpectedRange& range : list) object[names[range.index]] = {range.low, range.high};
+    return object;
+  }
+
+  void loops() {
+    if (expected_.constraints.empty()) return;
+    std::vector<std::string> dependents, names;
+    for (const std::size_t entry : expected_.dependents) dependents.push_back(expected_.positions[entry]);
+    for (const ExpectedParameter& parameter : expected_.parameters) names.push_back(parameter.name);
+    expect("constraints", expected_.constraints);
+    expect("dependent_positions", dependents);
+    expect("least_regularity", expected_.least_regularity);
+    expect("greatest_opening", expected_.greatest_opening);
+    if (!expected_.proven_positions.empty())
+      expect("proven_ranges", ranges(expected_.proven_positions, expected_.positions));
+    if (!expected_.proven_parameters.empty())
+      expect("proven_parameters", ranges(expected_.proven_parameters, names));
+  }
+
+  void parameters() {
+    std::vector<std::string> names;
+    std::vector<double> values;
+    json ranges = json::object();
+    for (const ExpectedParameter& parameter : expected_.parameters) {
+      names.push_back(parameter.name);
+      values.push_back(parameter.value);
+      if (parameter.range) ranges[parameter.name] = *parameter.range;
+    }
+    expect("parameters", names);
+    expect("parameter_values", values);
+    if (!ranges.empty()) expect("parameter_ranges", ranges);
+  }
+
+  void operations() {
+    json wanted = json::object();
+    for (const auto& [name, count] : findings_.counts) {
+      json& entry = wanted[name];
+      entry = {{"arithmetic", count.arithmetic()},
+               {"add", count.add},
+               {"sub", count.subtract},
+               {"mul", count.multiply},
+               {"div", count.divide},
+               {"sqrt", count.sqrt},
+               {"neg", count.negate},
+               {"sin", count.sin},
+               {"cos", count.cos}};
+      if (count.atan2 > 0) entry["atan2"] = count.atan2;
+    }
+    expect("operations", wanted);
+  }
+
+  void steps() {
+    json wanted = json::object();
+    for (const auto& [name, cost] : findings_.steps)
+      wanted[name] = {{"order", order_of(name, expected_.all_derivatives)},
+                      {"evaluations", cost.evaluations},
+                      {"operations", cost.operations}};
+    expect("steps", wanted);
+  }
+
+  void texts() {
+    for (const char* key : {"assumptions", "left_out"}) {
+      seen_.insert(key);
+      const bool is_list = root_.contains(key) && root_[key].is_array();
+      if (!is_list) findings_.add("NAME.json: {} is no list", key);
+      if (is_list)
+        for (const json& entry : root_[key])
+          if (!entry.is_string()) findings_.add("NAME.json: {} holds {}", key, entry.dump());
+    }
+    seen_.insert("generator");
+    if (!root_.contains("generator") || !root_["generator"].is_string() ||
+        !root_["generator"].get<std::string>().starts_with("Jourdain "))
+      findings_.add("NAME.json does not name its generator");
+  }
+
+  void about(const std::string& key, double wanted) {
+    seen_.insert(key);
+    const bool is_number = root_.contains(key) && root_[key].is_number();
+    if (!is_number || !(std::fabs(root_[key].get<double>() - wanted) <= kTwoDigits * std::fabs(wanted)))
+      findings_.add("NAME.json: {} is {}, must be about {:.2g}", key,
+                    is_number ? root_[key].dump() : "no number", wanted);
+  }
+
+  const json& root_;
+  const Expected& expected_;
+  Findings& findings_;
+  std::set<std::string> seen_;
+};
+
+}  // namespace
+
+void check_manifest(const std::string& text, const Expected& expected, Findings& findings) {
+  findings.guarded("NAME.json", [&] {
+    const json root = parse_once(text);
+    if (!root.is_object()) throw Refusal("no object");
+    ManifestCheck(root, expected, findings).check();
+  });
+}
+
+}  // namespace jourdain::readback

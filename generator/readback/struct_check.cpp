@@ -1,0 +1,309 @@
+// Members, sizes, defaults and names.
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "readback/api.hpp"
+#include "readback/header_check.hpp"
+#include "readback/interpreter.hpp"
+#include "readback/node_table.hpp"
+
+namespace jourdain::readback {
+
+namespace {
+
+/// "Real y[3]" and so on.
+using Texts = std::vector<std::string>;
+
+bool any_step(const Expected& expected, bool (*is_such)(const FunctionApi&)) {
+  for (const std::string& name : expected.functions)
+    if (const auto api = api_of(name, expected); api && api->result == Result::kStep && is_such(*api))
+      return true;
+  return false;
+}
+
+bool linearizes(const Expected& expected) {
+  for (const std::string& name : expected.functions)
+    if (name == "linearize") return true;
+  return false;
+}
+
+std::string bounds(const std::vector<std::size_t>& extents) {
+  std::string text;
+  for (const std::size_t extent : extents) text += fmt::format("[{}]", extent);
+  return text;
+}
+
+Texts output_members(const Expected& expected) {
+  Texts texts;
+  for (const ExpectedOutput& output : expected.outputs)
+    for (const ExpectedMember& member : output.members) {
+      std::vector<std::size_t> extents;
+      if (member.rows > 1) extents.push_back(static_cast<std::size_t>(member.rows));
+      if (member.is_matrix) extents.push_back(static_cast<std::size_t>(member.columns));
+      texts.push_back(fmt::format("Real {}{}{}{}", output.name, member.name.empty() ? "" : ".", member.name,
+                                  bounds(extents)));
+    }
+  return texts;
+}
+
+Texts state_members(const Expected& expected) {
+  Texts texts = {"Real t"};
+  if (!expected.positions.empty()) texts.push_back(fmt::format("Real y[{}]", expected.positions.size()));
+  if (!expected.velocities.empty()) texts.push_back(fmt::format("Real z[{}]", expected.velocities.size()));
+  if (expected.constraints.empty()) return texts;
+  texts.insert(texts.end(), {"Real regularity", "Real opening"});
+  if (!expected.proven_positions.empty())
+    texts.push_back(fmt::format("Real beyond[{}]", expected.proven_positions.size()));
+  return texts;
+}
+
+std::map<std::string, Texts> structs(const Expected& expected) {
+  std::map<std::string, Texts> list;
+  for (const ExpectedParameter& parameter : expected.parameters)
+    list["Parameters"].push_back("Real " + parameter.name);
+  list["Parameters"];
+  list["State"] = state_members(expected);
+  list["Input"];
+  if (!expected.inputs.empty()) list["Input"] = {fmt::format("Real u[{}]", expected.inputs.size())};
+  if (!expected.outputs.empty()) list["Outputs"] = output_members(expected);
+  if (linearizes(expected))
+    for (const ArrayArgument& member : linearization_members(expected))
+      list["Linearization"].push_back("Real " + member.name + bounds(member.extents));
+  const std::size_t ny = expected.positions.size(), nz = expected.velocities.size();
+  if (any_step(expected, [](const FunctionApi& api) { return api.history > 0; })) {
+    list["RateHistory"] = {"int count"};
+    if (nz > 0) list["RateHistory"].push_back(fmt::format("Real ydot[depth][{}]", ny));
+    if (nz > 0) list["RateHistory"].push_back(fmt::format("Real zdot[depth][{}]", nz));
+  }
+  if (any_step(expected, [](const FunctionApi& api) { return api.implicit; })) {
+    list["Accelerations"] = {"int count"};
+    if (nz > 0) list["Accelerations"].push_back(fmt::format("Real zdot[{}]", nz));
+  }
+  return list;
+}
+
+Texts members_of(const Unit& unit, const Struct& found, const std::string& prefix = "") {
+  Texts texts;
+  for (const Member& member : found.members) {
+    if (member.is_static) continue;
+    const std::string name = prefix + unit.symbols.text(member.declarator.name);
+    if (member.anonymous) {
+      for (const std::string& text : members_of(unit, *member.anonymous, name + ".")) texts.push_back(text);
+      continue;
+    }
+    Declarator declarator = member.declarator;
+    std::string text = text_of(unit, member.type, declarator), array;
+    if (const std::size_t bracket = text.find('['); bracket != std::string::npos) {
+      array = text.substr(bracket);
+      text.resize(bracket);
+    }
+    texts.push_back(text + " " + name + array);
+  }
+  return texts;
+}
+
+std::string template_text(const Unit& unit, const Struct& found) {
+  std::string text;
+  for (const TemplateParameter& parameter : found.parameters_of_template) {
+    text += text.empty() ? "" : ", ";
+    text += (parameter.is_type ? "class " : "int ") + unit.symbols.text(parameter.name);
+    if (parameter.standard) text += " = " + text_of(unit, *parameter.standard);
+  }
+  return text;
+}
+
+void check_struct(const Unit& unit, const Struct& found, const Texts& wanted, Findings& findings) {
+  const std::string name = unit.symbols.text(found.name);
+  findings.expect("members of " + name, fmt::format("{}", fmt::join(members_of(unit, found), "; ")),
+                  fmt::format("{}", fmt::join(wanted, "; ")));
+  findings.expect("template parameters of " + name, template_text(unit, found),
+                  name == "RateHistory" ? "int depth, class Real = double" : "class Real = double");
+  if (!found.functions.empty()) findings.add("{} has functions", name);
+}
+
+std::map<std::string, double> constants_of_model(const Expected& expected) {
+  std::map<std::string, double> list = {{"position_count", double(expected.positions.size())},
+                                        {"velocity_count", double(expected.velocities.size())},
+                                        {"input_count", double(expected.inputs.size())},
+                                        {"output_count", double(expected.outputs.size())},
+                                        {"parameter_count", double(expected.parameters.size())}};
+  if (expected.constraints.empty()) return list;
+  list["constraint_count"] = double(expected.constraints.size());
+  list["least_regularity"] = expected.least_regularity;
+  list["greatest_opening"] = expected.greatest_opening;
+  if (!expected.proven_positions.empty()) list["range_count"] = double(expected.proven_positions.size());
+  return list;
+}
+
+void check_model_constants(const Unit& unit, const Struct& model, const Expected& expected,
+                           Findings& findings) {
+  std::map<std::string, double> wanted = constants_of_model(expected);
+  NodeTable table;
+  Interpreter run(unit, table);
+  const Type* type = run.types().instance("Model", {{0, run.types().number(), 0}});
+  for (const Member& member : model.members) {
+    if (!member.is_static) continue;
+    const std::string name = unit.symbols.text(member.declarator.name), kind = text_of(unit, member.type);
+    const auto it = wanted.find(name);
+    if (it == wanted.end()) {
+      findings.add("Model has a constant {}", name);
+      continue;
+    }
+    const Value found = run.constant(type, name);
+    const bool is_integer = name.ends_with("_count");
+    findings.expect("type of " + name, kind, is_integer ? "int" : "double");
+    findings.expect(name, found.kind == Value::Kind::kInteger ? double(found.integer) : found.native,
+                    it->second);
+    wanted.erase(it);
+  }
+  for (const auto& [name, value] : wanted) findings.add("Model has no constant {}", name);
+}
+
+void check_aliases(const Unit& unit, const Struct& model, const Expected& expected, Findings& findings) {
+  std::map<std::string, std::string> wanted = {{"Scalar", "Real"}}, found;
+  for (const char* name : {"Parameters", "State", "Input"})
+    wanted[name] = fmt::format("{}::{}<Real>", expected.name, name);
+  if (!expected.outputs.empty()) wanted["Outputs"] = expected.name + "::Outputs<Real>";
+  if (linearizes(expected)) wanted["Linearization"] = expected.name + "::Linearization<Real>";
+  for (const auto& [name, type] : model.aliases) found[unit.symbols.text(name)] = text_of(unit, type);
+  findings.expect("types of Model", fmt::format("{}", fmt::join(found, "; ")),
+                  fmt::format("{}", fmt::join(wanted, "; ")));
+}
+
+void check_model(const Unit& unit, const Struct& model, const Expected& expected, Findings& findings) {
+  findings.expect("template parameters of Model", template_text(unit, model), "class Real = double");
+  check_model_constants(unit, model, expected, findings);
+  check_aliases(unit, model, expected, findings);
+  Texts functions, wanted = {"explicit Model(const Parameters& = {}) noexcept"};
+  for (const Function* function : model.functions) {
+    std::string text;
+    for (const Parameter& parameter : function->parameters) {
+      const Expression* standard = parameter.declarator.initial;
+      const bool is_empty =
+          standard && standard->kind == ExpressionKind::kList && standard->arguments.empty();
+      text += text_of(unit, parameter.type, parameter.declarator) + (is_empty   ? " = {}"
+                                                                     : standard ? " = …"
+                                                                                : "");
+    }
+    functions.push_back(
+        fmt::format("{}{}{}({}){}", function->is_explicit ? "explicit " : "",
+                    function->is_static ? "static " + text_of(unit, function->result) + " " : "",
+                    unit.symbols.text(function->name), text, function->is_noexcept ? " noexcept" : ""));
+  }
+  if (!expected.constraints.empty()) wanted.push_back("static bool loops_closed(const State&) noexcept");
+  if (!expected.proven_parameters.empty())
+    wanted.push_back("static bool loops_proven(const Parameters&) noexcept");
+  findings.expect("functions of Model", fmt::format("{}", fmt::join(functions, "; ")),
+                  fmt::format("{}", fmt::join(wanted, "; ")));
+}
+
+/// Default values of an object's scalars, as literals.
+void check_defaults(const Unit& unit, const Expected& expected, Findings& findings) {
+  NodeTable table;
+  Interpreter run(unit, table);
+  const Value parameters = run.make(run.types().instance("Parameters", {{0, run.types().number(), 0}}));
+  for (std::size_t i = 0; i < expected.parameters.size(); ++i) {
+    const Cell& found = run.cell(run.field(parameters, expected.parameters[i].name));
+    if (found != number_cell(table.literal(expected.parameters[i].value)))
+      findings.add("default of parameter {} is not {}", expected.parameters[i].name,
+                   expected.parameters[i].value);
+  }
+  for (const char* name : {"RateHistory", "Accelerations"})
+    for (const Struct* known : unit.structs) {
+      if (unit.symbols.text(known->name) != name) continue;
+      Bindings bindings = {{0, run.types().number(), 0}};
+      if (known->parameters_of_template.size() == 2)
+        bindings.insert(bindings.begin(), Binding{0, nullptr, 2});
+      const Value object = run.make(run.types().instance(name, bindings));
+      if (run.cell(object) != integer_cell(0)) findings.add("a fresh {} does not count from 0", name);
+      for (std::size_t i = 1; i < object.type->cells; ++i)
+        if (run.cell(object, i) != number_cell(table.literal(0.0)))
+          findings.add("a fresh {} is not zero", name);
+    }
+}
+
+std::string unquoted(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\\' && (i + 1 == text.size() || (text[i + 1] != '"' && text[i + 1] != '\\')))
+      return fmt::format("{} (an escape)", text);
+    if (text[i] == '\\') ++i;
+    plain += text[i];
+  }
+  return plain;
+}
+
+void check_names(const Unit& unit, const Expected& expected, Findings& findings) {
+  std::vector<std::pair<std::string, Texts>> wanted = {{"position_names", expected.positions},
+                                                       {"velocity_names", expected.velocities}};
+  if (!expected.constraints.empty()) wanted.emplace_back("constraint_names", expected.constraints);
+  Texts outputs, parameters;
+  for (const ExpectedOutput& output : expected.outputs) outputs.push_back(output.name);
+  for (const ExpectedParameter& parameter : expected.parameters) parameters.push_back(parameter.name);
+  wanted.insert(
+      wanted.end(),
+      {{"input_names", expected.inputs}, {"output_names", outputs}, {"parameter_names", parameters}});
+  std::size_t next = 0;
+  for (const Constant* constant : unit.constants) {
+    if (constant->scope == "detail") continue;
+    const std::string name = unit.symbols.text(constant->declarator.name);
+    if (next == wanted.size() || name != wanted[next].first || !constant->is_inline) {
+      findings.add("the constant {} does not belong there", name);
+      continue;
+    }
+    Texts texts = wanted[next++].second, found;
+    findings.expect("type of " + name, text_of(unit, constant->type, constant->declarator),
+                    fmt::format("const char*[{}]", texts.size() + 1));
+    texts.push_back("nullptr");
+    if (const Expression* list = constant->declarator.initial)
+      for (const Expression* entry : list->arguments)
+        found.push_back(entry->kind == ExpressionKind::kString ? unquoted(entry->text)
+                        : entry->kind == ExpressionKind::kNull ? "nullptr"
+                                                               : "?");
+    findings.expect(name, fmt::format("{}", fmt::join(found, "; ")),
+                    fmt::format("{}", fmt::join(texts, "; ")));
+  }
+  if (next != wanted.size()) findings.add("{} is missing", wanted[next].first);
+}
+
+void check_files(const Unit& unit, const Expected& expected, Findings& findings) {
+  const std::vector<Texts> wanted = {
+      {"#pragma once"},
+      {"#pragma once", "#include <math.h>", fmt::format("#include \"{}.hpp\"", expected.name)},
+      {fmt::format("#include \"{}_kernels.hpp\"", expected.name)}};
+  findings.expect("namespace", unit.name_of_namespace, expected.name);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    findings.expect("directives of " + unit.files[i], fmt::format("{}", fmt::join(unit.directives[i], "; ")),
+                    fmt::format("{}", fmt::join(wanted[i], "; ")));
+}
+
+}  // namespace
+
+void check_structs(const Unit& unit, const Expected& expected, Findings& findings) {
+  check_files(unit, expected, findings);
+  std::map<std::string, Texts> wanted = structs(expected);
+  bool has_model = false;
+  for (const Struct* found : unit.structs) {
+    if (!found->scope.empty()) continue;
+    const std::string name = unit.symbols.text(found->name);
+    if (name == "Model") {
+      if (std::exchange(has_model, true)) findings.add("Model once more");
+      findings.guarded("Model", [&] { check_model(unit, *found, expected, findings); });
+      continue;
+    }
+    const auto it = wanted.find(name);
+    if (it == wanted.end()) {
+      findings.add("the struct {} does not belong there", name);
+      continue;
+    }
+    check_struct(unit, *found, it->second, findings);
+    wanted.erase(it);
+  }
+  if (!has_model) findings.add("there is no Model");
+  for (const auto& [name, members] : wanted) findings.add("there is no struct {}", name);
+  findings.guarded("defaults", [&] { check_defaults(unit, expected, findings); });
+  check_names(unit, expected, findings);
+}
+
+}  // namespace jourdain::readback
