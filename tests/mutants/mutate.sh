@@ -12,7 +12,7 @@
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 
-source=build/mutate          # laid out as this tree is, so that a compiler cache with relative paths knows most of it
+source=${JOURDAIN_MUTATE:-build/mutate}  # laid out as this tree is: beside it, a compiler cache with relative paths knows most of it
 build=$source/build/release
 log=$source/build/log
 patches=tests/mutants/patches

@@ -123,6 +123,19 @@ void plant(Program& program, Node& node, const ProgramSite& site, Random& random
   }
 }
 
+/// Values that some output depends on.
+std::vector<bool> live(const Program& program) {
+  std::vector<bool> needed(program.nodes.size(), false);
+  for (const ir::Output& output : program.outputs) needed[output.value.value] = true;
+  for (std::size_t i = program.nodes.size(); i-- > 0;) {
+    if (!needed[i]) continue;
+    const Node& node = program.nodes[i];
+    if (ir::operand_count(node.op) > 0) needed[node.a.value] = true;
+    if (ir::operand_count(node.op) > 1) needed[node.b.value] = true;
+  }
+  return needed;
+}
+
 /// Every use of one value reads another.
 void redirect(Program& program, ValueId from, ValueId to) {
   for (Node& node : program.nodes) {
@@ -145,8 +158,9 @@ const char* name_of(ProgramFault fault) {
 
 std::vector<ProgramSite> sites(const Program& program, ProgramFault fault) {
   std::vector<ProgramSite> list;
+  const std::vector<bool> needed = live(program);
   for (std::size_t i = 0; i < program.nodes.size(); ++i) {
-    if (!fits(program, program.nodes[i], i, fault)) continue;
+    if (!needed[i] || !fits(program, program.nodes[i], i, fault)) continue;
     const int choices = fault == ProgramFault::kOtherOperand ? ir::operand_count(program.nodes[i].op) : 1;
     for (int k = 0; k < choices; ++k) list.push_back({fault, i, static_cast<std::size_t>(k)});
   }

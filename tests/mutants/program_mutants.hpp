@@ -32,7 +32,7 @@ struct ProgramSite {
   std::size_t operand = 0;
 };
 
-/// Every place where the fault can be planted.
+/// Every place where the fault can be planted: what no output depends on is none.
 std::vector<ProgramSite> sites(const ir::Program& program, ProgramFault fault);
 
 /// The program with it. `seed` chooses what else there is to choose. Operands come first, as ever.
