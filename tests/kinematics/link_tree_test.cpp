@@ -116,5 +116,52 @@ TEST(MassMoments, OfAMovedPointMassAreThoseOfAPoint) {
   EXPECT_TRUE(back.first[0].is_zero() && back.second[2][2].is_zero() && back.second[0][1].is_zero());
 }
 
+// Composite of two equal points at ±x of the frame, which is turned by a quarter about z and moved by (0, 0, 3).
+TEST(MassMoments, TurnAndMoveWithTheirFrame) {
+  Statements statements;
+  const MassMoments pair{4, zero_vector(), {{{8, 0, 0}, {0, 0, 0}, {0, 0, 0}}}};
+  const Matrix3 quarter{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+  const MassMoments there = moved(pair, quarter, {0, 0, 3}, statements);
+  EXPECT_TRUE(there.mass.is_equal(4));
+  EXPECT_TRUE(there.first[2].is_equal(12));
+  EXPECT_TRUE(there.second[0][0].is_zero());
+  EXPECT_TRUE(there.second[1][1].is_equal(8));
+  EXPECT_TRUE(there.second[2][2].is_equal(36));
+  EXPECT_TRUE(there.second[1][2].is_zero());
+}
+
+// S = ∫x xᵀ dm: S_xx = (I_yy + I_zz − I_xx)/2 and S_xy = −I_xy, the tensor's entry being I_xy = −∫x y dm.
+TEST(MassMoments, FollowFromTheInertiaTensor) {
+  Statements statements;
+  const LinkTree tree = tree_of(tests::read_scene(R"toml([model]
+name = "stone"
+[[body]]
+name = "b"
+mass = 2
+center_of_mass = [1, -2, 0]
+inertia = { xx = 3, yy = 4, zz = 5, xy = 0.25, yz = -0.5 }
+[[joint]]
+name = "j"
+type = "free"
+parent = "world"
+child = "b"
+[[body]]
+name = "d"
+mass = 1
+[[joint]]
+name = "k"
+type = "revolute"
+parent = "b"
+child = "d"
+)toml"),
+                                statements);
+  const MassMoments& moments = tree.body_moments[0];
+  EXPECT_TRUE(moments.second[0][0].is_equal(3 + 2));
+  EXPECT_TRUE(moments.second[1][1].is_equal(2 + 8));
+  EXPECT_TRUE(moments.second[2][2].is_equal(1));
+  EXPECT_TRUE(moments.second[0][1].is_equal(GiNaC::numeric(-1, 4) - 4));
+  EXPECT_TRUE(moments.second[1][2].is_equal(GiNaC::numeric(1, 2)));
+}
+
 }  // namespace
 }  // namespace jourdain::kinematics

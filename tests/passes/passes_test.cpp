@@ -133,6 +133,28 @@ TEST(SplitAngles, KeepsTheDigitsThatASumOfLargeAnglesLoses) {
   EXPECT_EQ(operations(split), 12u);
 }
 
+/// sin and cos of a sum (or difference) of two angles, split, at angles for which all four products differ.
+std::vector<double> split_pair(double a, double b, bool difference) {
+  Builder builder;
+  const Signed x = builder.leaf(LeafKind::kPosition, 0), y = builder.leaf(LeafKind::kPosition, 1),
+               angle = builder.add(x, difference ? -y : y);
+  builder.output("s", 0, -1, builder.unary(ir::Op::kSin, angle));
+  builder.output("c", 0, -1, builder.unary(ir::Op::kCos, angle));
+  ir::LeafValues<double> leaves;
+  leaves[LeafKind::kPosition] = {a, b};
+  return ir::interpret(split_angles(builder.finish("pair")), leaves);
+}
+
+// sin(a ± b) = sin a cos b ± cos a sin b, cos(a ± b) = cos a cos b ∓ sin a sin b.
+TEST(SplitAngles, ExpandsSumsAndDifferencesWithTheirSigns) {
+  constexpr double kRounding = 2e-16;
+  const std::vector<double> sum = split_pair(0.9, 0.4, false), difference = split_pair(0.9, 0.4, true);
+  EXPECT_NEAR(sum[0], std::sin(1.3), kRounding);
+  EXPECT_NEAR(sum[1], std::cos(1.3), kRounding);
+  EXPECT_NEAR(difference[0], std::sin(0.5), kRounding);
+  EXPECT_NEAR(difference[1], std::cos(0.5), kRounding);
+}
+
 TEST(SplitAngles, LeavesAConstantOffsetInItsSum) {
   Builder b;
   const Signed x = b.leaf(LeafKind::kPosition, 0);

@@ -1,0 +1,99 @@
+#include "mutants/subject.hpp"
+
+#include "agreement/judge.hpp"
+#include "loops/validation.hpp"
+#include "lowering.hpp"
+#include "model/coordinates.hpp"
+#include "properties/random.hpp"
+
+namespace jourdain::tests {
+
+using ir::LeafKind;
+
+namespace {
+
+std::vector<emit::FunctionInfo> every_function(const model::Mechanism& mechanism,
+                                               const std::optional<loops::LoopPlan>& plan) {
+  std::vector<emit::FunctionInfo> functions;
+  const emit::SceneShape shape = shape_of(mechanism, plan ? &*plan : nullptr);
+  for (const emit::FunctionInfo& function : emit::all_functions())
+    if (function.shape != emit::Shape::kStep && has_function(function, shape)) functions.push_back(function);
+  return functions;
+}
+
+ir::Module loop_programs(const model::Mechanism& mechanism, const loops::LoopPlan& plan,
+                         const std::vector<emit::FunctionInfo>& functions) {
+  const loops::ClosedSystem closed(mechanism, {}, plan);
+  ir::Module module;
+  for (const emit::FunctionInfo& function : functions)
+    if (!function.holds_derivatives)
+      module.functions.push_back(loops::loop_program(closed.system(), function.name));
+  for (ir::Program& program :
+       derivative_programs(loops::derivative_sources(closed.system()), functions, DerivativeTerms::kAll))
+    module.functions.push_back(std::move(program));
+  return module;
+}
+
+}  // namespace
+
+ir::Module programs_of(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+                       const std::optional<loops::LoopPlan>& plan) {
+  const std::vector<emit::FunctionInfo> functions = every_function(mechanism, plan);
+  ir::Module module;
+  if (plan) {
+    module = loop_programs(mechanism, *plan, functions);
+  } else {
+    module = lower_functions(equations, functions);
+    for (ir::Program& program :
+         derivative_programs(tree_sources(mechanism, {}), functions, DerivativeTerms::kAll))
+      module.functions.push_back(std::move(program));
+  }
+  return passes::optimise(std::move(module)).module;
+}
+
+std::optional<loops::LoopPlan> plan_of(const model::Mechanism& mechanism) {
+  if (mechanism.loops.empty()) return {};
+  support::Diagnostics diagnostics("model", "");
+  const std::optional<loops::LoopPlan> plan = loops::plan_loops(mechanism, diagnostics);
+  JD_CHECK(plan, "{}", diagnostics.format());
+  return plan;
+}
+
+Subject subject_of(const std::string& name, model::Mechanism mechanism) {
+  Subject subject{name, std::move(mechanism), {}, {}, {}};
+  subject.plan = plan_of(subject.mechanism);
+  dynamics::DerivationOptions options;
+  options.for_derivatives = subject.plan.has_value();
+  subject.equations = dynamics::derive_equations(subject.mechanism, options);
+  subject.module = programs_of(subject.mechanism, subject.equations, subject.plan);
+  return subject;
+}
+
+bool refuses(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+             const std::optional<loops::LoopPlan>& plan, const ir::Module& module) {
+  const validate::Verdict verdict = plan ? loops::validate_closed(mechanism, equations, module, *plan)
+                                         : validate::validate_translation(mechanism, equations, module);
+  return !verdict.accepted();
+}
+
+std::vector<ir::LeafValues<double>> random_states(const Subject& subject, std::size_t count) {
+  std::vector<ir::LeafValues<double>> states;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    Random random(seed + 400);
+    const Sample sample = random_sample(subject.mechanism, seed);
+    ir::LeafValues<double>& leaves = states.emplace_back();
+    leaves[LeafKind::kParameter] = sample.parameters;
+    leaves[LeafKind::kPosition] = sample.y;
+    for (std::size_t i = 0; subject.plan && i < sample.y.size(); ++i)
+      leaves[LeafKind::kPosition][i] = subject.plan->y[i] + random.uniform(-0.1, 0.1);
+    for (const std::size_t q : model::lay_out_coordinates(subject.mechanism).quaternions)
+      for (std::size_t i = q; i < q + 4; ++i) leaves[LeafKind::kPosition][i] *= 1.03;
+    leaves[LeafKind::kVelocity] = sample.z;
+    leaves[LeafKind::kAcceleration] = sample.zdot;
+    leaves[LeafKind::kInput] = sample.u;
+    leaves[LeafKind::kTime] = {sample.t};
+  }
+  return states;
+}
+
+}  // namespace jourdain::tests
