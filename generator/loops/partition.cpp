@@ -5,7 +5,9 @@
 #include <functional>
 
 #include "loops/regular_rows.hpp"
+#include "model/checks.hpp"
 #include "support/check.hpp"
+#include "support/uniform.hpp"
 
 namespace jourdain::loops {
 
@@ -174,6 +176,24 @@ std::vector<Block> triangular_blocks(const std::vector<Matrix>& jacobians,
     std::sort(block.dependents.begin(), block.dependents.end());
   }
   return blocks;
+}
+
+std::vector<Matrix> open_rows(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
+                              const std::vector<Configuration>& configurations,
+                              const std::vector<std::size_t>& rows) {
+  constexpr double kOff = 0.1;
+  constexpr std::size_t kSeen = 4;
+  support::Uniform uniform(29);
+  std::vector<double> parameters = model::default_values(mechanism);
+  for (double& value : parameters) value += kOff * uniform(-1, 1) * (1 + std::fabs(value));
+  const NumericClosure closure(mechanism, constraints, parameters);
+  std::vector<Matrix> jacobians;
+  for (std::size_t k = 0; k < std::min(kSeen, configurations.size()); ++k) {
+    Vector off(at(closure.velocity_count()));
+    for (long double& entry : off) entry = kOff * uniform(-1, 1);
+    jacobians.push_back(closure.jacobian(closure.displaced(configurations[k], off))(rows, Eigen::all));
+  }
+  return jacobians;
 }
 
 std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,

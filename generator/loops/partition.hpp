@@ -28,6 +28,11 @@ std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, 
 std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
                                          const std::vector<std::size_t>& independent);
 
+/// These rows of G at configurations that are open, with parameters off their default values.
+std::vector<Matrix> open_rows(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
+                              const std::vector<Configuration>& configurations,
+                              const std::vector<std::size_t>& rows);
+
 /// Block triangular form of the dependent columns: the smallest square blocks in an order in which each needs earlier ones only.
 std::vector<Block> triangular_blocks(const std::vector<Matrix>& jacobians,
                                      const std::vector<std::size_t>& dependents);

@@ -151,6 +151,12 @@ class Planner {
     return regular;
   }
 
+  /// Off the loops, at other parameters: what vanishes there is no part of a row. Rods of equal lengths hide some parts where loops
+  /// are closed.
+  std::vector<Matrix> open_jacobians() const {
+    return open_rows(mechanism_, constraints_, configurations_, plan_.rows);
+  }
+
   bool treat() {
     const model::LoopOptions& options = mechanism_.loop_options;
     if (options.treatment == LoopTreatment::kMultipliers) return true;
@@ -209,7 +215,8 @@ class Planner {
   /// With these velocities independent.
   void take(const Partition& partition) {
     plan_.independent = partition.independent;
-    plan_.blocks = partition.blocks;
+    plan_.blocks =
+        triangular_blocks(open_jacobians(), loops::all_but(partition.independent, layout_.velocity_count()));
     plan_.conditioning = partition.conditioning;
     for (Block& block : plan_.blocks)
       for (std::size_t& row : block.rows) row = plan_.rows[row];

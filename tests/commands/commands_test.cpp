@@ -176,7 +176,8 @@ TEST(Compile, EmitsOnlyWhatWasAskedFor) {
 TEST(Compile, ShowsTheProgramsAfterAPass) {
   const support::TemporaryFolder folder;
   const auto dump = [&](const std::string& option) {
-    return jourdain({"compile", option, "models/pendulum.toml", "-o", folder.path(), "--functions", "k_bar,q_bar"});
+    return jourdain(
+        {"compile", option, "models/pendulum.toml", "-o", folder.path(), "--functions", "k_bar,q_bar"});
   };
   const support::ProcessResult one = dump("--dump-ir=hoist"), all = dump("--dump-ir");
   expect(one, 0, "# hoist, round 1: ");

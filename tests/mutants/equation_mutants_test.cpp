@@ -50,7 +50,7 @@ std::vector<std::vector<Exact>> values(const dynamics::Equations& e, const ir::L
   std::vector<std::vector<Exact>> all;
   for (const std::vector<Ex>& list : asked_for(e)) {
     all.emplace_back();
-    for (const Ex& value : list) all.back().push_back(exact.value(value));
+    for (const Ex& value : list) all.back().push_back(exact.value(value).value());
   }
   return all;
 }

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "dynamics/high_precision.hpp"
+#include "support/scaled_real.hpp"
 
 namespace jourdain::tests {
 
@@ -13,6 +13,8 @@ using ir::Op;
 
 namespace {
 
+cln::cl_R in_digits(const cln::cl_R& value) { return cln::cl_float(value, cln::float_format(60)); }
+
 /// The value of a node; none where it has none.
 std::optional<Exact> value(const Node& node, const std::vector<Exact>& values,
                            const ir::LeafValues<Exact>& leaves) {
@@ -20,7 +22,7 @@ std::optional<Exact> value(const Node& node, const std::vector<Exact>& values,
               b = values.empty() ? Exact(0) : values[node.b.value];
   switch (node.op) {
     case Op::kLiteral:
-      return dynamics::to_exact(node.literal);
+      return in_digits(ir::exact_literal(node));
     case Op::kLeaf:
       return leaves[node.leaf].at(node.index);
     case Op::kNegate:
@@ -50,7 +52,7 @@ std::optional<Exact> value(const Node& node, const std::vector<Exact>& values,
 ir::LeafValues<Exact> to_exact(const ir::LeafValues<double>& leaves) {
   ir::LeafValues<Exact> exact;
   for (std::size_t k = 0; k < ir::kLeafKinds; ++k)
-    for (const double v : leaves.of[k]) exact.of[k].push_back(dynamics::to_exact(v));
+    for (const double v : leaves.of[k]) exact.of[k].push_back(in_digits(support::to_exact(v)));
   return exact;
 }
 
@@ -85,7 +87,8 @@ double apart(const std::vector<Exact>& a, const std::vector<Exact>& b) {
     size = cln::max(size, cln::abs(a[i]));
   }
   if (cln::zerop(difference)) return 0;
-  return cln::zerop(size) ? std::numeric_limits<double>::infinity() : dynamics::to_double(difference / size);
+  return cln::zerop(size) ? std::numeric_limits<double>::infinity()
+                          : support::nearest_double(difference / size);
 }
 
 }  // namespace jourdain::tests

@@ -8,6 +8,7 @@
 #include "agreement/shared_data.hpp"
 #include "compile.hpp"
 #include "extremes/extreme_scenes.hpp"
+#include "loops/closed_system.hpp"
 #include "properties/random_linkages.hpp"
 #include "properties/random_loops.hpp"
 #include "properties/random_scene.hpp"
