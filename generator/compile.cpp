@@ -136,8 +136,12 @@ std::vector<std::string> validation_sentences(const validate::Verdict& verdict) 
       "of the sum of absolute terms, other errors are {:.1e} of their scale; cond(M) up to {:.1e}",
       verdict.states, static_cast<double>(validate::kAlgebra), verdict.backward_error, verdict.entry_error,
       verdict.condition)};
+  std::string equations;
   for (const validate::Compared& c : verdict.compared)
-    list.push_back(fmt::format("{}: {}", c.function, c.oracle));
+    if (c.oracle == validate::kReference) equations += (equations.empty() ? "" : ", ") + c.function;
+  list.push_back(fmt::format("the symbolic equations ({}): {}", equations, validate::kReference));
+  for (const validate::Compared& c : verdict.compared)
+    if (c.oracle != validate::kReference) list.push_back(fmt::format("{}: {}", c.function, c.oracle));
   return list;
 }
 

@@ -451,7 +451,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h2b_y = s2 * Real(1.5);
   const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y + h2b_y;
-  const Real J2 = D3 + (D3 - Real(1.6666666666666665));
+  const Real J2 = D3 + (D3 - Real(1.6666666666666667));
   const Real D2 = c1 * h2_x + s1 * h2_y;
   const Real h1b_x = c1 * Real(2.5);
   const Real h1b_y = s1 * Real(2.5);

@@ -239,20 +239,20 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
   const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t102 = q1r0_z * Real(0.03);
+  const Real t103 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t111 = Real(0.03) * top_joints1bf1_z;
+  const Real t112 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t123 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t123;
+  const Real t124 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t123 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -264,26 +264,26 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
   const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
-  const Real t168 = Real(1.0) / top_joints2am_z;
-  const Real t169 = top_jointax_y * t168;
-  const Real t175 = Real(0.31) * top_joints1bf1_x + (t111 + top_joints2bm_y * t169);
-  const Real t179 = top_joints2bm_z * t169 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t182 = top_jointax_x * t168 * Real(0.0697564737441253);
-  const Real t188 = Real(1.0) / (t111 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t169));
-  const Real t189 = (t102 + (q1r0_y * Real(0.31) + top_joints2bm_x * t182)) * t188;
-  const Real t198 = t179 * t189 + (top_joints2bm_z * t182 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t199 = tie_rods0bm_x * t188;
-  const Real t204 = Real(1.0) / (q1r0_x * Real(0.31) - (t102 - (top_joints2bm_y * t182 + t175 * t189)));
-  const Real t205 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t175 * t199)) * t204;
-  const Real t213 = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + top_jointbx1_x * t169);
-  const Real t216 = top_jointbx1_x * t182 + t189 * t213;
-  const Real t222 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t179 * t199 -
-      t198 * t205))) * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t199 * t213 - t205 *
-      t216)));
-  const Real t225 = t204 * (t216 - t198 * t222);
-  const Real t230 = t188 * (t175 * t225 - (t213 - t179 * t222));
-  const Real t237 = t168 * (top_joints2bm_x * t230 - (top_jointbx1_x - (top_joints2bm_y * t225 +
-      top_joints2bm_z * t222)));
+  const Real t169 = Real(1.0) / top_joints2am_z;
+  const Real t170 = top_jointax_y * t169;
+  const Real t176 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t170);
+  const Real t180 = top_joints2bm_z * t170 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t183 = top_jointax_x * t169 * Real(0.0697564737441253);
+  const Real t189 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t170));
+  const Real t190 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t183)) * t189;
+  const Real t199 = t180 * t190 + (top_joints2bm_z * t183 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t200 = tie_rods0bm_x * t189;
+  const Real t205 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t183 + t176 * t190)));
+  const Real t206 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t176 * t200)) * t205;
+  const Real t214 = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + top_jointbx1_x * t170);
+  const Real t217 = top_jointbx1_x * t183 + t190 * t214;
+  const Real t223 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t180 * t200 -
+      t199 * t206))) * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t200 * t214 - t206 *
+      t217)));
+  const Real t226 = t205 * (t217 - t199 * t223);
+  const Real t231 = t189 * (t176 * t226 - (t214 - t180 * t223));
+  const Real t238 = t169 * (top_joints2bm_x * t231 - (top_jointbx1_x - (top_joints2bm_y * t226 +
+      top_joints2bm_z * t223)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -298,9 +298,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
       Real(0.98)));
   M[0][0] = q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z *
-      S1at1r1_z - (h1at1_y * Real(0.04) - (t237 * t237 * Real(0.0505) + (t230 * (t230 * Real(1.4408) +
-      (p_1_1n_z + p_1_1n_z)) - (t222 * (t225 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t222 * Real(0.98)))) -
-      (t225 * (t225 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t222 * Real(0.192)))) + ((q1r1_x * q1r1_x +
+      S1at1r1_z - (h1at1_y * Real(0.04) - (t238 * t238 * Real(0.0505) + (t231 * (t231 * Real(1.4408) +
+      (p_1_1n_z + p_1_1n_z)) - (t223 * (t226 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t223 * Real(0.98)))) -
+      (t226 * (t226 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t223 * Real(0.192)))) + ((q1r1_x * q1r1_x +
       q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) + Real(0.017799999999999996)))))))))));
 }
 
@@ -689,20 +689,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
   const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t103 = q1r0_z * Real(0.03);
+  const Real t104 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t112 = Real(0.03) * top_joints1bf1_z;
+  const Real t113 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t124 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
+  const Real t125 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t125;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t125 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -716,53 +716,53 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t173 = Real(1.0) / top_joints2am_z;
-  const Real t174 = top_jointax_y * t173;
-  const Real t180 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t174);
-  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
-  const Real t193 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
-  const Real t194 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
-  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t204 = tie_rods0bm_x * t193;
-  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t187 + t180 * t194)));
-  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
-  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
-      t203 * t210)));
-  const Real t217 = top_jointbx1_y + top_jointbx1_x * t174;
-  const Real t220 = top_jointbx1_x * t187 + t194 * t217;
-  const Real t226 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t204 * t217 -
-      t210 * t220)));
-  const Real t229 = t209 * (t220 - t203 * t226);
-  const Real t234 = t193 * (t180 * t229 - (t217 - t184 * t226));
-  const Real t241 = t173 * (top_joints2bm_x * t234 - (top_jointbx1_x - (top_joints2bm_y * t229 +
-      top_joints2bm_z * t226)));
-  const Real t247 = tie_rods0at * t215;
-  const Real t249 = t209 * (t203 * t247);
-  const Real t253 = t193 * (t180 * t249 - t184 * t247);
-  const Real t260 = t234 * state.z[0] + t253;
-  const Real t261 = t229 * state.z[0] + t249;
-  const Real t262 = t226 * state.z[0] - t247;
-  const Real t263 = t241 * state.z[0] + t173 * (top_joints2bm_y * t249 + (top_joints2bm_x * t253 -
-      top_joints2bm_z * t247));
-  const Real top_jointam2t_y = top_jointax_x * t263;
-  const Real t266 = Real(0.03) * t262;
-  const Real top_jointbm1t_x = Real(0.31) * t261 + t266;
-  const Real top_jointbm1t_y = t266 + Real(0.31) * t260;
-  const Real top_jointbm1t_z = Real(0.03) * (t260 - t261);
-  const Real top_jointam2t_x = top_jointax_y * t263;
-  const Real top_jointam2a_y = t263 * top_jointam2t_x;
+  const Real t174 = Real(1.0) / top_joints2am_z;
+  const Real t175 = top_jointax_y * t174;
+  const Real t181 = Real(0.31) * top_joints1bf1_x + (t113 + top_joints2bm_y * t175);
+  const Real t185 = top_joints2bm_z * t175 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t188 = top_jointax_x * t174 * Real(0.0697564737441253);
+  const Real t194 = Real(1.0) / (t113 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t175));
+  const Real t195 = (t104 + (q1r0_y * Real(0.31) + top_joints2bm_x * t188)) * t194;
+  const Real t204 = t185 * t195 + (top_joints2bm_z * t188 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t205 = tie_rods0bm_x * t194;
+  const Real t210 = Real(1.0) / (q1r0_x * Real(0.31) - (t104 - (top_joints2bm_y * t188 + t181 * t195)));
+  const Real t211 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t181 * t205)) * t210;
+  const Real t216 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t185 * t205 -
+      t204 * t211)));
+  const Real t218 = top_jointbx1_y + top_jointbx1_x * t175;
+  const Real t221 = top_jointbx1_x * t188 + t195 * t218;
+  const Real t227 = t216 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t205 * t218 -
+      t211 * t221)));
+  const Real t230 = t210 * (t221 - t204 * t227);
+  const Real t235 = t194 * (t181 * t230 - (t218 - t185 * t227));
+  const Real t242 = t174 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 +
+      top_joints2bm_z * t227)));
+  const Real t248 = tie_rods0at * t216;
+  const Real t250 = t210 * (t204 * t248);
+  const Real t254 = t194 * (t181 * t250 - t185 * t248);
+  const Real t261 = t235 * state.z[0] + t254;
+  const Real t262 = t230 * state.z[0] + t250;
+  const Real t263 = t227 * state.z[0] - t248;
+  const Real t264 = t242 * state.z[0] + t174 * (top_joints2bm_y * t250 + (top_joints2bm_x * t254 -
+      top_joints2bm_z * t248));
+  const Real top_jointam2t_y = top_jointax_x * t264;
+  const Real t267 = Real(0.03) * t263;
+  const Real top_jointbm1t_x = Real(0.31) * t262 + t267;
+  const Real top_jointbm1t_y = t267 + Real(0.31) * t261;
+  const Real top_jointbm1t_z = Real(0.03) * (t261 - t262);
+  const Real top_jointam2t_x = top_jointax_y * t264;
+  const Real top_jointam2a_y = t264 * top_jointam2t_x;
   const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t261 * top_jointbm1t_z - t262 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t260 * top_jointbm1t_z + t262 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t260 * top_jointbm1t_y + t261 * top_jointbm1t_x;
+  const Real top_jointbm1a_x = t262 * top_jointbm1t_z - t263 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t261 * top_jointbm1t_z + t263 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t261 * top_jointbm1t_y + t262 * top_jointbm1t_x;
   const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
       top_jointbm1t_z);
   const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
       top_jointbm1t_z);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t263 * top_jointam2t_y;
+  const Real top_jointam2a_x = t264 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
   const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
       top_jointbm1a_z);
@@ -774,9 +774,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
   const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
       state.z[0] * top_jointbm0b_x));
-  const Real tie_rodbm1t_x = Real(0.07) * t261 + Real(0.02) * t262;
-  const Real tie_rodbm1t_y = Real(0.14) * t262 + Real(0.07) * t260;
-  const Real tie_rodbm1t_z = Real(0.14) * t261 - Real(0.02) * t260;
+  const Real tie_rodbm1t_x = Real(0.07) * t262 + Real(0.02) * t263;
+  const Real tie_rodbm1t_y = Real(0.14) * t263 + Real(0.07) * t261;
+  const Real tie_rodbm1t_z = Real(0.14) * t262 - Real(0.02) * t261;
   const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
@@ -787,9 +787,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t261 * tie_rodbm1t_z + t262 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t260 * tie_rodbm1t_z - t262 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t260 * tie_rodbm1t_y + t261 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t262 * tie_rodbm1t_z + t263 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t261 * tie_rodbm1t_z - t263 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t261 * tie_rodbm1t_y + t262 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
@@ -798,15 +798,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
   const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
       tie_rodbm0b_y));
-  const Real t416 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
-      top_jointbm0b_y - t174 * top_jointda_z)));
-  const Real t423 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
-      top_jointbm1a_z - (t187 * top_jointda_z + t194 * t416))));
-  const Real t434 = t215 * (t210 * t423 - (t204 * t416 + Real(3.123475237772121) * (tie_rodbm0v_y *
+  const Real t417 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
+      top_jointbm0b_y - t175 * top_jointda_z)));
+  const Real t424 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
+      top_jointbm1a_z - (t188 * top_jointda_z + t195 * t417))));
+  const Real t435 = t216 * (t211 * t424 - (t205 * t417 + Real(3.123475237772121) * (tie_rodbm0v_y *
       tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
       tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t437 = t209 * (t423 + t203 * t434);
-  const Real t442 = t193 * (t180 * t437 - (t416 + t184 * t434));
+  const Real t438 = t210 * (t424 + t204 * t435);
+  const Real t443 = t194 * (t181 * t438 - (t417 + t185 * t435));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -865,26 +865,26 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real ru1_x = t260 + Real(2.0) * w1p_x;
-  const Real ru1_y = t261 - Real(2.0) * w1p_y;
-  const Real ru1_z = t262 - Real(2.0) * w1p_z;
+  const Real ru1_x = t261 + Real(2.0) * w1p_x;
+  const Real ru1_y = t262 - Real(2.0) * w1p_y;
+  const Real ru1_z = t263 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
   const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
   const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
   const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ruw1 = t261 * ru1_y + (t260 * ru1_x + t262 * ru1_z);
+  const Real ruw1 = t262 * ru1_y + (t261 * ru1_x + t263 * ru1_z);
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t173 * (top_joints2bm_x * t442 - (top_jointda_z - (top_joints2bm_y * t437 -
-      top_joints2bm_z * t434))) * Real(0.0505);
-  const Real ref1_x = t434 * Real(1.6) - (tyre_forcef1_x - (t437 * Real(3.84) + t260 * ruh1));
-  const Real ref1_y = Real(1.6) * ruw1 - (tyre_forcef1_y - (t442 * Real(3.84) - t261 * ruh1));
-  const Real ref1_z = t442 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * ruw1 - t262 * ruh1));
-  const Real ren1_x = Real(0.06) * tyre_forcef1_z + (Real(0.12) * tyre_forcef1_y - (t442 * Real(1.4408) -
-      (t261 * rSu1_z - t262 * rSu1_y)));
-  const Real ren1_y = Real(0.12) * tyre_forcef1_x + (Real(0.01) * tyre_forcef1_z - (t434 * Real(0.192) + (t437
-      * Real(1.7608) + (t260 * rSu1_z - t262 * rSu1_x))));
-  const Real ren1_z = Real(0.06) * tyre_forcef1_x - (Real(0.01) * tyre_forcef1_y + (t437 * Real(0.192) + (t434
-      * Real(0.98) + (t260 * rSu1_y - t261 * rSu1_x))));
+  const Real rdn2_z = t174 * (top_joints2bm_x * t443 - (top_jointda_z - (top_joints2bm_y * t438 -
+      top_joints2bm_z * t435))) * Real(0.0505);
+  const Real ref1_x = t435 * Real(1.6) - (tyre_forcef1_x - (t438 * Real(3.84) + t261 * ruh1));
+  const Real ref1_y = Real(1.6) * ruw1 - (tyre_forcef1_y - (t443 * Real(3.84) - t262 * ruh1));
+  const Real ref1_z = t443 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * ruw1 - t263 * ruh1));
+  const Real ren1_x = Real(0.06) * tyre_forcef1_z + (Real(0.12) * tyre_forcef1_y - (t443 * Real(1.4408) -
+      (t262 * rSu1_z - t263 * rSu1_y)));
+  const Real ren1_y = Real(0.12) * tyre_forcef1_x + (Real(0.01) * tyre_forcef1_z - (t435 * Real(0.192) + (t438
+      * Real(1.7608) + (t261 * rSu1_z - t263 * rSu1_x))));
+  const Real ren1_z = Real(0.06) * tyre_forcef1_x - (Real(0.01) * tyre_forcef1_y + (t438 * Real(0.192) + (t435
+      * Real(0.98) + (t261 * rSu1_y - t262 * rSu1_x))));
   const Real rf1p_x = q1r1_y * ref1_y + (q1r1_x * ref1_x + q1r1_z * ref1_z);
   const Real rf1p_y = q1r2_y * ref1_y - (q1r2_x * ref1_x - q1r2_z * ref1_z);
   const Real rQ1_0 = Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (w1p_y * rK1_z - (w1p_z * rK1_y - ren1_x)));
@@ -892,13 +892,13 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rQ1_2 = w1p_x * rK1_y - (Real(1.6) * ra1_x + (w1p_y * rK1_x - ren1_z));
   const Real rQ2_0 = rQp2 + rdn2_z;
   zdot[0] = Real(1.0) / (q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y *
-      S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t241 * t241 * Real(0.0505) + (t234 * (t234 *
-      Real(1.4408) + (p_1_1n_z + p_1_1n_z)) - (t226 * (t229 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t226 *
-      Real(0.98)))) - (t229 * (t229 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t226 * Real(0.192)))) + ((q1r1_x
+      S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t242 * t242 * Real(0.0505) + (t235 * (t235 *
+      Real(1.4408) + (p_1_1n_z + p_1_1n_z)) - (t227 * (t230 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t227 *
+      Real(0.98)))) - (t230 * (t230 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t227 * Real(0.192)))) + ((q1r1_x
       * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) +
       Real(0.017799999999999996)))))))))))) * (strutbx_y * strutf_y - (strutbx_x * strutf_z - (rQp0 - (q1r0_x
-      * ren1_x - (q1r0_y * ren1_y - (q1r0_z * ren1_z + (Real(0.02) * rf1p_x - (Real(0.34) * rf1p_y + (t234 *
-      rQ1_0 - (t229 * rQ1_1 - (t226 * rQ1_2 + t241 * rQ2_0)))))))))));
+      * ren1_x - (q1r0_y * ren1_y - (q1r0_z * ren1_z + (Real(0.02) * rf1p_x - (Real(0.34) * rf1p_y + (t235 *
+      rQ1_0 - (t230 * rQ1_1 - (t227 * rQ1_2 + t242 * rQ2_0)))))))))));
 }
 
 template <class Real>
@@ -945,20 +945,20 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
   const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t103 = q1r0_z * Real(0.03);
+  const Real t104 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t112 = Real(0.03) * top_joints1bf1_z;
+  const Real t113 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t124 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
+  const Real t125 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t125;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t125 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -972,53 +972,53 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t173 = Real(1.0) / top_joints2am_z;
-  const Real t174 = top_jointax_y * t173;
-  const Real t180 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t174);
-  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
-  const Real t193 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
-  const Real t194 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
-  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t204 = tie_rods0bm_x * t193;
-  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t187 + t180 * t194)));
-  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
-  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
-      t203 * t210)));
-  const Real t217 = top_jointbx1_y + top_jointbx1_x * t174;
-  const Real t220 = top_jointbx1_x * t187 + t194 * t217;
-  const Real t226 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t204 * t217 -
-      t210 * t220)));
-  const Real t229 = t209 * (t220 - t203 * t226);
-  const Real t234 = t193 * (t180 * t229 - (t217 - t184 * t226));
-  const Real t241 = t173 * (top_joints2bm_x * t234 - (top_jointbx1_x - (top_joints2bm_y * t229 +
-      top_joints2bm_z * t226)));
-  const Real t247 = tie_rods0at * t215;
-  const Real t249 = t209 * (t203 * t247);
-  const Real t253 = t193 * (t180 * t249 - t184 * t247);
-  const Real t260 = t234 * state.z[0] + t253;
-  const Real t261 = t229 * state.z[0] + t249;
-  const Real t262 = t226 * state.z[0] - t247;
-  const Real t263 = t241 * state.z[0] + t173 * (top_joints2bm_y * t249 + (top_joints2bm_x * t253 -
-      top_joints2bm_z * t247));
-  const Real top_jointam2t_y = top_jointax_x * t263;
-  const Real t266 = Real(0.03) * t262;
-  const Real top_jointbm1t_x = Real(0.31) * t261 + t266;
-  const Real top_jointbm1t_y = t266 + Real(0.31) * t260;
-  const Real top_jointbm1t_z = Real(0.03) * (t260 - t261);
-  const Real top_jointam2t_x = top_jointax_y * t263;
-  const Real top_jointam2a_y = t263 * top_jointam2t_x;
+  const Real t174 = Real(1.0) / top_joints2am_z;
+  const Real t175 = top_jointax_y * t174;
+  const Real t181 = Real(0.31) * top_joints1bf1_x + (t113 + top_joints2bm_y * t175);
+  const Real t185 = top_joints2bm_z * t175 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t188 = top_jointax_x * t174 * Real(0.0697564737441253);
+  const Real t194 = Real(1.0) / (t113 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t175));
+  const Real t195 = (t104 + (q1r0_y * Real(0.31) + top_joints2bm_x * t188)) * t194;
+  const Real t204 = t185 * t195 + (top_joints2bm_z * t188 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t205 = tie_rods0bm_x * t194;
+  const Real t210 = Real(1.0) / (q1r0_x * Real(0.31) - (t104 - (top_joints2bm_y * t188 + t181 * t195)));
+  const Real t211 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t181 * t205)) * t210;
+  const Real t216 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t185 * t205 -
+      t204 * t211)));
+  const Real t218 = top_jointbx1_y + top_jointbx1_x * t175;
+  const Real t221 = top_jointbx1_x * t188 + t195 * t218;
+  const Real t227 = t216 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t205 * t218 -
+      t211 * t221)));
+  const Real t230 = t210 * (t221 - t204 * t227);
+  const Real t235 = t194 * (t181 * t230 - (t218 - t185 * t227));
+  const Real t242 = t174 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 +
+      top_joints2bm_z * t227)));
+  const Real t248 = tie_rods0at * t216;
+  const Real t250 = t210 * (t204 * t248);
+  const Real t254 = t194 * (t181 * t250 - t185 * t248);
+  const Real t261 = t235 * state.z[0] + t254;
+  const Real t262 = t230 * state.z[0] + t250;
+  const Real t263 = t227 * state.z[0] - t248;
+  const Real t264 = t242 * state.z[0] + t174 * (top_joints2bm_y * t250 + (top_joints2bm_x * t254 -
+      top_joints2bm_z * t248));
+  const Real top_jointam2t_y = top_jointax_x * t264;
+  const Real t267 = Real(0.03) * t263;
+  const Real top_jointbm1t_x = Real(0.31) * t262 + t267;
+  const Real top_jointbm1t_y = t267 + Real(0.31) * t261;
+  const Real top_jointbm1t_z = Real(0.03) * (t261 - t262);
+  const Real top_jointam2t_x = top_jointax_y * t264;
+  const Real top_jointam2a_y = t264 * top_jointam2t_x;
   const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t261 * top_jointbm1t_z - t262 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t260 * top_jointbm1t_z + t262 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t260 * top_jointbm1t_y + t261 * top_jointbm1t_x;
+  const Real top_jointbm1a_x = t262 * top_jointbm1t_z - t263 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t261 * top_jointbm1t_z + t263 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t261 * top_jointbm1t_y + t262 * top_jointbm1t_x;
   const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
       top_jointbm1t_z);
   const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
       top_jointbm1t_z);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t263 * top_jointam2t_y;
+  const Real top_jointam2a_x = t264 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
   const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
       top_jointbm1a_z);
@@ -1030,9 +1030,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
   const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
       state.z[0] * top_jointbm0b_x));
-  const Real tie_rodbm1t_x = Real(0.07) * t261 + Real(0.02) * t262;
-  const Real tie_rodbm1t_y = Real(0.14) * t262 + Real(0.07) * t260;
-  const Real tie_rodbm1t_z = Real(0.14) * t261 - Real(0.02) * t260;
+  const Real tie_rodbm1t_x = Real(0.07) * t262 + Real(0.02) * t263;
+  const Real tie_rodbm1t_y = Real(0.14) * t263 + Real(0.07) * t261;
+  const Real tie_rodbm1t_z = Real(0.14) * t262 - Real(0.02) * t261;
   const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
@@ -1043,9 +1043,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t261 * tie_rodbm1t_z + t262 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t260 * tie_rodbm1t_z - t262 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t260 * tie_rodbm1t_y + t261 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t262 * tie_rodbm1t_z + t263 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t261 * tie_rodbm1t_z - t263 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t261 * tie_rodbm1t_y + t262 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
@@ -1054,18 +1054,18 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
   const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
       tie_rodbm0b_y));
-  const Real t416 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
-      top_jointbm0b_y - t174 * top_jointda_z)));
-  const Real t423 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
-      top_jointbm1a_z - (t187 * top_jointda_z + t194 * t416))));
-  const Real t434 = t215 * (t210 * t423 - (t204 * t416 + Real(3.123475237772121) * (tie_rodbm0v_y *
+  const Real t417 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
+      top_jointbm0b_y - t175 * top_jointda_z)));
+  const Real t424 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
+      top_jointbm1a_z - (t188 * top_jointda_z + t195 * t417))));
+  const Real t435 = t216 * (t211 * t424 - (t205 * t417 + Real(3.123475237772121) * (tie_rodbm0v_y *
       tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
       tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t437 = t209 * (t423 + t203 * t434);
-  const Real t442 = t193 * (t180 * t437 - (t416 + t184 * t434));
-  const Real t452 = t442 - t234 * zdot[0];
-  const Real t454 = t437 - t229 * zdot[0];
-  const Real t456 = t434 + t226 * zdot[0];
+  const Real t438 = t210 * (t424 + t204 * t435);
+  const Real t443 = t194 * (t181 * t438 - (t417 + t185 * t435));
+  const Real t453 = t443 - t235 * zdot[0];
+  const Real t455 = t438 - t230 * zdot[0];
+  const Real t457 = t435 + t227 * zdot[0];
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
@@ -1123,26 +1123,26 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aK1_x = Real(0.65) * w1p_x;
   const Real aK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real aK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real au1_x = t260 + Real(2.0) * w1p_x;
-  const Real au1_y = t261 - Real(2.0) * w1p_y;
-  const Real au1_z = t262 - Real(2.0) * w1p_z;
+  const Real au1_x = t261 + Real(2.0) * w1p_x;
+  const Real au1_y = t262 - Real(2.0) * w1p_y;
+  const Real au1_z = t263 - Real(2.0) * w1p_z;
   const Real aSu1_x = Real(0.65) * au1_x;
   const Real aSu1_y = Real(0.33) * au1_y + Real(0.192) * au1_z;
   const Real aSu1_z = Real(1.1108) * au1_z + Real(0.192) * au1_y;
   const Real auh1 = Real(1.6) * au1_y + Real(3.84) * au1_z;
-  const Real auw1 = t261 * au1_y + (t260 * au1_x + t262 * au1_z);
+  const Real auw1 = t262 * au1_y + (t261 * au1_x + t263 * au1_z);
   const Real aQp2 = h2b_x * Real(9.786103333048876);
-  const Real adn2_z = (t173 * (top_joints2bm_x * t442 - (top_jointda_z - (top_joints2bm_y * t437 -
-      top_joints2bm_z * t434))) - t241 * zdot[0]) * Real(0.0505);
-  const Real aef1_x = t456 * Real(1.6) - (tyre_forcef1_x - (t454 * Real(3.84) + t260 * auh1));
-  const Real aef1_y = Real(1.6) * auw1 - (tyre_forcef1_y - (t452 * Real(3.84) - t261 * auh1));
-  const Real aef1_z = t452 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * auw1 - t262 * auh1));
-  const Real aen1_x = Real(0.06) * tyre_forcef1_z + (Real(0.12) * tyre_forcef1_y - (t452 * Real(1.4408) -
-      (t261 * aSu1_z - t262 * aSu1_y)));
-  const Real aen1_y = Real(0.12) * tyre_forcef1_x + (Real(0.01) * tyre_forcef1_z - (t456 * Real(0.192) + (t454
-      * Real(1.7608) + (t260 * aSu1_z - t262 * aSu1_x))));
-  const Real aen1_z = Real(0.06) * tyre_forcef1_x - (Real(0.01) * tyre_forcef1_y + (t454 * Real(0.192) + (t456
-      * Real(0.98) + (t260 * aSu1_y - t261 * aSu1_x))));
+  const Real adn2_z = (t174 * (top_joints2bm_x * t443 - (top_jointda_z - (top_joints2bm_y * t438 -
+      top_joints2bm_z * t435))) - t242 * zdot[0]) * Real(0.0505);
+  const Real aef1_x = t457 * Real(1.6) - (tyre_forcef1_x - (t455 * Real(3.84) + t261 * auh1));
+  const Real aef1_y = Real(1.6) * auw1 - (tyre_forcef1_y - (t453 * Real(3.84) - t262 * auh1));
+  const Real aef1_z = t453 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * auw1 - t263 * auh1));
+  const Real aen1_x = Real(0.06) * tyre_forcef1_z + (Real(0.12) * tyre_forcef1_y - (t453 * Real(1.4408) -
+      (t262 * aSu1_z - t263 * aSu1_y)));
+  const Real aen1_y = Real(0.12) * tyre_forcef1_x + (Real(0.01) * tyre_forcef1_z - (t457 * Real(0.192) + (t455
+      * Real(1.7608) + (t261 * aSu1_z - t263 * aSu1_x))));
+  const Real aen1_z = Real(0.06) * tyre_forcef1_x - (Real(0.01) * tyre_forcef1_y + (t455 * Real(0.192) + (t457
+      * Real(0.98) + (t261 * aSu1_y - t262 * aSu1_x))));
   const Real af1p_x = q1r1_y * aef1_y + (q1r1_x * aef1_x + q1r1_z * aef1_z);
   const Real af1p_y = q1r2_y * aef1_y - (q1r2_x * aef1_x - q1r2_z * aef1_z);
   const Real aQ1_0 = Real(1.6) * aa1_z - (aal1_x * Real(1.4408) - (Real(3.84) * aa1_y - (w1p_y * aK1_z -
@@ -1153,8 +1153,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       (w1p_y * aK1_x - aen1_z))));
   const Real aQ2_0 = aQp2 + adn2_z;
   tau[0] = -(strutbx_y * strutf_y - (strutbx_x * strutf_z - (aQp0 - (adn0_z + (q1r0_x * aen1_x - (q1r0_y *
-      aen1_y - (q1r0_z * aen1_z + (Real(0.02) * af1p_x - (Real(0.34) * af1p_y + (t234 * aQ1_0 + (t229 * aQ1_1
-      - (t226 * aQ1_2 - t241 * aQ2_0))))))))))));
+      aen1_y - (q1r0_z * aen1_z + (Real(0.02) * af1p_x - (Real(0.34) * af1p_y + (t235 * aQ1_0 + (t230 * aQ1_1
+      - (t227 * aQ1_2 - t242 * aQ2_0))))))))))));
 }
 
 template <class Real>
@@ -1199,20 +1199,20 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
   const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t102 = q1r0_z * Real(0.03);
+  const Real t103 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t111 = Real(0.03) * top_joints1bf1_z;
+  const Real t112 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t123 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t123;
+  const Real t124 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t123 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -1226,34 +1226,34 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t172 = Real(1.0) / top_joints2am_z;
-  const Real t173 = top_jointax_y * t172;
-  const Real t179 = Real(0.31) * top_joints1bf1_x + (t111 + top_joints2bm_y * t173);
-  const Real t183 = top_joints2bm_z * t173 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t186 = top_jointax_x * t172 * Real(0.0697564737441253);
-  const Real t192 = Real(1.0) / (t111 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t173));
-  const Real t193 = (t102 + (q1r0_y * Real(0.31) + top_joints2bm_x * t186)) * t192;
-  const Real t202 = t183 * t193 + (top_joints2bm_z * t186 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t203 = tie_rods0bm_x * t192;
-  const Real t208 = Real(1.0) / (q1r0_x * Real(0.31) - (t102 - (top_joints2bm_y * t186 + t179 * t193)));
-  const Real t209 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t179 * t203)) * t208;
-  const Real t214 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t183 * t203 -
-      t202 * t209)));
-  const Real t217 = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + top_jointbx1_x * t173);
-  const Real t220 = top_jointbx1_x * t186 + t193 * t217;
-  const Real t226 = t214 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t203 * t217 -
-      t209 * t220)));
-  const Real t229 = t208 * (t220 - t202 * t226);
-  const Real t234 = t192 * (t179 * t229 - (t217 - t183 * t226));
-  const Real t247 = tie_rods0at * t214;
-  const Real t249 = t208 * (t202 * t247);
-  const Real t253 = t192 * (t179 * t249 - t183 * t247);
-  const Real t260 = t234 * state.z[0] + t253;
-  const Real t261 = t229 * state.z[0] + t249;
-  const Real t262 = t226 * state.z[0] - t247;
-  const Real t263 = t172 * (top_joints2bm_x * t234 - (top_jointbx1_x - (top_joints2bm_y * t229 +
-      top_joints2bm_z * t226))) * state.z[0] + t172 * (top_joints2bm_y * t249 + (top_joints2bm_x * t253 -
-      top_joints2bm_z * t247));
+  const Real t173 = Real(1.0) / top_joints2am_z;
+  const Real t174 = top_jointax_y * t173;
+  const Real t180 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t174);
+  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
+  const Real t193 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
+  const Real t194 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
+  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t204 = tie_rods0bm_x * t193;
+  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t187 + t180 * t194)));
+  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
+  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
+      t203 * t210)));
+  const Real t218 = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + top_jointbx1_x * t174);
+  const Real t221 = top_jointbx1_x * t187 + t194 * t218;
+  const Real t227 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t204 * t218 -
+      t210 * t221)));
+  const Real t230 = t209 * (t221 - t203 * t227);
+  const Real t235 = t193 * (t180 * t230 - (t218 - t184 * t227));
+  const Real t248 = tie_rods0at * t215;
+  const Real t250 = t209 * (t203 * t248);
+  const Real t254 = t193 * (t180 * t250 - t184 * t248);
+  const Real t261 = t235 * state.z[0] + t254;
+  const Real t262 = t230 * state.z[0] + t250;
+  const Real t263 = t227 * state.z[0] - t248;
+  const Real t264 = t173 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 +
+      top_joints2bm_z * t227))) * state.z[0] + t173 * (top_joints2bm_y * t250 + (top_joints2bm_x * t254 -
+      top_joints2bm_z * t248));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -1272,13 +1272,13 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
   const Real v1_y = q1r1_y * v1o_x - q1r2_y * v1o_y;
   const Real v1_z = q1r1_z * v1o_x - q1r2_z * v1o_y;
-  const Real v1P_x = t262 * Real(1.6) - t261 * Real(3.84);
-  const Real v1L_x = t260 * Real(1.4408);
-  const Real v1L_y = t262 * Real(0.192) - t261 * Real(1.7608);
-  const Real v1L_z = t261 * Real(0.192) - t262 * Real(0.98);
-  const Real T3 = w1p_y * v1L_y + (w1p_x * v1L_x + (w1p_z * v1L_z + (v1_x * v1P_x - (Real(3.84) * (t260 *
-      v1_y) + (Real(1.6) * (t260 * v1_z) + (t261 * v1L_y - (t260 * v1L_x - (t262 * v1L_z - (state.z[0] * v0L_z
-      + (t263 * t263 * Real(0.0505) + derivative * derivative * Real(3.0)))))) * Real(0.5))))));
+  const Real v1P_x = t263 * Real(1.6) - t262 * Real(3.84);
+  const Real v1L_x = t261 * Real(1.4408);
+  const Real v1L_y = t263 * Real(0.192) - t262 * Real(1.7608);
+  const Real v1L_z = t262 * Real(0.192) - t263 * Real(0.98);
+  const Real T3 = w1p_y * v1L_y + (w1p_x * v1L_x + (w1p_z * v1L_z + (v1_x * v1P_x - (Real(3.84) * (t261 *
+      v1_y) + (Real(1.6) * (t261 * v1_z) + (t262 * v1L_y - (t261 * v1L_x - (t263 * v1L_z - (state.z[0] * v0L_z
+      + (t264 * t264 * Real(0.0505) + derivative * derivative * Real(3.0)))))) * Real(0.5))))));
   return T3;
 }
 
@@ -1390,18 +1390,18 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t22 = detail::cosine(state.t * model.rate);
   const Real t28 = t9 - (Real(0.36) - (t22 - Real(1.0)) * model.c1);
   const Real t30 = t16 + Real(0.27);
-  const Real t43 = (t18 * t18 + (t11 * t11 + Real(0.0007736789075518939)) - Real(0.0979) +
+  const Real t43 = (t18 * t18 + (t11 * t11 + Real(0.000773678907551894)) - Real(0.0979) +
       Real(0.058581070877761425)) * Real(0.5);
   const Real t50 = t18 * Real(0.031245752040724203) - (t11 * Real(0.24) - Real(6.077361763854758e-05));
   const Real t57 = t18 * Real(0.2394153720623578) + (t11 * Real(0.03132205098267723) +
-      Real(0.00046566772531332867));
+      Real(0.0004656677253133288));
   const Real t60 = t57 * t57 + t50 * t50;
   const Real t61 = t43 * t43;
   const Real t63 = detail::square_root(t60 - t61);
   const Real t72 = (t57 * t63 - t43 * t50) / t60;
   const Real t73 = (t50 * t63 + t43 * t57) / t60;
-  const Real t86 = t73 * Real(0.01674155369859007) - (t72 * Real(0.0021849158269852784) +
-      Real(0.027815084173014717));
+  const Real t86 = t73 * Real(0.01674155369859007) - (t72 * Real(0.002184915826985278) +
+      Real(0.02781508417301472));
   const Real t87 = Real(0.03132205098267723) * t73 - (t11 - Real(0.24) * t72);
   const Real t88 = Real(0.2394153720623578) * t73 - (t18 + Real(0.031245752040724203) * t72);
   const Real t93 = t1 * t88 - t2 * t87;
@@ -1409,7 +1409,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t99 = t1 * t30 - t2 * t28;
   const Real t100 = t2 * t30 + t1 * t28;
   const Real t114 = t94 * t100 + (t93 * t99 + t86 * Real(0.14));
-  const Real t116 = t114 * Real(10.214504596527068);
+  const Real t116 = t114 * Real(10.21450459652707);
   const Real t120 = Real(0.14) - t86 * t116;
   const Real t121 = t99 - t93 * t116;
   const Real t122 = t100 - t94 * t116;
@@ -1417,10 +1417,10 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t131 = Real(0.5) * (t30 * t30 + (t28 * t28 + Real(0.019600000000000003)) -
       Real(0.10250000000000001) + Real(0.024900000000000005)) + t114 * Real(0.27068437180796734);
   const Real t132 = t128 * t131;
-  const Real t148 = Real(10.214504596527068) * (t128 * (t131 * t132 - Real(0.017726864147088867)));
-  const Real t153 = t86 * Real(3.196013860502965);
-  const Real t154 = t93 * Real(3.196013860502965);
-  const Real t155 = t94 * Real(3.196013860502965);
+  const Real t148 = Real(10.21450459652707) * (t128 * (t131 * t132 - Real(0.01772686414708887)));
+  const Real t153 = t86 * Real(3.1960138605029655);
+  const Real t154 = t93 * Real(3.1960138605029655);
+  const Real t155 = t94 * Real(3.1960138605029655);
   const Real t157 = detail::square_root(-t148) * Real(7.5107627169405085);
   const Real t161 = t132 * Real(7.5107627169405085);
   const Real t165 = (t94 * t121 - t93 * t122) * t157 + t120 * t161;
@@ -1432,14 +1432,14 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t186 = t182 * (t155 - (t155 * t166 - t154 * t167));
   const Real t188 = t182 * (t167 - (t153 * t167 - t155 * t165));
   const Real t189 = Real(0.5) * t180;
-  const Real t212 = t189 * Real(0.5227505978949085) + t188 * Real(0.524091614422574) + (t186 *
-      Real(0.4267550545085747) - t184 * Real(0.5195574227588697));
+  const Real t212 = t189 * Real(0.5227505978949086) + t188 * Real(0.524091614422574) + (t186 *
+      Real(0.42675505450857476) - t184 * Real(0.5195574227588697));
   const Real t213 = t186 * Real(0.524091614422574) + t189 * Real(0.5195574227588697) - (t188 *
-      Real(0.4267550545085747) - t184 * Real(0.5227505978949085));
-  const Real t214 = t188 * Real(0.5195574227588697) - t186 * Real(0.5227505978949085) + (t189 *
-      Real(0.4267550545085747) + t184 * Real(0.524091614422574));
-  const Real t221 = t189 * Real(0.524091614422574) - (t188 * Real(0.5227505978949085) + t186 *
-      Real(0.5195574227588697)) - t184 * Real(0.4267550545085747);
+      Real(0.42675505450857476) - t184 * Real(0.5227505978949086));
+  const Real t214 = t188 * Real(0.5195574227588697) - t186 * Real(0.5227505978949086) + (t189 *
+      Real(0.42675505450857476) + t184 * Real(0.524091614422574));
+  const Real t221 = t189 * Real(0.524091614422574) - (t188 * Real(0.5227505978949086) + t186 *
+      Real(0.5195574227588697)) - t184 * Real(0.42675505450857476);
   Real t224, t223;
   detail::sine_cosine(state.y[5], t224, t223);
   const Real t234 = state.y[5] + detail::arctangent2(-(t72 * t224 + t73 * t223), -(t73 * t224 - t72 * t223));
@@ -1453,7 +1453,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   closed.y[2] = -t212;
   closed.y[3] = -t213;
   closed.y[4] = t214;
-  closed.regularity = -((Real(1.0) - t61 / t60) * (t148 / (t128 * Real(0.18107113531245012))));
+  closed.regularity = -((Real(1.0) - t61 / t60) * (t148 / (t128 * Real(0.18107113531245014))));
   closed.opening = t235 * t235 + t238 * t238 + t242 * t242 + t246 * t246 + t250 * t250;
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
@@ -1654,20 +1654,20 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) + (Real(0.14) - q1r0_y * Real(0.02)));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
   const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t103 = q1r0_z * Real(0.03);
+  const Real t104 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t112 = Real(0.03) * top_joints1bf1_z;
+  const Real t113 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t124 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
+  const Real t125 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t125;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t125 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -1681,53 +1681,53 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t173 = Real(1.0) / top_joints2am_z;
-  const Real t174 = top_jointax_y * t173;
-  const Real t180 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t174);
-  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
-  const Real t193 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
-  const Real t194 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
-  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t204 = tie_rods0bm_x * t193;
-  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t187 + t180 * t194)));
-  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
-  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
-      t203 * t210)));
-  const Real t217 = top_jointbx1_y + top_jointbx1_x * t174;
-  const Real t220 = top_jointbx1_x * t187 + t194 * t217;
-  const Real t226 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t204 * t217 -
-      t210 * t220)));
-  const Real t229 = t209 * (t220 - t203 * t226);
-  const Real t234 = t193 * (t180 * t229 - (t217 - t184 * t226));
-  const Real t241 = t173 * (top_joints2bm_x * t234 - (top_jointbx1_x - (top_joints2bm_y * t229 +
-      top_joints2bm_z * t226)));
-  const Real t247 = tie_rods0at * t215;
-  const Real t249 = t209 * (t203 * t247);
-  const Real t253 = t193 * (t180 * t249 - t184 * t247);
-  const Real t260 = t234 * state.z[0] + t253;
-  const Real t261 = t229 * state.z[0] + t249;
-  const Real t262 = t226 * state.z[0] - t247;
-  const Real t263 = t241 * state.z[0] + t173 * (top_joints2bm_y * t249 + (top_joints2bm_x * t253 -
-      top_joints2bm_z * t247));
-  const Real top_jointam2t_y = top_jointax_x * t263;
-  const Real t266 = Real(0.03) * t262;
-  const Real top_jointbm1t_x = Real(0.31) * t261 + t266;
-  const Real top_jointbm1t_y = t266 + Real(0.31) * t260;
-  const Real top_jointbm1t_z = Real(0.03) * (t260 - t261);
-  const Real top_jointam2t_x = top_jointax_y * t263;
-  const Real top_jointam2a_y = t263 * top_jointam2t_x;
+  const Real t174 = Real(1.0) / top_joints2am_z;
+  const Real t175 = top_jointax_y * t174;
+  const Real t181 = Real(0.31) * top_joints1bf1_x + (t113 + top_joints2bm_y * t175);
+  const Real t185 = top_joints2bm_z * t175 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t188 = top_jointax_x * t174 * Real(0.0697564737441253);
+  const Real t194 = Real(1.0) / (t113 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t175));
+  const Real t195 = (t104 + (q1r0_y * Real(0.31) + top_joints2bm_x * t188)) * t194;
+  const Real t204 = t185 * t195 + (top_joints2bm_z * t188 + Real(0.03) * (q1r0_x + q1r0_y));
+  const Real t205 = tie_rods0bm_x * t194;
+  const Real t210 = Real(1.0) / (q1r0_x * Real(0.31) - (t104 - (top_joints2bm_y * t188 + t181 * t195)));
+  const Real t211 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t181 * t205)) * t210;
+  const Real t216 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t185 * t205 -
+      t204 * t211)));
+  const Real t218 = top_jointbx1_y + top_jointbx1_x * t175;
+  const Real t221 = top_jointbx1_x * t188 + t195 * t218;
+  const Real t227 = t216 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t205 * t218 -
+      t211 * t221)));
+  const Real t230 = t210 * (t221 - t204 * t227);
+  const Real t235 = t194 * (t181 * t230 - (t218 - t185 * t227));
+  const Real t242 = t174 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 +
+      top_joints2bm_z * t227)));
+  const Real t248 = tie_rods0at * t216;
+  const Real t250 = t210 * (t204 * t248);
+  const Real t254 = t194 * (t181 * t250 - t185 * t248);
+  const Real t261 = t235 * state.z[0] + t254;
+  const Real t262 = t230 * state.z[0] + t250;
+  const Real t263 = t227 * state.z[0] - t248;
+  const Real t264 = t242 * state.z[0] + t174 * (top_joints2bm_y * t250 + (top_joints2bm_x * t254 -
+      top_joints2bm_z * t248));
+  const Real top_jointam2t_y = top_jointax_x * t264;
+  const Real t267 = Real(0.03) * t263;
+  const Real top_jointbm1t_x = Real(0.31) * t262 + t267;
+  const Real top_jointbm1t_y = t267 + Real(0.31) * t261;
+  const Real top_jointbm1t_z = Real(0.03) * (t261 - t262);
+  const Real top_jointam2t_x = top_jointax_y * t264;
+  const Real top_jointam2a_y = t264 * top_jointam2t_x;
   const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t261 * top_jointbm1t_z - t262 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t260 * top_jointbm1t_z + t262 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t260 * top_jointbm1t_y + t261 * top_jointbm1t_x;
+  const Real top_jointbm1a_x = t262 * top_jointbm1t_z - t263 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t261 * top_jointbm1t_z + t263 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t261 * top_jointbm1t_y + t262 * top_jointbm1t_x;
   const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
       top_jointbm1t_z);
   const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
       top_jointbm1t_z);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t263 * top_jointam2t_y;
+  const Real top_jointam2a_x = t264 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
   const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
       top_jointbm1a_z);
@@ -1739,9 +1739,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
   const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
       state.z[0] * top_jointbm0b_x));
-  const Real tie_rodbm1t_x = Real(0.07) * t261 + Real(0.02) * t262;
-  const Real tie_rodbm1t_y = Real(0.14) * t262 + Real(0.07) * t260;
-  const Real tie_rodbm1t_z = Real(0.14) * t261 - Real(0.02) * t260;
+  const Real tie_rodbm1t_x = Real(0.07) * t262 + Real(0.02) * t263;
+  const Real tie_rodbm1t_y = Real(0.14) * t263 + Real(0.07) * t261;
+  const Real tie_rodbm1t_z = Real(0.14) * t262 - Real(0.02) * t261;
   const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
@@ -1752,9 +1752,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t261 * tie_rodbm1t_z + t262 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t260 * tie_rodbm1t_z - t262 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t260 * tie_rodbm1t_y + t261 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t262 * tie_rodbm1t_z + t263 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t261 * tie_rodbm1t_z - t263 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t261 * tie_rodbm1t_y + t262 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
@@ -1763,17 +1763,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
   const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
       tie_rodbm0b_y));
-  const Real t416 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
-      top_jointbm0b_y - t174 * top_jointda_z)));
-  const Real t423 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
-      top_jointbm1a_z - (t187 * top_jointda_z + t194 * t416))));
-  const Real t434 = t215 * (t210 * t423 - (t204 * t416 + Real(3.123475237772121) * (tie_rodbm0v_y *
+  const Real t417 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
+      top_jointbm0b_y - t175 * top_jointda_z)));
+  const Real t424 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
+      top_jointbm1a_z - (t188 * top_jointda_z + t195 * t417))));
+  const Real t435 = t216 * (t211 * t424 - (t205 * t417 + Real(3.123475237772121) * (tie_rodbm0v_y *
       tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
       tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t437 = t209 * (t423 + t203 * t434);
-  const Real t442 = t193 * (t180 * t437 - (t416 + t184 * t434));
-  const Real t449 = t173 * (top_joints2bm_x * t442 - (top_jointda_z - (top_joints2bm_y * t437 -
-      top_joints2bm_z * t434)));
+  const Real t438 = t210 * (t424 + t204 * t435);
+  const Real t443 = t194 * (t181 * t438 - (t417 + t185 * t435));
+  const Real t450 = t174 * (top_joints2bm_x * t443 - (top_jointda_z - (top_joints2bm_y * t438 -
+      top_joints2bm_z * t435)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -1835,71 +1835,71 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real t669 = w1p_y * rK1_z;
-  const Real t670 = w1p_z * rK1_y;
-  const Real t672 = w1p_x * rK1_z;
-  const Real t673 = w1p_z * rK1_x;
-  const Real t675 = w1p_x * rK1_y;
-  const Real t676 = w1p_y * rK1_x;
-  const Real ru1_x = t260 + Real(2.0) * w1p_x;
-  const Real ru1_y = t261 - Real(2.0) * w1p_y;
-  const Real ru1_z = t262 - Real(2.0) * w1p_z;
+  const Real t670 = w1p_y * rK1_z;
+  const Real t671 = w1p_z * rK1_y;
+  const Real t673 = w1p_x * rK1_z;
+  const Real t674 = w1p_z * rK1_x;
+  const Real t676 = w1p_x * rK1_y;
+  const Real t677 = w1p_y * rK1_x;
+  const Real ru1_x = t261 + Real(2.0) * w1p_x;
+  const Real ru1_y = t262 - Real(2.0) * w1p_y;
+  const Real ru1_z = t263 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
   const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
   const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
   const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ruw1 = t261 * ru1_y + (t260 * ru1_x + t262 * ru1_z);
-  const Real t708 = t261 * rSu1_z;
-  const Real t709 = t262 * rSu1_y;
-  const Real t712 = t260 * rSu1_z;
-  const Real t713 = t262 * rSu1_x;
-  const Real t716 = t260 * rSu1_y;
-  const Real t717 = t261 * rSu1_x;
+  const Real ruw1 = t262 * ru1_y + (t261 * ru1_x + t263 * ru1_z);
+  const Real t709 = t262 * rSu1_z;
+  const Real t710 = t263 * rSu1_y;
+  const Real t713 = t261 * rSu1_z;
+  const Real t714 = t263 * rSu1_x;
+  const Real t717 = t261 * rSu1_y;
+  const Real t718 = t262 * rSu1_x;
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t449 * Real(0.0505);
-  const Real ref1_x = t434 * Real(1.6) - (tyre_forcef1_x - (t437 * Real(3.84) + t260 * ruh1));
-  const Real ref1_y = Real(1.6) * ruw1 - (tyre_forcef1_y - (t442 * Real(3.84) - t261 * ruh1));
-  const Real ref1_z = t442 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * ruw1 - t262 * ruh1));
-  const Real ren1_x = t442 * Real(1.4408) - (tyre_forcem_x + (t708 - t709));
-  const Real ren1_y = t434 * Real(0.192) - (tyre_forcem_y - (t437 * Real(1.7608) + (t712 - t713)));
-  const Real ren1_z = t437 * Real(0.192) + (tyre_forcem_z + (t434 * Real(0.98) + (t716 - t717)));
+  const Real rdn2_z = t450 * Real(0.0505);
+  const Real ref1_x = t435 * Real(1.6) - (tyre_forcef1_x - (t438 * Real(3.84) + t261 * ruh1));
+  const Real ref1_y = Real(1.6) * ruw1 - (tyre_forcef1_y - (t443 * Real(3.84) - t262 * ruh1));
+  const Real ref1_z = t443 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * ruw1 - t263 * ruh1));
+  const Real ren1_x = t443 * Real(1.4408) - (tyre_forcem_x + (t709 - t710));
+  const Real ren1_y = t435 * Real(0.192) - (tyre_forcem_y - (t438 * Real(1.7608) + (t713 - t714)));
+  const Real ren1_z = t438 * Real(0.192) + (tyre_forcem_z + (t435 * Real(0.98) + (t717 - t718)));
   const Real rf1p_x = q1r1_y * ref1_y + (q1r1_x * ref1_x + q1r1_z * ref1_z);
   const Real rf1p_y = q1r2_y * ref1_y - (q1r2_x * ref1_x - q1r2_z * ref1_z);
-  const Real rQ1_0 = Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (t669 - (t670 + ren1_x)));
-  const Real rQ1_1 = t672 - (Real(3.84) * ra1_x + (t673 + ren1_y));
-  const Real rQ1_2 = t675 - (Real(1.6) * ra1_x + (t676 + ren1_z));
+  const Real rQ1_0 = Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (t670 - (t671 + ren1_x)));
+  const Real rQ1_1 = t673 - (Real(3.84) * ra1_x + (t674 + ren1_y));
+  const Real rQ1_2 = t676 - (Real(1.6) * ra1_x + (t677 + ren1_z));
   const Real rQ2_0 = rQp2 + rdn2_z;
-  const Real t782 = Real(1.0) / (q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y *
-      S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t241 * t241 * Real(0.0505) + (t234 * (t234 *
-      Real(1.4408) + (p_1_1n_z + p_1_1n_z)) - (t226 * (t229 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t226 *
-      Real(0.98)))) - (t229 * (t229 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t226 * Real(0.192)))) + ((q1r1_x
+  const Real t783 = Real(1.0) / (q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y *
+      S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t242 * t242 * Real(0.0505) + (t235 * (t235 *
+      Real(1.4408) + (p_1_1n_z + p_1_1n_z)) - (t227 * (t230 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t227 *
+      Real(0.98)))) - (t230 * (t230 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t227 * Real(0.192)))) + ((q1r1_x
       * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) +
       Real(0.017799999999999996)))))))))))) * (strutbx_y * strutf_y - (strutbx_x * strutf_z - (rQp0 + (q1r0_x
-      * ren1_x - (q1r0_y * ren1_y - (q1r0_z * ren1_z - (Real(0.02) * rf1p_x - (Real(0.34) * rf1p_y + (t234 *
-      rQ1_0 - (t229 * rQ1_1 - (t226 * rQ1_2 + t241 * rQ2_0)))))))))));
-  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t782;
-  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t782;
+      * ren1_x - (q1r0_y * ren1_y - (q1r0_z * ren1_z - (Real(0.02) * rf1p_x - (Real(0.34) * rf1p_y + (t235 *
+      rQ1_0 - (t230 * rQ1_1 - (t227 * rQ1_2 + t242 * rQ2_0)))))))))));
+  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t783;
+  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t783;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real rdn2_z_2 = Real(0.0505) * (t449 - t241 * t782);
+  const Real rdn2_z_2 = Real(0.0505) * (t450 - t242 * t783);
   const Real rQ2_0_2 = rQp2 + rdn2_z_2;
-  const Real t804 = t173 * rQ2_0_2;
-  const Real t818 = t193 * (t670 - (t669 - (Real(1.6) * ra1_z_2 + (Real(3.84) * ra1_y_2 - (tyre_forcem_x -
-      (t709 - (t708 - (top_joints2bm_x * t804 + Real(1.4408) * (t442 - t782 * (q1r0_x + t234))))))))));
-  const Real t823 = t434 - t782 * (q1r0_z - t226);
-  const Real t827 = t437 + t782 * (q1r0_y - t229);
-  const Real t838 = t209 * (t673 - (t672 - (Real(3.84) * ra1_x_2 - (tyre_forcem_y + (t713 - (t712 +
-      (top_joints2bm_y * t804 + (t180 * t818 + (Real(0.192) * t823 + Real(1.7608) * t827)))))))));
-  const Real t854 = t215 * (t676 - (t675 - (Real(1.6) * ra1_x_2 + (tyre_forcem_z - (t717 - (t716 -
-      (top_joints2bm_z * t804 + (t184 * t818 - (t203 * t838 + (Real(0.192) * t827 + Real(0.98) *
-      t823))))))))));
-  const Real t856 = t838 + t210 * t854;
-  const Real t860 = t194 * t856 - (t818 + t204 * t854);
-  lambda[0] = t856;
-  lambda[1] = -t860;
-  lambda[2] = t174 * t860 - (t804 - t187 * t856);
-  lambda[3] = -t854;
+  const Real t805 = t174 * rQ2_0_2;
+  const Real t819 = t194 * (t671 - (t670 - (Real(1.6) * ra1_z_2 + (Real(3.84) * ra1_y_2 - (tyre_forcem_x -
+      (t710 - (t709 - (top_joints2bm_x * t805 + Real(1.4408) * (t443 - t783 * (q1r0_x + t235))))))))));
+  const Real t824 = t435 - t783 * (q1r0_z - t227);
+  const Real t828 = t438 + t783 * (q1r0_y - t230);
+  const Real t839 = t210 * (t674 - (t673 - (Real(3.84) * ra1_x_2 - (tyre_forcem_y + (t714 - (t713 +
+      (top_joints2bm_y * t805 + (t181 * t819 + (Real(0.192) * t824 + Real(1.7608) * t828)))))))));
+  const Real t855 = t216 * (t677 - (t676 - (Real(1.6) * ra1_x_2 + (tyre_forcem_z - (t718 - (t717 -
+      (top_joints2bm_z * t805 + (t185 * t819 - (t204 * t839 + (Real(0.192) * t828 + Real(0.98) *
+      t824))))))))));
+  const Real t857 = t839 + t211 * t855;
+  const Real t861 = t195 * t857 - (t819 + t205 * t855);
+  lambda[0] = t857;
+  lambda[1] = -t861;
+  lambda[2] = t175 * t861 - (t805 - t188 * t857);
+  lambda[3] = -t855;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -404,7 +404,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real U1_0u = hand2n_z + (bQ0_0 + (state.y[1] * model.k + state.z[1] * model.expression_7));
   const Real U0_0u = U1_0sn_z * U1_0u - (hand2n_z + (bQ0_0 + (push0_0 - expression_3 -
       Real(61.931506158593194))));
-  const Real acc0u = Real(20.0) * U0_0u;
+  const Real acc0u = U0_0u * Real(20.0);
   const Real acc1u = U1_0i * U1_0u;
   const Real zdot_1 = acc1u - U1_0sn_z * acc0u;
   const Real al1_0_z = acc0u + zdot_1;

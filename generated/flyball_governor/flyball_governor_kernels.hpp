@@ -78,8 +78,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) 
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
   const Real S0b_zz = (s3 * s3 + s2 * s2) * Real(5.0999975) - ((c2 + c3) * Real(0.515) +
-      Real(0.0025075000000000015) + Real(0.029002500000000004) + Real(5.1000025) - Real(2.5e-06) +
-      Real(5.1000000000000005));
+      Real(0.0025075000000000015) + Real(0.029002500000000004) + Real(5.1000025) - Real(2.5e-06) + Real(5.1));
   M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = Real(0.0);
   M[0][2] = M[2][0] = Real(0.0);
@@ -274,8 +273,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       link1bx_y * link1f_z)));
   const Real b_3 = h3b_x * ba2o_x + (state.z[0] * bKy3 - (h3b_y * Real(9.81) + (link2bx_x * link2fb3p_x +
       link2bx_y * link2f_z)));
-  const Real S0b_zz = (h3b_y + h2b_y) * Real(0.1) - (s3 * S3b_t + (s2 * S2b_t - Real(5.1000000000000005) +
-      Real(2.5e-06)) - Real(5.1000025) - Real(0.029002500000000004) - Real(0.0025075000000000015));
+  const Real S0b_zz = (h3b_y + h2b_y) * Real(0.1) - (s3 * S3b_t + (s2 * S2b_t - Real(5.1) + Real(2.5e-06)) -
+      Real(5.1000025) - Real(0.029002500000000004) - Real(0.0025075000000000015));
   const Real invD_0 = Real(1.0) / S0b_zz;
   const Real y_0 = bn2c_z * invD_0;
   const Real y_1 = b_1 * Real(0.33333333333333326);
@@ -304,8 +303,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S2b_xy = c2 * S2b_t;
   const Real h2b_x = s2 * Real(5.15);
   const Real h2b_y = c2 * Real(5.15);
-  const Real S0b_zz = (h3b_y + h2b_y) * Real(0.1) - (s3 * S3b_t + (s2 * S2b_t - Real(5.1000000000000005) +
-      Real(2.5e-06)) - Real(5.1000025) - Real(0.029002500000000004) - Real(0.0025075000000000015));
+  const Real S0b_zz = (h3b_y + h2b_y) * Real(0.1) - (s3 * S3b_t + (s2 * S2b_t - Real(5.1) + Real(2.5e-06)) -
+      Real(5.1000025) - Real(0.029002500000000004) - Real(0.0025075000000000015));
   const Real link1ax_x = c0 * Real(0.05);
   const Real link1ax_y = s0 * Real(0.05);
   const Real link1bx_x = s2 * Real(0.5);
@@ -389,8 +388,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
   const Real S0b_zz = (s3 * s3 + s2 * s2) * Real(5.0999975) - ((c2 + c3) * Real(0.515) +
-      Real(0.0025075000000000015) + Real(0.029002500000000004) + Real(5.1000025) - Real(2.5e-06) +
-      Real(5.1000000000000005));
+      Real(0.0025075000000000015) + Real(0.029002500000000004) + Real(5.1000025) - Real(2.5e-06) + Real(5.1));
   const Real v0L_z = S0b_zz * state.z[0];
   const Real T3 = (Real(5.1000025) * (state.z[2] * state.z[2] + state.z[3] * state.z[3]) - (state.z[0] * v0L_z
       - state.z[1] * state.z[1] * Real(3.000000000000001))) * Real(0.5);

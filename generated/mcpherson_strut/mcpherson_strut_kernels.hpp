@@ -337,11 +337,11 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
   const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + (q1r1_x * Real(0.1216) + q1r2_x *
       Real(2.0672)));
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.022799999999999997)
-      + q1r2_x * Real(0.3876)));
+  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.0228) + q1r2_x *
+      Real(0.3876)));
   M[0][0] = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t347 * (p_1_1n_z + (p_1_1n_z -
       t347 * Real(2.607))) - (t344 * (t344 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t352 * Real(0.1824)))) +
-      (t352 * (t344 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t352 * Real(2.8728)))) - (Real(0.04) * h1at1_y -
+      (t352 * (t344 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t352 * Real(2.8728)))) - (h1at1_y * Real(0.04) -
       (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
       S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001));
 }
@@ -601,8 +601,8 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(2.607));
   const Real p_2_1n_z = q1r2_x * Real(2.0672) + (q1r1_x * Real(0.1216) + (q1r0_y * Real(2.8728) - q1r0_z *
       Real(0.1824)));
-  const Real p_3_1n_z = q1r2_x * Real(0.3876) + (q1r1_x * Real(0.022799999999999997) - (q1r0_z * Real(1.0342)
-      - q1r0_y * Real(0.1824)));
+  const Real p_3_1n_z = q1r2_x * Real(0.3876) + (q1r1_x * Real(0.0228) - (q1r0_z * Real(1.0342) - q1r0_y *
+      Real(0.1824)));
   k[0] = q1r0_y * kdn1_y + (q1r0_x * kdn1_x - (q1r0_z * kdn1_z + (Real(0.02) * kf1p_x - (Real(0.34) * kf1p_y +
       (t716 * p_1_1n_z - (t721 * p_2_1n_z - (t713 * p_3_1n_z + (t351 * (ka1_y * Real(6.08) + (ka1_z *
       Real(1.14) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t716 * Real(2.607)))))) + (t356 * (w1p_x *
@@ -1032,8 +1032,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
   const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + (q1r1_x * Real(0.1216) + q1r2_x *
       Real(2.0672)));
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.022799999999999997)
-      + q1r2_x * Real(0.3876)));
+  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.0228) + q1r2_x *
+      Real(0.3876)));
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
@@ -1109,7 +1109,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[0] = Real(1.0) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t351 * (p_1_1n_z +
       (p_1_1n_z - t351 * Real(2.607))) - (t348 * (t348 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t356 *
       Real(0.1824)))) + (t356 * (t348 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t356 * Real(2.8728)))) -
-      (Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y *
+      (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y *
       S1at1r0_y - q1r1_z * S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001))) * (t348 * tau_1_2 -
       (t356 * tau_1_1 + (t351 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x + (q1r0_z * ren1_z +
       (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x * spring_damperf_z - strutax1_y *
@@ -1352,7 +1352,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
-  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (Real(0.04) * h1at1_y -
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (h1at1_y * Real(0.04) -
       (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
       S1at1r0_z)))) - Real(0.0202) - Real(4.592300000000001));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
@@ -1559,7 +1559,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real S1at1r0_z = q1r1_z * Real(2.2228) - q1r1_y * Real(0.1824);
   const Real S1at1r1_y = q1r2_z * Real(0.1824) - q1r2_y * Real(0.3842000000000001);
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
-  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (Real(0.04) * h1at1_y -
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (h1at1_y * Real(0.04) -
       (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
       S1at1r0_z)))) - Real(0.0202) - Real(4.592300000000001));
   const Real w1p_x = q1r0_x * state.z[0];
@@ -1720,7 +1720,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t124 = (t74 * (t92 * t98) + t43 * (t100 + t94 * t98)) / t103;
   const Real t125 = (t74 * t98 - t43 * (t93 * t98 + t95 * t96)) / t103;
   const Real t126 = (t74 * (t95 + t92 * t96) + t43 * (t94 * t96 - t93 * t95)) / t103;
-  const Real t131 = t46 * t46 + (t45 * t45 + Real(0.0014027397260273973));
+  const Real t131 = t46 * t46 + (t45 * t45 + Real(0.0014027397260273971));
   const Real t139 = (t126 * t126 - (t131 - (t125 * t125 + t124 * t124))) / t103;
   const Real t142 = detail::square_root(-t139);
   const Real t146 = t124 + t96 * t142;
@@ -1736,56 +1736,56 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t183 = Real(0.02) - t147 * t173;
   const Real t184 = Real(0.07) + t148 * t173;
   const Real t185 = t165 * t178;
-  const Real t190 = Real(0.14) - t185 * Real(0.03745316710276178);
-  const Real t191 = t153 - t46 * t185;
-  const Real t192 = t154 + t45 * t185;
-  const Real t197 = t183 * t183 + (t184 * t184 + t182 * t182);
-  const Real t203 = Real(1.0) / (t191 * t191 + (t192 * t192 + t190 * t190));
-  const Real t205 = (t89 * t89 + (t87 * t87 - Real(0.057999999999999996))) * Real(0.5) - t173 * t178;
-  const Real t206 = t203 * t205;
-  const Real t221 = t165 * (t203 * (t197 - t205 * t206));
-  const Real t225 = Real(1.0) / detail::square_root(t164);
-  const Real t227 = Real(1.0) / detail::square_root(t197);
-  const Real t228 = Real(0.03745316710276178) * t225;
-  const Real t229 = t46 * t225;
-  const Real t230 = t45 * t225;
-  const Real t231 = detail::square_root(t221) * t227;
-  const Real t235 = t206 * t227;
-  const Real t239 = (t45 * t191 + t46 * t192) * t231 + t190 * t235;
-  const Real t240 = (Real(0.03745316710276178) * t192 + t45 * t190) * t231 - t191 * t235;
-  const Real t241 = (t46 * t190 - Real(0.03745316710276178) * t191) * t231 - t192 * t235;
-  const Real t242 = t146 * t225;
-  const Real t243 = t147 * t225;
-  const Real t244 = t148 * t225;
-  const Real t245 = t182 * t227;
-  const Real t246 = t183 * t227;
-  const Real t247 = t184 * t227;
-  const Real t264 = detail::square_root(t243 * t245 + (Real(1.0) - (t242 * t246 - (t242 - t246))));
-  const Real t266 = Real(0.5) * (Real(1.0) / t264);
-  const Real t269 = t266 * (t244 * t246 - (t244 - t243 * t247));
-  const Real t272 = t266 * (t242 * t247 + (t247 + t244 * t245));
-  const Real t274 = t266 * (t243 + t245);
-  const Real t275 = Real(0.5) * t264;
-  const Real t280 = detail::square_root(t229 * t239 + (Real(1.0) + (t228 * t240 + (t228 + t240))));
-  const Real t282 = Real(0.5) * (Real(1.0) / t280);
-  const Real t285 = t282 * (t230 * t240 + (t230 + t229 * t241));
-  const Real t288 = t282 * (t228 * t241 + (t241 - t230 * t239));
-  const Real t290 = t282 * (t229 + t239);
-  const Real t291 = Real(0.5) * t280;
-  const Real t306 = t272 * t291 - (t275 * t288 + (t269 * t290 - t274 * t285));
-  const Real t309 = t274 * t288 - (t272 * t290 + (t269 * t291 - t275 * t285));
-  const Real t312 = t275 * t290 - (t274 * t291 + (t269 * t288 - t272 * t285));
-  const Real t319 = t275 * t291 + (t272 * t288 + (t274 * t290 + t269 * t285));
-  const Real t321 = t319 - state.y[1];
-  const Real t324 = t306 + state.y[2];
-  const Real t327 = t309 - state.y[3];
-  const Real t330 = t312 - state.y[4];
-  closed.y[1] = t319;
-  closed.y[2] = -t306;
-  closed.y[3] = t309;
-  closed.y[4] = t312;
-  closed.regularity = -(t139 / (t131 / t103) * (t221 / (t165 * (t197 * t203))));
-  closed.opening = t324 * t324 + (t321 * t321 + (t327 * t327 + t330 * t330));
+  const Real t191 = t185 * Real(0.03745316710276178) - Real(0.14);
+  const Real t192 = t153 - t46 * t185;
+  const Real t193 = t154 + t45 * t185;
+  const Real t198 = t183 * t183 + (t184 * t184 + t182 * t182);
+  const Real t204 = Real(1.0) / (t192 * t192 + (t193 * t193 + t191 * t191));
+  const Real t206 = (t89 * t89 + (t87 * t87 - Real(0.058))) * Real(0.5) - t173 * t178;
+  const Real t207 = t204 * t206;
+  const Real t222 = t165 * (t204 * (t198 - t206 * t207));
+  const Real t226 = Real(1.0) / detail::square_root(t164);
+  const Real t228 = Real(1.0) / detail::square_root(t198);
+  const Real t229 = Real(0.03745316710276178) * t226;
+  const Real t230 = t46 * t226;
+  const Real t231 = t45 * t226;
+  const Real t232 = detail::square_root(t222) * t228;
+  const Real t236 = t207 * t228;
+  const Real t240 = (t45 * t192 + t46 * t193) * t232 - t191 * t236;
+  const Real t241 = (Real(0.03745316710276178) * t193 - t45 * t191) * t232 - t192 * t236;
+  const Real t242 = (t46 * t191 + Real(0.03745316710276178) * t192) * t232 + t193 * t236;
+  const Real t243 = t146 * t226;
+  const Real t244 = t147 * t226;
+  const Real t245 = t148 * t226;
+  const Real t246 = t182 * t228;
+  const Real t247 = t183 * t228;
+  const Real t248 = t184 * t228;
+  const Real t265 = detail::square_root(t244 * t246 + (Real(1.0) - (t243 * t247 - (t243 - t247))));
+  const Real t267 = Real(0.5) * (Real(1.0) / t265);
+  const Real t270 = t267 * (t245 * t247 - (t245 - t244 * t248));
+  const Real t273 = t267 * (t243 * t248 + (t248 + t245 * t246));
+  const Real t275 = t267 * (t244 + t246);
+  const Real t276 = Real(0.5) * t265;
+  const Real t281 = detail::square_root(t230 * t240 + (Real(1.0) + (t229 * t241 + (t229 + t241))));
+  const Real t283 = Real(0.5) * (Real(1.0) / t281);
+  const Real t286 = t283 * (t231 * t241 + (t231 - t230 * t242));
+  const Real t289 = t283 * (t229 * t242 + (t242 + t231 * t240));
+  const Real t291 = t283 * (t230 + t240);
+  const Real t292 = Real(0.5) * t281;
+  const Real t307 = t273 * t292 + (t276 * t289 - (t270 * t291 - t275 * t286));
+  const Real t310 = t275 * t289 + (t273 * t291 + (t270 * t292 - t276 * t286));
+  const Real t313 = t276 * t291 - (t275 * t292 - (t270 * t289 + t273 * t286));
+  const Real t320 = t276 * t292 - (t273 * t289 - (t275 * t291 + t270 * t286));
+  const Real t322 = t320 - state.y[1];
+  const Real t325 = t307 + state.y[2];
+  const Real t328 = t310 + state.y[3];
+  const Real t331 = t313 - state.y[4];
+  closed.y[1] = t320;
+  closed.y[2] = -t307;
+  closed.y[3] = -t310;
+  closed.y[4] = t313;
+  closed.regularity = -(t139 / (t131 / t103) * (t222 / (t165 * (t198 * t204))));
+  closed.opening = t325 * t325 + (t322 * t322 + (t328 * t328 + t331 * t331));
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
@@ -2206,8 +2206,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
   const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + (q1r1_x * Real(0.1216) + q1r2_x *
       Real(2.0672)));
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.022799999999999997)
-      + q1r2_x * Real(0.3876)));
+  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.0228) + q1r2_x *
+      Real(0.3876)));
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
@@ -2261,12 +2261,12 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.6499999999999999) * w1p_x;
   const Real rK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real rK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
-  const Real t953 = w1p_y * rK1_z;
-  const Real t954 = w1p_z * rK1_y;
-  const Real t956 = w1p_x * rK1_z;
-  const Real t957 = w1p_z * rK1_x;
-  const Real t959 = w1p_x * rK1_y;
-  const Real t960 = w1p_y * rK1_x;
+  const Real t954 = w1p_y * rK1_z;
+  const Real t955 = w1p_z * rK1_y;
+  const Real t957 = w1p_x * rK1_z;
+  const Real t958 = w1p_z * rK1_x;
+  const Real t960 = w1p_x * rK1_y;
+  const Real t961 = w1p_y * rK1_x;
   const Real ru1_x = t368 - Real(2.0) * w1p_x;
   const Real ru1_y = t369 - Real(2.0) * w1p_y;
   const Real ru1_z = t370 + Real(2.0) * w1p_z;
@@ -2275,50 +2275,50 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rSu1_z = Real(2.2228) * ru1_z - Real(0.1824) * ru1_y;
   const Real ruh1 = Real(1.14) * ru1_y - Real(6.08) * ru1_z;
   const Real ruw1 = t370 * ru1_z + (t368 * ru1_x + t369 * ru1_y);
-  const Real t992 = t369 * rSu1_z;
-  const Real t993 = t370 * rSu1_y;
-  const Real t996 = t368 * rSu1_z;
-  const Real t997 = t370 * rSu1_x;
-  const Real t1000 = t368 * rSu1_y;
-  const Real t1001 = t369 * rSu1_x;
+  const Real t993 = t369 * rSu1_z;
+  const Real t994 = t370 * rSu1_y;
+  const Real t997 = t368 * rSu1_z;
+  const Real t998 = t370 * rSu1_x;
+  const Real t1001 = t368 * rSu1_y;
+  const Real t1002 = t369 * rSu1_x;
   const Real ref1_x = t368 * ruh1 + (t721 * Real(6.08) + (tyre_forcef1_x + t713 * Real(1.14)));
   const Real ref1_y = t369 * ruh1 + (t716 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * ruw1));
   const Real ref1_z = t370 * ruh1 + (Real(6.08) * ruw1 + (tyre_forcef1_z + t716 * Real(1.14)));
-  const Real ren1_x = t993 + (t992 - (tyre_forcem_x + t716 * Real(2.607)));
-  const Real ren1_y = t997 - (t996 - (t713 * Real(0.1824) + (tyre_forcem_y + t721 * Real(2.8728))));
-  const Real ren1_z = t1001 + (t1000 - (t721 * Real(0.1824) - (tyre_forcem_z - t713 * Real(1.0342))));
+  const Real ren1_x = t994 + (t993 - (tyre_forcem_x + t716 * Real(2.607)));
+  const Real ren1_y = t998 - (t997 - (t713 * Real(0.1824) + (tyre_forcem_y + t721 * Real(2.8728))));
+  const Real ren1_z = t1002 + (t1001 - (t721 * Real(0.1824) - (tyre_forcem_z - t713 * Real(1.0342))));
   const Real rf1p_x = q1r1_z * ref1_z + (q1r1_x * ref1_x + q1r1_y * ref1_y);
   const Real rf1p_y = q1r2_z * ref1_z - (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real tau_1_0 = ren1_x + (t954 - (t953 - (Real(6.08) * ra1_y + (push1_0 + Real(1.14) * ra1_z))));
-  const Real tau_1_1 = ren1_y - (t957 - (t956 - (push1_1 + Real(6.08) * ra1_x)));
-  const Real tau_1_2 = ren1_z + (t960 - (t959 + (push1_2 - Real(1.14) * ra1_x)));
-  const Real t1063 = Real(1.0) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t351 *
+  const Real tau_1_0 = ren1_x + (t955 - (t954 - (Real(6.08) * ra1_y + (push1_0 + Real(1.14) * ra1_z))));
+  const Real tau_1_1 = ren1_y - (t958 - (t957 - (push1_1 + Real(6.08) * ra1_x)));
+  const Real tau_1_2 = ren1_z + (t961 - (t960 + (push1_2 - Real(1.14) * ra1_x)));
+  const Real t1064 = Real(1.0) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t351 *
       (p_1_1n_z + (p_1_1n_z - t351 * Real(2.607))) - (t348 * (t348 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z -
       t356 * Real(0.1824)))) + (t356 * (t348 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t356 * Real(2.8728)))) -
-      (Real(0.04) * h1at1_y - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y *
+      (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y *
       S1at1r0_y - q1r1_z * S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001))) * (t348 * tau_1_2 -
       (t356 * tau_1_1 + (t351 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x + (q1r0_z * ren1_z +
       (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x * spring_damperf_z - strutax1_y *
       spring_damperf_y))))))))));
-  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t1063;
-  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t1063;
+  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t1064;
+  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t1064;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real t1083 = t713 + t1063 * (q1r0_z + t348);
-  const Real t1087 = t721 - t1063 * (q1r0_y - t356);
-  const Real tau_1_1_2 = Real(2.8728) * t1087 + (Real(0.1824) * t1083 - (t996 - (t997 + (tyre_forcem_y -
-      (Real(6.08) * ra1_x_2 - (t956 - (push1_1 + t957)))))));
-  const Real t1097 = t313 * tau_1_1_2;
-  const Real t1112 = t332 * (Real(2.607) * (t716 + t1063 * (q1r0_x - t351)) - (struts0am_x * t1097 + (t992 +
-      (t993 - (tyre_forcem_x - (Real(6.08) * ra1_y_2 + (Real(1.14) * ra1_z_2 - (t953 - (push1_0 +
-      t954)))))))));
-  const Real t1127 = t338 * (Real(1.0342) * t1083 + (Real(0.1824) * t1087 + (t326 * t1112 + (struts0am_z_2 *
-      t1097 - (t1000 + (t1001 + (tyre_forcem_z + (Real(1.14) * ra1_x_2 - (t959 + (push1_2 - t960))))))))));
-  const Real t1129 = t1112 - t333 * t1127;
-  lambda[0] = t327 * t1127 + (t1097 + t314 * t1129);
-  lambda[1] = t1129;
-  lambda[2] = -t1127;
+  const Real t1084 = t713 + t1064 * (q1r0_z + t348);
+  const Real t1088 = t721 - t1064 * (q1r0_y - t356);
+  const Real tau_1_1_2 = Real(2.8728) * t1088 + (Real(0.1824) * t1084 - (t997 - (t998 + (tyre_forcem_y -
+      (Real(6.08) * ra1_x_2 - (t957 - (push1_1 + t958)))))));
+  const Real t1098 = t313 * tau_1_1_2;
+  const Real t1113 = t332 * (Real(2.607) * (t716 + t1064 * (q1r0_x - t351)) - (struts0am_x * t1098 + (t993 +
+      (t994 - (tyre_forcem_x - (Real(6.08) * ra1_y_2 + (Real(1.14) * ra1_z_2 - (t954 - (push1_0 +
+      t955)))))))));
+  const Real t1128 = t338 * (Real(1.0342) * t1084 + (Real(0.1824) * t1088 + (t326 * t1113 + (struts0am_z_2 *
+      t1098 - (t1001 + (t1002 + (tyre_forcem_z + (Real(1.14) * ra1_x_2 - (t960 + (push1_2 - t961))))))))));
+  const Real t1130 = t1113 - t333 * t1128;
+  lambda[0] = t327 * t1128 + (t1098 + t314 * t1130);
+  lambda[1] = t1130;
+  lambda[2] = -t1128;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -396,7 +396,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
   const Real D3 = c2 * h3b_y + s2 * h3b_x;
-  const Real J2 = D3 + (D3 + Real(1.6666666666666665));
+  const Real J2 = D3 + (D3 + Real(1.6666666666666667));
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_y + s0 * h1b_x;
@@ -720,7 +720,7 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real t217 = Real(3.0) * rQp1;
   const Real t218 = t54 * (c2 * rdf3_x + (rQp2 - (s2 * rdf3_y + t47 * rQp3)));
   const Real t219 = Real(3.0) * rQp3;
-  const Real t221 = s4 * Real(14.715);
+  const Real t221 = s4 * Real(14.715000000000002);
   const Real t238 = w1_z * (c1 * w1_z) - (t170 - (state.z[0] * (s0 * state.z[0]) - (t63 * t216 + (s1 * t217 -
       c2 * t218))));
   const Real t245 = t164 - (state.z[1] * t160 + (state.z[0] * (c0 * state.z[0] + t160) + (t66 * t216 + (c1 *

@@ -454,7 +454,7 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   closed.y[3] = t30;
   closed.y[2] = t57;
   closed.y[1] = t58;
-  closed.regularity = -((t7 * Real(11.11111111111111) - Real(1.0)) * (Real(1.0) - t37 / t36));
+  closed.regularity = -((t7 * Real(11.111111111111112) - Real(1.0)) * (Real(1.0) - t37 / t36));
   closed.opening = t59 * t59 + t61 * t61 + t65 * t65;
   state = closed;
 }

@@ -11,8 +11,8 @@
 // - 1 degree of freedom: 3 coordinates of the tree, 2 of 2 constraints are independent
 // - independent: crank; the others by 2 Newton iterations at the end of a step. Proven for crank in [0.5,
 //   2.95]: the branch of the initial state exists, no other one meets it, and determinants of what is solved
-//   for are 0.18 or more of their rows' sizes. Dependent coordinates that are off by 0.001 (rad; slides over
-//   1 m) end within 2e-10 of the branch, no other solution is within 0.1 of it
+//   for are 0.11 or more of their rows' sizes. Dependent coordinates that are off by 0.0008 (rad; slides over
+//   1 m) end within 1e-10 of the branch, no other solution is within 0.06 of it
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
@@ -27,9 +27,23 @@
 //   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
-// - 8 random states: backward error of M zdot = k_bar - q_bar 4.9e-16 of the sum of absolute terms against
-//   60-digit arithmetic, entries of the functions 5.5e-16; symbolic equations against the numeric reference
-//   5.6e-17; cond(M) up to 1.0e+00
+// - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.0e-16 of the
+//   sum of absolute terms, other errors are 4.0e-16 of their scale; cond(M) up to 1.0e+00
+// - the symbolic equations (M, k_bar, q_bar, energies, outputs): the numeric reference
+// - initial_state: the assembled start
+// - position_rate: Z z of the equations, z as the loops allow
+// - mass_matrix: B^T M B
+// - k_bar: B^T (k_bar - M beta)
+// - q_bar: B^T q_bar
+// - forward_dynamics: the accelerations of the constrained system
+// - inverse_dynamics: B^T (M zdot - k_bar + q_bar) without inputs
+// - kinetic_energy: T of the equations
+// - potential_energy: V of the equations
+// - outputs: outputs of the constrained system
+// - constraint_residual: g and its rate, of the constraints
+// - constraint_forces: the multipliers of the constrained system
+// - close_loops: Newton's iterations
 #pragma once
 
 namespace spring_four_bar {
@@ -89,7 +103,7 @@ struct Model {
   static constexpr int output_count = 1;
   static constexpr int constraint_count = 2;
   static constexpr double least_regularity = 1e-06;  ///< see State; chosen
-  static constexpr double greatest_opening = 6.639103270642546e-07;  ///< see State; proven
+  static constexpr double greatest_opening = 2.152840417242408e-07;  ///< see State; proven
   static constexpr int range_count = 1;
   static constexpr int parameter_count = 2;
 
@@ -124,42 +138,42 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 16 operations (9 mul, 5 add and sub, 2 div), 6 sin and cos.
+/// 22 operations (14 mul, 7 add and sub, 1 div), 6 sin and cos.
 template <class Real>
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[3]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 37 operations (21 mul, 14 add and sub, 2 div), 6 sin and cos.
+/// 43 operations (26 mul, 16 add and sub, 1 div), 6 sin and cos.
 template <class Real>
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 65 operations (43 mul, 20 add and sub, 2 div), 6 sin and cos.
+/// 75 operations (51 mul, 23 add and sub, 1 div), 6 sin and cos.
 template <class Real>
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 46 operations (25 mul, 16 add and sub, 4 div), 6 sin and cos.
+/// 52 operations (30 mul, 18 add and sub, 3 div), 6 sin and cos.
 template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 114 operations (67 mul, 41 add and sub, 5 div), 6 sin and cos.
+/// 124 operations (75 mul, 44 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 108 operations (62 mul, 41 add and sub, 4 div), 6 sin and cos.
+/// 118 operations (70 mul, 44 add and sub, 3 div), 6 sin and cos.
 template <class Real>
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 42 operations (27 mul, 13 add and sub, 2 div), 6 sin and cos.
+/// 48 operations (32 mul, 15 add and sub, 1 div), 6 sin and cos.
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -176,27 +190,27 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 56 operations (27 mul, 25 add and sub, 4 div), 12 sin and cos.
+/// 69 operations (36 mul, 31 add and sub, 2 div), 10 sin and cos.
 template <class Real>
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 29 operations (15 mul, 12 add and sub, 2 div), 6 sin and cos.
+/// 35 operations (20 mul, 14 add and sub, 1 div), 6 sin and cos.
 template <class Real>
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 134 operations (78 mul, 50 add and sub, 5 div), 6 sin and cos.
+/// 148 operations (89 mul, 54 add and sub, 4 div), 6 sin and cos.
 template <class Real>
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 629 operations.
+/// 706 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -79,10 +79,10 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t20 = pinbx1_y * (Real(1.0) / s2);
+  const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
   ydot[0] = state.z[0];
-  ydot[1] = Real(1.0) / c1 * (pinbx1_x - c2 * t20) * state.z[0];
-  ydot[2] = t20 * state.z[0];
+  ydot[1] = -(t21 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0]);
+  ydot[2] = t21 * (c1 * pinbx1_y + s1 * pinbx1_x) * state.z[0];
 }
 
 template <class Real>
@@ -95,17 +95,19 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
+  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t19 = pinbx1_y * (Real(1.0) / s2);
-  const Real t23 = Real(1.0) / c1 * (c2 * t19 - (c0 - c1));
+  const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t25 = t21 * (c2 * pinbx1_y - pinbx1_x * s2);
+  const Real t29 = t21 * (c1 * pinbx1_y + s1 * pinbx1_x);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
   const Real J0 = D1 + D1 - Real(0.3333333333333333) - Real(1.3333333333333333);
-  const Real v1P_x = t23 * h1b_y;
-  const Real v1P_y = t23 * h1b_x;
-  const Real v1L_z = t23 * Real(0.3333333333333333);
-  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t19 * t19) - (J0 - t23 * v1L_z)) + (c0 * v1P_y -
+  const Real v1P_x = t25 * h1b_y;
+  const Real v1P_y = t25 * h1b_x;
+  const Real v1L_z = t25 * Real(0.3333333333333333);
+  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t29 * t29) - (J0 - t25 * v1L_z)) + (c0 * v1P_y -
       (v1L_z + s0 * v1P_x));
   M[0][0] = T2 * Real(2.0);
 }
@@ -122,29 +124,29 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t18 = Real(1.0) / s2;
-  const Real t19 = Real(1.0) / c1;
-  const Real t20 = pinbx1_y * t18;
-  const Real t23 = t19 * (pinbx1_x - c2 * t20);
-  const Real t25 = t23 * state.z[0];
-  const Real t26 = t20 * state.z[0];
-  const Real w1_z = state.z[0] + t25;
-  const Real t44 = t18 * (state.z[0] * (c0 * state.z[0]) - t26 * (c2 * t26) - w1_z * (c1 * w1_z));
-  const Real t47 = t19 * (state.z[0] * (s0 * state.z[0]) - t26 * (s2 * t26) + w1_z * (s1 * w1_z) + c2 * t44);
+  const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t25 = t21 * (c2 * pinbx1_y - pinbx1_x * s2);
+  const Real t29 = t21 * (c1 * pinbx1_y + s1 * pinbx1_x);
+  const Real t31 = t25 * state.z[0];
+  const Real t32 = t29 * state.z[0];
+  const Real w1_z = state.z[0] - t31;
+  const Real t47 = state.z[0] * (c0 * state.z[0]) - t32 * (c2 * t32) - w1_z * (c1 * w1_z);
+  const Real t49 = state.z[0] * (s0 * state.z[0]) - t32 * (s2 * t32) + w1_z * (s1 * w1_z);
+  const Real t53 = t21 * (c2 * t47 + s2 * t49);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = c0 * kW0w22;
   const Real ka1o_y = s0 * kW0w22;
   const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
-  const Real zw_1 = t25 * (state.z[0] + w1_z);
+  const Real zw_1 = t31 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
   const Real kn1c_z = c0 * kdf1_y + s0 * kdf1_x;
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
   const Real E1 = D1 - Real(0.3333333333333333);
-  k[0] = kn1c_z - t47 * E1 - t23 * (kQp1 - t47 * Real(0.3333333333333333)) - Real(0.3333333333333333) * (t20 *
-      t44);
+  k[0] = -(kn1c_z + t53 * E1 - t25 * (kQp1 - t53 * Real(0.3333333333333333)) + Real(0.3333333333333333) * (t29
+      * (t21 * (c1 * t47 - s1 * t49))));
 }
 
 template <class Real>
@@ -153,15 +155,18 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   detail::sine_cosine(state.y[0], s0, c0);
   Real t4, t5;
   detail::sine_cosine(state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax2_x = c2 + Real(1.0);
-  const Real pinbx1_y = s0 * t5 + (s0 + c0 * t4);
-  const Real t20 = pinbx1_y * (Real(1.0) / s2);
-  const Real t26 = t20 * state.z[0];
-  const Real diagonalbv2_x = s2 * t26;
-  const Real diagonalbv2_y = c2 * t26;
+  const Real pinbx1_x = c0 - c1;
+  const Real pinbx1_y = s0 + s1;
+  const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t30 = t22 * (c1 * pinbx1_y + s1 * pinbx1_x);
+  const Real t32 = t30 * state.z[0];
+  const Real diagonalbv2_x = s2 * t32;
+  const Real diagonalbv2_y = c2 * t32;
   const Real h1b_x = c1 * Real(0.5);
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
@@ -174,7 +179,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real diagonalf_x = pinax2_x * diagonal_Tl;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real q_2 = s2 * diagonalf_x - c2 * (diagonalf_y + Real(4.905));
-  q[0] = -(t20 * q_2 + (h0_x - Real(1.0) / c1 * (c2 * t20 - (c0 - c1)) * h1b_x) * Real(9.81));
+  q[0] = -(t30 * q_2 + (h0_x - t22 * (c2 * pinbx1_y - pinbx1_x * s2) * h1b_x) * Real(9.81));
 }
 
 template <class Real>
@@ -189,27 +194,27 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax2_x = c2 + Real(1.0);
+  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t18 = Real(1.0) / s2;
-  const Real t19 = Real(1.0) / c1;
-  const Real t20 = pinbx1_y * t18;
-  const Real t24 = t19 * (c1 - (c0 - c2 * t20));
-  const Real t26 = t24 * state.z[0];
-  const Real t27 = t20 * state.z[0];
-  const Real diagonalbv2_x = s2 * t27;
-  const Real diagonalbv2_y = c2 * t27;
-  const Real w1_z = state.z[0] - t26;
-  const Real t43 = t18 * (t27 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z)));
-  const Real t48 = t19 * (t27 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + (w1_z * (s1 * w1_z) - c2 *
-      t43)));
+  const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t26 = t22 * (c2 * pinbx1_y - pinbx1_x * s2);
+  const Real t30 = t22 * (c1 * pinbx1_y + s1 * pinbx1_x);
+  const Real t32 = t26 * state.z[0];
+  const Real t33 = t30 * state.z[0];
+  const Real diagonalbv2_x = s2 * t33;
+  const Real diagonalbv2_y = c2 * t33;
+  const Real w1_z = state.z[0] - t32;
+  const Real t47 = t33 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z));
+  const Real t50 = t33 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + w1_z * (s1 * w1_z));
+  const Real t54 = t22 * (c2 * t47 + s2 * t50);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
-  const Real v1P_x = t24 * h1b_y;
-  const Real v1P_y = t24 * h1b_x;
-  const Real v1L_z = t24 * Real(0.3333333333333333);
-  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (t24 * v1L_z + (Real(0.3333333333333333) -
-      (D1 + (D1 - Real(0.3333333333333333) * (t20 * t20))) + Real(1.3333333333333333)))));
+  const Real v1P_x = t26 * h1b_y;
+  const Real v1P_y = t26 * h1b_x;
+  const Real v1L_z = t26 * Real(0.3333333333333333);
+  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (t26 * v1L_z + (Real(0.3333333333333333) -
+      (D1 + (D1 - Real(0.3333333333333333) * (t30 * t30))) + Real(1.3333333333333333)))));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
@@ -224,14 +229,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = c0 * rW0w22;
   const Real ra1o_y = Real(9.81) - s0 * rW0w22;
-  const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real rdf1_x = t48 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t48 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t48 * Real(0.3333333333333333);
-  const Real rdn2_z = t43 * Real(0.3333333333333333);
+  const Real zw_1 = t32 * (state.z[0] + w1_z);
+  const Real rdf1_x = t54 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t54 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t54 * Real(0.3333333333333333);
+  const Real rdn2_z = t22 * (c1 * t47 - s1 * t50) * Real(0.3333333333333333);
   const Real rQ1_0 = h1b_y * ra1o_x - (h1b_x * ra1o_y - rdn1_z);
   const Real tau_2_0 = c2 * (diagonalf_y + Real(4.905)) - (s2 * diagonalf_x + rdn2_z);
-  zdot[0] = Real(1.0) / (T2 * Real(2.0)) * (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t24 * rQ1_0 - t20
+  zdot[0] = Real(1.0) / (T2 * Real(2.0)) * (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t26 * rQ1_0 - t30
       * tau_2_0)))));
 }
 
@@ -247,25 +252,25 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax2_x = c2 + Real(1.0);
+  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t18 = Real(1.0) / s2;
-  const Real t19 = Real(1.0) / c1;
-  const Real t20 = pinbx1_y * t18;
-  const Real t24 = t19 * (c1 - (c0 - c2 * t20));
-  const Real t26 = t24 * state.z[0];
-  const Real t27 = t20 * state.z[0];
-  const Real diagonalbv2_x = s2 * t27;
-  const Real diagonalbv2_y = c2 * t27;
-  const Real w1_z = state.z[0] - t26;
-  const Real t43 = t18 * (t27 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z)));
-  const Real t51 = t19 * (t27 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + (w1_z * (s1 * w1_z) - c2 *
-      t43))) - t24 * zdot[0];
+  const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t26 = t22 * (c2 * pinbx1_y - pinbx1_x * s2);
+  const Real t30 = t22 * (c1 * pinbx1_y + s1 * pinbx1_x);
+  const Real t32 = t26 * state.z[0];
+  const Real t33 = t30 * state.z[0];
+  const Real diagonalbv2_x = s2 * t33;
+  const Real diagonalbv2_y = c2 * t33;
+  const Real w1_z = state.z[0] - t32;
+  const Real t47 = t33 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z));
+  const Real t50 = t33 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + w1_z * (s1 * w1_z));
+  const Real t61 = t22 * (c2 * t47 + s2 * t50) - t26 * zdot[0];
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
-  const Real J0 = D1 + (D1 - Real(1.6666666666666665));
+  const Real J0 = D1 + (D1 - Real(1.6666666666666667));
   const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
@@ -279,14 +284,14 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = s0 * zdot[0] + c0 * aW0w22;
   const Real aa1o_y = c0 * zdot[0] + (Real(9.81) - s0 * aW0w22);
-  const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real adf1_x = t51 * h1b_y + h1b_x * zw_1;
-  const Real adf1_y = t51 * h1b_x - h1b_y * zw_1;
-  const Real adn1_z = t51 * Real(0.3333333333333333);
-  const Real adn2_z = (t43 - t20 * zdot[0]) * Real(0.3333333333333333);
+  const Real zw_1 = t32 * (state.z[0] + w1_z);
+  const Real adf1_x = t61 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t61 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t61 * Real(0.3333333333333333);
+  const Real adn2_z = (t22 * (c1 * t47 - s1 * t50) - t30 * zdot[0]) * Real(0.3333333333333333);
   const Real aQ1_0 = h1b_x * aa1o_y - (zdot[0] * Real(0.3333333333333333) + (h1b_y * aa1o_x + adn1_z));
   const Real tau_2_0 = adn2_z + (s2 * diagonalf_x - c2 * (diagonalf_y + Real(4.905)));
-  tau[0] = adn1_z - (aQp0 + (adn0_z + (c0 * adf1_y - (s0 * adf1_x + (t24 * aQ1_0 - t20 * tau_2_0)))));
+  tau[0] = adn1_z - (aQp0 + (adn0_z + (c0 * adf1_y - (s0 * adf1_x + (t26 * aQ1_0 - t30 * tau_2_0)))));
 }
 
 template <class Real>
@@ -299,22 +304,23 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
+  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t19 = pinbx1_y * (Real(1.0) / s2);
-  const Real t25 = Real(1.0) / c1 * (c1 - (c0 - c2 * t19)) * state.z[0];
-  const Real t26 = t19 * state.z[0];
+  const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t31 = t21 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0];
+  const Real t32 = t21 * (c1 * pinbx1_y + s1 * pinbx1_x) * state.z[0];
   const Real v1o_x = s0 * state.z[0];
   const Real v1o_y = c0 * state.z[0];
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
-  const Real J0 = D1 + (D1 - Real(1.6666666666666665));
+  const Real J0 = D1 + (D1 - Real(1.6666666666666667));
   const Real v0L_z = state.z[0] * J0;
-  const Real v1P_x = t25 * h1b_y;
-  const Real v1P_y = t25 * h1b_x;
-  const Real v1L_z = t25 * Real(0.3333333333333333);
-  const Real T2 = v1o_x * v1P_x + (state.z[0] * v1L_z - (v1o_y * v1P_y + Real(0.5) * (t25 * v1L_z -
-      (state.z[0] * v0L_z - Real(0.3333333333333333) * (t26 * t26)))));
+  const Real v1P_x = t31 * h1b_y;
+  const Real v1P_y = t31 * h1b_x;
+  const Real v1L_z = t31 * Real(0.3333333333333333);
+  const Real T2 = v1o_x * v1P_x + (state.z[0] * v1L_z - (v1o_y * v1P_y + Real(0.5) * (t31 * v1L_z -
+      (state.z[0] * v0L_z - Real(0.3333333333333333) * (t32 * t32)))));
   return -T2;
 }
 
@@ -372,31 +378,31 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real pinbx1_x = c0 - c1;
   const Real pind_x = pinax2_x - pinbx1_x;
   const Real pinbx1_y = s0 + s1;
-  const Real t21 = pind_x * (Real(1.0) / s2);
-  Real t24, t25;
-  detail::sine_cosine(t21, t24, t25);
-  const Real s2_2 = c2 * t24 + s2 * t25;
-  const Real c2_2 = s2 * t24 - c2 * t25;
+  const Real pind_y = s2 - pinbx1_y;
+  const Real t24 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t28 = t24 * (c2 * pind_x + s2 * pind_y);
+  const Real t32 = t24 * (c1 * pind_x - s1 * pind_y);
+  Real t38, t39;
+  detail::sine_cosine(t28, t38, t39);
+  const Real t42 = t6 * t38 - t5 * t39;
+  const Real t45 = t5 * t38 + t6 * t39;
+  const Real s1_2 = c0 * t42 - s0 * t45;
+  const Real c1_2 = s0 * t42 + c0 * t45;
+  Real t52, t53;
+  detail::sine_cosine(t32, t52, t53);
+  const Real s2_2 = c2 * t52 + s2 * t53;
+  const Real c2_2 = s2 * t52 - c2 * t53;
   const Real pinax2_x_2 = Real(1.0) - c2_2;
-  const Real pind_x_2 = pinbx1_x - pinax2_x_2;
-  const Real t35 = pind_x_2 * (Real(1.0) / s2_2);
-  Real t37, t38;
-  detail::sine_cosine(t35, t37, t38);
-  const Real s2_3 = c2_2 * t37 + s2_2 * t38;
-  const Real pind_y = pinbx1_y - s2_3;
-  const Real t44 = pind_y * (Real(1.0) / c1);
-  Real t48, t49;
-  detail::sine_cosine(t44, t48, t49);
-  const Real t52 = t6 * t48 + t5 * t49;
-  const Real t55 = t5 * t48 - t6 * t49;
-  const Real s1_2 = c0 * t52 - s0 * t55;
-  const Real c1_2 = s0 * t52 + c0 * t55;
-  const Real pinbx1_y_2 = s0 + s1_2;
-  const Real pind_y_2 = s2_3 - pinbx1_y_2;
-  closed.regularity = -(s2_2 * c1_2 * Real(1.0000067850620302));
-  closed.opening = t21 * t21 + t44 * t44;
-  closed.y[1] = state.y[1] + t44 - pind_y_2 * (Real(1.0) / c1_2);
-  closed.y[2] = state.y[2] + t21 - t35;
+  const Real pinbx1_x_2 = c0 + c1_2;
+  const Real pind_x_2 = pinax2_x_2 - pinbx1_x_2;
+  const Real pinbx1_y_2 = s0 - s1_2;
+  const Real pind_y_2 = s2_2 - pinbx1_y_2;
+  const Real t67 = s1_2 * c2_2 - c1_2 * s2_2;
+  const Real t68 = Real(1.0) / t67;
+  closed.regularity = -(t67 * Real(1.0000067850620302));
+  closed.opening = t28 * t28 + t32 * t32;
+  closed.y[1] = state.y[1] - t28 + t68 * (c2_2 * pind_x_2 - s2_2 * pind_y_2);
+  closed.y[2] = state.y[2] + t32 - t68 * (c1_2 * pind_x_2 - s1_2 * pind_y_2);
   closed.beyond[0] = (state.y[0] - Real(0.5)) * (state.y[0] - Real(2.95));
   state = closed;
 }
@@ -417,13 +423,13 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real pind_x = pinax2_x - pinbx1_x;
   const Real pinbx1_y = s0 + s1;
   const Real pind_y = s2 - pinbx1_y;
-  const Real t23 = pinbx1_y * (Real(1.0) / s2);
-  const Real t28 = Real(1.0) / c1 * (pinbx1_x - c2 * t23) * state.z[0];
-  const Real t29 = t23 * state.z[0];
+  const Real t24 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t34 = t24 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0];
+  const Real t35 = t24 * (c1 * pinbx1_y + s1 * pinbx1_x) * state.z[0];
   g[0] = -pind_x;
   g[1] = -pind_y;
-  g_rate[0] = -(pinbx1_y * state.z[0] + s1 * t28 - s2 * t29);
-  g_rate[1] = pinbx1_x * state.z[0] - c1 * t28 - c2 * t29;
+  g_rate[0] = -(pinbx1_y * state.z[0] - s1 * t34 - s2 * t35);
+  g_rate[1] = pinbx1_x * state.z[0] + c1 * t34 - c2 * t35;
 }
 
 template <class Real>
@@ -438,27 +444,28 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax2_x = c2 + Real(1.0);
+  const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
-  const Real t18 = Real(1.0) / s2;
-  const Real t19 = Real(1.0) / c1;
-  const Real t20 = pinbx1_y * t18;
-  const Real t24 = t19 * (c1 - (c0 - c2 * t20));
-  const Real t26 = t24 * state.z[0];
-  const Real t27 = t20 * state.z[0];
-  const Real diagonalbv2_x = s2 * t27;
-  const Real diagonalbv2_y = c2 * t27;
-  const Real w1_z = state.z[0] - t26;
-  const Real t43 = t18 * (t27 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z)));
-  const Real t48 = t19 * (t27 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + (w1_z * (s1 * w1_z) - c2 *
-      t43)));
+  const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
+  const Real t26 = t22 * (c2 * pinbx1_y - pinbx1_x * s2);
+  const Real t30 = t22 * (c1 * pinbx1_y + s1 * pinbx1_x);
+  const Real t32 = t26 * state.z[0];
+  const Real t33 = t30 * state.z[0];
+  const Real diagonalbv2_x = s2 * t33;
+  const Real diagonalbv2_y = c2 * t33;
+  const Real w1_z = state.z[0] - t32;
+  const Real t47 = t33 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z));
+  const Real t50 = t33 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + w1_z * (s1 * w1_z));
+  const Real t54 = t22 * (c2 * t47 + s2 * t50);
+  const Real t58 = t22 * (c1 * t47 - s1 * t50);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real D1 = c0 * h1b_x - s0 * h1b_y;
-  const Real v1P_x = t24 * h1b_y;
-  const Real v1P_y = t24 * h1b_x;
-  const Real v1L_z = t24 * Real(0.3333333333333333);
-  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (t24 * v1L_z + (Real(0.3333333333333333) -
-      (D1 + (D1 - Real(0.3333333333333333) * (t20 * t20))) + Real(1.3333333333333333)))));
+  const Real v1P_x = t26 * h1b_y;
+  const Real v1P_y = t26 * h1b_x;
+  const Real v1L_z = t26 * Real(0.3333333333333333);
+  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (t26 * v1L_z + (Real(0.3333333333333333) -
+      (D1 + (D1 - Real(0.3333333333333333) * (t30 * t30))) + Real(1.3333333333333333)))));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
@@ -473,24 +480,24 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = c0 * rW0w22;
   const Real ra1o_y = Real(9.81) - s0 * rW0w22;
-  const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real rdf1_x = t48 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t48 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t48 * Real(0.3333333333333333);
-  const Real rdn2_z = t43 * Real(0.3333333333333333);
+  const Real zw_1 = t32 * (state.z[0] + w1_z);
+  const Real rdf1_x = t54 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t54 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t54 * Real(0.3333333333333333);
+  const Real rdn2_z = t58 * Real(0.3333333333333333);
   const Real rQ1_0 = h1b_y * ra1o_x - (h1b_x * ra1o_y - rdn1_z);
-  const Real t126 = s2 * diagonalf_x - c2 * (diagonalf_y + Real(4.905));
-  const Real tau_2_0 = rdn2_z + t126;
-  const Real t135 = Real(1.0) / (T2 * Real(2.0)) * (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t24 *
-      rQ1_0 + t20 * tau_2_0)))));
-  const Real ra1o_x_2 = ra1o_x + s0 * t135;
-  const Real ra1o_y_2 = ra1o_y + c0 * t135;
-  const Real rdn2_z_2 = Real(0.3333333333333333) * (t43 - t20 * t135);
-  const Real rQ1_0_2 = h1b_y * ra1o_x_2 - (h1b_x * ra1o_y_2 + Real(0.3333333333333333) * (t24 * t135 - (t48 +
-      t135)));
-  const Real t151 = t19 * rQ1_0_2;
-  lambda[0] = t18 * (rdn2_z_2 + (t126 + c2 * t151));
-  lambda[1] = t151;
+  const Real t136 = s2 * diagonalf_x - c2 * (diagonalf_y + Real(4.905));
+  const Real tau_2_0 = rdn2_z + t136;
+  const Real t145 = Real(1.0) / (T2 * Real(2.0)) * (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t26 *
+      rQ1_0 + t30 * tau_2_0)))));
+  const Real ra1o_x_2 = ra1o_x + s0 * t145;
+  const Real ra1o_y_2 = ra1o_y + c0 * t145;
+  const Real rdn2_z_2 = Real(0.3333333333333333) * (t58 - t30 * t145);
+  const Real rQ1_0_2 = h1b_y * ra1o_x_2 - (h1b_x * ra1o_y_2 + Real(0.3333333333333333) * (t26 * t145 - (t54 +
+      t145)));
+  const Real tau_2_0_2 = t136 + rdn2_z_2;
+  lambda[0] = t22 * (c2 * rQ1_0_2 + c1 * tau_2_0_2);
+  lambda[1] = t22 * (s2 * rQ1_0_2 - s1 * tau_2_0_2);
 }
 
 template <class Real>

@@ -217,8 +217,12 @@ class Lowering {
       else
         multiply(numerator, lower(factor.value));
     }
-    const Signed number = builder_.literal(to_real(coefficient));
-    numerator = numerator ? builder_.multiply(*numerator, number) : number;
+    if (!numerator)
+      numerator = builder_.literal(to_real(coefficient));
+    else if (coefficient.is_equal(-1))
+      numerator = -*numerator;
+    else if (!coefficient.is_equal(1))
+      numerator = builder_.multiply(*numerator, builder_.literal(to_real(coefficient)));
     return denominator ? builder_.divide(*numerator, *denominator) : *numerator;
   }
 

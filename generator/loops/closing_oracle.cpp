@@ -119,7 +119,7 @@ std::vector<validate::Expected> closing_expected(const LoopScene& scene, const S
   for (const ir::Output& output : program.outputs) {
     const auto i = static_cast<std::size_t>(std::max(output.row, 0));
     if (output.name == "regularity" && !c.regularity_is_known)
-      expected.left_out.push_back(expected.values.size());
+      expected.shares.push_back(expected.values.size());
     expected.values.push_back(output.name == "y"            ? c.y[i]
                               : output.name == "z"          ? c.z[i]
                               : output.name == "regularity" ? c.regularity

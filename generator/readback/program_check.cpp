@@ -278,6 +278,7 @@ void check_library(const Unit& unit, Findings& findings) {
 
 void check_programs(const Unit& unit, const Expected& expected, NodeTable& table, Findings& findings) {
   findings.guarded("model", [&] {
+    JD_CHECK(expected.module, "no module to compare with");
     FunctionCheck(unit, expected, table, findings).check_constructor(expected.module->constants);
   });
   for (const std::string& name : expected.functions) {

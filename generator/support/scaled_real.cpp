@@ -40,7 +40,7 @@ cln::cl_R to_exact(double value) {
 }
 
 double nearest_double(const cln::cl_R& value) {
-  static const cln::cl_R smallest = std::numeric_limits<double>::min(),
+  static const cln::cl_R smallest = cln::expt(cln::cl_RA(2), -1022),
                          beyond = cln::expt(cln::cl_I(2), 1024) - cln::expt(cln::cl_I(2), 970);
   if (cln::abs(value) >= beyond) return cln::minusp(value) ? -INFINITY : INFINITY;
   if (cln::abs(value) >= smallest) return cln::double_approx(value);

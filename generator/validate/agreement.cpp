@@ -27,11 +27,12 @@ double apart(const ScaledReal& a, const ScaledReal& b, long double floor) {
 
 }  // namespace
 
-Compared& Agreement::record(const std::string& function) {
-  const auto known = std::find_if(compared_.begin(), compared_.end(),
-                                  [&](const Compared& c) { return c.function == function; });
+Compared& Agreement::record(const std::string& function, const std::string& oracle) {
+  const auto known = std::find_if(compared_.begin(), compared_.end(), [&](const Compared& c) {
+    return c.function == function && c.oracle == oracle;
+  });
   if (known != compared_.end()) return *known;
-  compared_.push_back({function, "", 0, 0, 0, 0});
+  compared_.push_back({function, oracle, 0, 0, 0, 0});
   return compared_.back();
 }
 
@@ -44,8 +45,7 @@ void Agreement::same(const std::string& function, const std::string& oracle,
                      const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& expected) {
   JD_CHECK(values.size() == expected.size(), "{}: {} numbers for {}", function, values.size(),
            expected.size());
-  Compared& c = record(function);
-  c.oracle = oracle;
+  Compared& c = record(function, oracle);
   ++c.states;
   c.numbers += values.size();
   std::size_t worst = 0;
@@ -65,12 +65,12 @@ void Agreement::same(const std::string& function, const std::string& oracle,
                    static_cast<double>(values[worst]), static_cast<double>(expected[worst])));
 }
 
-void Agreement::rounded(const std::string& function, const std::vector<ScaledReal>& values,
-                        const std::vector<ScaledReal>& exact, const std::vector<ScaledReal>& expected,
-                        std::size_t depth) {
+void Agreement::rounded(const std::string& function, const std::string& oracle,
+                        const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& exact,
+                        const std::vector<ScaledReal>& expected, std::size_t depth) {
   const double limit =
       kRoundingSlack * static_cast<double>(1 + depth) * std::numeric_limits<double>::epsilon() / 2;
-  Compared& c = record(function);
+  Compared& c = record(function, oracle);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!exact[i].is_number() && !values[i].is_number()) continue;
     const long double scale = std::max<long double>(expected[i].scale(), std::numeric_limits<double>::min());

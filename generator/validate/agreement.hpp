@@ -36,8 +36,8 @@ class Agreement {
   void same(const std::string& function, const std::string& oracle, const std::vector<ScaledReal>& values,
             const std::vector<ScaledReal>& expected);
   /// Errors of `values`, computed in double by a program of this depth, against the exact ones. Scales are those of `expected`: of
-  /// another way to compute the same.
-  void rounded(const std::string& function, const std::vector<ScaledReal>& values,
+  /// another way to compute the same, `oracle`.
+  void rounded(const std::string& function, const std::string& oracle, const std::vector<ScaledReal>& values,
                const std::vector<ScaledReal>& exact, const std::vector<ScaledReal>& expected,
                std::size_t depth);
   void fail(const std::string& sentence);
@@ -46,7 +46,7 @@ class Agreement {
   const std::vector<std::string>& failures() const { return failures_; }
 
  private:
-  Compared& record(const std::string& function);
+  Compared& record(const std::string& function, const std::string& oracle);
 
   std::vector<Compared> compared_;
   std::vector<std::string> failures_;

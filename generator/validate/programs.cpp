@@ -1,5 +1,7 @@
 #include "validate/programs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace jourdain::validate {
@@ -33,9 +35,8 @@ class Contraction {
   }
 
   /// Rows of these arrays times the direction.
-  Part along(const std::vector<std::string>& arrays, std::size_t rows) const {
-    Part part{program_.name, std::vector<ScaledReal>(rows)};
-    for (const std::string& array : arrays) part.name += (&array == &arrays[0] ? ", " : " ") + array;
+  Part along(const char* name, const std::vector<std::string>& arrays, std::size_t rows) const {
+    Part part{program_.name + ", " + name, std::vector<ScaledReal>(rows)};
     for (std::size_t k = 0; k < values_.size(); ++k) {
       const ir::Output& output = program_.outputs[k];
       if (std::find(arrays.begin(), arrays.end(), output.name) == arrays.end()) continue;
@@ -60,11 +61,12 @@ std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledR
   const Contraction c(program, values, direction);
   const std::size_t n = direction.velocity.size();
   if (program.name == "residual_derivatives")
-    return {c.entries("M"), c.along({"r_y", "r_z", "r_u", "r_t"}, n)};
+    return {c.entries("M"), c.along("derivatives", {"r_y", "r_z", "r_u", "r_t"}, n)};
   if (program.name == "forward_dynamics_derivatives")
-    return {c.entries("zdot"), c.along({"zdot_y", "zdot_z"}, n)};
+    return {c.entries("zdot"), c.along("derivatives", {"zdot_y", "zdot_z"}, n)};
   if (program.name == "linearize")
-    return {c.along({"A", "B", "rate_t"}, 2 * n), c.along({"C", "D", "output_t"}, output_numbers)};
+    return {c.along("state", {"A", "B", "rate_t"}, 2 * n),
+            c.along("outputs", {"C", "D", "output_t"}, output_numbers)};
   return {{program.name, values}};
 }
 
@@ -99,9 +101,14 @@ void compare_programs(const ir::Module& module, const Point& point, const Oracle
     JD_CHECK(expected.size() == computed.size(), "{} has no oracle for each part", program.name);
     for (std::size_t k = 0; k < expected.size(); ++k) {
       std::vector<ScaledReal> values = expected[k].values;
-      for (const std::size_t i : expected[k].left_out) values[i] = computed[k].values[i];
+      for (const std::size_t i : expected[k].shares) {
+        values[i] = computed[k].values[i];
+        if (!(values[i] > ScaledReal()) || !(values[i] <= ScaledReal(1 + 1e-15)))
+          agreement.fail(fmt::format("{} says that number {} is {:.6g}, which is no share", program.name,
+                                     i + 1, static_cast<double>(values[i])));
+      }
       agreement.same(computed[k].name, expected[k].oracle, computed[k].values, values);
-      agreement.rounded(computed[k].name, doubles[k].values, same_state[k].values,
+      agreement.rounded(computed[k].name, expected[k].oracle, doubles[k].values, same_state[k].values,
                         expected[k].scales_are_unknown ? computed[k].values : values, first + depth(program));
     }
   }

@@ -31,7 +31,8 @@ struct Expected {
   std::vector<ScaledReal> values;
   /// By differences: they know nothing of how rounding is amplified.
   bool scales_are_unknown = false;
-  std::vector<std::size_t> left_out = {};  ///< numbers that it does not know
+  /// Numbers of which it only knows that they are positive and no more than 1.
+  std::vector<std::size_t> shares = {};
 };
 
 /// What the parts of a program should be, in the order of `parts_of`. A function without an oracle cannot be emitted: it throws.

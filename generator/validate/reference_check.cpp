@@ -26,7 +26,7 @@ void compare_with_reference(const model::Mechanism& mechanism, const dynamics::E
   const auto terms = reference.evaluate(state, u);
   const auto same = [&](const char* what, const std::vector<ScaledReal>& values,
                         const std::vector<ScaledReal>& expected) {
-    agreement.same(std::string("equations, ") + what, kReference, values, expected);
+    agreement.same(what, kReference, values, expected);
   };
   same("M", entries(symbolic.M()), entries(terms.M));
   same("k_bar", to_list(symbolic.k_bar()), to_list(terms.k_bar));

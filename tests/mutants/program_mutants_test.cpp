@@ -27,6 +27,9 @@ struct Place {
   ProgramSite site;
 };
 
+/// States are closed and of unit length to the rounding of doubles.
+constexpr double kLawful = 1e-14;
+
 /// The module with one function, another one in its place. What the constants feed is the whole module.
 ir::Module with(const Subject& subject, const ir::Program* original, ir::Program mutant) {
   if (original == &subject.module.constants) return {std::move(mutant), subject.module.functions};
@@ -48,10 +51,11 @@ std::pair<Exact, Exact> changed_value(const Place& place, const std::vector<Exac
   return {original[at], nodes[bypass ? place.program->nodes[at].a.value : at]};
 }
 
-Difference difference(const Place& place, const ir::Program& mutant) {
+Difference difference(const Place& place, const ir::Program& mutant,
+                      const std::vector<ir::LeafValues<double>>& states) {
   Difference worst;
   const Subject& subject = *place.subject;
-  for (const ir::LeafValues<double>& state : random_states(subject, kStates)) {
+  for (const ir::LeafValues<double>& state : states) {
     ir::LeafValues<Exact> leaves = to_exact(state);
     const auto constants = exact_values(subject.module.constants, leaves);
     if (!constants) continue;
@@ -74,7 +78,12 @@ Net net_of(const Place& place, const ir::Program& mutant) {
   } catch (const std::exception&) {
     return Net::kAssertion;
   }
-  const Difference apart = difference(place, mutant);
+  // Derivatives of closed states and of turning bodies are no others elsewhere: they are promised there.
+  const bool is_derivative =
+      place.program->name == "linearize" || place.program->name.ends_with("_derivatives");
+  if (is_derivative && difference(place, mutant, lawful_states(s, kStates)).result <= kLawful)
+    return Net::kEquivalent;
+  const Difference apart = difference(place, mutant, random_states(s, kStates));
   if (apart.here <= kSame && apart.result <= kSame) return Net::kSame;
   return apart.result <= kSame      ? Net::kEquivalent
          : apart.result <= kHalfUlp ? Net::kBelowRounding

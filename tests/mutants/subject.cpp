@@ -1,6 +1,9 @@
 #include "mutants/subject.hpp"
 
+#include <cmath>
+
 #include "agreement/judge.hpp"
+#include "loops/exact_state.hpp"
 #include "loops/validation.hpp"
 #include "lowering.hpp"
 #include "model/coordinates.hpp"
@@ -92,6 +95,28 @@ std::vector<ir::LeafValues<double>> random_states(const Subject& subject, std::s
     leaves[LeafKind::kAcceleration] = sample.zdot;
     leaves[LeafKind::kInput] = sample.u;
     leaves[LeafKind::kTime] = {sample.t};
+  }
+  return states;
+}
+
+std::vector<ir::LeafValues<double>> lawful_states(const Subject& subject, std::size_t count) {
+  std::vector<ir::LeafValues<double>> states = random_states(subject, count);
+  const model::Mechanism& mechanism = subject.mechanism;
+  for (ir::LeafValues<double>& state : states) {
+    std::vector<double>& y = state[LeafKind::kPosition];
+    for (const std::size_t q : model::lay_out_coordinates(mechanism).quaternions) {
+      const double length = std::hypot(std::hypot(y[q], y[q + 1]), std::hypot(y[q + 2], y[q + 3]));
+      for (std::size_t i = q; i < q + 4; ++i) y[i] /= length;
+    }
+    if (!subject.plan || !subject.plan->is_reduced()) continue;
+    dynamics::DerivationOptions options;
+    options.closures_only = true;
+    const dynamics::Equations closures = dynamics::derive_equations(mechanism, options);
+    const loops::ExactClosure closure(mechanism, closures, *subject.plan);
+    ir::LeafValues<support::ScaledReal> exact;
+    for (std::size_t k = 0; k < ir::kLeafKinds; ++k)
+      exact.of[k].assign(state.of[k].begin(), state.of[k].end());
+    state = validate::rounded(closure.closed(std::move(exact)));
   }
   return states;
 }

@@ -216,13 +216,19 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
     const std::string value = text.substr(site.offset + 3, 9);
     if (value[0] == '0' || value == "Real(0.0)") return "minus zero is zero";
   }
-  if (site.fault == TextFault::kName && line.compare(0, 9, "template ") == 0 &&
-      line.find('(') != std::string::npos)
+  const bool instantiates = files[site.file].name.ends_with(".cpp");
+  if (site.fault == TextFault::kName &&
+      (instantiates || (line.compare(0, 9, "template ") == 0 && line.find('(') != std::string::npos)))
     if (const char before = text[site.offset - 1];
         before == '&' || text.compare(site.offset - 2, 2, "& ") == 0)
       return "names of parameters in a declaration";
   if (site.fault == TextFault::kDropLine && line.find("stage.state.z[i] = state.z[i];") != std::string::npos)
     return "stage.state is a copy of state";
+  if (site.fault == TextFault::kIndex && line.find("], sum_z[") != std::string::npos)
+    return "a scratch array is longer";
+  if (line.find("step.W[i][k] =") != std::string::npos &&
+      text.find("int coupled[] = {0};") != std::string::npos)
+    return "velocities are not coupled, so it is never executed";
   return "";
 }
 

@@ -35,8 +35,9 @@ Written written(const model::Mechanism& mechanism) {
 }
 
 bool is_noticed(const Written& w, const std::vector<support::FileText>& files) {
-  return !readback::differences(files, expected_text(w.mechanism, w.options, w.equations, w.compiled))
-              .empty();
+  readback::Expected expected = w.compiled.expected;
+  expected.module = &w.compiled.module;
+  return !readback::differences(files, expected).empty();
 }
 
 Tally attacked(const std::vector<Written>& models, std::size_t each) {
