@@ -133,9 +133,9 @@ std::vector<std::string> validation_sentences(const validate::Verdict& verdict) 
   std::vector<std::string> list = {fmt::format(
       "validated at {} states: in 77 digits everything below agrees to {:g} of its scale (what rounding can "
       "move it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is {:.1e} "
-      "of the sum of absolute terms, other errors are {:.1e} of their scale; cond(M) up to {:.1e}",
+      "of the sum of absolute terms, other errors are {:.1e} of their scale; cond(M) up to {}",
       verdict.states, static_cast<double>(validate::kAlgebra), verdict.backward_error, verdict.entry_error,
-      verdict.condition)};
+      validate::condition_text(verdict))};
   std::string equations;
   for (const validate::Compared& c : verdict.compared)
     if (c.oracle == validate::kReference) equations += (equations.empty() ? "" : ", ") + c.function;

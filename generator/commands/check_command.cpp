@@ -18,9 +18,10 @@ int run(const ModelArguments& arguments) {
     print_refusal(compiled.verdict);
     return kInternal;
   }
-  fmt::print("ok: {}: {} bodies, {}, {} inputs; backward error {:.1e}, cond(M) up to {:.1e}\n",
+  fmt::print("ok: {}: {} bodies, {}, {} inputs; backward error {:.1e}, cond(M) up to {}\n",
              loaded->options.name, loaded->mechanism.bodies.size(), freedom_text(*loaded),
-             compiled.shape.inputs, compiled.verdict.backward_error, compiled.verdict.condition);
+             compiled.shape.inputs, compiled.verdict.backward_error,
+             validate::condition_text(compiled.verdict));
   if (const loops::LoopPlan* plan = loaded->plan())
     for (const std::string& sentence : loops::sentences(loaded->mechanism, *plan))
       fmt::print("  loops: {}\n", sentence);

@@ -27,8 +27,9 @@ std::string operations_table(const ir::Module& module) {
 std::string verdict_text(const validate::Verdict& v) {
   return fmt::format(
       "  validated at {} states: algebra agrees to {:g}; in double backward error {:.1e}, others {:.1e} of "
-      "their scale; cond(M) up to {:.1e}\n",
-      v.states, static_cast<double>(validate::kAlgebra), v.backward_error, v.entry_error, v.condition);
+      "their scale; cond(M) up to {}\n",
+      v.states, static_cast<double>(validate::kAlgebra), v.backward_error, v.entry_error,
+      validate::condition_text(v));
 }
 
 std::string oracles_text(const validate::Verdict& verdict) {

@@ -32,10 +32,10 @@ std::vector<ScaledReal> exact(const std::vector<double>& values) { return {value
 
 }  // namespace
 
-MovingPrecision moved_along(const ExactDirection& direction, const kinematics::Statements& statements,
-                            const model::Tangent& tangent, const LeafValue& leaf) {
+SlopePrecision moved_along(const ExactDirection& direction, const kinematics::Statements& statements,
+                           const model::Tangent& tangent, const LeafValue& leaf) {
   const std::vector<ScaledReal> change = change_of(direction, tangent, leaf);
-  return MovingPrecision(statements, [&](LeafKind kind, std::size_t i) -> MovingReal {
+  return SlopePrecision(statements, [&](LeafKind kind, std::size_t i) -> SlopeReal {
     const ScaledReal value = leaf(kind, i);
     switch (kind) {
       case LeafKind::kPosition:

@@ -18,10 +18,9 @@ struct DirectionOf {
 using Direction = DirectionOf<double>;
 using ExactDirection = DirectionOf<ScaledReal>;
 
-/// The statements where the state moves along `direction`; `leaf` gives the point. First derivatives are exact, second ones are not
-/// meant: displacements go straight on. Without `tangent.quaternions` displacements are changes of y.
-MovingPrecision moved_along(const ExactDirection& direction, const kinematics::Statements& statements,
-                            const model::Tangent& tangent, const LeafValue& leaf);
+/// The statements where the state moves along `direction`; `leaf` gives the point. Without `tangent.quaternions` displacements are changes of y.
+SlopePrecision moved_along(const ExactDirection& direction, const kinematics::Statements& statements,
+                           const model::Tangent& tangent, const LeafValue& leaf);
 
 ExactDirection exact(const Direction& direction);
 

@@ -61,5 +61,6 @@ std::vector<Number> Evaluation<Number>::values(const std::vector<Ex>& expression
 
 template class Evaluation<ScaledReal>;
 template class Evaluation<MovingReal>;
+template class Evaluation<SlopeReal>;
 
 }  // namespace jourdain::dynamics

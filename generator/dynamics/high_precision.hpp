@@ -15,6 +15,28 @@ using support::ScaledReal;
 /// A number with its first and second derivative by one variable, each in high precision.
 using MovingReal = model::Taylor<ScaledReal>;
 
+/// A number with its first derivative by one variable.
+struct SlopeReal {
+  ScaledReal value, first = {};
+
+  friend SlopeReal operator+(const SlopeReal& a, const SlopeReal& b) {
+    return {a.value + b.value, a.first + b.first};
+  }
+  friend SlopeReal operator*(const SlopeReal& a, const SlopeReal& b) {
+    return {a.value * b.value, a.first * b.value + a.value * b.first};
+  }
+  friend SlopeReal operator/(const SlopeReal& a, const SlopeReal& b) {
+    const ScaledReal ratio = a.value / b.value;
+    return {ratio, (a.first - ratio * b.first) / b.value};
+  }
+  friend SlopeReal sqrt(const SlopeReal& a) {
+    const ScaledReal root = sqrt(a.value);
+    return {root, a.first / (ScaledReal(2) * root)};
+  }
+  friend SlopeReal sin(const SlopeReal& a) { return {sin(a.value), cos(a.value) * a.first}; }
+  friend SlopeReal cos(const SlopeReal& a) { return {cos(a.value), -(sin(a.value) * a.first)}; }
+};
+
 /// The statements evaluated at one state. No lowering, no pass, no program takes part.
 template <class Number>
 class Evaluation {
@@ -41,10 +63,12 @@ class Evaluation {
 
 using HighPrecision = Evaluation<ScaledReal>;
 using MovingPrecision = Evaluation<MovingReal>;
+using SlopePrecision = Evaluation<SlopeReal>;
 using LeafValue = HighPrecision::LeafValue;
 
 extern template class Evaluation<ScaledReal>;
 extern template class Evaluation<MovingReal>;
+extern template class Evaluation<SlopeReal>;
 
 inline double to_double(const ScaledReal& value) { return static_cast<double>(value); }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "emit/names.hpp"
 
 namespace jourdain::emit {
@@ -98,7 +100,10 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
   field("assumptions", string_array(model.assumptions));
   field("left_out", string_array(model.left_out));
   field("backward_error", fmt::format("{:.2g}", model.backward_error));
-  text += fmt::format("  \"condition\": {:.2g}\n}}\n", model.condition);
+  // JSON has no infinity.
+  const std::string condition =
+      std::isfinite(model.condition) ? fmt::format("{:.2g}", model.condition) : "null";
+  text += fmt::format("  \"condition\": {}\n}}\n", condition);
   return text;
 }
 

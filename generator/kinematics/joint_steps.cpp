@@ -1,19 +1,8 @@
 #include "kinematics/joint_steps.hpp"
 
-#include <cmath>
-
 namespace jourdain::kinematics {
 
 using model::JointType;
-
-namespace {
-
-std::array<double, 3> normalised(const std::array<double, 3>& axis) {
-  const double length = std::hypot(axis[0], axis[1], axis[2]);
-  return {axis[0] / length, axis[1] / length, axis[2] / length};
-}
-
-}  // namespace
 
 std::vector<JointStep> joint_steps(const model::Joint& joint) {
   switch (joint.type) {
@@ -30,7 +19,7 @@ std::vector<JointStep> joint_steps(const model::Joint& joint) {
     case JointType::kUniversal:
       return {{LinkKind::kTurn, joint.axis, 0}, {LinkKind::kTurn, joint.second_axis, 1}};
     case JointType::kPlanar: {
-      const auto directions = model::plane_axes(normalised(joint.axis));
+      const auto directions = model::slide_directions(joint.axis);
       return {{LinkKind::kSlide, directions[0], 0},
               {LinkKind::kSlide, directions[1], 1},
               {LinkKind::kTurn, joint.axis, 2}};

@@ -66,6 +66,11 @@ std::array<std::array<double, 3>, 2> plane_axes(const std::array<double, 3>& n) 
   return {{e, {-n[2] * e[1], n[2] * e[0], n[0] * e[1] - n[1] * e[0]}}};
 }
 
+std::array<std::array<double, 3>, 2> slide_directions(const std::array<double, 3>& normal) {
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
+  return plane_axes({normal[0] / length, normal[1] / length, normal[2] / length});
+}
+
 CoordinateLayout lay_out_coordinates(const Mechanism& mechanism) {
   CoordinateLayout layout;
   layout.joints.resize(mechanism.joints.size());

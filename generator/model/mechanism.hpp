@@ -139,6 +139,9 @@ struct Joint {
 /// two axes of the joint frame where the normal is one of them, otherwise (e_z × n)/|e_z × n| and n × that.
 std::array<std::array<double, 3>, 2> plane_axes(const std::array<double, 3>& unit_normal);
 
+/// Those of a normal of any length, in doubles: what a planar joint slides along by definition.
+std::array<std::array<double, 3>, 2> slide_directions(const std::array<double, 3>& normal);
+
 using FrameIndex = support::Index<struct FrameTag>;
 
 /// A named frame fixed to a body or to the world; springs, loads and outputs refer to it.

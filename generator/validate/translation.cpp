@@ -115,6 +115,11 @@ std::size_t affordable_states(const model::Mechanism& mechanism, std::size_t wan
 
 }  // namespace
 
+std::string condition_text(const Verdict& verdict) {
+  return std::isfinite(verdict.condition) ? fmt::format("{:.1e}", verdict.condition)
+                                          : "more than can be told";
+}
+
 void conclude(const Agreement& agreement, Verdict& verdict) {
   verdict.compared.insert(verdict.compared.end(), agreement.compared().begin(), agreement.compared().end());
   verdict.failures.insert(verdict.failures.end(), agreement.failures().begin(), agreement.failures().end());

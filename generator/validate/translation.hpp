@@ -33,6 +33,9 @@ struct Verdict {
   bool accepted() const { return failures.empty(); }
 };
 
+/// "4.1e+01", or that it is too large to be told.
+std::string condition_text(const Verdict& verdict);
+
 /// Takes over what was compared.
 void conclude(const Agreement& agreement, Verdict& verdict);
 

@@ -8,8 +8,8 @@
 namespace jourdain::validate {
 
 using dynamics::ExactDirection;
-using dynamics::MovingPrecision;
-using dynamics::MovingReal;
+using dynamics::SlopePrecision;
+using dynamics::SlopeReal;
 using ir::LeafKind;
 using kinematics::Ex;
 
@@ -41,7 +41,7 @@ ExactVector evaluated(const dynamics::HighPrecision& exact, const std::vector<Ex
   return to_exact(exact.values(expressions));
 }
 
-ExactVector rates(const MovingPrecision& moved, const std::vector<Ex>& expressions) {
+ExactVector rates(const SlopePrecision& moved, const std::vector<Ex>& expressions) {
   ExactVector list(at(expressions.size()));
   for (std::size_t i = 0; i < expressions.size(); ++i) list[at(i)] = moved.value(expressions[i]).first;
   return list;
@@ -141,14 +141,14 @@ std::vector<ScaledReal> TreeOracle::mass_entries(const ir::Program& program, con
   return values;
 }
 
-MovingPrecision TreeOracle::moved(const dynamics::Equations& equations,
-                                  const ExactDirection& direction) const {
+SlopePrecision TreeOracle::moved(const dynamics::Equations& equations,
+                                 const ExactDirection& direction) const {
   return dynamics::moved_along(direction, equations.statements, tangent_, leaf_);
 }
 
 ExactVector TreeOracle::residual_rate() const {
   if (load_) return rates(moved(*load_, point_.direction), load_->q_bar);
-  const MovingPrecision there = moved(equations_, point_.direction);
+  const SlopePrecision there = moved(equations_, point_.direction);
   ExactVector sum = rates(there, equations_.q_bar) - rates(there, equations_.k_bar);
   const ExactVector a = given_accelerations();
   for (std::size_t i = 0; i < equations_.M.size(); ++i) sum[at(i)] += rates(there, equations_.M[i]).dot(a);
@@ -157,7 +157,7 @@ ExactVector TreeOracle::residual_rate() const {
 
 /// M δż = δk̄ − δq̄ − δM ż
 ExactVector TreeOracle::acceleration_rate(const ExactDirection& direction) const {
-  const MovingPrecision there = moved(equations_, direction);
+  const SlopePrecision there = moved(equations_, direction);
   ExactVector right = rates(there, equations_.k_bar) - rates(there, equations_.q_bar);
   for (std::size_t i = 0; i < equations_.M.size(); ++i)
     right[at(i)] -= rates(there, equations_.M[i]).dot(zdot_);

@@ -34,8 +34,8 @@ class TreeOracle {
   ExactVector forces_without_inputs() const;
   Expected state(const ir::Program& program) const;
   std::vector<ScaledReal> mass_entries(const ir::Program& program, const std::string& array) const;
-  dynamics::MovingPrecision moved(const dynamics::Equations& equations,
-                                  const dynamics::ExactDirection& direction) const;
+  dynamics::SlopePrecision moved(const dynamics::Equations& equations,
+                                 const dynamics::ExactDirection& direction) const;
   ExactVector residual_rate() const;
   ExactVector acceleration_rate(const dynamics::ExactDirection& direction) const;
   std::vector<ScaledReal> displacement_rate() const;

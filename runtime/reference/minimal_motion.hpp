@@ -111,7 +111,7 @@ typename Reference<Scalar>::FrameMotion Reference<Scalar>::child_motion(const Fr
       turn(1, unit<Scalar>(joint.second_axis));
       break;
     case JointType::kPlanar: {
-      const auto directions = model::plane_axes({double(axis.x()), double(axis.y()), double(axis.z())});
+      const auto directions = model::slide_directions(joint.axis);
       slide(0, unit<Scalar>(directions[0]), 1);
       slide(1, unit<Scalar>(directions[1]), 1);
       turn(2, axis);

@@ -50,7 +50,7 @@ Exact exact_derivatives(const Derived& derived, const Sample& sample) {
      : c < 2 * nz      ? d.velocity[c - nz]
      : c < 2 * nz + nu ? d.input[c - 2 * nz]
                        : d.time) = 1;
-    const dynamics::MovingPrecision along = dynamics::moved_along(
+    const dynamics::SlopePrecision along = dynamics::moved_along(
         dynamics::exact(d), derived.equations.statements, model::tangent_of(derived.mechanism, layout),
         [&](kinematics::LeafKind kind, std::size_t i) { return leaf_value(sample, kind, i); });
     const auto rates = [&](const std::vector<kinematics::Ex>& expressions) {

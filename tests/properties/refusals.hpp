@@ -21,7 +21,7 @@ const std::vector<ValidKind>& valid_kinds();
 
 model::Mechanism valid_mechanism(const ValidKind& kind, std::uint64_t seed);
 
-/// Why it was refused; empty where it was not. Everything that is not a step is asked for.
-std::string refusal(const model::Mechanism& mechanism);
+/// Why it was refused; empty where it was not. Asked for is everything that is not a step, of every eighth small one derivatives too.
+std::string refusal(const model::Mechanism& mechanism, std::uint64_t seed);
 
 }  // namespace jourdain::tests

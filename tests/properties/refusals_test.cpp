@@ -11,7 +11,7 @@ namespace {
 TEST(Refusals, NoValidMechanismIsRefused) {
   for (const ValidKind& kind : valid_kinds())
     for (std::uint64_t seed = 0; seed < cases(kind.test); ++seed)
-      EXPECT_EQ(refusal(valid_mechanism(kind, seed)), "") << kind.name << ", seed " << seed;
+      EXPECT_EQ(refusal(valid_mechanism(kind, seed), seed), "") << kind.name << ", seed " << seed;
 }
 
 }  // namespace
