@@ -39,7 +39,7 @@ Eigen::Index Reference<Scalar>::column_of(std::size_t joint, std::size_t coordin
 template <class Scalar>
 Taylor<Scalar> Reference<Scalar>::taylor(const model::Expression& expression, Scalar variable) const {
   std::vector<Taylor<Scalar>> parameters;
-  for (const Scalar p : parameters_) parameters.push_back({p, 0, 0});
+  for (const Scalar& p : parameters_) parameters.push_back({p, 0, 0});
   return expression.evaluate<Taylor<Scalar>>(
       parameters,
       [](double v) {

@@ -132,7 +132,9 @@ TEST(FreeRoots, TakeFewOperations) {
   };
   const std::map<std::string, std::size_t> best = {{"biped", 3957}, {"hyq", 2663}, {"talos_reduced", 8784}};
   for (const auto& [robot, count] : best)
-    if (has_robot(robot)) EXPECT_EQ(operations(robot), count) << robot;
+    if (has_robot(robot)) {
+      EXPECT_EQ(operations(robot), count) << robot;
+    }
 }
 
 }  // namespace

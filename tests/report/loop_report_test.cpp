@@ -25,9 +25,10 @@ TEST(LoopReport, ErrorsComeFromTheirPartsAndLoopsStayClosed) {
   EXPECT_LT(report["reference"]["error"].get<double>(), 1e-16);
   EXPECT_FALSE(report["error_sources"].empty());
   for (const json& s : report["error_sources"])
-    if (s["measured"]["position"].get<double>() < 1e-3)
+    if (s["measured"]["position"].get<double>() < 1e-3) {
       EXPECT_LT(s["difference"]["position"].get<double>(), 0.1 * s["measured"]["position"].get<double>())
           << s["method"] << " " << s["step_s"];
+    }
   const json& runs = report["loops"]["runs"];
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_EQ(runs[0]["step_s"], report["recommendation"]["step_s"]);
