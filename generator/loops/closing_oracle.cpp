@@ -1,5 +1,8 @@
 #include "loops/closing_oracle.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "loops/dense_solver.hpp"
 #include "loops/schur_solution.hpp"
 
@@ -112,6 +115,17 @@ ScaledReal beyond(const LoopPlan& plan, const std::vector<ScaledReal>& y, int ra
 
 }  // namespace
 
+namespace {
+
+/// The square of a change: where nothing changes it is the square of what rounding changes.
+ScaledReal squared_change(const Closed& c) {
+  long double scale = 1;
+  for (const ScaledReal& entry : c.y) scale = std::max(scale, entry.scale());
+  return c.opening.with_scale(std::numeric_limits<double>::epsilon() * scale * scale);
+}
+
+}  // namespace
+
 std::vector<validate::Expected> closing_expected(const LoopScene& scene, const State& open,
                                                  const ir::Program& program) {
   const Closed c = closed(scene, open);
@@ -123,7 +137,7 @@ std::vector<validate::Expected> closing_expected(const LoopScene& scene, const S
     expected.values.push_back(output.name == "y"            ? c.y[i]
                               : output.name == "z"          ? c.z[i]
                               : output.name == "regularity" ? c.regularity
-                              : output.name == "opening"    ? c.opening
+                              : output.name == "opening"    ? squared_change(c)
                                                             : beyond(scene.plan, c.y, output.row));
   }
   return {expected};

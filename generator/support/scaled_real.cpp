@@ -104,10 +104,8 @@ ScaledReal operator-(const ScaledReal& a, const ScaledReal& b) { return a + -b; 
 ScaledReal operator*(const ScaledReal& a, const ScaledReal& b) {
   if (a.is_nothing() && std::isfinite(b.scale_)) return a;
   if (b.is_nothing() && std::isfinite(a.scale_)) return b;
-  // To second order for doubles: the square of what is only rounding is not zero.
-  const long double by_a = a.scale_ * size_of(b.value_), by_b = b.scale_ * size_of(a.value_),
-                    by_both = std::numeric_limits<double>::epsilon() / 2 * a.scale_ * b.scale_;
-  return {a.value_ * b.value_, std::isnan(by_a) ? by_a : std::max({by_both, by_b, by_a})};
+  const long double by_a = a.scale_ * size_of(b.value_), by_b = b.scale_ * size_of(a.value_);
+  return {a.value_ * b.value_, std::isnan(by_a) ? by_a : std::max(by_b, by_a)};
 }
 
 ScaledReal operator/(const ScaledReal& a, const ScaledReal& b) {

@@ -61,8 +61,9 @@ void Agreement::same(const std::string& function, const std::string& oracle,
     }
   c.algebra = std::max(c.algebra, most);
   if (most <= static_cast<double>(kAlgebra)) return;
-  fail(fmt::format("{} is not {}: number {} is {:.6g} instead of {:.6g}", function, oracle, worst + 1,
-                   static_cast<double>(values[worst]), static_cast<double>(expected[worst])));
+  fail(fmt::format("{} is not {}: number {} is {:.6g} instead of {:.6g}, off by {:.1g} of its scale",
+                   function, oracle, worst + 1, static_cast<double>(values[worst]),
+                   static_cast<double>(expected[worst]), most));
 }
 
 void Agreement::rounded(const std::string& function, const std::string& oracle,

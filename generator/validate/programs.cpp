@@ -107,9 +107,11 @@ void compare_programs(const ir::Module& module, const Point& point, const Oracle
           agreement.fail(fmt::format("{} says that number {} is {:.6g}, which is no share", program.name,
                                      i + 1, static_cast<double>(values[i])));
       }
+      for (std::size_t i = 0; i < values.size() && expected[k].scales_are_unknown; ++i)
+        values[i] = values[i].with_scale(computed[k].values[i].scale());
       agreement.same(computed[k].name, expected[k].oracle, computed[k].values, values);
-      agreement.rounded(computed[k].name, expected[k].oracle, doubles[k].values, same_state[k].values,
-                        expected[k].scales_are_unknown ? computed[k].values : values, first + depth(program));
+      agreement.rounded(computed[k].name, expected[k].oracle, doubles[k].values, same_state[k].values, values,
+                        first + depth(program));
     }
   }
 }

@@ -48,6 +48,7 @@ EmittedModel emitted_from(const std::string& text, const std::vector<std::string
   options.name = "emitted_model" + std::to_string(++count);
   options.functions = functions;
   const CompiledModel compiled = compile(*mechanism, options);
+  JD_CHECK(compiled.verdict.accepted(), "refused: {}", compiled.verdict.failures.front());
   EmittedModel result{*mechanism, compiled.tangent,
                       commands::build_model(options.name, compiled, commands::NumberType::kDouble)};
   studies::set_parameters(result.table(), parameter_values(*mechanism));
