@@ -36,8 +36,8 @@ std::string oracles_text(const validate::Verdict& verdict) {
   std::string text =
       "  compared with (worst difference in 77 digits over scale; error in double over scale)\n";
   for (const validate::Compared& c : verdict.compared)
-    text += fmt::format("    {:<32} {:>6} numbers  {:>7}  {:>7}  {}\n", c.function, c.numbers,
-                        fmt::format("{:.0e}", c.algebra),
+    text += fmt::format("    {:<32} {:>3} states {:>6} numbers  {:>7}  {:>7}  {}\n", c.function, c.states,
+                        c.numbers, fmt::format("{:.0e}", c.algebra),
                         c.oracle == validate::kReference ? "" : fmt::format("{:.1e}", c.rounding), c.oracle);
   return text;
 }

@@ -15,7 +15,8 @@ struct Signed {
   Signed operator-() const { return {value, !negative}; }
 };
 
-/// Hash-consing builder. Constants are folded to 63 digits. Operations with 0 and ±1, of equal operands and of two literals are simplified; operands of commutative
+/// Hash-consing builder. Constants are folded to 63 digits.
+/// Operations with 0 and ±1, of equal operands and of two literals are simplified; operands of commutative
 /// operations are put in order of their index, so that the program depends on the calls alone.
 class Builder {
  public:

@@ -14,12 +14,6 @@
 
 namespace jourdain::ir {
 
-namespace {
-
-using GiNaC::ex_to;
-using GiNaC::is_a;
-using kinematics::Ex;
-
 LeafKind leaf_kind(kinematics::LeafKind kind) {
   switch (kind) {
     case kinematics::LeafKind::kParameter:
@@ -39,6 +33,12 @@ LeafKind leaf_kind(kinematics::LeafKind kind) {
   }
   return LeafKind::kParameter;
 }
+
+namespace {
+
+using GiNaC::ex_to;
+using GiNaC::is_a;
+using kinematics::Ex;
 
 cln::cl_R to_real(const Ex& number) { return cln::realpart(ex_to<GiNaC::numeric>(number).to_cl_N()); }
 

@@ -5,6 +5,7 @@
 
 #include "loops/dense_solver.hpp"
 #include "loops/schur_solution.hpp"
+#include "validate/tree_oracle.hpp"
 
 namespace jourdain::loops {
 
@@ -28,16 +29,7 @@ struct Closed {
 
 ExactMatrix mass_matrix(const LoopScene& scene, State state) {
   state[LeafKind::kVelocity].assign(scene.closure.velocity_count(), ScaledReal());
-  const dynamics::HighPrecision exact(scene.equations.statements,
-                                      [&](kinematics::LeafKind kind, std::size_t i) -> ScaledReal {
-                                        if (kind == kinematics::LeafKind::kPosition)
-                                          return state[LeafKind::kPosition][i];
-                                        if (kind == kinematics::LeafKind::kParameter)
-                                          return state[LeafKind::kParameter][i];
-                                        if (kind == kinematics::LeafKind::kTime)
-                                          return state[LeafKind::kTime][0];
-                                        return {};
-                                      });
+  const dynamics::HighPrecision exact(scene.equations.statements, validate::leaves_at(state));
   ExactMatrix M(at(scene.equations.M.size()), at(scene.equations.M.size()));
   for (std::size_t i = 0; i < scene.equations.M.size(); ++i)
     M.row(at(i)) = to_exact(exact.values(scene.equations.M[i])).transpose();

@@ -197,11 +197,12 @@ std::vector<Matrix> open_rows(const model::Mechanism& mechanism, const Constrain
 }
 
 std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
+                                         const std::vector<Matrix>& structure,
                                          const std::vector<std::size_t>& independent) {
   const Matrix& G = jacobians.front();
   const std::vector<std::size_t> dependents = all_but(independent, static_cast<std::size_t>(G.cols()));
   if (at(dependents.size()) != G.rows()) return {};
-  Partition partition{independent, triangular_blocks(jacobians, dependents),
+  Partition partition{independent, triangular_blocks(structure, dependents),
                       Conditioning(jacobians)(dependents)};
   std::sort(partition.independent.begin(), partition.independent.end());
   if (partition.blocks.empty() && !dependents.empty()) partition.conditioning = 0;
@@ -222,7 +223,8 @@ bool is_whole(const std::vector<std::size_t>& chosen, const Groups& groups) {
 
 }  // namespace
 
-std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, const Groups& groups,
+std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians,
+                                          const std::vector<Matrix>& structure, const Groups& groups,
                                           const std::vector<bool>& preferred) {
   const auto columns = static_cast<std::size_t>(jacobians.front().cols());
   const auto freedom = columns - static_cast<std::size_t>(jacobians.front().rows());
@@ -256,7 +258,7 @@ std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, 
   };
   choose(0);
   if (!(best_conditioning > 0)) return {};
-  return given_partition(jacobians, best);
+  return given_partition(jacobians, structure, best);
 }
 
 }  // namespace jourdain::loops

@@ -19,13 +19,17 @@ struct Partition {
 using Groups = std::vector<std::vector<std::size_t>>;
 Groups velocity_groups(const model::Mechanism& mechanism);
 
+/// `structure` are Jacobians that vanish only where a row has no such part: what blocks are made by.
+///
 /// The partition whose dependent block is conditioned best where it is worst, over Jacobians with only regular rows. Where several
 /// are nearly as good the one with `preferred` velocities. Nothing where the groups do not fit.
-std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians, const Groups& groups,
+std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians,
+                                          const std::vector<Matrix>& structure, const Groups& groups,
                                           const std::vector<bool>& preferred);
 
 /// The partition with these velocities independent; nothing where their number is not that of the degrees of freedom.
 std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
+                                         const std::vector<Matrix>& structure,
                                          const std::vector<std::size_t>& independent);
 
 /// These rows of G at configurations that are open, with parameters off their default values.

@@ -131,7 +131,7 @@ class Planner {
                         "nothing depends on time either: the mechanism stands still");
     if (options.treatment == LoopTreatment::kMultipliers) return true;
     if (!options.independent.empty()) return report_bad({});
-    const std::optional<Partition> partition = given_partition(regular_jacobians(), {});
+    const std::optional<Partition> partition = given_partition(regular_jacobians(), open_jacobians(), {});
     if (!partition || partition->blocks.empty()) return !options.treatment || report_bad(partition);
     take(*partition);
     if (options.treatment != LoopTreatment::kPartitioned && close_explicitly()) return true;
@@ -187,15 +187,16 @@ class Planner {
   /// Those that may be closed: the one that is named; otherwise the one that is conditioned best, and the one of the coordinates with a
   /// range, over which more can be proven.
   std::vector<Partition> partitions() const {
-    const std::vector<Matrix> regular = regular_jacobians();
+    const std::vector<Matrix> regular = regular_jacobians(), open = open_jacobians();
     const std::vector<std::size_t> named = named_independent();
-    const auto best = named.empty() ? choose_partition(regular, velocity_groups(mechanism_), preferred())
-                                    : given_partition(regular, named);
+    const auto best = named.empty()
+                          ? choose_partition(regular, open, velocity_groups(mechanism_), preferred())
+                          : given_partition(regular, open, named);
     if (!best) return {};
     std::vector<Partition> list = {*best};
     const std::vector<std::size_t> ranged = with_range();
     if (!named.empty() || ranged.size() != plan_.freedom || ranged == best->independent) return list;
-    if (const auto other = given_partition(regular, ranged); other && other->conditioning > 0)
+    if (const auto other = given_partition(regular, open, ranged); other && other->conditioning > 0)
       list.push_back(*other);
     return list;
   }
@@ -215,8 +216,7 @@ class Planner {
   /// With these velocities independent.
   void take(const Partition& partition) {
     plan_.independent = partition.independent;
-    plan_.blocks =
-        triangular_blocks(open_jacobians(), loops::all_but(partition.independent, layout_.velocity_count()));
+    plan_.blocks = partition.blocks;
     plan_.conditioning = partition.conditioning;
     for (Block& block : plan_.blocks)
       for (std::size_t& row : block.rows) row = plan_.rows[row];

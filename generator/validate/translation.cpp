@@ -123,10 +123,8 @@ std::string condition_text(const Verdict& verdict) {
 void conclude(const Agreement& agreement, Verdict& verdict) {
   verdict.compared.insert(verdict.compared.end(), agreement.compared().begin(), agreement.compared().end());
   verdict.failures.insert(verdict.failures.end(), agreement.failures().begin(), agreement.failures().end());
-  for (const Compared& c : agreement.compared()) {
+  for (const Compared& c : agreement.compared())
     verdict.entry_error = std::max(verdict.entry_error, c.rounding);
-    if (c.oracle == kReference) verdict.reference_error = std::max(verdict.reference_error, c.algebra);
-  }
 }
 
 Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::Equations& equations,

@@ -22,8 +22,6 @@ struct Verdict {
       0;  ///< of M ż = k̄ − q̄, program in double, relative to the sum of absolute terms; worst
   double entry_error =
       0;  ///< of all numbers that programs compute, in double, relative to their scales; worst
-  double reference_error =
-      0;  ///< between symbolic equations and numeric reference, in 77 digits, relative to their scales
   double condition =
       0;  ///< of M as emitted, with loops where they are closed; 2-norm, SI units as they are; worst
   double snap_effect = 0;             ///< change of ż by snapping; worst

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dynamics/outputs.hpp"
+#include "ir/lower.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::validate {
@@ -16,26 +17,6 @@ using kinematics::Ex;
 namespace {
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-LeafKind kind_of(kinematics::LeafKind kind) {
-  switch (kind) {
-    case kinematics::LeafKind::kParameter:
-      return LeafKind::kParameter;
-    case kinematics::LeafKind::kPosition:
-      return LeafKind::kPosition;
-    case kinematics::LeafKind::kVelocity:
-      return LeafKind::kVelocity;
-    case kinematics::LeafKind::kAcceleration:
-      return LeafKind::kAcceleration;
-    case kinematics::LeafKind::kMultiplier:
-      return LeafKind::kMultiplier;
-    case kinematics::LeafKind::kInput:
-      return LeafKind::kInput;
-    case kinematics::LeafKind::kTime:
-      return LeafKind::kTime;
-  }
-  return LeafKind::kTime;
-}
 
 ExactVector evaluated(const dynamics::HighPrecision& exact, const std::vector<Ex>& expressions) {
   return to_exact(exact.values(expressions));
@@ -51,7 +32,7 @@ ExactVector rates(const SlopePrecision& moved, const std::vector<Ex>& expression
 
 dynamics::LeafValue leaves_at(const ir::LeafValues<ScaledReal>& values) {
   return [&values](kinematics::LeafKind kind, std::size_t i) {
-    const std::vector<ScaledReal>& list = values[kind_of(kind)];
+    const std::vector<ScaledReal>& list = values[ir::leaf_kind(kind)];
     return i < list.size() ? list[i] : ScaledReal();  // multipliers: as if loops were open
   };
 }

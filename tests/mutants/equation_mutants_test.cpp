@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dynamics/high_precision.hpp"
+#include "ir/lower.hpp"
 #include "mutants/equation_mutants.hpp"
 #include "mutants/exact_values.hpp"
 #include "mutants/scenes.hpp"
@@ -23,30 +24,10 @@ constexpr std::size_t kStates = 6;  ///< at which equations that are accepted mu
 constexpr double kSame = 1e-40;     ///< of 60 digits
 constexpr double kHalfUlp = 0x1p-53;
 
-ir::LeafKind kind_of(LeafKind kind) {
-  switch (kind) {
-    case LeafKind::kParameter:
-      return ir::LeafKind::kParameter;
-    case LeafKind::kPosition:
-      return ir::LeafKind::kPosition;
-    case LeafKind::kVelocity:
-      return ir::LeafKind::kVelocity;
-    case LeafKind::kAcceleration:
-      return ir::LeafKind::kAcceleration;
-    case LeafKind::kMultiplier:
-      return ir::LeafKind::kMultiplier;
-    case LeafKind::kInput:
-      return ir::LeafKind::kInput;
-    case LeafKind::kTime:
-      return ir::LeafKind::kTime;
-  }
-  return ir::LeafKind::kTime;
-}
-
 /// Values of everything at one state, list by list.
 std::vector<std::vector<Exact>> values(const dynamics::Equations& e, const ir::LeafValues<double>& leaves) {
   const dynamics::HighPrecision exact(
-      e.statements, [&](LeafKind kind, std::size_t i) { return leaves[kind_of(kind)].at(i); });
+      e.statements, [&](LeafKind kind, std::size_t i) { return leaves[ir::leaf_kind(kind)].at(i); });
   std::vector<std::vector<Exact>> all;
   for (const std::vector<Ex>& list : asked_for(e)) {
     all.emplace_back();
