@@ -68,8 +68,8 @@ bool same_operations(const Program& a, const Program& b) { return a.nodes == b.n
 
 Program settled(const Program& program, const Rewriting& rewrite) {
   constexpr int kMostRuns = 100;  // a cycle would cost idempotence, never correctness
-  Program current = rewrite(program);
-  for (int run = 1; run < kMostRuns; ++run) {
+  Program current = program;
+  for (int run = 0; run < kMostRuns; ++run) {
     Program next = rewrite(current);
     if (same_operations(next, current)) return next;
     current = std::move(next);
