@@ -41,7 +41,7 @@ std::vector<Seed> displacement_seeds(Builder& builder, const model::Tangent& tan
 std::size_t remaining_operations(const Program& program) {
   ir::Module module;
   module.functions = {program};
-  return ir::count_operations(passes::optimise(std::move(module)).module.functions[0]).arithmetic();
+  return ir::count_operations(passes::optimise_once(std::move(module)).functions[0]).arithmetic();
 }
 
 /// On the robot arms the first quarter of the program goes forward: rotations and velocities.

@@ -43,16 +43,34 @@ std::vector<MovingReal> moving_positions(const model::Tangent& tangent, const st
   return y;
 }
 
-/// The rows of all loops where the state moves on with constant velocities and a rate of t.
-std::vector<MovingReal> moving_rows(const Equations& closures, const model::Tangent& tangent,
-                                    const std::vector<ScaledReal>& z, int time, const LeafValue& leaf) {
-  const std::vector<MovingReal> y = moving_positions(tangent, z, leaf);
-  const MovingPrecision at(closures.statements, [&](LeafKind kind, std::size_t i) -> MovingReal {
-    if (kind == LeafKind::kPosition) return y[i];
-    if (kind == LeafKind::kTime) return {leaf(kind, i), ScaledReal(time)};
-    return {leaf(kind, i)};
-  });
-  std::vector<MovingReal> rows;
+/// y with its derivatives by small displacements of each velocity.
+std::vector<GradientReal> displaced_positions(const model::Tangent& tangent, const LeafValue& leaf) {
+  std::vector<GradientReal> y;
+  const auto at = [&](std::size_t i) -> GradientReal& {
+    if (y.size() <= i) y.resize(i + 1);
+    return y[i];
+  };
+  for (const model::Tangent::Scalar& s : tangent.scalars)
+    at(s.position) = {leaf(LeafKind::kPosition, s.position), {{s.velocity, 1}}};
+  for (const model::Tangent::Scalar& s : tangent.quaternions) {
+    Quaternion q;
+    for (std::size_t k = 0; k < 4; ++k) {
+      q.q[k] = leaf(LeafKind::kPosition, s.position + k);
+      at(s.position + k).value = q.q[k];
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ScaledReal omega[3];
+      omega[axis] = 1;
+      const Quaternion rate = q.turned(omega);
+      for (std::size_t k = 0; k < 4; ++k) at(s.position + k).slopes.push_back({s.velocity + axis, rate.q[k]});
+    }
+  }
+  return y;
+}
+
+template <class Number>
+std::vector<Number> rows_of(const Equations& closures, const Evaluation<Number>& at) {
+  std::vector<Number> rows;
   for (const LoopClosure& loop : closures.closures)
     for (const Ex& row : loop.rows) rows.push_back(at.value(row));
   return rows;
@@ -60,32 +78,45 @@ std::vector<MovingReal> moving_rows(const Equations& closures, const model::Tang
 
 }  // namespace
 
+ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent& tangent,
+                                 std::size_t velocity_count, const LeafValue& leaf) {
+  const std::vector<GradientReal> y = displaced_positions(tangent, leaf);
+  const GradientPrecision at(closures.statements, [&](LeafKind kind, std::size_t i) -> GradientReal {
+    if (kind == LeafKind::kPosition) return y[i];
+    if (kind == LeafKind::kTime) return {leaf(kind, i), {{velocity_count, 1}}};
+    return {leaf(kind, i)};
+  });
+  ClosureJacobian jacobian;
+  for (const GradientReal& row : rows_of(closures, at)) {
+    std::vector<ScaledReal> by(velocity_count + 1);
+    for (const GradientReal::Slope& slope : row.slopes) by[slope.variable] = slope.by;
+    jacobian.g.push_back(row.value);
+    jacobian.g_t.push_back(by.back());
+    by.pop_back();
+    jacobian.G.push_back(std::move(by));
+  }
+  return jacobian;
+}
+
 ClosureMotion closure_motion(const Equations& closures, const model::Tangent& tangent,
                              const std::vector<ScaledReal>& z, const LeafValue& leaf) {
+  const std::vector<MovingReal> y = moving_positions(tangent, z, leaf);
+  const MovingPrecision at(closures.statements, [&](LeafKind kind, std::size_t i) -> MovingReal {
+    if (kind == LeafKind::kPosition) return y[i];
+    if (kind == LeafKind::kTime) return {leaf(kind, i), 1};
+    return {leaf(kind, i)};
+  });
   ClosureMotion motion;
-  for (const MovingReal& row : moving_rows(closures, tangent, z, 1, leaf)) {
+  for (const MovingReal& row : rows_of(closures, at)) {
     motion.g.push_back(row.value);
     motion.rate.push_back(row.first);
     motion.gamma.push_back(row.second);
-  }
-  std::vector<ScaledReal> unit(z.size());
-  for (const MovingReal& row : moving_rows(closures, tangent, unit, 1, leaf)) motion.g_t.push_back(row.first);
-  motion.G.assign(motion.g.size(), unit);
-  for (std::size_t k = 0; k < z.size(); ++k) {
-    unit[k] = 1;
-    const std::vector<MovingReal> rows = moving_rows(closures, tangent, unit, 0, leaf);
-    for (std::size_t r = 0; r < rows.size(); ++r) motion.G[r][k] = rows[r].first;
-    unit[k] = 0;
   }
   return motion;
 }
 
 std::vector<ScaledReal> closure_values(const Equations& closures, const LeafValue& leaf) {
-  const HighPrecision at(closures.statements, leaf);
-  std::vector<ScaledReal> g;
-  for (const LoopClosure& loop : closures.closures)
-    for (const Ex& row : loop.rows) g.push_back(at.value(row));
-  return g;
+  return rows_of(closures, HighPrecision(closures.statements, leaf));
 }
 
 }  // namespace jourdain::dynamics

@@ -9,13 +9,22 @@
 
 namespace jourdain::dynamics {
 
-/// At one state: g, its Jacobian G by small displacements and g_t (row by row), ġ = G z + g_t and γ = g̈ − G ż.
-struct ClosureMotion {
-  std::vector<ScaledReal> g, g_t, rate, gamma;
+/// At one state: g, its Jacobian G by small displacements (row by row) and g_t.
+struct ClosureJacobian {
+  std::vector<ScaledReal> g, g_t;
   std::vector<std::vector<ScaledReal>> G;
 };
 
-/// `closures` need hold no more than the closures of the mechanism; `z` are all velocities of the tree.
+/// `closures` need hold no more than the closures of the mechanism.
+ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent& tangent,
+                                 std::size_t velocity_count, const LeafValue& leaf);
+
+/// g, ġ = G z + g_t and γ = g̈ − G ż at one state.
+struct ClosureMotion {
+  std::vector<ScaledReal> g, rate, gamma;
+};
+
+/// `z` are all velocities of the tree.
 ClosureMotion closure_motion(const Equations& closures, const model::Tangent& tangent,
                              const std::vector<ScaledReal>& z, const LeafValue& leaf);
 

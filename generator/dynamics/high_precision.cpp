@@ -13,6 +13,51 @@ using GiNaC::ex_to;
 using GiNaC::is_a;
 using kinematics::Ex;
 
+namespace {
+
+using Slopes = std::vector<GradientReal::Slope>;
+
+/// by_a a' + by_b b'
+Slopes combined(const Slopes& a, const ScaledReal& by_a, const Slopes& b, const ScaledReal& by_b) {
+  Slopes sum;
+  sum.reserve(a.size() + b.size());
+  auto in_a = a.begin(), in_b = b.begin();
+  while (in_a != a.end() || in_b != b.end()) {
+    const bool from_a = in_b == b.end() || (in_a != a.end() && in_a->variable <= in_b->variable);
+    const bool from_b = in_a == a.end() || (in_b != b.end() && in_b->variable <= in_a->variable);
+    const std::size_t variable = from_a ? in_a->variable : in_b->variable;
+    ScaledReal by;
+    if (from_a) by += by_a * (in_a++)->by;
+    if (from_b) by += by_b * (in_b++)->by;
+    sum.push_back({variable, by});
+  }
+  return sum;
+}
+
+}  // namespace
+
+GradientReal operator+(const GradientReal& a, const GradientReal& b) {
+  return {a.value + b.value, combined(a.slopes, 1, b.slopes, 1)};
+}
+
+GradientReal operator*(const GradientReal& a, const GradientReal& b) {
+  return {a.value * b.value, combined(a.slopes, b.value, b.slopes, a.value)};
+}
+
+GradientReal operator/(const GradientReal& a, const GradientReal& b) {
+  const ScaledReal ratio = a.value / b.value;
+  return {ratio, combined(a.slopes, ScaledReal(1) / b.value, b.slopes, -ratio / b.value)};
+}
+
+GradientReal sqrt(const GradientReal& a) {
+  const ScaledReal root = sqrt(a.value);
+  return {root, combined(a.slopes, ScaledReal(1) / (ScaledReal(2) * root), {}, 0)};
+}
+
+GradientReal sin(const GradientReal& a) { return {sin(a.value), combined(a.slopes, cos(a.value), {}, 0)}; }
+
+GradientReal cos(const GradientReal& a) { return {cos(a.value), combined(a.slopes, -sin(a.value), {}, 0)}; }
+
 template <class Number>
 Evaluation<Number>::Evaluation(const kinematics::Statements& statements, const LeafValue& leaf) {
   for (const kinematics::Leaf& l : statements.leaves()) values_[l.symbol] = leaf(l.kind, l.index);
@@ -62,5 +107,6 @@ std::vector<Number> Evaluation<Number>::values(const std::vector<Ex>& expression
 template class Evaluation<ScaledReal>;
 template class Evaluation<MovingReal>;
 template class Evaluation<SlopeReal>;
+template class Evaluation<GradientReal>;
 
 }  // namespace jourdain::dynamics

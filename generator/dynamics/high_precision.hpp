@@ -37,6 +37,24 @@ struct SlopeReal {
   friend SlopeReal cos(const SlopeReal& a) { return {cos(a.value), -(sin(a.value) * a.first)}; }
 };
 
+/// A number with its first derivatives by several variables, of which it depends on few.
+struct GradientReal {
+  struct Slope {
+    std::size_t variable;
+    ScaledReal by;
+  };
+
+  ScaledReal value;
+  std::vector<Slope> slopes = {};  ///< in the order of the variables; what is missing is zero
+
+  friend GradientReal operator+(const GradientReal& a, const GradientReal& b);
+  friend GradientReal operator*(const GradientReal& a, const GradientReal& b);
+  friend GradientReal operator/(const GradientReal& a, const GradientReal& b);
+  friend GradientReal sqrt(const GradientReal& a);
+  friend GradientReal sin(const GradientReal& a);
+  friend GradientReal cos(const GradientReal& a);
+};
+
 /// The statements evaluated at one state. No lowering, no pass, no program takes part.
 template <class Number>
 class Evaluation {
@@ -64,11 +82,13 @@ class Evaluation {
 using HighPrecision = Evaluation<ScaledReal>;
 using MovingPrecision = Evaluation<MovingReal>;
 using SlopePrecision = Evaluation<SlopeReal>;
+using GradientPrecision = Evaluation<GradientReal>;
 using LeafValue = HighPrecision::LeafValue;
 
 extern template class Evaluation<ScaledReal>;
 extern template class Evaluation<MovingReal>;
 extern template class Evaluation<SlopeReal>;
+extern template class Evaluation<GradientReal>;
 
 inline double to_double(const ScaledReal& value) { return static_cast<double>(value); }
 

@@ -2,13 +2,16 @@
 
 #include <cln/cln.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
 namespace jourdain::ir {
 
-std::size_t Builder::Hash::operator()(const Node& node) const {
+namespace {
+
+std::size_t hash(const Node& node) {
   std::size_t h = static_cast<std::size_t>(node.op);
   const auto mix = [&h](std::size_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull + (h >> 29); };
   mix(static_cast<std::size_t>(node.leaf) + 31 * node.index);
@@ -16,10 +19,8 @@ std::size_t Builder::Hash::operator()(const Node& node) const {
   mix(std::hash<double>{}(node.tail[0]));
   mix(node.a.value);
   mix(node.b.value);
-  return h;
+  return h ^ (h >> 32);
 }
-
-namespace {
 
 /// A literal with the other sign; zero has none.
 Node negated(Node literal) {
@@ -31,13 +32,26 @@ Node negated(Node literal) {
 
 }  // namespace
 
-ValueId Builder::intern(const Node& node) {
-  const auto [it, is_new] = known_.try_emplace(node, ValueId(program_.nodes.size()));
-  if (is_new) {
-    program_.nodes.push_back(node);
-    program_.labels.emplace_back();
+void Builder::grow() {
+  constexpr std::size_t kSmallest = 256;
+  const std::size_t size = std::max(kSmallest, 2 * known_.size());
+  known_.assign(size, 0);
+  for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
+    std::size_t slot = hash(program_.nodes[i]) & (size - 1);
+    while (known_[slot] != 0) slot = (slot + 1) & (size - 1);
+    known_[slot] = static_cast<std::uint32_t>(i + 1);
   }
-  return it->second;
+}
+
+ValueId Builder::intern(const Node& node) {
+  if (2 * program_.nodes.size() >= known_.size()) grow();
+  std::size_t slot = hash(node) & (known_.size() - 1);
+  for (; known_[slot] != 0; slot = (slot + 1) & (known_.size() - 1))
+    if (program_.nodes[known_[slot] - 1] == node) return ValueId(known_[slot] - 1);
+  program_.nodes.push_back(node);
+  program_.labels.emplace_back();
+  known_[slot] = static_cast<std::uint32_t>(program_.nodes.size());
+  return ValueId(program_.nodes.size() - 1);
 }
 
 cln::cl_R Builder::literal_of(Signed a) const {

@@ -1,8 +1,9 @@
 // Building programs: equal operations get one value, trivial ones none, signs move outward.
 #pragma once
 
+#include <cstdint>
 #include <string>
-#include <unordered_map>
+#include <vector>
 
 #include "ir/program.hpp"
 
@@ -51,11 +52,11 @@ class Builder {
   cln::cl_R literal_of(Signed a) const;
   bool is_literal(Signed a) const;  ///< one that can be folded
 
-  struct Hash {
-    std::size_t operator()(const Node& node) const;
-  };
+  void grow();
+
   Program program_;
-  std::unordered_map<Node, ValueId, Hash> known_;
+  /// Hash table with open addressing: a value's index + 1, or 0; its size is a power of two.
+  std::vector<std::uint32_t> known_;
 };
 
 }  // namespace jourdain::ir

@@ -40,10 +40,11 @@ ExactMatrix mass_matrix(const LoopScene& scene, State state) {
 Closed projected(const LoopScene& scene, const State& open) {
   const LoopPlan& plan = scene.plan;
   const std::vector<std::size_t> rows = plan.solved_rows();
-  const ExactMatrix G = scene.closure.G(open)(rows, Eigen::all);
+  const dynamics::ClosureJacobian jacobian = scene.closure.jacobian(open);
+  const ExactMatrix G = to_exact(jacobian.G, scene.closure.velocity_count())(rows, Eigen::all);
   const ExactMatrix back = validate::solved(mass_matrix(scene, open), G.transpose());
   const SchurSolution schur(plan, rows, G * back, plan.closing_regularisation);
-  const ExactVector g = scene.closure.g(open)(rows);
+  const ExactVector g = to_exact(jacobian.g)(rows);
   const ExactVector change = -back * schur.solved(g);
   State moved = open;
   moved[LeafKind::kPosition] = scene.closure.displaced(open[LeafKind::kPosition], change);
@@ -67,8 +68,10 @@ Closed iterated(const LoopScene& scene, const State& open) {
   State state = open;
   for (const Block& block : plan.blocks)
     for (int i = 0; i < plan.iterations; ++i) {
-      const ExactMatrix D = scene.closure.G(state)(block.rows, block.dependents);
-      const ExactVector g = scene.closure.g(state)(block.rows);
+      const dynamics::ClosureJacobian jacobian = scene.closure.jacobian(state);
+      const ExactMatrix D =
+          to_exact(jacobian.G, scene.closure.velocity_count())(block.rows, block.dependents);
+      const ExactVector g = to_exact(jacobian.g)(block.rows);
       const ExactVector change = validate::solved(D, -g);
       ExactVector d = ExactVector::Zero(at(scene.closure.velocity_count()));
       d(block.dependents) = change;

@@ -16,12 +16,13 @@ class Evaluation {
  public:
   Evaluation(const LoopScene& scene, const ir::LeafValues<ScaledReal>& state)
       : scene_(scene), state_(state), n_(scene.closure.velocity_count()) {
+    const dynamics::ClosureJacobian jacobian = scene.closure.jacobian(state);
+    e_.G = validate::to_exact(jacobian.G, n_);
     if (scene.plan.is_reduced())
-      reduce();
+      reduce(to_exact(jacobian.g_t));
     else
       take_all();
     const dynamics::ClosureMotion motion = scene.closure.motion(state, validate::to_list(e_.z));
-    set_jacobian(motion);
     e_.g = to_exact(motion.g);
     e_.rate = to_exact(motion.rate);
     e_.gamma = to_exact(motion.gamma);
@@ -39,11 +40,6 @@ class Evaluation {
     e_.b = ExactVector::Zero(at(n_));
   }
 
-  void set_jacobian(const dynamics::ClosureMotion& motion) {
-    e_.G.resize(at(motion.G.size()), at(n_));
-    for (std::size_t r = 0; r < motion.G.size(); ++r) e_.G.row(at(r)) = to_exact(motion.G[r]).transpose();
-  }
-
   /// Solves G x = right for the dependent entries.
   ExactVector dependents(const ExactVector& right, ExactVector known) const {
     const auto& columns = scene_.closure.dependents();
@@ -54,12 +50,10 @@ class Evaluation {
     return known;
   }
 
-  void reduce() {
+  void reduce(const ExactVector& g_t) {
     const std::vector<std::size_t>& independent = scene_.plan.independent;
-    const dynamics::ClosureMotion motion = scene_.closure.motion(state_, std::vector<ScaledReal>(n_));
-    set_jacobian(motion);
     const ExactVector nothing = ExactVector::Zero(e_.G.rows());
-    e_.b = dependents(-to_exact(motion.g_t), ExactVector::Zero(at(n_)));
+    e_.b = dependents(-g_t, ExactVector::Zero(at(n_)));
     e_.B.resize(at(n_), at(independent.size()));
     for (std::size_t j = 0; j < independent.size(); ++j)
       e_.B.col(at(j)) = dependents(nothing, ExactVector::Unit(at(n_), at(independent[j])));

@@ -13,12 +13,6 @@ namespace {
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-ExactMatrix matrix(const std::vector<std::vector<ScaledReal>>& rows, std::size_t columns) {
-  ExactMatrix M(at(rows.size()), at(columns));
-  for (std::size_t r = 0; r < rows.size(); ++r) M.row(at(r)) = validate::to_exact(rows[r]).transpose();
-  return M;
-}
-
 }  // namespace
 
 ExactClosure::ExactClosure(const model::Mechanism& mechanism, const dynamics::Equations& closures,
@@ -32,6 +26,10 @@ ExactClosure::ExactClosure(const model::Mechanism& mechanism, const dynamics::Eq
       dependents_.push_back(k);
 }
 
+dynamics::ClosureJacobian ExactClosure::jacobian(const ir::LeafValues<ScaledReal>& state) const {
+  return dynamics::closure_jacobian(closures_, tangent_, velocities_, leaves_at(state));
+}
+
 dynamics::ClosureMotion ExactClosure::motion(const ir::LeafValues<ScaledReal>& state,
                                              const std::vector<ScaledReal>& z) const {
   return dynamics::closure_motion(closures_, tangent_, z, leaves_at(state));
@@ -39,10 +37,6 @@ dynamics::ClosureMotion ExactClosure::motion(const ir::LeafValues<ScaledReal>& s
 
 ExactVector ExactClosure::g(const ir::LeafValues<ScaledReal>& state) const {
   return validate::to_exact(dynamics::closure_values(closures_, leaves_at(state)));
-}
-
-ExactMatrix ExactClosure::G(const ir::LeafValues<ScaledReal>& state) const {
-  return matrix(motion(state, std::vector<ScaledReal>(velocities_)).G, velocities_);
 }
 
 std::vector<ScaledReal> ExactClosure::displaced(std::vector<ScaledReal> y, const ExactVector& d) const {
@@ -67,9 +61,10 @@ ir::LeafValues<ScaledReal> ExactClosure::closed(ir::LeafValues<ScaledReal> state
   constexpr int kSteps = 12;
   const ScaledReal enough = 1e-70;
   for (int i = 0; i < kSteps && !dependents_.empty(); ++i) {
-    const ExactVector open = g(state)(plan_.rows);
+    const dynamics::ClosureJacobian at_state = jacobian(state);
+    const ExactVector open = validate::to_exact(at_state.g)(plan_.rows);
     if (open.cwiseAbs().maxCoeff() < enough) break;
-    const ExactMatrix D = G(state)(plan_.rows, dependents_);
+    const ExactMatrix D = validate::to_exact(at_state.G, velocities_)(plan_.rows, dependents_);
     const ExactVector change = validate::solved(D, -open);
     ExactVector d = ExactVector::Zero(at(velocities_));
     d(dependents_) = change;

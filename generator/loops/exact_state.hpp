@@ -25,11 +25,12 @@ class ExactClosure {
   /// Velocities that depend on others.
   const std::vector<std::size_t>& dependents() const { return dependents_; }
 
-  /// g, G and the rest at a state of the tree with all velocities `z`.
+  /// g, G and g_t
+  dynamics::ClosureJacobian jacobian(const ir::LeafValues<ScaledReal>& state) const;
+  /// g and its rates at a state of the tree with all velocities `z`.
   dynamics::ClosureMotion motion(const ir::LeafValues<ScaledReal>& state,
                                  const std::vector<ScaledReal>& z) const;
   ExactVector g(const ir::LeafValues<ScaledReal>& state) const;
-  ExactMatrix G(const ir::LeafValues<ScaledReal>& state) const;
 
   /// The positions moved by a displacement of all velocities: q ⊗ (1, d/2), brought to unit length.
   std::vector<ScaledReal> displaced(std::vector<ScaledReal> y, const ExactVector& displacement) const;

@@ -74,6 +74,13 @@ PassRecord run(const Pass& pass, Module& module) {
 
 }  // namespace
 
+Module optimise_once(Module module, const std::vector<std::string>& switched_off) {
+  for (const Pass& pass : pipeline())
+    if (std::find(switched_off.begin(), switched_off.end(), pass.name) == switched_off.end())
+      module = pass.run(module);
+  return module;
+}
+
 Optimised optimise(Module module, const std::vector<std::string>& switched_off, const Watch& watch) {
   Optimised result;
   for (int round = 1; round <= kMostRounds; ++round) {

@@ -45,6 +45,9 @@ using Watch = std::function<void(const PassRecord&, const ir::Module&)>;
 Optimised optimise(ir::Module module, const std::vector<std::string>& switched_off = {},
                    const Watch& watch = nullptr);
 
+/// The module after one round of the pipeline: enough to compare operations of two ways to write the same.
+ir::Module optimise_once(ir::Module module, const std::vector<std::string>& switched_off = {});
+
 std::size_t arithmetic(const ir::Module& module);
 
 }  // namespace jourdain::passes

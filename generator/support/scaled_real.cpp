@@ -53,9 +53,11 @@ std::array<double, 4> split(const cln::cl_R& value) {
   std::array<double, 4> parts{};
   cln::cl_R rest = value;
   for (double& part : parts) {
+    if (cln::zerop(rest)) break;
     part = nearest_double(rest);
     if (part == 0 || !std::isfinite(part)) break;
     rest = rest - to_exact(part);
+    if (&part == parts.data() && !cln::zerop(rest)) rest = to_long(rest);  // what remains needs no fractions
   }
   return parts;
 }

@@ -51,6 +51,13 @@ ExactVector to_exact(const std::vector<ScaledReal>& values) {
   return Eigen::Map<const ExactVector>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+ExactMatrix to_exact(const std::vector<std::vector<ScaledReal>>& rows, std::size_t columns) {
+  ExactMatrix matrix(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    matrix.row(static_cast<Eigen::Index>(r)) = to_exact(rows[r]).transpose();
+  return matrix;
+}
+
 std::vector<ScaledReal> to_list(const ExactVector& values) {
   return {values.data(), values.data() + values.size()};
 }

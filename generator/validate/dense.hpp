@@ -17,6 +17,8 @@ ExactMatrix solved(ExactMatrix A, ExactMatrix B);
 support::ScaledReal determinant(ExactMatrix A);
 
 ExactVector to_exact(const std::vector<support::ScaledReal>& values);
+/// From rows of `columns` entries each.
+ExactMatrix to_exact(const std::vector<std::vector<support::ScaledReal>>& rows, std::size_t columns);
 std::vector<support::ScaledReal> to_list(const ExactVector& values);
 
 }  // namespace jourdain::validate

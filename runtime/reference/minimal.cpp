@@ -124,29 +124,46 @@ VectorX<Scalar> Reference<Scalar>::prescribed_accelerations(const State<Scalar>&
   return accelerations;
 }
 
+namespace {
+
+/// The columns of velocities that move a frame.
+template <class Scalar>
+std::vector<Eigen::Index> moving_columns(const Jacobian<Scalar>& J_t, const Jacobian<Scalar>& J_r) {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < J_t.cols(); ++k)
+    if (!(J_t.col(k).isZero(0) && J_r.col(k).isZero(0))) columns.push_back(k);
+  return columns;
+}
+
+}  // namespace
+
 /// `c` moves with the body, its reference point is the centre of mass.
 template <class Scalar>
 void Reference<Scalar>::add_body(const Body& body, const FrameMotion& c, const Forces& at,
                                  Terms<Scalar>& sum) const {
   const Scalar m = body.mass;
   const Matrix3<Scalar> R = c.R.transpose(), R_s = R.cwiseAbs();
-  const Jacobian<Scalar> J_r = R * c.J_r, J_r_s = R_s * c.J_r_scale;
-  sum.M += c.J_t.transpose() * m * c.J_t + J_r.transpose() * body.I * J_r;
-  sum.M_scale += c.J_t_scale.transpose() * m * c.J_t_scale + J_r_s.transpose() * body.I_scale * J_r_s;
+  const std::vector<Eigen::Index> columns = moving_columns<Scalar>(c.J_t_scale, c.J_r_scale);
+  const auto own = [&columns](const Jacobian<Scalar>& J) { return Jacobian<Scalar>(J(Eigen::all, columns)); };
+  const Jacobian<Scalar> J_t = own(c.J_t), J_t_s = own(c.J_t_scale);
+  const Jacobian<Scalar> J_r = R * own(c.J_r), J_r_s = R_s * own(c.J_r_scale);
+  sum.M(columns, columns) += J_t.transpose() * m * J_t + J_r.transpose() * body.I * J_r;
+  sum.M_scale(columns, columns) += J_t_s.transpose() * m * J_t_s + J_r_s.transpose() * body.I_scale * J_r_s;
 
   const Vector3<Scalar> omega = R * c.omega, omega_s = R_s * c.omega_scale;
   const Vector3<Scalar> spin = body.I * omega, spin_s = body.I_scale * omega_s;
   const Vector3<Scalar> moment = body.I * (R * c.zeta_bar) + omega.cross(spin);
   const Vector3<Scalar> moment_s =
       body.I_scale * (R_s * c.zeta_bar_scale) + cross_scale<Scalar>(omega_s, spin_s);
-  sum.k_bar -= c.J_t.transpose() * m * c.a_bar + J_r.transpose() * moment;
-  sum.k_scale += c.J_t_scale.transpose() * m * c.a_bar_scale + J_r_s.transpose() * moment_s;
+  sum.k_bar(columns) -= J_t.transpose() * m * c.a_bar + J_r.transpose() * moment;
+  sum.k_scale(columns) += J_t_s.transpose() * m * c.a_bar_scale + J_r_s.transpose() * moment_s;
 
   const Vector3<Scalar> weight = m * gravity_;
-  sum.q_bar -= c.J_t.transpose() * weight;
-  sum.q_scale += c.J_t_scale.transpose() * weight.cwiseAbs();
+  sum.q_bar(columns) -= J_t.transpose() * weight;
+  sum.q_scale(columns) += J_t_s.transpose() * weight.cwiseAbs();
 
-  const Vector3<Scalar> v = c.J_t * at.rates, v_s = c.J_t_scale * at.rates.cwiseAbs();
+  const VectorX<Scalar> rates = at.rates(columns);
+  const Vector3<Scalar> v = J_t * rates, v_s = J_t_s * rates.cwiseAbs();
   sum.kinetic_energy += (m * v.squaredNorm() + omega.dot(spin)) / 2;
   sum.kinetic_scale += (m * v_s.squaredNorm() + omega_s.dot(spin_s)) / 2;
   sum.potential_energy -= weight.dot(c.p);
