@@ -41,7 +41,7 @@ class Factoring {
     }
     for (const ir::Output& output : program_.outputs)
       builder_.output(output.name, output.row, output.column, copy_[output.value.value]);
-    return remove_dead_code(builder_.finish(program_.name));
+    return without_unused(builder_.finish(program_.name));
   }
 
  private:
