@@ -270,6 +270,9 @@ void add_report(CLI::App& app, int& status) {
                    "s of work for each costly part, on a nominal machine: work is counted, not timed")
       ->check(CLI::Range(0.1, 1e5))
       ->capture_default_str();
+  command->add_flag("--hold-inputs", arguments->study.hold_inputs,
+                    "steps get inputs as numbers, those of their begin; default: a function of time, sampled "
+                    "at the stages");
   command->add_flag("!--no-forms", arguments->study.forms,
                     "leave out the comparison with equations of the first kind");
   command->add_flag("!--no-plots", arguments->plots, "leave out plots and the page, which need gnuplot");

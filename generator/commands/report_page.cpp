@@ -188,7 +188,7 @@ std::string errors_table(const jourdain_model_table& table, const Study& study) 
     text += fmt::format("</tr>\n<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
                         table.methods[m].name, table.methods[m].order,
                         order ? fmt::format("{:.2f}", *order) : "-", table.methods[m].operations,
-                        studies::time_text(study.work.step_times[m].median));
+                        studies::time_text(study.work.step_times[m].least));
     for (const WorkPoint& p : study.work.points)
       if (p.method == m)
         text += fmt::format("<td{}>{}</td>", p.pareto ? " class=\"pareto\"" : "",

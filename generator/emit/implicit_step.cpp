@@ -218,9 +218,12 @@ long combination_operations(const std::vector<double>& factors, double scale, st
   return operations + std::max(0L, terms - 1);
 }
 
-/// "base + combination", "base − …".
+/// "base + combination", "base − …". Several increments are added to each other first: rounding at the size of the base is the
+/// largest there is.
 std::string plus(const std::string& base, const std::string& terms) {
   if (terms.empty()) return base;
+  if (terms.find(" + ") != std::string::npos || terms.find(" - ") != std::string::npos)
+    return fmt::format("{} + ({})", base, terms);
   return terms[0] == '-' ? base + " - " + terms.substr(1) : base + " + " + terms;
 }
 

@@ -16,6 +16,10 @@ namespace {
 /// of their own.
 constexpr long double kNothing = 1e-30L;
 
+/// How much more than the largest scale of the oracle's numbers rounding may count by where the program's own way to one is less
+/// stable than the oracle's: multipliers of rows that are all but redundant.
+constexpr long double kLessStable = 1e4L;
+
 /// |a − b| over the larger scale; 0 where both are no numbers, infinite where one is or nothing bounds the rounding.
 double apart(const ScaledReal& a, const ScaledReal& b, long double floor) {
   if (a.is_number() != b.is_number()) return INFINITY;
@@ -23,6 +27,14 @@ double apart(const ScaledReal& a, const ScaledReal& b, long double floor) {
   const long double scale = std::max({a.scale(), b.scale(), floor});
   const auto difference = static_cast<long double>(abs(a - b));
   return std::isfinite(scale) && scale > 0 ? static_cast<double>(difference / scale) : INFINITY;
+}
+
+/// Of numbers that are computed together.
+long double largest_scale(const std::vector<ScaledReal>& numbers) {
+  long double largest = 0;
+  for (const ScaledReal& number : numbers)
+    if (isfinite(number)) largest = std::max(largest, number.scale());
+  return largest;
 }
 
 }  // namespace
@@ -50,10 +62,7 @@ void Agreement::same(const std::string& function, const std::string& oracle,
   c.numbers += values.size();
   std::size_t worst = 0;
   double most = 0;
-  long double floor = 0;
-  for (const std::vector<ScaledReal>* list : {&values, &expected})
-    for (const ScaledReal& number : *list)
-      if (isfinite(number)) floor = std::max(floor, kNothing * number.scale());
+  const long double floor = kNothing * std::max(largest_scale(values), largest_scale(expected));
   for (std::size_t i = 0; i < values.size(); ++i)
     if (const double d = apart(values[i], expected[i], floor); d > most) {
       most = d;
@@ -69,12 +78,16 @@ void Agreement::same(const std::string& function, const std::string& oracle,
 void Agreement::rounded(const std::string& function, const std::string& oracle,
                         const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& exact,
                         const std::vector<ScaledReal>& expected, std::size_t depth) {
-  const double limit =
-      kRoundingSlack * static_cast<double>(1 + depth) * std::numeric_limits<double>::epsilon() / 2;
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  const double limit = kRoundingSlack * static_cast<double>(1 + depth) * kUnit;
+  const long double largest = largest_scale(expected);
+  // What rounding does to second order where it does nothing to first: a product of two zeros.
+  const long double floor = std::max<long double>(kUnit * largest, std::numeric_limits<double>::min());
   Compared& c = record(function, oracle);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!exact[i].is_number() && !values[i].is_number()) continue;
-    const long double scale = std::max<long double>(expected[i].scale(), std::numeric_limits<double>::min());
+    const long double own = std::min(exact[i].scale(), kLessStable * largest);
+    const long double scale = std::max({expected[i].scale(), own, floor});
     const auto difference = static_cast<long double>(abs(values[i] - exact[i]));
     const double error =
         values[i].is_number() == exact[i].is_number() ? static_cast<double>(difference / scale) : INFINITY;

@@ -36,7 +36,7 @@ class Agreement {
   void same(const std::string& function, const std::string& oracle, const std::vector<ScaledReal>& values,
             const std::vector<ScaledReal>& expected);
   /// Errors of `values`, computed in double by a program of this depth, against the exact ones. Scales are those of `expected`: of
-  /// another way to compute the same, `oracle`.
+  /// another way to compute the same, `oracle`; the program's own, `exact`, count up to 1e4 times the largest of those.
   void rounded(const std::string& function, const std::string& oracle, const std::vector<ScaledReal>& values,
                const std::vector<ScaledReal>& exact, const std::vector<ScaledReal>& expected,
                std::size_t depth);

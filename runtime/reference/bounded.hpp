@@ -36,13 +36,13 @@ struct Bounded {
   }
   friend Bounded sin(const Bounded& a) {
     using std::sin;
-    const Scalar value = sin(a.value);
-    return {value, size(value) + a.scale};
+    const Scalar sine = sin(a.value);
+    return {sine, size(sine) + a.scale};
   }
   friend Bounded cos(const Bounded& a) {
     using std::cos;
-    const Scalar value = cos(a.value);
-    return {value, size(value) + a.scale};
+    const Scalar cosine = cos(a.value);
+    return {cosine, size(cosine) + a.scale};
   }
 
  private:

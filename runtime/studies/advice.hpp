@@ -18,14 +18,16 @@ struct Question {
 struct Advice {
   std::size_t method = 0;
   double h = 0;
-  ErrorNorms error;        ///< largest along the way, of the run that confirms it
+  ErrorNorms error;  ///< largest along the way, of the run that confirms it
+  std::optional<ErrorNorms>
+      error_held;          ///< of the same with each step's inputs held from its begin; none where that fails
   double run_time = 0;     ///< s per simulated second, measured with it
   double step_time = 0;    ///< s
   bool confirmed = false;  ///< error within the tolerance, run time within the budget
 };
 
 /// Nothing where no point of the study answers the question. Within a tolerance the step is then made as long as the
-/// tolerance allows, by whole numbers of steps per sampling interval, each length tried.
+/// tolerance allows, each length tried: whole numbers of steps make a sampling interval, or the whole time.
 std::optional<Advice> advise(const Question& question, const WorkPrecision& study, const Flow<double>& flow,
                              double sampling, const ReferenceSolution& reference,
                              const std::vector<double>& held_inputs);

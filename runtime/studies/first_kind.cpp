@@ -249,6 +249,7 @@ std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std:
     double spent = 0;
     const double step_time = form_step_time(curves[c], nb);
     for (const double h : steps) {
+      if (h > 1.001 * sampling) continue;
       const double expected = step_time * sampling / h * static_cast<double>(exact.size() - 1);
       const bool any = std::any_of(curves[c].points.begin(), curves[c].points.end(),
                                    [](const FormPoint& point) { return point.finite; });

@@ -106,9 +106,17 @@ void Flow<Real>::step(const jourdain_method& method, Point<Real>& point, double 
   std::vector<double> time = to_parts<Real>(std::span(&point.t, 1)), state = to_parts<Real>(point.x);
   const Real length(h);
   const std::vector<double> h_parts = to_parts<Real>(std::span(&length, 1));
-  const jourdain_inputs inputs{nullptr, sample<Real>, const_cast<Inputs*>(&inputs_)};
-  method.steps(time.data(), state.data(), state.data() + position_count() * kParts<Real>, &inputs,
-               h_parts.data(), count, memory.data());
+  double* const z = state.data() + position_count() * kParts<Real>;
+  if (held_) {
+    for (long i = 0; i < count; ++i) {
+      const std::vector<double> u = to_parts<Real>(inputs_.at(number_at<Real>(time.data())));
+      const jourdain_inputs inputs{u.data(), nullptr, nullptr};
+      method.steps(time.data(), state.data(), z, &inputs, h_parts.data(), 1, memory.data());
+    }
+  } else {
+    const jourdain_inputs inputs{nullptr, sample<Real>, const_cast<Inputs*>(&inputs_)};
+    method.steps(time.data(), state.data(), z, &inputs, h_parts.data(), count, memory.data());
+  }
   point = {number_at<Real>(time.data()), from_parts<Real>(state)};
 }
 

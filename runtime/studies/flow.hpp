@@ -62,6 +62,8 @@ class Flow {
   /// unit length in this number type, and its loops are closed, if they can be from there.
   Point<Real> start() const;
   void set_start(const std::vector<double>& x) { start_ = x; }
+  /// From now on steps get inputs as numbers, those of their begin, and hold them.
+  void hold_inputs() { held_ = true; }
   /// f(t, x).
   std::vector<Real> rates(const Real& t, const std::vector<Real>& x) const;
   /// An empty memory for `method`.
@@ -69,7 +71,7 @@ class Flow {
   /// A memory that holds the rates at `earlier` points, newest first; as many as `method` remembers. A fresh one for methods that
   /// remember no rates.
   Memory memory_of(const jourdain_method& method, const std::vector<Point<Real>>& earlier) const;
-  /// `count` steps of length h; inputs are sampled at the stages.
+  /// `count` steps of length h; inputs are sampled at the stages, unless they are held.
   void step(const jourdain_method& method, Point<Real>& point, double h, long count, Memory& memory) const;
   /// Kinetic and potential energy together, J.
   double energy(const Point<Real>& point) const;
@@ -89,6 +91,7 @@ class Flow {
   const jourdain_model_table& table_;
   const Inputs& inputs_;
   std::vector<double> start_;  ///< empty: the description's
+  bool held_ = false;
 };
 
 /// Generalized forces (N m, N) that are missing for `zdot` at zero inputs.

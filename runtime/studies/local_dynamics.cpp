@@ -27,40 +27,95 @@ MatrixXd kept(const MatrixXd& rates, const LocalCoordinates& coordinates) {
   return result;
 }
 
-/// ln det Bᵀ M B, M from inverse dynamics, whose differences in ż are its columns, B the velocities by local coordinates; 0
-/// where there is none.
-double log_inertia(const Flow<double>& flow, const Local& local) {
-  if (!flow.table().inverse_dynamics) return 0;
-  const Point<double>& point = *local.point;
+/// M a, M from inverse dynamics, whose differences in ż are its columns; a where the table has none.
+VectorXd mass_times(const Flow<double>& flow, const Point<double>& point, const VectorXd& a) {
+  if (!flow.table().inverse_dynamics) return a;
   const auto split = point.x.begin() + static_cast<std::ptrdiff_t>(flow.position_count());
   const std::vector<double> y(point.x.begin(), split), z(split, point.x.end());
-  const auto n = static_cast<Index>(z.size());
-  MatrixXd M(n, n);
   const auto forces = [&](const std::vector<double>& zdot) {
-    return inverse_dynamics<double>(flow.table(), point.t, y, z, zdot);
+    const std::vector<double> list = inverse_dynamics<double>(flow.table(), point.t, y, z, zdot);
+    return VectorXd(Eigen::Map<const VectorXd>(list.data(), static_cast<Index>(list.size())));
   };
-  const std::vector<double> none = forces(std::vector<double>(z.size()));
-  for (Index i = 0; i < n; ++i) {
-    std::vector<double> unit(z.size());
-    unit[std::size_t(i)] = 1;
-    const std::vector<double> column = forces(unit);
-    for (Index k = 0; k < n; ++k) M(k, i) = column[std::size_t(k)] - none[std::size_t(k)];
-  }
-  const MatrixXd B = local.coordinates.embedding.bottomRightCorner(
-      n, static_cast<Index>(local.coordinates.velocities.size()));
-  return std::log(std::fabs((B.transpose() * M * B).determinant()));
+  return forces({a.begin(), a.end()}) - forces(std::vector<double>(z.size()));
 }
 
-/// Mean rate (1/s) at which volumes in phase space shrink. In (y, z) a volume changes with det M too, which damps nothing.
-double shrinking(const Flow<double>& flow, const std::vector<Local>& locals) {
-  if (locals.size() < 2) return -locals.front().A.trace();
-  double traces = 0;
-  for (std::size_t k = 1; k < locals.size(); ++k)
-    traces +=
-        (locals[k].point->t - locals[k - 1].point->t) * (locals[k].A.trace() + locals[k - 1].A.trace()) / 2;
-  const Point<double>&first = *locals.front().point, &last = *locals.back().point;
-  return -(traces + log_inertia(flow, locals.back()) - log_inertia(flow, locals.front())) /
-         (last.t - first.t);
+/// ln det Bᵀ M B, B the velocities by local coordinates.
+double log_inertia(const Flow<double>& flow, const Point<double>& point,
+                   const LocalCoordinates& coordinates) {
+  const auto n = static_cast<Index>(coordinates.velocities.size());
+  const MatrixXd B = coordinates.embedding.bottomRightCorner(coordinates.embedding.rows() / 2, n);
+  MatrixXd MB(B.rows(), n);
+  for (Index i = 0; i < n; ++i) MB.col(i) = mass_times(flow, point, B.col(i));
+  return std::log(std::fabs((B.transpose() * MB).determinant()));
+}
+
+/// Rate (1/s) at which volumes in phase space shrink, of coordinates and momenta: in (y, z) a volume changes with det Bᵀ M B too,
+/// which damps nothing.
+double shrinking(const Flow<double>& flow, const Local& local, const model::Tangent& tangent) {
+  const std::size_t positions = flow.position_count();
+  double speed = 0;
+  for (std::size_t i = positions; i < flow.size(); ++i) speed = std::max(speed, std::fabs(local.point->x[i]));
+  if (speed == 0) return -local.A.trace();
+  const double time = std::cbrt(flow.table().unit_roundoff) / speed;
+  const auto after = [&](double dt) {
+    Point<double> moved = *local.point;
+    for (std::size_t i = positions; i < flow.size(); ++i)
+      moved = moved_along(moved, tangent, i - positions, dt * local.point->x[i]);
+    moved = flow.closed(std::move(moved));
+    const LocalCoordinates there = local_coordinates(flow, moved, tangent);
+    return log_inertia(flow, moved,
+                       there.velocities == local.coordinates.velocities ? there : local.coordinates);
+  };
+  return -local.A.trace() - (after(time) - after(-time)) / (2 * time);
+}
+
+/// Do volumes in phase space shrink in the mean, beyond what differences see?
+bool damps(const Flow<double>& flow, const std::vector<Local>& locals, const model::Tangent& tangent) {
+  const double seen = 100 * std::pow(flow.table().unit_roundoff, 2.0 / 3);
+  double sum = 0, fastest = 0;
+  for (const Local& local : locals) {
+    sum += shrinking(flow, local, tangent);
+    fastest = std::max(fastest, fastest_of(local.modes));
+  }
+  return sum / static_cast<double>(locals.size()) > seen * fastest;
+}
+
+/// Oscillating modes (Im µ > 0), by |µ|.
+std::vector<Index> oscillations_of(const Modes& modes) {
+  std::vector<Index> list;
+  for (Index i = 0; i < modes.values.size(); ++i)
+    if (modes.values[i].imag() > 0) list.push_back(i);
+  std::stable_sort(list.begin(), list.end(),
+                   [&](Index a, Index b) { return std::abs(modes.values[a]) < std::abs(modes.values[b]); });
+  return list;
+}
+
+/// Frozen eigenvalues wander off to both sides as the scene moves. Each oscillation gets the mean damping ratio −Re µ/|µ| of
+/// those of its rank by |µ| along the way, where there are as many everywhere; none where that is little beside what they wander.
+void average_damping(std::vector<Local>& locals) {
+  std::vector<std::vector<Index>> ranked;
+  for (const Local& local : locals) ranked.push_back(oscillations_of(local.modes));
+  for (const std::vector<Index>& list : ranked)
+    if (list.size() != ranked.front().size()) return;
+  for (std::size_t rank = 0; rank < ranked.front().size(); ++rank) {
+    constexpr double kOfWandering = 0.1;
+    double mean = 0, least = INFINITY, most = -INFINITY;
+    for (std::size_t k = 0; k < locals.size(); ++k) {
+      const Complex mu = locals[k].modes.values[ranked[k][rank]];
+      const double ratio = mu.real() / std::abs(mu);
+      mean += ratio / static_cast<double>(locals.size());
+      least = std::min(least, ratio);
+      most = std::max(most, ratio);
+    }
+    if (std::fabs(mean) < kOfWandering * (most - least)) mean = 0;
+    for (std::size_t k = 0; k < locals.size(); ++k) {
+      const Index i = ranked[k][rank];
+      const Complex mu = locals[k].modes.values[i];
+      const Complex judged(mean * std::abs(mu), std::sqrt(1 - mean * mean) * std::abs(mu));
+      locals[k].judged[i] = judged;
+      locals[k].judged[index_of(std::conj(mu), locals[k].modes)] = std::conj(judged);
+    }
+  }
 }
 
 }  // namespace
@@ -75,45 +130,38 @@ std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& 
     LocalCoordinates coordinates = local_coordinates(flow, point, tangent);
     const MatrixXd A = kept(linearisation(flow, point, tangent) * coordinates.embedding, coordinates);
     if (!A.allFinite() || A.size() == 0) continue;
-    locals.push_back({&point, std::move(coordinates), A, modes_of(A)});
+    const Modes modes = modes_of(A);
+    locals.push_back({&point, std::move(coordinates), A, modes, modes.values});
   }
+  if (!locals.empty()) average_damping(locals);
   return locals;
 }
 
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,
-                     const std::vector<Local>& locals, bool conserves_energy) {
-  Scene scene{trajectory_rate(flow, reference), reference.points.back().t - reference.points.front().t,
-              flow.table().unit_roundoff, false};
-  scene.damps = !conserves_energy && shrinking(flow, locals) > kDampingScene * scene.rate;
-  return scene;
+                     const std::vector<Local>& locals, const model::Tangent& tangent, bool conserves_energy) {
+  return {trajectory_rate(flow, reference, tangent), reference.points.back().t - reference.points.front().t,
+          flow.table().unit_roundoff, !conserves_energy && damps(flow, locals, tangent)};
 }
 
-double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference) {
+double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference,
+                       const model::Tangent& tangent) {
   constexpr std::size_t kMost = 2000;
-  constexpr double kStill = 1e-9;  // deviation of an entry, over 1 + |x|, that is no motion
   const std::size_t stride = 1 + reference.points.size() / kMost;
-  const auto n = static_cast<Index>(flow.size());
-  VectorXd sum = VectorXd::Zero(n), squares = sum, rate_squares = sum;
-  const auto as_vector = [n](const std::vector<double>& x) {
-    return Eigen::Map<const VectorXd>(x.data(), n);
-  };
-  const VectorXd first = as_vector(reference.points.front().x);  // taken off, so that squares lose no digits
-  double count = 0;
+  const auto n = static_cast<Index>(flow.size() - flow.position_count());
+  double motion = 0, change = 0, turning = 0, count = 0;
   for (std::size_t k = 0; k < reference.points.size(); k += stride, ++count) {
     const Point<double>& point = reference.points[k];
-    const VectorXd x = as_vector(point.x) - first;
-    sum += x;
-    squares += x.cwiseAbs2();
-    rate_squares += as_vector(flow.rates(point.t, point.x)).cwiseAbs2();
+    const std::vector<double> rates = flow.rates(point.t, point.x);
+    const VectorXd z = Eigen::Map<const VectorXd>(point.x.data() + flow.position_count(), n),
+                   zdot = Eigen::Map<const VectorXd>(rates.data() + flow.position_count(), n);
+    motion += z.dot(mass_times(flow, point, z));
+    change += zdot.dot(mass_times(flow, point, zdot));
+    for (const model::Tangent::Scalar& s : tangent.quaternions)
+      turning = std::max(turning, z.segment(static_cast<Index>(s.velocity), 3).norm() / 2);
   }
-  const double duration = reference.points.back().t - reference.points.front().t;
-  double rate = 1 / duration;
-  for (Index i = 0; i < n; ++i) {
-    const double deviation = std::sqrt(std::max(0.0, squares[i] / count - std::pow(sum[i] / count, 2)));
-    if (deviation > kStill * (1 + std::fabs(first[i])))
-      rate = std::max(rate, std::sqrt(rate_squares[i] / count) / deviation);
-  }
-  return rate;
+  const double slowest = 1 / (reference.points.back().t - reference.points.front().t);
+  const double rate = motion > 0 ? std::sqrt(std::max(0.0, change) / motion) : 0;
+  return std::max({slowest, turning, rate});
 }
 
 const Local& local_at(const std::vector<Local>& locals, double time) {

@@ -17,6 +17,8 @@ struct Local {
   LocalCoordinates coordinates;
   Eigen::MatrixXd A;  ///< in those coordinates
   Modes modes;
+  Eigen::VectorXcd
+      judged;  ///< the modes' values, 1/s, oscillations with their mean damping along the trajectory
 };
 
 /// What modes are compared with.
@@ -24,7 +26,7 @@ struct Scene {
   double rate = 0;      ///< 1/s; trajectory_rate
   double duration = 0;  ///< s
   double roundoff = 0;  ///< of the number type
-  bool damps = false;   ///< volumes in phase space shrink
+  bool damps = false;   ///< volumes in phase space shrink, of coordinates and momenta
 };
 
 /// At evenly spaced points of the reference, in time.
@@ -33,10 +35,12 @@ std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& 
 
 /// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing.
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,
-                     const std::vector<Local>& locals, bool conserves_energy);
+                     const std::vector<Local>& locals, const model::Tangent& tangent, bool conserves_energy);
 
-/// Largest rms rate of an entry over its rms deviation from the mean, 1/s; at least one over the duration.
-double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference);
+/// rms(ż) over rms(z) along the trajectory, weighed by M, 1/s: a stiff coordinate that vibrates or settles counts with the little
+/// energy that it has. At least half the largest rate at which a quaternion turns, and one over the duration.
+double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference,
+                       const model::Tangent& tangent);
 
 /// The one nearest in time, s.
 const Local& local_at(const std::vector<Local>& locals, double time);

@@ -10,11 +10,16 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-constexpr double kUndamped = 1e-3;  ///< |Re µ| over |µ| up to which a mode neither decays nor grows
+constexpr double kUndamped = 1e-9;  ///< |Re µ| over |µ| that differences do not see
 constexpr double kResolved = 0.5;   ///< |hµ| of steps that follow a mode well
 constexpr double kGrowthMissed =
     0.05;                      ///< share of |µ| by which a growing mode may grow faster than it should
 constexpr double kStiff = 10;  ///< a mode faster, and a limit shorter, than the trajectory's own by this
+
+bool is_fast(Complex mu, const Scene& scene) {
+  constexpr double kAbove = 3;  // an oscillation has the rate that it would have as the motion
+  return std::abs(mu) > kAbove * scene.rate;
+}
 
 /// Methods that let every undamped mode grow get the h up to which one grows e-fold over the whole trajectory: that is what
 /// competes with the limits of damped modes.
@@ -38,8 +43,8 @@ MethodLimit limit_by_modes(const StabilityFunction& function, const Local& local
   const Scene judged = {scene.rate, fast ? scene.duration : INFINITY, scene.roundoff, scene.damps};
   MethodLimit result;
   result.h = INFINITY;
-  for (const Complex mu : local.modes.values) {
-    const bool above = std::abs(mu) > scene.rate;
+  for (const Complex mu : local.judged) {
+    const bool above = is_fast(mu, scene);
     if (mu.imag() < 0 || above != fast || negligible(mu, local.modes, scene)) continue;
     const ModeKind kind = kind_of(mu, scene);
     const double h = limit_of_mode(function, mu, kind, judged);
@@ -62,7 +67,7 @@ MethodLimit limit_by_system(const StabilityFunction& function, const Local& loca
   result.time = local.point->t;
   result.kind = kind_of(result.mode, scene);
   if (result.kind == ModeKind::kUndamped && result.h * std::abs(result.mode) < kResolved) result.h = 0;
-  result.fast = std::abs(result.mode) > scene.rate;
+  result.fast = is_fast(result.mode, scene);
   return result;
 }
 

@@ -1,13 +1,12 @@
 // The largest stable step of each method at each time, from the modes of the linearisation.
 //
-// A mode counts as *damped* where −Re µ > 10⁻³ |µ|, as *growing* where Re µ > 10⁻³ |µ|, else as *undamped*. Frozen
-// eigenvalues of a scene that damps nothing wander off the imaginary axis as it moves; whether a scene damps is
-// therefore asked of the rate at which volumes in phase space shrink, −tr A − d(ln det M)/dt, in the mean along the
-// trajectory. Where that is below a hundredth of the trajectory's own rate, or energy is conserved, every mode that
-// rather oscillates counts as undamped. *Fast* modes, |µ| above the trajectory's own rate, are those that a method
-// need not follow but has to survive: they decide; slow ones only where no fast one has a limit. A method that lets
-// every undamped mode grow has no stable step ("none: undamped mode") unless a damped mode asks for a step so short
-// that undamped ones grow less than e-fold over the trajectory.
+// Frozen eigenvalues wander off to both sides of what they are in the mean as a scene moves: oscillations are judged with their mean
+// damping ratio along the trajectory, none where that is less than a tenth of what they wander. A mode counts as *damped* or *growing*
+// by its sign, as *undamped* without damping. In a scene that damps nothing (energy is conserved, or volumes in the phase space of coordinates and momenta
+// do not shrink) every mode that rather oscillates is undamped. *Fast* modes, |µ| above three times the trajectory's own rate, are those that a
+// method need not follow but has to survive: they decide; slow ones only where no fast one has a limit. A method that lets every
+// undamped mode grow has no stable step ("none: undamped mode") unless a damped mode asks for a step so short that undamped ones
+// grow less than e-fold over the trajectory.
 #pragma once
 
 #include <complex>
@@ -37,9 +36,11 @@ struct MethodLimit {
   double time = 0;            ///< s; where that is
   std::complex<double> mode;  ///< that decides, 1/s; the fastest where the whole system decides
   ModeKind kind = ModeKind::kDamped;
-  bool fast = false;                      ///< `mode` is above the trajectory's own rate
+  bool fast = false;                      ///< see above
   bool implicit = false;                  ///< the method is linearly implicit and L-stable: h is infinite
   std::optional<ObservedLimit> observed;  ///< none where nothing is predicted or runs show no limit near it
+  std::optional<double>
+      stable_until;  ///< implicit: longest h tried (s), at which the run held, as at shorter ones
 };
 
 ModeKind kind_of(std::complex<double> mu, const Scene& scene);

@@ -14,19 +14,36 @@ namespace {
 
 constexpr double kTolerance = 1e-23, kLooserTolerance = 1e-20;
 constexpr double kCvodeTolerance = 1e-13, kLooserCvodeTolerance = 1e-12;
+constexpr std::size_t kFewestSamples = 4;
 constexpr long kMostEvaluations = 50000000;     ///< where the user insists
 constexpr double kEvaluationsPerInterval = 45;  ///< of extrapolation to kTolerance, about
 
-/// Largest difference of an entry, over 1 + |x|; `a` has `stride` points for one of `b`.
+/// Largest difference of an entry, over 1 + |x|.
+template <class Real>
+double difference(const Point<Real>& a, const Point<Real>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < b.x.size(); ++i)
+    largest = std::max(largest, std::fabs(double(a.x[i] - b.x[i])) / (1 + std::fabs(double(a.x[i]))));
+  return largest;
+}
+
+/// The same over whole solutions; `a` has `stride` points for one of `b`.
 template <class Real>
 double difference(const std::vector<Point<Real>>& a, const std::vector<Point<Real>>& b, std::size_t stride) {
   double largest = 0;
-  for (std::size_t k = 0; k < b.size(); ++k)
-    for (std::size_t i = 0; i < b[k].x.size(); ++i) {
-      const Real& value = a[k * stride].x[i];
-      largest = std::max(largest, std::fabs(double(value - b[k].x[i])) / (1 + std::fabs(double(value))));
-    }
+  for (std::size_t k = 0; k < b.size(); ++k) largest = std::max(largest, difference(a[k * stride], b[k]));
   return largest;
+}
+
+/// How many samples two solutions have together before they part; `a` and `b` have so many points for a sample.
+template <class Real>
+std::size_t samples_together(const std::vector<Point<Real>>& a, std::size_t of_a,
+                             const std::vector<Point<Real>>& b, std::size_t of_b) {
+  std::size_t samples = 0;
+  while ((samples + 1) * of_b < b.size() &&
+         difference(a[(samples + 1) * of_a], b[(samples + 1) * of_b]) < kParted)
+    ++samples;
+  return samples;
 }
 
 /// Largest residuals of the loops.
@@ -54,13 +71,18 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
   ExtrapolationOptions options{.tolerance = kLooserTolerance};
   options.evaluation_limit = required ? kMostEvaluations : static_cast<long>(3 * seconds / evaluation);
   const int looser_level = std::max(0, level - 1);
-  const auto looser =
+  auto looser =
       extrapolated(flow, flow.start(), std::ldexp(interval, -looser_level), count << looser_level, options);
   if (!looser) return {};
   progress("reference in 50 digits", 0.3);
   options.tolerance = kTolerance;
   auto exact = extrapolated(flow, flow.start(), std::ldexp(interval, -level), fine, options);
   if (!exact) return {};
+  const std::size_t of_exact = std::size_t(1) << level, of_looser = std::size_t(1) << looser_level;
+  const std::size_t samples = samples_together(*exact, of_exact, *looser, of_looser);
+  if (samples < kFewestSamples) return {};
+  exact->resize(1 + samples * of_exact);
+  looser->resize(1 + samples * of_looser);
   ReferenceSolution solution;
   solution.method = "Gragg-Bulirsch-Stoer in 50 digits";
   solution.interval = std::ldexp(interval, -level);
@@ -76,12 +98,19 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
   return solution;
 }
 
-std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double interval, long count,
+std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double sampling, long wanted,
                                           const Progress& progress) {
+  constexpr std::size_t kFiner = 8;
+  const double interval = sampling / kFiner;
+  const long count = wanted * static_cast<long>(kFiner);
   progress("reference by CVODE", 0);
   auto points = solved_by_cvode(flow, flow.start(), interval, count, kCvodeTolerance);
-  const auto looser = solved_by_cvode(flow, flow.start(), interval, count, kLooserCvodeTolerance);
+  auto looser = solved_by_cvode(flow, flow.start(), interval, count, kLooserCvodeTolerance);
   if (!points || !looser) return {};
+  const std::size_t samples = samples_together(*points, kFiner, *looser, kFiner);
+  if (samples < kFewestSamples) return {};
+  points->resize(1 + samples * kFiner);
+  looser->resize(points->size());
   ReferenceSolution solution;
   solution.method = "CVODE (Adams) in double";
   solution.interval = interval;

@@ -35,6 +35,9 @@ std::string report_json(const ReportHead& head, const jourdain_model_table& tabl
 /// A sentence on the recommendation, or on why there is none; empty where nothing was asked.
 std::string advice_text(const jourdain_model_table& table, const Study& study);
 
+/// Does the reference end before the time asked for?
+bool is_judged_shorter(const Study& study);
+
 /// Sentences on what the numbers mean: reference, divergence, linear regime.
 std::vector<std::string> remarks(const jourdain_model_table& table, const Study& study);
 

@@ -74,7 +74,7 @@ Json methods_json(const jourdain_model_table& table, const Study& study) {
                   {"evaluations", method.evaluations},
                   {"implicit", method.implicit != 0},
                   {"operations", method.operations},
-                  {"step_time_s", time.median},
+                  {"step_time_s", time.least},
                   {"step_time_quartiles_s", {time.lower_quartile, time.upper_quartile}}};
     for (const SourceSummary& s : study.summaries)
       if (s.method == m)
@@ -142,6 +142,7 @@ Json limit_json(const jourdain_model_table& table, const MethodLimit& limit) {
   if (limit.observed)
     entry["observed"] = {
         {"step_s", limit.observed->h}, {"start_s", limit.observed->start}, {"steps", limit.observed->steps}};
+  if (limit.stable_until) entry["observed_none_up_to_s"] = *limit.stable_until;
   return entry;
 }
 
@@ -223,6 +224,8 @@ Json advice_json(const jourdain_model_table& table, const Study& study) {
   result["method"] = table.methods[a.method].name;
   result["step_s"] = a.h;
   result["largest_error"] = norms(a.error);
+  result["inputs_held"] = study.options.hold_inputs;
+  if (a.error_held) result["largest_error_with_inputs_held"] = norms(*a.error_held);
   result["step_time_s"] = a.step_time;
   result["run_time_per_simulated_second_s"] = a.run_time;
   result["confirmed"] = a.confirmed;

@@ -10,7 +10,6 @@ namespace jourdain::studies {
 
 namespace {
 
-constexpr double kApart = 10;       ///< times the trajectory's own rate: modes that see it stand still
 constexpr double kTransient = 100;  ///< growth that eigenvalues hide, worth a remark
 
 std::string instant(double t) { return t == 0 ? "0 s" : time_text(t); }
@@ -23,9 +22,33 @@ std::string kind_text(const MethodLimit& limit) {
     case ModeKind::kUndamped:
       return "undamped" + speed;
     case ModeKind::kGrowing:
-      return "growing" + speed;
+      return (limit.mode.real() < 0 ? "decaying" : "growing") + speed;
   }
   return "";
+}
+
+/// Names of the methods whose limits fulfil something.
+template <class Condition>
+std::string names_where(const jourdain_model_table& table, const Stability& stability,
+                        const Condition& condition) {
+  std::string text;
+  for (const MethodLimit& limit : stability.limits)
+    if (condition(limit)) text += (text.empty() ? "" : ", ") + std::string(table.methods[limit.method].name);
+  return text;
+}
+
+bool is_predicted(const MethodLimit& limit) { return limit.h > 0 && std::isfinite(limit.h); }
+
+std::string disagreeing_text(const jourdain_model_table& table, const Stability& stability) {
+  constexpr double kAgreement = 0.05;
+  return names_where(table, stability, [](const MethodLimit& limit) {
+    return is_predicted(limit) && limit.observed && std::fabs(limit.observed->h / limit.h - 1) > kAgreement;
+  });
+}
+
+std::string slow_text(const jourdain_model_table& table, const Stability& stability) {
+  return names_where(table, stability,
+                     [](const MethodLimit& limit) { return is_predicted(limit) && !limit.fast; });
 }
 
 std::string owners_text(const Stability& stability) {
@@ -63,6 +86,7 @@ std::string limit_text(const MethodLimit& limit) {
 }
 
 std::string observed_text(const MethodLimit& limit) {
+  if (limit.stable_until) return fmt::format("none up to {}", time_text(*limit.stable_until));
   return limit.observed ? time_text(limit.observed->h) : "-";
 }
 
@@ -82,10 +106,17 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
     list.push_back(
         "observed limits: runs from the state at that t on, velocities displaced by a millionth along the "
         "mode; -: none found");
-  if (std::abs(s.fastest) < kApart * s.rate)
+  if (std::any_of(s.limits.begin(), s.limits.end(), [](const MethodLimit& l) { return l.implicit; }))
     list.push_back(
-        "no mode is much faster than the motion: limits are those of the state at their time, and runs "
-        "move on from it");
+        "L-stable methods have no limit in linear theory; what is observed of them are runs from the start "
+        "over "
+        "the whole time");
+  const std::string apart = disagreeing_text(table, s);
+  if (!apart.empty())
+    list.push_back("NOT TO BE TRUSTED: predicted and observed limits differ by more than 5 % for " + apart);
+  const std::string slow = slow_text(table, s);
+  if (!slow.empty())
+    list.push_back("estimates only, of modes that are no faster than the motion: the limits of " + slow);
   if (s.transient_growth > kTransient)
     list.push_back(
         fmt::format("eigenvalues mislead here: at 0.9 of its limit {} lets some differences grow "
@@ -98,11 +129,11 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
 
 std::string stability_text(const jourdain_model_table& table, const Study& study) {
   if (study.stability.points.empty()) return "";
-  std::string text = fmt::format("\n  largest stable step\n  {:<24} {:>19} {:>10} {:>10} {:>24}  {}\n",
+  std::string text = fmt::format("\n  largest stable step\n  {:<24} {:>19} {:>17} {:>10} {:>24}  {}\n",
                                  "method", "predicted", "observed", "at t", "deciding mode, 1/s", "it is");
   for (const MethodLimit& limit : study.stability.limits) {
     const bool any = std::isfinite(limit.h);
-    text += fmt::format("  {:<24} {:>19} {:>10} {:>10} {:>24}  {}\n", table.methods[limit.method].name,
+    text += fmt::format("  {:<24} {:>19} {:>17} {:>10} {:>24}  {}\n", table.methods[limit.method].name,
                         limit_text(limit), observed_text(limit), any ? instant(limit.time) : "-",
                         any ? mode_text(limit.mode) : "-", judged_text(limit));
   }

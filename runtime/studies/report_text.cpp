@@ -23,23 +23,32 @@ std::string methods_table(const jourdain_model_table& table, const Study& study)
     const StepTime& time = study.work.step_times[m];
     text += fmt::format("  {:<23} {:>5} {:>8} {:>11} {:>10} {:>10.3g} {:>10.3g} {:>10.3g}\n", method.name,
                         method.order, number(study.work.orders[m]), method.evaluations, method.operations,
-                        time.median * 1e6, time.lower_quartile * 1e6, time.upper_quartile * 1e6);
+                        time.least * 1e6, time.lower_quartile * 1e6, time.upper_quartile * 1e6);
   }
   return text;
 }
 
-std::string errors_table(const jourdain_model_table& table, const Study& study) {
-  std::string text =
-      fmt::format("\n  largest position error along the way (rad, m); * on the Pareto front\n  {:<23}", "h");
-  for (const double h : study.steps) text += fmt::format(" {:>8}", time_text(h));
-  std::size_t method = static_cast<std::size_t>(-1);
-  for (const WorkPoint& point : study.work.points) {
-    if (point.method != method) text += fmt::format("\n  {:<23}", table.methods[point.method].name);
-    method = point.method;
-    text += fmt::format(" {:>7}{}", point.finite ? error(point.largest.position) : "fails",
-                        point.pareto ? '*' : ' ');
+/// Some columns of the table of errors.
+std::string errors_block(const jourdain_model_table& table, const Study& study, std::size_t first,
+                         std::size_t last) {
+  std::string text = fmt::format("  {:<23}", "h");
+  for (std::size_t i = first; i < last; ++i) text += fmt::format(" {:>8}", time_text(study.steps[i]));
+  for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
+    text += fmt::format("\n  {:<23}", table.methods[m].name);
+    for (const WorkPoint& point : study.work.points)
+      if (point.method == m && point.h <= study.steps[first] && point.h >= study.steps[last - 1])
+        text += fmt::format(" {:>7}{}", point.finite ? error(point.largest.position) : "fails",
+                            point.pareto ? '*' : ' ');
   }
   return text + "\n";
+}
+
+std::string errors_table(const jourdain_model_table& table, const Study& study) {
+  constexpr std::size_t kColumns = 9;
+  std::string text = "\n  largest position error along the way (rad, m); * on the Pareto front\n";
+  for (std::size_t first = 0; first < study.steps.size(); first += kColumns)
+    text += errors_block(table, study, first, std::min(first + kColumns, study.steps.size()));
+  return text;
 }
 
 /// One of the method's, halfway between its longest and its shortest step.
@@ -107,7 +116,7 @@ std::string forms_ratio(const jourdain_model_table& table, const Study& study) {
       if (!curve.points.empty())
         text +=
             fmt::format("{}{} {:.3g}", text.empty() ? "  a step takes, in steps of the emitted code: " : ", ",
-                        curve.form, curve.points.back().step_time / study.work.step_times[m].median);
+                        curve.form, curve.points.back().step_time / study.work.step_times[m].least);
   }
   return text.empty() ? "" : text + "\n";
 }
@@ -121,6 +130,22 @@ std::string time_text(double seconds) {
   return fmt::format("{:.4g} ns", seconds * 1e9);
 }
 
+namespace {
+
+/// What a run that holds the inputs over each step would be off by, where that is another.
+std::string inputs_text(const Study& study) {
+  const Advice& a = *study.advice;
+  if (study.options.hold_inputs) return "; inputs held over each step";
+  if (!a.error_held) return "; with inputs held over each step it FAILS";
+  if (a.error_held->position <= 1.001 * a.error.position) return "";
+  return fmt::format(
+      "; that is with inputs sampled at the stages: held over each step, position error {:.2g} "
+      "(--hold-inputs)",
+      a.error_held->position);
+}
+
+}  // namespace
+
 std::string advice_text(const jourdain_model_table& table, const Study& study) {
   const Question& question = study.options.question;
   if (!question.tolerance && !question.budget) return "";
@@ -133,16 +158,27 @@ std::string advice_text(const jourdain_model_table& table, const Study& study) {
         "within {}: no recommendation, the loops turn singular or leave what is proven of them", asked);
   if (!study.advice) return fmt::format("no method and step of this study keep within {}{}", asked, remark);
   const Advice& a = *study.advice;
+  const std::string inputs = inputs_text(study);
+  const std::string over =
+      is_judged_shorter(study) ? fmt::format(" over {} only", time_text(study.judged)) : "";
   return fmt::format(
-      "within {}: {}_step with h = {}; a run confirms it{}: position error {:.2g}, velocity error {:.2g}, {} "
+      "within {}{}: {}_step with h = {}; a run confirms it{}: position error {:.2g}, velocity error {:.2g}, "
+      "{} "
       "a step, "
-      "{:.3g} times faster than real time{}",
-      asked, table.methods[a.method].name, time_text(a.h), a.confirmed ? "" : " NOT", a.error.position,
-      a.error.velocity, time_text(a.step_time), 1 / a.run_time, remark);
+      "{:.3g} times faster than real time{}{}",
+      asked, over, table.methods[a.method].name, time_text(a.h), a.confirmed ? "" : " NOT", a.error.position,
+      a.error.velocity, time_text(a.step_time), 1 / a.run_time, inputs, remark);
 }
+
+bool is_judged_shorter(const Study& study) { return study.judged < 0.999 * study.options.duration; }
 
 std::vector<std::string> remarks(const jourdain_model_table& table, const Study& study) {
   std::vector<std::string> list;
+  if (is_judged_shorter(study))
+    list.push_back(fmt::format(
+        "NOT THE WHOLE TIME: beyond {} of {} two reference solutions part by more than {:.0e}: errors are "
+        "judged, and a step is recommended, up to there only",
+        time_text(study.judged), time_text(study.options.duration), kParted));
   if (study.untrusted_from)
     list.push_back(
         fmt::format("NOT TO BE TRUSTED from t = {} on: there the loops' closing turns singular, or a "
@@ -161,9 +197,6 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
   list.push_back(
       fmt::format("nearby trajectories separate by a factor of {:.2g} within {}, {:.2g}/s in the exponent",
                   growth, time_text(followed), study.divergence.exponent));
-  if (study.judged < study.options.duration)
-    list.push_back(fmt::format("beyond {} that factor passes {:g}: errors are judged up to there only",
-                               time_text(study.judged), kJudgedGrowth));
   double failing = INFINITY;  // shortest of the steps at which nothing works
   for (const double h : study.steps) {
     const bool works = std::any_of(study.work.points.begin(), study.work.points.end(),
@@ -173,7 +206,12 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
   }
   if (std::isfinite(failing))
     list.push_back(fmt::format("every method fails with steps of {} and longer", time_text(failing)));
-  if (study.reference.exact.empty())
+  if (study.options.hold_inputs)
+    list.push_back(
+        "steps hold the inputs of their begin; the reference has them as functions of time, and the sources "
+        "of the "
+        "error are not told apart");
+  else if (study.reference.exact.empty())
     list.push_back("no solution in 50 digits (too costly here): the sources of the error are not told apart");
   if (study.reference.error > 1e-13)
     list.push_back(fmt::format("errors below {:.0e} say nothing: the reference is no better",

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "studies/cvode.hpp"
 
 #include "studies/tangent_space.hpp"
 
@@ -13,16 +16,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Initial separation, over 1 + |x|: rounding is small beside it, the square too.
-double separation_of(const Flow<double>& flow) { return 6 * std::sqrt(flow.table().unit_roundoff); }
-
-constexpr int kDirections = 4;
-
 Eigen::Map<const VectorXd> as_vector(const std::vector<double>& x) {
   return {x.data(), static_cast<Eigen::Index>(x.size())};
 }
-
-VectorXd scale_of(const std::vector<double>& x) { return as_vector(x).cwiseAbs().array() + 1; }
 
 Point<double> displaced(const Point<double>& point, const VectorXd& direction) {
   Point<double> result = point;
@@ -41,16 +37,15 @@ struct Stage {
   MatrixXd F;
 };
 
-/// Transition matrix from `start` over `interval`.
-MatrixXd transition(const Flow<double>& flow, const Point<double>& start, double interval) {
-  constexpr double kResolved = 0.5;  // largest substep times the Jacobian's norm
-  constexpr int kMostSubsteps = 64;
+constexpr double kResolved = 0.5;  ///< largest substep times the Jacobian's norm
+constexpr int kMostSubsteps = 64;
+
+/// The variational equation and the motion, by the classical Runge-Kutta method.
+MatrixXd resolved_transition(const Flow<double>& flow, const Point<double>& start, double interval,
+                             int substeps) {
   const auto n = static_cast<Eigen::Index>(flow.size());
   Point<double> point = start;
   MatrixXd X = MatrixXd::Identity(n, n);
-  const double norm = std::sqrt(jacobian(flow, start).squaredNorm());
-  const int substeps =
-      static_cast<int>(std::clamp(std::ceil(interval * norm / kResolved), 1.0, 1.0 * kMostSubsteps));
   const double h = interval / substeps;
   const auto stage = [&](double share, const Stage& before) {
     Point<double> at = displaced(point, share * h * before.f);
@@ -66,6 +61,30 @@ MatrixXd transition(const Flow<double>& flow, const Point<double>& start, double
     point.t += h;
   }
   return X;
+}
+
+/// Exponentials of the Jacobians midway of substeps, between the two points as a straight line goes.
+MatrixXd stiff_transition(const Flow<double>& flow, const Point<double>& start, const Point<double>& end) {
+  constexpr int kSubsteps = 8;
+  const auto n = static_cast<Eigen::Index>(flow.size());
+  MatrixXd X = MatrixXd::Identity(n, n);
+  const VectorXd way = as_vector(end.x) - as_vector(start.x);
+  const double interval = end.t - start.t;
+  for (int i = 0; i < kSubsteps; ++i) {
+    const double share = (i + 0.5) / kSubsteps;
+    Point<double> middle = displaced(start, share * way);
+    middle.t = start.t + share * interval;
+    X = MatrixXd(interval / kSubsteps * jacobian(flow, middle)).exp() * X;
+  }
+  return X;
+}
+
+/// Transition matrix between two points of a motion.
+MatrixXd transition(const Flow<double>& flow, const Point<double>& start, const Point<double>& end) {
+  const double norm = std::max(jacobian(flow, start).norm(), jacobian(flow, end).norm());
+  const double substeps = std::ceil((end.t - start.t) * norm / kResolved);
+  if (!(substeps <= kMostSubsteps)) return stiff_transition(flow, start, end);
+  return resolved_transition(flow, start, end.t - start.t, std::max(1, static_cast<int>(substeps)));
 }
 
 }  // namespace
@@ -84,58 +103,52 @@ MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point, double s
   return result;
 }
 
-Divergence measure_divergence(const Flow<double>& flow, const jourdain_method& method, double h,
-                              double interval, long count) {
+Divergence measure_divergence(const Flow<double>& flow, const std::vector<Point<double>>& reference,
+                              double interval, double rate) {
+  constexpr int kDirections = 4;
+  const double tolerance = 1e3 * flow.table().unit_roundoff, length = std::sqrt(tolerance);
+  const auto n = static_cast<Eigen::Index>(flow.size()),
+             positions = static_cast<Eigen::Index>(flow.position_count());
+  VectorXd weights = VectorXd::Ones(n);
+  weights.tail(n - positions).setConstant(rate);
   std::mt19937_64 random(20261121);
   const auto uniform = [&random] { return 2 * std::ldexp(static_cast<double>(random()), -64) - 1; };
-  Point<double> base = flow.start();
-  const auto length = [&] { return separation_of(flow) * scale_of(base.x).maxCoeff(); };
+  const auto size = [&](const VectorXd& separation) { return separation.cwiseQuotient(weights).norm(); };
   std::vector<VectorXd> separations;
   std::vector<double> logarithms(kDirections, 0.0);
-  for (int d = 0; d < kDirections; ++d) {
-    VectorXd direction = VectorXd::NullaryExpr(static_cast<Eigen::Index>(flow.size()), uniform);
-    direction = direction.cwiseProduct(scale_of(base.x));
-    separations.push_back(length() * direction / direction.norm());
-  }
+  for (int d = 0; d < kDirections; ++d)
+    separations.push_back(VectorXd::NullaryExpr(n, uniform).cwiseProduct(weights));
   Divergence result{interval, {1.0}, 0};
-  const long steps = std::lround(interval / h);
-  for (long k = 0; k < count; ++k) {
-    std::vector<Point<double>> near;
-    for (VectorXd& separation : separations) {
-      near.push_back(flow.closed(displaced(base, separation)));
-      if (flow.has_loops()) separation = as_vector(near.back().x) - as_vector(base.x);
-    }
-    Memory memory = flow.fresh_memory(method);
-    flow.step(method, base, h, steps, memory);
+  const auto stride = static_cast<std::size_t>(std::lround(interval / (reference[1].t - reference[0].t)));
+  for (std::size_t k = stride; k < reference.size(); k += stride) {
     double growth = 0;
-    for (std::size_t d = 0; d < near.size(); ++d) {
-      memory = flow.fresh_memory(method);
-      flow.step(method, near[d], h, steps, memory);
-      const VectorXd separation = as_vector(near[d].x) - as_vector(base.x);
-      const double norm = separation.norm();
-      if (!std::isfinite(norm) || norm == 0) return result;
-      logarithms[d] += std::log(norm / separations[d].norm());
-      separations[d] = length() * separation / norm;
-      growth = std::max(growth, std::exp(std::min(logarithms[d], 600.0)));
+    const auto base = solved_by_cvode(flow, reference[k - stride], interval, 1, tolerance);
+    if (!base) return result;
+    for (std::size_t d = 0; d < separations.size(); ++d) {
+      const double scale = 1 + as_vector(reference[k - stride].x).lpNorm<Eigen::Infinity>();
+      const VectorXd wanted = separations[d] * (scale * length / size(separations[d]));
+      const Point<double> near = flow.closed(displaced(reference[k - stride], wanted));
+      const double before = size(as_vector(near.x) - as_vector(reference[k - stride].x));
+      const auto end = solved_by_cvode(flow, near, interval, 1, tolerance);
+      if (!end) return result;
+      separations[d] = as_vector(end->back().x) - as_vector(base->back().x);
+      const double after = size(separations[d]);
+      if (!std::isfinite(after) || after == 0) return result;
+      growth = std::max(growth, logarithms[d] + std::log(separations[d].head(positions).norm() / before));
+      logarithms[d] += std::log(after / before);
     }
-    result.growth.push_back(growth);
-    result.exponent = std::log(growth) / (static_cast<double>(k + 1) * interval);
+    constexpr double kMostShown = 600;
+    result.growth.push_back(std::exp(std::min(growth, kMostShown)));
+    result.exponent = growth / (reference[k].t - reference.front().t);
   }
   return result;
-}
-
-long intervals_until(const Divergence& divergence, double factor) {
-  const auto found = std::find_if(divergence.growth.begin(), divergence.growth.end(),
-                                  [factor](double growth) { return growth > factor; });
-  return std::max(0L, static_cast<long>(found - divergence.growth.begin()) - 1);
 }
 
 std::vector<MatrixXd> transition_matrices(const Flow<double>& flow,
                                           const std::vector<Point<double>>& points) {
   std::vector<MatrixXd> result;
   for (std::size_t k = 1; k < points.size(); ++k)
-    result.push_back(correction_jacobian(flow, points[k]) *
-                     transition(flow, points[k - 1], points[k].t - points[k - 1].t));
+    result.push_back(correction_jacobian(flow, points[k]) * transition(flow, points[k - 1], points[k]));
   return result;
 }
 

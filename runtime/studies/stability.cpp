@@ -118,6 +118,16 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
     progress("step limits", 0.5 + 0.5 * double(limit.method) / double(result.limits.size()));
     const jourdain_method& method = flow.table().methods[limit.method];
     const StabilityFunction* function = stability_function(method.name);
+    if (limit.implicit) {
+      const double share = budget.left() / static_cast<double>(result.limits.size() - limit.method);
+      Budget part(share);
+      const double duration = reference.points.back().t - reference.points.front().t;
+      const NonlinearLimit seen = observe_nonlinear_limit(flow, method, largest, duration, part);
+      limit.observed = seen.fails;
+      limit.stable_until = seen.holds;
+      budget.spend(share - part.left());
+      continue;
+    }
     if (!function || !(limit.h > 0) || !std::isfinite(limit.h) || limit.kind == ModeKind::kGrowing) continue;
     const Local& local = local_at(locals, limit.time);
     const VectorXd direction = velocities_of(limit.mode, local);
@@ -165,7 +175,7 @@ Stability study_stability(const Flow<double>& flow, const ReferenceSolution& ref
   Stability result;
   const std::vector<Local> locals = linearise(flow, reference, tangent, progress);
   if (locals.empty()) return result;
-  const Scene scene = describe_scene(flow, reference, locals, conserves_energy);
+  const Scene scene = describe_scene(flow, reference, locals, tangent, conserves_energy);
   result.rate = scene.rate;
   result.damps = scene.damps;
   for (const Local& local : locals) {

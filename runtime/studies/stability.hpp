@@ -67,11 +67,21 @@ struct LimitRuns {
 ///   largest at least), within 2000 steps at least;
 /// - damped, `stiff`: a velocity is that largest one off a run with an eighth of the step, within 2000 steps at least. Such runs
 ///   often settle on a false oscillation before they get to ten times;
-/// - damped: displaced and undisplaced run are a thousand times as far apart as those with an eighth of the step have been,
+/// - damped: displaced and undisplaced run are a hundred times as far apart as those with an eighth of the step have been,
 ///   within 500 steps at least. Neither resonance nor trajectories that part by themselves count.
 /// Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, where a million steps and the time do for
 /// that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted one, or the budget is spent.
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
                                            const LimitRuns& runs, Budget& budget);
+
+/// Of a method for which linear theory gives no limit: runs from the start over `duration` (s), with steps from an eighth of it
+/// down. One fails where a velocity is not finite or ten times the `largest` of the reference. Either the longest h that held
+/// when no run failed, or the shortest that failed, to 1 %.
+struct NonlinearLimit {
+  std::optional<ObservedLimit> fails;
+  std::optional<double> holds;  ///< s
+};
+NonlinearLimit observe_nonlinear_limit(const Flow<double>& flow, const jourdain_method& method,
+                                       const Eigen::VectorXd& largest, double duration, Budget& budget);
 
 }  // namespace jourdain::studies

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/coordinates.hpp"
+#include "studies/local_dynamics.hpp"
 #include "studies/work.hpp"
 #include "support/check.hpp"
 
@@ -15,13 +16,6 @@ constexpr long kFewestIntervals = 4;
 constexpr double kStepsForSources = 2;  ///< in 50 digits, for one step: truncation, and the run itself
 constexpr double kLinear = 0.1;    ///< share of the error by which the parts may miss it in the linear regime
 constexpr double kRegular = 1e-2;  ///< relative error above which no parts are computed
-
-std::size_t best_method(const jourdain_model_table& table) {
-  const auto* end = table.methods + table.method_count;
-  const auto* best =
-      std::max_element(table.methods, end, [](const auto& a, const auto& b) { return a.order < b.order; });
-  return static_cast<std::size_t>(best - table.methods);
-}
 
 /// Of one step of each method in 50 digits, over `duration`.
 double level_time(const jourdain_model_table& table, double h, double duration) {
@@ -44,6 +38,7 @@ std::vector<ErrorSources> study_sources(const Flow<double>& flow, const Flow<Lon
   const std::vector<Eigen::MatrixXd> transitions = transition_matrices(flow, study.reference.points);
   Budget budget(study.options.seconds);
   for (const double h : study.steps) {
+    if (h > 1.001 * study.options.longest_step) continue;
     const double ratio = h / study.reference.interval;
     if (ratio < 0.99) break;
     budget.spend(kStepsForSources * level_time(flow.table(), h, study.judged));
@@ -148,33 +143,52 @@ SourceSummary summarise(std::size_t method, const Study& study) {
   return summary;
 }
 
+/// The longer steps at which no method is right to a tenth.
+void leave_out_useless_steps(Study& study) {
+  constexpr double kUseful = 0.1;
+  const auto useful = [&](double h) {
+    return std::any_of(study.work.points.begin(), study.work.points.end(), [h](const WorkPoint& p) {
+      return p.h == h && p.finite && p.relative_largest.position < kUseful;
+    });
+  };
+  while (study.steps.front() > 1.001 * study.options.longest_step && !useful(study.steps.front())) {
+    const double h = study.steps.front();
+    study.steps.erase(study.steps.begin());
+    std::erase_if(study.work.points, [h](const WorkPoint& p) { return p.h == h; });
+  }
+  mark_pareto_front(study.work.points);
+}
+
 }  // namespace
 
 Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent,
-                const std::vector<double>& parameters, const Flow<double>& flow,
+                const std::vector<double>& parameters, const Flow<double>& given,
                 const Flow<LongReal>* long_flow, const StudyOptions& options, const Progress& progress) {
   Study study;
   study.options = options;
+  Flow<double> flow = given;
+  if (options.hold_inputs) flow.hold_inputs();
   for (int i = 0; i <= options.halvings; ++i) study.steps.push_back(std::ldexp(options.longest_step, -i));
   const double sampling = options.longest_step;
   const long wanted =
       std::max(kFewestIntervals, static_cast<long>(std::ceil(options.duration / sampling - 1e-9)));
   study.options.duration = static_cast<double>(wanted) * sampling;
 
-  progress("nearby trajectories", 0);
-  const jourdain_model_table& table = flow.table();
-  study.divergence =
-      measure_divergence(flow, table.methods[best_method(table)], study.steps.back(), sampling, wanted);
-  const long count = std::max(kFewestIntervals, intervals_until(study.divergence, kJudgedGrowth));
-  study.judged = static_cast<double>(count) * sampling;
-
   study.untrusted_from = first_untrusted(flow, study.steps.back(), study.options.duration);
-  study.reference = solve_reference(flow, long_flow, options.reference, sampling, count, options.halvings,
+  study.reference = solve_reference(flow, long_flow, options.reference, sampling, wanted, options.halvings,
                                     options.seconds, progress);
+  study.judged = study.reference.points.back().t - study.reference.points.front().t;
+  progress("nearby trajectories", 0);
+  study.divergence = measure_divergence(flow, study.reference.points, sampling,
+                                        trajectory_rate(flow, study.reference, tangent));
+  const std::vector<double> longer = longer_steps(study.reference, sampling);
+  study.steps.insert(study.steps.begin(), longer.begin(), longer.end());
   const std::vector<double> held = flow.inputs().at(0.0);
   study.work = study_work_precision(flow, study.steps, sampling, study.reference, options.conserves_energy,
                                     held, progress);
-  if (!study.reference.exact.empty() && long_flow) {
+  leave_out_useless_steps(study);
+  const bool parts = !study.reference.exact.empty() && long_flow && !options.hold_inputs;
+  if (parts) {
     study.sources = study_sources(flow, *long_flow, study, progress);
     study.roundings = study_roundings(flow, *long_flow, study, progress);
     for (std::size_t m = 0; m < study.work.step_times.size(); ++m)

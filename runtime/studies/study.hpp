@@ -24,8 +24,9 @@ struct StudyOptions {
   ReferenceKind reference = ReferenceKind::kAutomatic;
   Question question;
   bool conserves_energy = false;
-  bool forms = true;   ///< compare with equations of the first kind
-  double seconds = 8;  ///< of work for each costly part, nominal: counted, see work.hpp
+  bool hold_inputs = false;  ///< steps hold the inputs of their begin, instead of sampling them at the stages
+  bool forms = true;         ///< compare with equations of the first kind
+  double seconds = 8;        ///< of work for each costly part, nominal: counted, see work.hpp
 };
 
 /// How a method's error comes about, over the steps where the parts could be computed.
@@ -48,7 +49,7 @@ struct RoundingPoint {
 
 struct Study {
   StudyOptions options;
-  double judged = 0;  ///< s: duration, or less where nearby trajectories part
+  double judged = 0;  ///< s: duration, or less where the reference solutions part
   Divergence divergence;
   std::vector<double> steps;  ///< s, descending
   ReferenceSolution reference;
@@ -64,9 +65,6 @@ struct Study {
   /// s: when the loops' closing turns singular, or leaves what is proven, at the shortest step; then there is no advice.
   std::optional<double> untrusted_from;
 };
-
-/// Separation of nearby trajectories beyond which errors are not judged.
-inline constexpr double kJudgedGrowth = 1e5;
 
 /// `long_flow` may be null: no 50 digits then. Inputs and starts of the flows are the same. `tangent` is that of the emitted
 /// State, of the independent coordinates; `parameters` in the mechanism's order.

@@ -1,5 +1,7 @@
 #include "studies/work_precision.hpp"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +16,10 @@ constexpr int kTimingRepeats = 15;
 constexpr double kShortestBlock = 1e-3;  ///< s
 constexpr double kAgreement = 0.12;      ///< of neighbouring slopes on one straight line
 constexpr double kAboveFloor = 30;
+constexpr std::size_t kFitted = 5;      ///< points that a line is fitted to where the last slopes disagree
+constexpr double kStandardError = 0.3;  ///< of its slope
+constexpr double kAstray =
+    1e3;  ///< times the largest position of the reference: a run that far off has failed
 constexpr double kLargest = 0.1;  ///< relative error up to which slopes mean anything
 
 double largest_entry(const std::vector<Point<double>>& points, std::size_t first, std::size_t last) {
@@ -103,6 +109,7 @@ WorkPoint measure_errors(const Flow<double>& flow, std::size_t index, double h, 
   result.h = h;
   Point<double> point = flow.start();
   Memory memory = flow.fresh_memory(method);
+  const double astray = kAstray * (1 + largest_entry(reference.points, 0, positions));
   const double energy = flow.energy(point);
   double drift = 0;
   for (std::size_t k = stride; k < reference.points.size(); k += stride) {
@@ -111,6 +118,8 @@ WorkPoint measure_errors(const Flow<double>& flow, std::size_t index, double h, 
     if (!result.finite) return result;
     point.t = reference.points[k].t;
     result.end = errors_at(point.x, reference.points[k].x, positions);
+    result.finite = result.end.position < astray;
+    if (!result.finite) return result;
     widen(result.largest.position, result.end.position);
     widen(result.largest.velocity, result.end.velocity);
     if (conserves_energy) widen(drift, std::fabs(flow.energy(point) - energy));
@@ -133,9 +142,24 @@ std::vector<StepTime> measure_step_times(const jourdain_model_table& table, cons
   std::vector<StepTime> times;
   for (std::vector<double>& sample : samples) {
     std::sort(sample.begin(), sample.end());
-    times.push_back({sample[sample.size() / 2], sample[sample.size() / 4], sample[3 * sample.size() / 4]});
+    times.push_back({sample.front(), sample[sample.size() / 4], sample[sample.size() / 2],
+                     sample[3 * sample.size() / 4]});
   }
   return times;
+}
+
+std::vector<double> longer_steps(const ReferenceSolution& reference, double sampling) {
+  constexpr long kFewestSteps = 10;
+  const auto intervals = static_cast<long>(reference.points.size() - 1);
+  const double duration = reference.interval * static_cast<double>(intervals);
+  std::vector<double> steps;
+  for (double h = 2 * sampling; duration / h >= kFewestSteps; h *= 2) {
+    auto count = static_cast<long>(duration / h + 1e-9);
+    while (intervals % count != 0) --count;
+    if (count >= kFewestSteps) steps.insert(steps.begin(), duration / static_cast<double>(count));
+  }
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  return steps;
 }
 
 WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<double>& steps,
@@ -149,8 +173,9 @@ WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<d
   for (std::size_t m = 0; m < methods; ++m)
     for (std::size_t i = 0; i < steps.size(); ++i) {
       progress("errors of the methods", double(m * steps.size() + i) / double(methods * steps.size()));
-      WorkPoint point = measure_errors(flow, m, steps[i], sampling, reference, conserves_energy);
-      point.run_time = study.step_times[m].median / steps[i];
+      WorkPoint point =
+          measure_errors(flow, m, steps[i], std::max(steps[i], sampling), reference, conserves_energy);
+      point.run_time = study.step_times[m].least / steps[i];
       study.points.push_back(point);
     }
   const double floor = std::max(reference.error, smallest_error(study.points));
@@ -172,12 +197,26 @@ void mark_pareto_front(std::vector<WorkPoint>& points) {
 
 std::optional<double> measured_order(const std::vector<double>& h, const std::vector<double>& errors,
                                      double floor) {
-  std::vector<double> slopes;
-  for (std::size_t i = 0; i + 1 < h.size() && errors[i + 1] > kAboveFloor * floor; ++i)
-    slopes.push_back(std::log(errors[i] / errors[i + 1]) / std::log(h[i] / h[i + 1]));
-  for (std::size_t i = slopes.size(); i-- > 1;)
-    if (std::fabs(slopes[i] - slopes[i - 1]) < kAgreement) return 2 * slopes[i] - slopes[i - 1];
-  return {};
+  std::size_t count = 0;
+  while (count < h.size() && errors[count] > kAboveFloor * floor) ++count;
+  if (count < 3) return {};
+  const auto slope = [&](std::size_t i) {
+    return std::log(errors[i] / errors[i + 1]) / std::log(h[i] / h[i + 1]);
+  };
+  const double last = slope(count - 2), before = slope(count - 3);
+  if (std::fabs(last - before) < kAgreement) return 2 * last - before;
+  if (count < kFitted) return {};
+  Eigen::MatrixXd A(kFitted, 2);
+  Eigen::VectorXd b(kFitted);
+  for (std::size_t i = 0; i < kFitted; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    A.row(row) << std::log(h[count - kFitted + i]), 1;
+    b[row] = std::log(errors[count - kFitted + i]);
+  }
+  const Eigen::VectorXd line = A.colPivHouseholderQr().solve(b);
+  const double scatter = (A * line - b).norm() / std::sqrt(kFitted - 2.0);
+  const double range = (A.col(0).array() - A.col(0).mean()).matrix().norm();
+  return scatter / range < kStandardError ? std::optional(line[0]) : std::nullopt;
 }
 
 }  // namespace jourdain::studies

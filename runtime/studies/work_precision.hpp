@@ -10,16 +10,17 @@
 
 namespace jourdain::studies {
 
-/// Run time of one step, s: medians of interleaved repeats.
+/// Run time of one step, s, of interleaved repeats. The least is what counts: whatever else the machine does only adds.
 struct StepTime {
-  double median = 0, lower_quartile = 0, upper_quartile = 0;
+  double least = 0, lower_quartile = 0, median = 0, upper_quartile = 0;
 };
 
 /// One method and step size.
 struct WorkPoint {
   std::size_t method = 0;
-  double h = 0;                               ///< s
-  bool finite = true;                         ///< and the loops' closing was regular at every step
+  double h = 0;  ///< s
+  bool finite =
+      true;  ///< never a thousand times the reference's positions off; the loops' closing was regular at every step
   ErrorNorms end;                             ///< at the end: rad, m; rad/s, m/s
   ErrorNorms largest;                         ///< along the way
   ErrorNorms relative_end, relative_largest;  ///< over the largest entry of the reference along the way
@@ -35,8 +36,8 @@ struct WorkPrecision {
   std::vector<std::optional<double>> orders;  ///< by method: measured; none where no range of steps shows one
 };
 
-/// `step` runs `count` steps of length h and compares with the reference at every multiple of `sampling` (s), a
-/// multiple of h and of the reference's interval.
+/// Runs steps of length h and compares with the reference at every multiple of `sampling` (s), a multiple of h and of the
+/// reference's interval.
 WorkPoint measure_errors(const Flow<double>& flow, std::size_t method, double h, double sampling,
                          const ReferenceSolution& reference, bool conserves_energy);
 
@@ -45,7 +46,12 @@ WorkPoint measure_errors(const Flow<double>& flow, std::size_t method, double h,
 std::vector<StepTime> measure_step_times(const jourdain_model_table& table, const Point<double>& start,
                                          const std::vector<double>& inputs, double h);
 
-/// Points for every method and every step of `steps` (s, descending).
+/// Steps (s, descending) longer than `sampling`, 2, 4, 8, … times as long or a little more: whole numbers of them make the
+/// reference's time and whole numbers of its intervals a step. Ten steps at least.
+std::vector<double> longer_steps(const ReferenceSolution& reference, double sampling);
+
+/// Points for every method and every step of `steps` (s, descending). Errors of steps longer than `sampling` are taken after
+/// each step.
 WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<double>& steps,
                                    double sampling, const ReferenceSolution& reference, bool conserves_energy,
                                    const std::vector<double>& held_inputs, const Progress& progress);
@@ -53,8 +59,9 @@ WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<d
 /// Marks the points that no other one beats in both run time and largest position error.
 void mark_pareto_front(std::vector<WorkPoint>& points);
 
-/// Slope of log(error) over log(h), extrapolated to h = 0, from the two neighbouring slopes at the shortest steps that agree
-/// with each other and whose errors are well above `floor`. None where there are no such slopes. `h` falls by halves.
+/// Slope of log(error) over log(h) of the errors that are well above `floor`: extrapolated to h = 0 from the two slopes at the
+/// shortest steps where these agree; otherwise of a line through the last five points, where its standard error is below 0.3.
+/// `h` falls.
 std::optional<double> measured_order(const std::vector<double>& h, const std::vector<double>& errors,
                                      double floor);
 

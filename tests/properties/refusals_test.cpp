@@ -64,6 +64,13 @@ INSTANTIATE_TEST_SUITE_P(
         OnceRefused{"huge_angle", hinged("center_of_mass = [0, -1, 0]", "initial_position = 1e17")}),
     [](const auto& scene) { return scene.param.what; });
 
+TEST(Refusals, NoneOfTheSeedsThatWereRefused) {
+  const std::pair<const char*, std::uint64_t> seeds[] = {{"loops", 162}, {"linkages", 11}, {"linkages", 379}};
+  for (const ValidKind& kind : valid_kinds())
+    for (const auto& [name, seed] : seeds)
+      if (kind.name == name) EXPECT_EQ(refusal(valid_mechanism(kind, seed), seed), "") << name << " " << seed;
+}
+
 TEST(Refusals, NoneOfALoopWithAHugeMass) {
   model::Mechanism mechanism = read_model(model_path("n_four_bar.toml"));
   mechanism.bodies[1].mass = model::Expression(2.5e10);

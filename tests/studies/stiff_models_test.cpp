@@ -20,6 +20,7 @@ struct StiffCase {
   const char* parameter;
   double value, duration;
   bool conserves = false;
+  bool observes_euler = true;  ///< its deciding mode grows fast enough beyond the limit for runs to show it
 };
 
 void PrintTo(const StiffCase& c, std::ostream* out) {
@@ -42,7 +43,7 @@ TEST_P(StiffModels, DivergeAtThePredictedStepsOfEulerAndRk4) {
     fmt::print("{:<16} {} = {:<6g} {:<6} predicted {:<10} observed {:<10} mode {}\n", c.model, c.parameter,
                c.value, method, limit_text(limit),
                limit.observed ? fmt::format("{:.4g} s", limit.observed->h) : "-", mode_text(limit.mode));
-    if (limit.h > 0) judged.expect_observed(method);
+    if (limit.h > 0 && (c.observes_euler || method != std::string("euler"))) judged.expect_observed(method);
   }
   if (c.conserves) {
     EXPECT_EQ(judged.limit("euler").h, 0);
@@ -60,7 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
                       StiffCase{"elastic_arm", "k", 1e3, 1}, StiffCase{"elastic_arm", "k", 1e6, 0.1},
                       StiffCase{"elastic_arm", "k", 1e9, 3e-3}, StiffCase{"contact_wheel", "k", 1e7, 0.5},
                       StiffCase{"contact_wheel", "k", 3e7, 0.2}, StiffCase{"spring_joint", "k", 1e4, 0.5},
-                      StiffCase{"spring_joint", "k", 1e8, 0.01}, StiffCase{"bushing_chain", "k", 1e6, 0.02}));
+                      StiffCase{"spring_joint", "k", 1e8, 0.01},
+                      StiffCase{"bushing_chain", "k", 1e6, 0.02, false, false}));
 
 #endif
 
