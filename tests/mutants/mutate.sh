@@ -6,7 +6,7 @@
 #   old: text                  in exactly one line of it
 #   new: text
 #   refused: ARGUMENTS         `jourdain compile ARGUMENTS` must refuse to write: exit 70; any number of these two
-#   test: TARGET FILTER        a test of that target must fail
+#   test: TARGET FILTER        a test of that target must fail, or a model that it is built with is refused
 #
 # Every net of a fault must catch it, and none may fail without a fault.
 set -uo pipefail
@@ -33,6 +33,9 @@ copy_tree() {
     mkdir -p "$source/$(dirname "$file")"
     cp "$file" "$source/$file"
   done
+  (cd "$source" && find generator runtime templates models tests -type f) | while read -r file; do
+    [ -f "$file" ] || rm "$source/$file"  # gone here since
+  done
   (cd "$source" && cmake --preset release >/dev/null)
 }
 
@@ -52,7 +55,7 @@ net() {
       *) return 2 ;;
     esac
   fi
-  compile "$target" || return 2
+  compile "$target" || { grep -q 'error: refused to emit' "$log" && return 1; return 2; }
   local list
   list=$("$build/$target" --gtest_list_tests --gtest_filter="$filter" 2>/dev/null | grep -c '^  ')
   [ "$list" -gt 0 ] || return 2

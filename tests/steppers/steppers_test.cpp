@@ -19,39 +19,10 @@
 #include "rocking_four_bar_all/rocking_four_bar_all_kernels.hpp"
 #include "spring_four_bar_all/spring_four_bar_all_kernels.hpp"
 #include "steppers/dual.hpp"
+#include "steppers/visit_steppers.hpp"
 
 namespace jourdain::tests {
 namespace {
-
-/// Calls `visit(name, order, history, step)` for each stepper of the model's namespace, `step(state, input, h, history)`.
-#define JOURDAIN_VISIT_STEPPERS(ns, Real, visit)                                                             \
-  do {                                                                                                       \
-    int none = 0;                                                                                            \
-    ::ns::RateHistory<1, Real> one;                                                                          \
-    ::ns::RateHistory<2, Real> two;                                                                          \
-    ::ns::Accelerations<Real> accelerations;                                                                 \
-    const ::ns::Model<Real> model;                                                                           \
-    const auto simple = [&](auto step) {                                                                     \
-      return [&model, step](auto& state, const auto& input, Real h, int&) { step(model, state, input, h); }; \
-    };                                                                                                       \
-    const auto remembering = [&](auto step) {                                                                \
-      return [&model, step](auto& state, const auto& input, Real h, auto& history) {                         \
-        step(model, state, input, h, history);                                                               \
-      };                                                                                                     \
-    };                                                                                                       \
-    visit("euler", 1, simple([](auto&... a) { ::ns::euler_step(a...); }), none);                             \
-    visit("semi_implicit_euler", 1, simple([](auto&... a) { ::ns::semi_implicit_euler_step(a...); }), none); \
-    visit("heun", 2, simple([](auto&... a) { ::ns::heun_step(a...); }), none);                               \
-    visit("rk4", 4, simple([](auto&... a) { ::ns::rk4_step(a...); }), none);                                 \
-    visit("rk5", 5, simple([](auto&... a) { ::ns::rk5_step(a...); }), none);                                 \
-    visit("adams_bashforth2", 2, remembering([](auto&... a) { ::ns::adams_bashforth2_step(a...); }), one);   \
-    visit("adams_bashforth3", 3, remembering([](auto&... a) { ::ns::adams_bashforth3_step(a...); }), two);   \
-    visit("linearly_implicit_euler", 1,                                                                      \
-          remembering([](auto&... a) { ::ns::linearly_implicit_euler_step(a...); }), accelerations);         \
-    visit("ros34pw2", 3, remembering([](auto&... a) { ::ns::ros34pw2_step(a...); }), accelerations);         \
-    visit("rosw43", 4, remembering([](auto&... a) { ::ns::rosw43_step(a...); }), accelerations);             \
-    visit("rodas4", 4, remembering([](auto&... a) { ::ns::rodas4_step(a...); }), accelerations);             \
-  } while (false)
 
 /// Quotients of literals in the template, which compilers fold: the counting type cannot.
 constexpr std::size_t kQuotientsOfRk5 = 24;
