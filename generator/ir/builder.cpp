@@ -12,9 +12,9 @@ namespace jourdain::ir {
 namespace {
 
 std::size_t hash(const Node& node) {
-  std::size_t h = static_cast<std::size_t>(node.op);
+  auto h = static_cast<std::size_t>(node.op);
   const auto mix = [&h](std::size_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull + (h >> 29); };
-  mix(static_cast<std::size_t>(node.leaf) + 31 * node.index);
+  mix(static_cast<std::size_t>(node.leaf) + 31 * std::size_t(node.index));
   mix(std::hash<double>{}(node.literal));
   mix(std::hash<double>{}(node.tail[0]));
   mix(node.a.value);

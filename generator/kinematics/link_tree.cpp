@@ -36,6 +36,22 @@ MassMoments bind_moments(Statements& statements, const std::string& name, const 
 
 /// Orientation of a frame with z along the unit vector `z`: a permutation of the axes where z lies on one, otherwise
 /// x in the parent's xy plane (one entry of the matrix is zero).
+bool is_numeric(const Matrix3& A) {
+  return std::all_of(std::begin(A.rows), std::end(A.rows), [](const Vector3& row) {
+    return is_number(row[0]) && is_number(row[1]) && is_number(row[2]);
+  });
+}
+
+/// The nearest rotation to a numeric matrix that rounding has moved off one, by a step of Newton's method, A (3 − AᵀA) / 2: without it
+/// that rounding doubles from link to link. Others as they are.
+Matrix3 orthonormal(const Matrix3& A) {
+  if (!is_numeric(A)) return A;
+  Matrix3 rest = transpose(A) * A;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) rest[i][j] = ((i == j ? 3 : 0) - rest[i][j]) / 2;
+  return A * rest;
+}
+
 Matrix3 frame_along(const Vector3& z) {
   if (z[2].is_equal(1)) return identity_matrix();
   if (z[0].is_equal(1)) return {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
@@ -149,7 +165,8 @@ class Builder {
     const bool numeric = is_number(z[0]) && is_number(z[1]) && is_number(z[2]);
     const Matrix3 R_JL = frame_along(unit_vector(axis));
     link.R_PL = bound("R_" + link.name, numeric ? frame_along(z) : pose.R_LB * R_JL);
-    link.R_LJ = numeric ? bound("R_" + link.name, transpose(link.R_PL) * pose.R_LB) : transpose(R_JL);
+    link.R_LJ =
+        numeric ? bound("R_" + link.name, orthonormal(transpose(link.R_PL) * pose.R_LB)) : transpose(R_JL);
     link.parallel = options_.share_parallel && pose.link != kGround && z[2].is_equal(1);
     if (far_[link.joint.value]) return;
     if (link.kind == LinkKind::kSlide) {

@@ -27,7 +27,7 @@ class RotationSolver : RotationRows {
                  const std::optional<double>& initial_scalar, const std::array<double, 4>& quaternion,
                  const Samples& samples)
       : RotationRows(builder, samples),
-        builder_(builder),
+
         roots_(builder, samples),
         rows_(rows),
         initial_scalar_(initial_scalar),
@@ -302,7 +302,6 @@ class RotationSolver : RotationRows {
 
   static constexpr double kRegular = 1e-8;
 
-  ir::Builder& builder_;
   Roots roots_;
   const std::vector<RotationRow>& rows_;
   const std::optional<double>& initial_scalar_;

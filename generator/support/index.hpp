@@ -13,7 +13,7 @@ struct Index {
 
   constexpr Index() = default;
   constexpr explicit Index(std::size_t v) : value(v) {}
-  friend constexpr auto operator<=>(const Index&, const Index&) = default;
+  friend constexpr auto operator<=>(const Index&, const Index&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 }  // namespace jourdain::support

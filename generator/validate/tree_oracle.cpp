@@ -39,8 +39,7 @@ dynamics::LeafValue leaves_at(const ir::LeafValues<ScaledReal>& values) {
 
 TreeOracle::TreeOracle(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                        const dynamics::Equations* load, const Point& point)
-    : mechanism_(mechanism),
-      equations_(equations),
+    : equations_(equations),
       load_(load),
       point_(point),
       tangent_(model::tangent_of(mechanism, model::lay_out_coordinates(mechanism))),

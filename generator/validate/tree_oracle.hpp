@@ -41,7 +41,6 @@ class TreeOracle {
   std::vector<ScaledReal> displacement_rate() const;
   std::vector<ScaledReal> output_rate() const;
 
-  const model::Mechanism& mechanism_;
   const dynamics::Equations &equations_, *load_;
   const Point& point_;
   model::Tangent tangent_;

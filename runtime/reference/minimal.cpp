@@ -109,7 +109,7 @@ typename Reference<Scalar>::Forces Reference<Scalar>::forces(const State<Scalar>
 
 template <class Scalar>
 Scalar Reference<Scalar>::largest_angle(const State<Scalar>& state) const {
-  Scalar largest = Scalar(std::numbers::pi);
+  auto largest = Scalar(std::numbers::pi);
   for (const auto& [joint, which] : prescribed_)
     if (mechanism_.joints[joint].coordinates[which].angular)
       largest = std::max(largest, Bounded<Scalar>(coordinate(joint, which, state).value).scale);
@@ -208,7 +208,7 @@ Terms<Scalar> Reference<Scalar>::evaluate(const State<Scalar>& state, const Vect
 
 template <class Scalar>
 void widen_scales(Terms<Scalar>& terms) {
-  const Scalar share = Scalar(kNaturalShare);
+  const auto share = Scalar(kNaturalShare);
   if (terms.M.size() == 0) return;
   const VectorX<Scalar> size = terms.M_scale.diagonal().cwiseSqrt();
   for (VectorX<Scalar>* scale : {&terms.k_scale, &terms.q_scale}) {

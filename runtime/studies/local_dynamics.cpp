@@ -13,7 +13,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kPoints = 60;
-constexpr double kDampingScene = 1e-2;  ///< shrinking of volumes over the trajectory's own rate
 
 /// The rows of the local coordinates, displacements and velocities.
 MatrixXd kept(const MatrixXd& rates, const LocalCoordinates& coordinates) {

@@ -48,7 +48,7 @@ MethodLimit limit_by_modes(const StabilityFunction& function, const Local& local
     if (mu.imag() < 0 || above != fast || negligible(mu, local.modes, scene)) continue;
     const ModeKind kind = kind_of(mu, scene);
     const double h = limit_of_mode(function, mu, kind, judged);
-    if (h < result.h) result = {0, h, local.point->t, mu, kind, fast, false, {}};
+    if (h < result.h) result = {0, h, local.point->t, mu, kind, fast, false, {}, {}};
   }
   return result;
 }

@@ -42,7 +42,7 @@ class Runs {
     velocities(start_) +=
         displacement * scale / setting.direction.lpNorm<Eigen::Infinity>() * setting.direction;
     const double wanted = kGrown / std::log(std::max(setting.growth, 1 + 1e-9));
-    const double fewest = static_cast<double>(damped_ && !stiff_ ? kFewestDampedSteps : kFewestSteps);
+    const auto fewest = static_cast<double>(damped_ && !stiff_ ? kFewestDampedSteps : kFewestSteps);
     const int runs = !damped_ ? 1 : stiff_ ? 1 + kFiner : 2 + 2 * kFiner;
     const double most = std::min(1.0 * kMostSteps, budget.left() / kMostRuns / (runs * step_time(method)));
     steps_ = static_cast<long>(std::clamp(wanted, fewest, std::max(fewest, most)));
@@ -173,14 +173,14 @@ bool fails(const Flow<double>& flow, const jourdain_method& method, double h, do
 
 NonlinearLimit observe_nonlinear_limit(const Flow<double>& flow, const jourdain_method& method,
                                        const Eigen::VectorXd& largest, double duration, Budget& budget) {
-  constexpr double kFewestSteps = 8, kHolds = 3;  // so many shorter steps in a row hold
+  constexpr double kSteps = 8, kHolds = 3;  // so many shorter steps in a row hold
   const double scale = largest.maxCoeff() > 0 ? largest.maxCoeff() : 1;
   const Eigen::VectorXd scales = largest.cwiseMax(kMoving * scale);
   const auto failing = [&](double h) {
     budget.spend(duration / h * step_time(method));
     return fails(flow, method, h, duration, scales);
   };
-  const double longest = duration / kFewestSteps;
+  const double longest = duration / kSteps;
   std::optional<double> shortest_failing;
   double h = longest, holding = longest;
   for (int held = 0; held < kHolds; h /= kWidening) {

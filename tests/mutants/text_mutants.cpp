@@ -222,6 +222,9 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
     if (const char before = text[site.offset - 1];
         before == '&' || text.compare(site.offset - 2, 2, "& ") == 0)
       return "names of parameters in a declaration";
+  if (site.fault == TextFault::kParentheses && site.offset >= 2 &&
+      text.compare(site.offset - 2, 2, "+ ") == 0 && line.find("state.z[i] + (") != std::string::npos)
+    return "a step's sum in another order, the same but for rounding";
   if (site.fault == TextFault::kDropLine && line.find("stage.state.z[i] = state.z[i];") != std::string::npos)
     return "stage.state is a copy of state";
   if (site.fault == TextFault::kIndex && line.find("], sum_z[") != std::string::npos)
