@@ -92,7 +92,9 @@ Plot limits_plot(const jourdain_model_table& table, const Study& study) {
       series.x.push_back(point.time);
       series.y.push_back(point.limits[m]);
     }
-    plot.series.push_back(std::move(series));
+    const bool any =
+        std::any_of(series.y.begin(), series.y.end(), [](double h) { return h > 0 && std::isfinite(h); });
+    if (any) plot.series.push_back(std::move(series));
   }
   return plot;
 }
@@ -103,7 +105,8 @@ std::vector<Plot> stability_plots(const jourdain_model_table& table, const Study
   if (study.stability.points.empty()) return {};
   std::vector<Plot> plots;
   if (const auto step = shown_step(table, study)) plots.push_back(regions_plot(table, study, *step));
-  plots.push_back(limits_plot(table, study));
+  Plot limits = limits_plot(table, study);
+  if (!limits.series.empty()) plots.push_back(std::move(limits));
   return plots;
 }
 

@@ -88,15 +88,20 @@ std::string sources_table(const jourdain_model_table& table, const Study& study)
 std::string forms_table(const Study& study) {
   if (study.forms.empty()) return "";
   std::string text = fmt::format(
-      "\n  the same scene in other coordinates, numeric code, classical Runge-Kutta method\n  {:<28} {:>7} "
-      "{:>8} "
-      "{:>9} {:>9} {:>9} {:>9}\n",
+      "\n  the same scene in other coordinates, by the plain numeric references (classical Runge-Kutta "
+      "method):\n"
+      "  errors are those of the formulation, times those of the references\n"
+      "  {:<28} {:>7} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
       "form", "states", "unknowns", "h", "error, m", "drift", "us a step");
   for (const FormCurve& curve : study.forms) {
     std::vector<FormPoint> points;
     for (const FormPoint& point : curve.points)
       if (point.finite) points.push_back(point);
-    if (points.empty()) text += fmt::format("  {:<28} fails at every step tried\n", curve.form);
+    if (points.empty())
+      text += curve.points.empty()
+                  ? fmt::format("  {:<28} not tried: it takes too long\n", curve.form)
+                  : fmt::format("  {:<28} fails with steps of {} to {}\n", curve.form,
+                                time_text(curve.points.front().h), time_text(curve.points.back().h));
     for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 2)) {
       const FormPoint& point = points[i];
       text += fmt::format("  {:<28} {:>7} {:>8} {:>9} {:>9} {:>9} {:>9.4g}\n", curve.form, curve.states,
@@ -105,20 +110,6 @@ std::string forms_table(const Study& study) {
     }
   }
   return text;
-}
-
-/// How much slower the plain numeric forms are than the emitted code with the same method.
-std::string forms_ratio(const jourdain_model_table& table, const Study& study) {
-  std::string text;
-  for (std::size_t m = 0; m < study.work.step_times.size(); ++m) {
-    if (std::string_view(table.methods[m].name) != "rk4") continue;
-    for (const FormCurve& curve : study.forms)
-      if (!curve.points.empty())
-        text +=
-            fmt::format("{}{} {:.3g}", text.empty() ? "  a step takes, in steps of the emitted code: " : ", ",
-                        curve.form, curve.points.back().step_time / study.work.step_times[m].least);
-  }
-  return text.empty() ? "" : text + "\n";
 }
 
 }  // namespace
@@ -238,7 +229,7 @@ std::string report_text(const ReportHead& head, const jourdain_model_table& tabl
   for (const std::string& remark : remarks(table, study)) text += wrapped(remark);
   text += "\n" + methods_table(table, study) + errors_table(table, study) + sources_table(table, study) +
           loops_text(head, table, study) + stability_text(table, study) + extremes_text(study.extremes) +
-          forms_table(study) + forms_ratio(table, study);
+          forms_table(study);
   const std::string advice = advice_text(table, study);
   if (!advice.empty()) text += "\n  " + advice + "\n";
   return text;

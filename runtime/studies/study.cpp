@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "model/coordinates.hpp"
 #include "studies/local_dynamics.hpp"
@@ -143,6 +144,17 @@ SourceSummary summarise(std::size_t method, const Study& study) {
   return summary;
 }
 
+/// Those at which the classical Runge-Kutta method is stable.
+std::vector<double> steps_within_limit(const Study& study, const jourdain_model_table& table) {
+  double limit = INFINITY;
+  for (const MethodLimit& l : study.stability.limits)
+    if (std::string_view(table.methods[l.method].name) == "rk4" && l.h > 0) limit = l.h;
+  std::vector<double> steps;
+  for (const double h : study.steps)
+    if (h < limit) steps.push_back(h);
+  return steps;
+}
+
 /// The longer steps at which no method is right to a tenth.
 void leave_out_useless_steps(Study& study) {
   constexpr double kUseful = 0.1;
@@ -197,8 +209,8 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   study.stability =
       study_stability(flow, study.reference, tangent, options.conserves_energy, options.seconds, progress);
   if (options.forms)
-    study.forms = study_forms(mechanism, parameters, flow, study.steps, sampling, study.reference,
-                              options.seconds / 4, progress);
+    study.forms = study_forms(mechanism, parameters, flow, steps_within_limit(study, flow.table()), sampling,
+                              study.reference, options.seconds / 4, progress);
   if (long_flow)
     study.extremes =
         study_extremes(mechanism, tangent, parameters, flow, *long_flow, study.reference, progress);
