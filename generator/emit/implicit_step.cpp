@@ -237,7 +237,9 @@ std::string stage_text(const StepScene& scene, const Rosenbrock& method, std::si
   const auto at = [&](const char* member) { return combination(A, 1, i, member); };
   std::string text = fmt::format("  for (int i = 0; i < {}; ++i) {{\n", scene.shape.velocities);
   text += line("stage.y[i]", or_zero(at("y")));
-  text += line("stage.state.z[i]", plus("state.z[i]", at("z")));
+  const std::string moved = at("z");
+  if (!moved.empty()) text += line("stage.z[i]", moved);
+  text += line("stage.state.z[i]", moved.empty() ? "state.z[i]" : "state.z[i] + stage.z[i]");
   text += line("stage.a[i]", plus("accelerations.zdot[i]", at("a")));
   text += line("stage.sum_y[i]", or_zero(combination(C, method.gamma, i, "y")));
   text += line("stage.sum_z[i]", or_zero(combination(C, method.gamma, i, "z")));
@@ -327,7 +329,10 @@ std::string rosenbrock_body(const StepScene& scene, const Rosenbrock& method) {
   };
   text += fmt::format("  for (int i = 0; i < {}; ++i) {{\n", scene.shape.velocities);
   text += line("stage.y[i]", at_last ? "stage.y[i]" : "", "y");
-  text += line("state.z[i]", at_last ? "stage.state.z[i]" : "state.z[i]", "z");
+  if (at_last)
+    text += wrapped(fmt::format("state.z[i] = state.z[i] + (stage.z[i] + u{}.z[i]);", method.m.size()), 4);
+  else
+    text += line("state.z[i]", "state.z[i]", "z");
   text += line("accelerations.zdot[i]", at_last ? "stage.a[i]" : "accelerations.zdot[i]", "a");
   text += "  }\n";
   const bool turns = !scene.tangent.quaternions.empty();
@@ -371,7 +376,7 @@ long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, con
         (change ? 6 : 4) * n + 8 * pairs + 4 * pairs + n + 4 * n;  // right-hand side, solution, increments
   }
   total +=
-      n * (ends_at_last_stage(method) ? 3 : 3 * combination_operations(method.m, 1, method.m.size()) + 2);
+      n * (ends_at_last_stage(method) ? 4 : 3 * combination_operations(method.m, 1, method.m.size()) + 2);
   return total + displace + 1;
 }
 

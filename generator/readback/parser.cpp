@@ -132,7 +132,10 @@ class FileParser : public StatementParser {
     expect("::");
     function.is_constructor = true;
     function.name = expect_name();
-    if (function.name != owner.path.back()) refuse_here("a constructor");
+    const auto& own = function.parameters_of_template;
+    const bool of_template = own.size() == 1 && owner.arguments.size() == 1 &&
+                             owner.arguments[0].type.path == std::vector<Symbol>{own[0].name};
+    if (function.name != owner.path.back() || !of_template) refuse_here("a constructor");
     const std::set<Symbol> outside = known_.types;
     for (const Struct* known : unit_.structs)
       if (known->name == owner.path.back())

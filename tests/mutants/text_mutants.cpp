@@ -227,11 +227,16 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
     return "a step's sum in another order, the same but for rounding";
   if (site.fault == TextFault::kDropLine && line.find("stage.state.z[i] = state.z[i];") != std::string::npos)
     return "stage.state is a copy of state";
-  if (site.fault == TextFault::kIndex && line.find("], sum_z[") != std::string::npos)
+  if (site.fault == TextFault::kIndex &&
+      (line.find("], sum_z[") != std::string::npos || line.find("  Real y[") == 0))
     return "a scratch array is longer";
-  if (line.find("step.W[i][k] =") != std::string::npos &&
-      text.find("int coupled[] = {0};") != std::string::npos)
+  const bool of_coupled =
+      line.find("W[i][k] =") != std::string::npos || line.find("first_coupled[k]") != std::string::npos;
+  if (of_coupled && text.find("int coupled[] = {0};") != std::string::npos)
     return "velocities are not coupled, so it is never executed";
+  if (site.fault == TextFault::kNegative && line.find("= first_coupled[k]; ") != std::string::npos &&
+      text.find("int first_coupled[] = {0, 0, 1};") != std::string::npos)
+    return "minus zero is zero";
   return "";
 }
 

@@ -56,7 +56,7 @@ Tally attacked(const std::vector<Written>& models, std::size_t each) {
       const auto mutant = planted(files, site, random.bits());
       const Net accepted = same_because(files, site).empty() ? Net::kNone : Net::kSame;
       tally.add(name_of(fault), is_noticed(*model, mutant) ? Net::kReadback : accepted,
-                model->mechanism.name + " " + line_of(files, site));
+                model->mechanism.name + " " + line_of(files, site) + " -> " + line_of(mutant, site));
     }
   }
   fmt::print("{}", tally.text());
