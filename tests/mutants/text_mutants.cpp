@@ -212,6 +212,7 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
   const std::string& text = files[site.file].text;
   const std::size_t end = line_end(text, site.offset);
   const std::string line = text.substr(line_begin(text, site.offset), end - line_begin(text, site.offset));
+  const auto is_in_line = [&line](const char* part) { return line.find(part) != std::string::npos; };
   if (site.fault == TextFault::kNegative) {
     const std::string value = text.substr(site.offset + 3, 9);
     if (value[0] == '0' || value == "Real(0.0)") return "minus zero is zero";
@@ -223,15 +224,14 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
         before == '&' || text.compare(site.offset - 2, 2, "& ") == 0)
       return "names of parameters in a declaration";
   if (site.fault == TextFault::kParentheses && site.offset >= 2 &&
-      text.compare(site.offset - 2, 2, "+ ") == 0 && line.find("state.z[i] + (") != std::string::npos)
-    return "a step's sum in another order, the same but for rounding";
+      text.compare(site.offset - 2, 2, "+ ") == 0)
+    return "a sum in another order, the same but for rounding";
   if (site.fault == TextFault::kDropLine && line.find("stage.state.z[i] = state.z[i];") != std::string::npos)
     return "stage.state is a copy of state";
-  if (site.fault == TextFault::kIndex &&
-      (line.find("], sum_z[") != std::string::npos || line.find("  Real y[") == 0))
+  if (site.fault == TextFault::kIndex && (is_in_line("], sum_z[") || is_in_line("  Real y[")))
     return "a scratch array is longer";
-  const bool of_coupled =
-      line.find("W[i][k] =") != std::string::npos || line.find("first_coupled[k]") != std::string::npos;
+  const bool of_coupled = is_in_line("W[i][k] =") || is_in_line("W[i][coupled[q]] =") ||
+                          is_in_line("step.r_z[i][k] * c[k]") || is_in_line("first_coupled[k]");
   if (of_coupled && text.find("int coupled[] = {0};") != std::string::npos)
     return "velocities are not coupled, so it is never executed";
   if (site.fault == TextFault::kNegative && line.find("= first_coupled[k]; ") != std::string::npos &&
