@@ -10,7 +10,6 @@ namespace jourdain::validate {
 
 using dynamics::ExactDirection;
 using dynamics::SlopePrecision;
-using dynamics::SlopeReal;
 using ir::LeafKind;
 using kinematics::Ex;
 

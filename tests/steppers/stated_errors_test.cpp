@@ -1,5 +1,7 @@
 // Errors that a report states, against an integration of its own of the emitted code, which knows nothing of the studies: the classical
 // Runge-Kutta method in long double on the emitted accelerations.
+#ifndef JOURDAIN_SANITIZED  // long runs
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,8 +24,6 @@
 
 namespace jourdain::tests {
 namespace {
-
-#ifndef JOURDAIN_SANITIZED  // long runs
 
 using Long = long double;
 using nlohmann::json;
@@ -187,7 +187,7 @@ JOURDAIN_TEST_STATED_ERRORS(slider_crank)
 JOURDAIN_TEST_STATED_ERRORS(spring_four_bar)
 JOURDAIN_TEST_STATED_ERRORS(spring_pendulum)
 
-#endif
-
 }  // namespace
 }  // namespace jourdain::tests
+
+#endif
