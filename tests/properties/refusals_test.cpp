@@ -68,7 +68,9 @@ TEST(Refusals, NoneOfTheSeedsThatWereRefused) {
   const std::pair<const char*, std::uint64_t> seeds[] = {{"loops", 162}, {"linkages", 11}, {"linkages", 379}};
   for (const ValidKind& kind : valid_kinds())
     for (const auto& [name, seed] : seeds)
-      if (kind.name == name) EXPECT_EQ(refusal(valid_mechanism(kind, seed), seed), "") << name << " " << seed;
+      if (kind.name == name) {
+        EXPECT_EQ(refusal(valid_mechanism(kind, seed), seed), "") << name << " " << seed;
+      }
 }
 
 TEST(Refusals, NoneOfALoopWithAHugeMass) {
