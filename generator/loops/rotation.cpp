@@ -27,7 +27,6 @@ class RotationSolver : RotationRows {
                  const std::optional<double>& initial_scalar, const std::array<double, 4>& quaternion,
                  const Samples& samples)
       : RotationRows(builder, samples),
-
         roots_(builder, samples),
         rows_(rows),
         initial_scalar_(initial_scalar),

@@ -74,10 +74,8 @@ PassRecord run(const Pass& pass, Module& module) {
 
 }  // namespace
 
-Module optimise_once(Module module, const std::vector<std::string>& switched_off) {
-  for (const Pass& pass : pipeline())
-    if (std::find(switched_off.begin(), switched_off.end(), pass.name) == switched_off.end())
-      module = pass.run(module);
+Module optimise_once(Module module) {
+  for (const Pass& pass : pipeline()) module = pass.run(module);
   return module;
 }
 

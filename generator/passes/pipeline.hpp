@@ -46,7 +46,7 @@ Optimised optimise(ir::Module module, const std::vector<std::string>& switched_o
                    const Watch& watch = nullptr);
 
 /// The module after one round of the pipeline: enough to compare operations of two ways to write the same.
-ir::Module optimise_once(ir::Module module, const std::vector<std::string>& switched_off = {});
+ir::Module optimise_once(ir::Module module);
 
 std::size_t arithmetic(const ir::Module& module);
 

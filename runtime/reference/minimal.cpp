@@ -19,6 +19,15 @@ Matrix3<Scalar> point_inertia(Scalar mass, const Vector3<Scalar>& c) {
   return mass * (c.squaredNorm() * Matrix3<Scalar>::Identity() - c * c.transpose());
 }
 
+/// The columns of velocities that move a frame.
+template <class Scalar>
+std::vector<Eigen::Index> moving_columns(const Jacobian<Scalar>& J_t, const Jacobian<Scalar>& J_r) {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < J_t.cols(); ++k)
+    if (!(J_t.col(k).isZero(0) && J_r.col(k).isZero(0))) columns.push_back(k);
+  return columns;
+}
+
 template <class Scalar>
 std::vector<Scalar> default_parameters(const model::Mechanism& mechanism) {
   std::vector<Scalar> values;
@@ -123,19 +132,6 @@ VectorX<Scalar> Reference<Scalar>::prescribed_accelerations(const State<Scalar>&
     accelerations[Eigen::Index(i)] = coordinate(prescribed_[i].first, prescribed_[i].second, state).second;
   return accelerations;
 }
-
-namespace {
-
-/// The columns of velocities that move a frame.
-template <class Scalar>
-std::vector<Eigen::Index> moving_columns(const Jacobian<Scalar>& J_t, const Jacobian<Scalar>& J_r) {
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < J_t.cols(); ++k)
-    if (!(J_t.col(k).isZero(0) && J_r.col(k).isZero(0))) columns.push_back(k);
-  return columns;
-}
-
-}  // namespace
 
 /// `c` moves with the body, its reference point is the centre of mass.
 template <class Scalar>

@@ -40,10 +40,6 @@ double longest_step(const WorkPoint& good, double tolerance, const Flow<double>&
 
 bool is_whole(double x) { return std::fabs(x - std::round(x)) < 1e-9 * x; }
 
-}  // namespace
-
-namespace {
-
 bool answers(const Question& question, const WorkPoint& point) {
   if (!point.finite) return false;
   if (question.tolerance) return point.largest.position <= *question.tolerance;

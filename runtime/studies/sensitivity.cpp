@@ -6,7 +6,6 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "studies/cvode.hpp"
-
 #include "studies/tangent_space.hpp"
 
 namespace jourdain::studies {

@@ -262,6 +262,36 @@ TEST_F(Reports, ThePageIsWholeAndNeedsNothingElse) {
   EXPECT_EQ(page.substr(page.size() - 8), "</html>\n");
 }
 
+TEST(Report, InputsThatAreHeldCostAnOrder) {
+  const support::TemporaryFolder folder;
+  const std::string inputs = folder.path() + "/push.toml";
+  support::write_file(inputs, "[input]\npush = \"2*sin(5*t)\"\n");
+  const auto report = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"report",      model("cart_pole"),
+                                          "--inputs",    inputs,
+                                          "--methods",   "rk4,heun",
+                                          "--effort",    "0.3",
+                                          "--no-forms",  "--no-plots",
+                                          "--tolerance", "1e-3",
+                                          "-o",          folder.path() + "/out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const support::ProcessResult result = jourdain(arguments);
+    EXPECT_EQ(result.status, 0) << result.output;
+    return std::pair(json::parse(support::read_file(folder.path() + "/out/report.json")), result.output);
+  };
+  const auto [sampled, text] = report({});
+  const json& advice = sampled["recommendation"];
+  EXPECT_FALSE(advice["inputs_held"].get<bool>());
+  EXPECT_GT(advice["largest_error_with_inputs_held"]["position"].get<double>(),
+            100 * advice["largest_error"]["position"].get<double>());
+  EXPECT_NE(text.find("held over each step, position error"), std::string::npos);
+  EXPECT_GT(advice["step_s"].get<double>(), 0.017);  // beyond the longest step that was named
+  const auto [held, held_text] = report({"--hold-inputs"});
+  EXPECT_TRUE(held["recommendation"]["inputs_held"].get<bool>());
+  EXPECT_LE(held["recommendation"]["largest_error"]["position"].get<double>(), 1e-3);
+  for (const json& method : held["methods"]) EXPECT_NEAR(method["measured_order"].get<double>(), 1, 0.1);
+}
+
 TEST(Report, MostAccurateWithinABudget) {
   const support::TemporaryFolder folder;
   const support::ProcessResult result =

@@ -123,6 +123,59 @@ TEST(Linearisation, ByDifferencesIsThatOfTheEmittedDerivatives) {
 
 #ifndef JOURDAIN_SANITIZED  // runs by the million are too slow there
 
+/// A hinge and an elbow on a stiff spring and damper, which does not start in its static deflection.
+constexpr const char* kStiffElbow = R"(
+[model]
+name = "elbow"
+gravity = [0, 0, -9.81]
+[[body]]
+name = "upper"
+mass = 1
+center_of_mass = [0.25, 0, 0]
+inertia = [0.01, 0.02, 0.02]
+[[body]]
+name = "lower"
+mass = 0.2
+center_of_mass = [0.1, 0, 0]
+inertia = [1e-4, 1e-4, 1e-4]
+[[joint]]
+name = "shoulder"
+type = "revolute"
+parent = "world"
+child = "upper"
+axis = [0, 1, 0]
+initial_position = 0.2
+[[joint]]
+name = "elbow"
+type = "revolute"
+parent = "upper"
+child = "lower"
+position = [0.5, 0, 0]
+axis = [0, 1, 0]
+stiffness = 1e5
+damping = 20
+)";
+
+TEST(Stability, StiffnessDoesNotDependOnTheStart) {
+  const Judged elbow(emitted_from(kStiffElbow), 32, false);
+  EXPECT_LT(elbow.stability.rate, 10);
+  EXPECT_TRUE(elbow.stability.damps);
+  EXPECT_TRUE(stiff_limit(elbow.stability));
+  elbow.expect_observed("rk4");
+}
+
+TEST(Stability, ImplicitMethodsHaveLimitsThatRunsShow) {
+  const Judged governor(emitted_model("flyball_governor"), 32, false);
+  const MethodLimit& limit = governor.limit("rosw43");
+  EXPECT_EQ(limit_text(limit), "none: L-stable");
+  ASSERT_TRUE(limit.observed);
+  EXPECT_GT(limit.observed->h, 0.1);
+  EXPECT_LT(limit.observed->h, 0.2);
+  const MethodLimit& none = governor.limit("linearly_implicit_euler");
+  ASSERT_TRUE(none.stable_until);
+  EXPECT_EQ(observed_text(none), "none up to 250 ms");
+}
+
 TEST(Stability, StiffGovernorHasTheLimitsThatItsRunsShow) {
   const Judged governor(emitted_model("flyball_governor"), 160, false);
   EXPECT_NEAR(governor.limit("rk4").h, 3.43e-4, 3e-6);

@@ -56,6 +56,23 @@ TEST(Agreement, RoundingIsRefusedBeyondTheDepthOfTheProgram) {
   EXPECT_TRUE(refused(NAN, 20));
 }
 
+TEST(Agreement, RoundingCountsByTheProgramsOwnScaleUpToTenThousandTimesTheOracles) {
+  const auto refused = [](double error, long double own) {
+    Agreement agreement;
+    agreement.rounded("f", "an oracle", {error, 1.0}, {ScaledReal().with_scale(own), 1.0},
+                      {ScaledReal(), 1.0}, 9);
+    return !agreement.failures().empty();
+  };
+  const double limit = 640 * std::ldexp(1.0, -53);
+  EXPECT_FALSE(refused(0.9e3 * limit, 1e3L));
+  EXPECT_TRUE(refused(1.1e3 * limit, 1e3L));
+  EXPECT_FALSE(refused(0.9e4 * limit, 1e9L));
+  EXPECT_TRUE(refused(1.1e4 * limit, 1e9L));
+  // A product of two zeros is off by rounding to second order.
+  EXPECT_FALSE(refused(std::ldexp(1.0, -106), 0));
+  EXPECT_TRUE(refused(1e-20, 0));
+}
+
 TEST(ScaledReal, ScalesFollowTheRulesOfCalculus) {
   const ScaledReal y = 1e-3;
   EXPECT_NEAR(static_cast<double>(sin(y).scale()), 1e-3, 1e-8);
