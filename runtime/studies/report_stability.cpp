@@ -15,7 +15,7 @@ constexpr double kTransient = 100;  ///< growth that eigenvalues hide, worth a r
 std::string instant(double t) { return t == 0 ? "0 s" : time_text(t); }
 
 std::string kind_text(const MethodLimit& limit) {
-  const std::string speed = limit.fast ? "" : ", no faster than the motion";
+  const std::string speed = limit.fast ? "" : ", not much faster than the motion";
   switch (limit.kind) {
     case ModeKind::kDamped:
       return "damped" + speed;
@@ -116,7 +116,8 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
     list.push_back("NOT TO BE TRUSTED: predicted and observed limits differ by more than 5 % for " + apart);
   const std::string slow = slow_text(table, s);
   if (!slow.empty())
-    list.push_back("estimates only, of modes that are no faster than the motion: the limits of " + slow);
+    list.push_back("estimates only, of modes that are not much faster than the motion: the limits of " +
+                   slow);
   if (s.transient_growth > kTransient)
     list.push_back(
         fmt::format("eigenvalues mislead here: at 0.9 of its limit {} lets some differences grow "

@@ -142,8 +142,7 @@ std::vector<StepTime> measure_step_times(const jourdain_model_table& table, cons
   std::vector<StepTime> times;
   for (std::vector<double>& sample : samples) {
     std::sort(sample.begin(), sample.end());
-    times.push_back({sample.front(), sample[sample.size() / 4], sample[sample.size() / 2],
-                     sample[3 * sample.size() / 4]});
+    times.push_back({sample.front(), sample[sample.size() / 4], sample[3 * sample.size() / 4]});
   }
   return times;
 }

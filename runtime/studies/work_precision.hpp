@@ -12,7 +12,7 @@ namespace jourdain::studies {
 
 /// Run time of one step, s, of interleaved repeats. The least is what counts: whatever else the machine does only adds.
 struct StepTime {
-  double least = 0, lower_quartile = 0, median = 0, upper_quartile = 0;
+  double least = 0, lower_quartile = 0, upper_quartile = 0;
 };
 
 /// One method and step size.
