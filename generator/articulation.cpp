@@ -1,8 +1,11 @@
 #include "articulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
+#include "dynamics/absolute_rates.hpp"
 #include "dynamics/scene.hpp"
 #include "ir/lower.hpp"
 
@@ -16,6 +19,9 @@ namespace {
 constexpr std::size_t kSmallScene = 5;
 /// From this many on M is not factored as a whole even to be counted.
 constexpr std::size_t kLargeScene = 64;
+/// Errors up to that many units are rounding; another way's must be that much less, and its operations at most so many times more.
+constexpr double kFewUnits = 32, kMuchLess = 16;
+constexpr std::size_t kMostMore = 2;
 /// Depths in a row without a saving that end a search.
 constexpr std::size_t kPatience = 3;
 
@@ -25,6 +31,7 @@ class Choice {
       : mechanism_(mechanism), options_(options) {
     options_.accelerations_only = true;
     const dynamics::Scene scene(mechanism, options.link_tree);
+    moves_in_planes_ = dynamics::moves_in_planes(scene);
     velocities_ = scene.layout.velocity_count();
     for (const kinematics::Link& link : scene.tree.links) {
       const bool root = link.parent == kGround;
@@ -37,6 +44,45 @@ class Choice {
   }
 
   Articulation choose() {
+    Articulation result = choose_links();
+    if (moves_in_planes_ && velocities_ < kLargeScene) keep(result, {none(), true});
+    judge(result);
+    return result;
+  }
+
+ private:
+  struct Way {
+    std::vector<bool> links;
+    bool planar = false;
+
+    friend auto operator<=>(const Way&, const Way&) = default;
+  };
+
+  std::vector<bool> none() const { return std::vector<bool>(parent_.size(), false); }
+
+  /// Takes another way where what the one of the fewest operations loses is more than rounding, and the other's much less.
+  void judge(Articulation& best) {
+    const ForwardError errors(mechanism_);
+    best.error = best.fewest_error = errors.of(program({best.links, best.planar}));
+    if (best.error.units <= kFewUnits) return;
+    std::vector<Way> ways = {{std::vector<bool>(parent_.size(), true), false}};
+    if (velocities_ < kLargeScene) ways.push_back({none(), false});
+    if (velocities_ < kLargeScene && moves_in_planes_) ways.push_back({none(), true});
+    const std::size_t fewest = best.operations;
+    for (const Way& way : ways) {
+      const ir::Program zdot = program(way);
+      const std::size_t count = ir::count_operations(zdot).arithmetic();
+      const SampledError error = errors.of(zdot);
+      if (count > kMostMore * fewest || !(error.units * kMuchLess < best.error.units)) continue;
+      best.links = way.links;
+      best.planar = way.planar;
+      best.operations = count;
+      best.error = error;
+    }
+    best.spent = best.operations - fewest;
+  }
+
+  Articulation choose_links() {
     Articulation result;
     result.links.assign(parent_.size(), velocities_ >= kLargeScene);
     result.operations = operations(result.links);
@@ -57,7 +103,6 @@ class Choice {
     return result;
   }
 
- private:
   void search_inward(Articulation& best, std::size_t deepest) {
     std::size_t worse = 0;
     for (std::size_t depth = deepest; depth-- > 0 && worse < kPatience;)
@@ -70,24 +115,33 @@ class Choice {
     return links;
   }
 
-  bool keep(Articulation& best, const std::vector<bool>& links) {
-    const std::size_t count = operations(links);
+  bool keep(Articulation& best, const std::vector<bool>& links) { return keep(best, Way{links}); }
+
+  bool keep(Articulation& best, const Way& way) {
+    const std::size_t count = operations(way);
     if (count >= best.operations) return false;
-    best.links = links;
+    best.links = way.links;
+    best.planar = way.planar;
     best.operations = count;
     return true;
   }
 
-  std::size_t operations(const std::vector<bool>& links) {
-    if (const auto known = counted_.find(links); known != counted_.end()) return known->second;
-    options_.articulated = links;
+  std::size_t operations(const std::vector<bool>& links) { return operations(Way{links}); }
+
+  std::size_t operations(const Way& way) {
+    if (const auto known = counted_.find(way); known != counted_.end()) return known->second;
+    return counted_[way] = ir::count_operations(program(way)).arithmetic();
+  }
+
+  /// Of the accelerations, before any pass.
+  ir::Program program(const Way& way) {
+    options_.articulated = way.links;
+    options_.planar = way.planar;
     const dynamics::Equations equations = dynamics::derive_equations(mechanism_, options_);
     std::vector<ir::Target> targets;
     for (std::size_t i = 0; i < equations.zdot.size(); ++i)
       targets.push_back({"zdot", static_cast<int>(i), -1, equations.zdot[i]});
-    const std::size_t count =
-        ir::count_operations(ir::lower(equations.statements, targets, "zdot")).arithmetic();
-    return counted_[links] = count;
+    return ir::lower(equations.statements, targets, "zdot");
   }
 
   /// First links of the branches: at the ground and where a link has several children.
@@ -127,9 +181,10 @@ class Choice {
 
   const model::Mechanism& mechanism_;
   dynamics::DerivationOptions options_;
+  bool moves_in_planes_ = false;
   std::size_t velocities_ = 0;
   std::vector<std::size_t> depth_, parent_, children_;
-  std::map<std::vector<bool>, std::size_t> counted_;
+  std::map<Way, std::size_t> counted_;
 };
 
 }  // namespace
@@ -137,6 +192,24 @@ class Choice {
 Articulation choose_articulation(const model::Mechanism& mechanism,
                                  const dynamics::DerivationOptions& options) {
   return Choice(mechanism, options).choose();
+}
+
+std::string accuracy_sentence(const Articulation& articulation) {
+  const auto text = [](const SampledError& error) {
+    return fmt::format("{:.1g} units{}", error.units, error.where.empty() ? "" : " at " + error.where);
+  };
+  if (articulation.fewest_error.units <= kFewUnits) return "";
+  if (articulation.error.units >= articulation.fewest_error.units)
+    return fmt::format(
+        "accelerations in double lose up to {} (of rounding of the largest; median of sampled states): no "
+        "way to compute "
+        "them that was tried loses much less",
+        text(articulation.error));
+  return fmt::format(
+      "accelerations take {} operations more than the fewest (before passes), which lose up to {} where "
+      "these lose {} (of "
+      "rounding of the largest; median of sampled states)",
+      articulation.spent, text(articulation.fewest_error), text(articulation.error));
 }
 
 }  // namespace jourdain

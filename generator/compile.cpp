@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "emit/body.hpp"
 #include "expected_text.hpp"
 #include "loops/closed_system.hpp"
 #include "loops/outputs.hpp"
@@ -111,6 +112,7 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.inputs = layout.input_names;
   text.tangent = model::tangent_of(mechanism, layout);
   text.time = model::time_dependence(mechanism);
+  text.clock = shape_of(mechanism).clock || options.clock;
   text.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
   if (options.loops) describe_loops(mechanism, *options.loops, text);
   for (const model::Parameter& parameter : mechanism.parameters)
@@ -146,7 +148,8 @@ std::vector<std::string> validation_sentences(const validate::Verdict& verdict) 
 }
 
 std::vector<std::string> assumptions(const model::Mechanism& mechanism, const CompileOptions& options,
-                                     const validate::Verdict& verdict) {
+                                     const CompiledModel& compiled) {
+  const validate::Verdict& verdict = compiled.verdict;
   std::vector<std::string> list = {"bodies are rigid; joints are ideal and without limits"};
   if (!options.damping) list.push_back("joint damping of the description is left out (--no-damping)");
   if (!mechanism.springs.empty())
@@ -163,6 +166,14 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   if (!layout.quaternions.empty())
     list.push_back("quaternions are near unit length; a step ends with unit length");
+  if (const std::string sentence = accuracy_sentence(compiled.articulation); !sentence.empty())
+    list.push_back(sentence);
+  if (compiled.shape.clock) list.push_back("time is a sum of three numbers, which 7 additions move");
+  if (std::any_of(compiled.module.functions.begin(), compiled.module.functions.end(), emit::turns_with_time))
+    list.push_back(
+        "angles that follow from time are sums of two numbers, so that the phase stays right: operation "
+        "counts hold "
+        "each of their operations, sines and cosines as one, it takes several (see detail::Angle)");
   if (mechanism.snap && verdict.snap_effect > 1e-15)
     list.push_back(fmt::format(
         "angles within {:g} rad of a quarter turn are exact; that changes accelerations by {:.1e} "
@@ -190,6 +201,7 @@ emit::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPl
   shape.outputs = mechanism.outputs.size();
   shape.inputs = layout.input_count();
   shape.time = model::time_dependence(mechanism);
+  shape.clock = shape.time.any() || shape.inputs > 0;
   if (!plan) return shape;
   shape.constraints = plan->row_length.size();
   shape.has_dependents = plan->is_reduced();
@@ -249,6 +261,7 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
   const CompileOptions options = completed(mechanism, given);
   const loops::LoopPlan* plan = options.loops ? &*options.loops : nullptr;
   result.shape = shape_of(mechanism, plan);
+  result.shape.clock = result.shape.clock || options.clock;
   result.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
   result.tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
   if (plan) result.dependents = loops::dependent_positions(*plan, result.tangent);
@@ -266,7 +279,7 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
   } else {
     if (options.derivation.articulated.empty())
       result.articulation = choose_articulation(mechanism, options.derivation);
-    chosen.derivation.articulated = result.articulation.links;
+    result.articulation.set(chosen.derivation);
     equations = dynamics::derive_equations(mechanism, chosen.derivation);
     lowered = lower_tree(mechanism, options, equations, result.functions);
   }
@@ -299,7 +312,7 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   result.verdict = options.loops ? loops::validate_closed(mechanism, equations, result.module, *options.loops)
                                  : validate::validate_translation(mechanism, equations, result.module, 8,
                                                                   load ? &*load : nullptr);
-  result.assumptions = assumptions(mechanism, options, result.verdict);
+  result.assumptions = assumptions(mechanism, options, result);
   if (!result.verdict.accepted()) return;
   emit::ModelText text = model_text(mechanism, options);
   text.outputs = output_texts(

@@ -28,6 +28,7 @@ struct CompileOptions {
   std::string path;     ///< of the description, as printed in the emitted files
   std::string sha256;   ///< of the description
   std::optional<loops::LoopPlan> loops;  ///< of a mechanism with loops; none: planned by `compile`
+  bool clock = false;                    ///< states hold the time though nothing depends on it
   bool damping = true;  ///< printed as an assumption when joint damping was switched off on reading
 };
 

@@ -79,6 +79,7 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   const model::TimeDependence time = model::time_dependence(mechanism);
   expected.dynamics_depend_on_time = time.dynamics;
   expected.outputs_depend_on_time = time.outputs;
+  expected.clock = shape_of(mechanism).clock || options.clock;
   expected.all_derivatives = options.derivative_terms == DerivativeTerms::kAll;
   expected.assumptions = compiled.assumptions;
   expected.sentences.insert(expected.sentences.end(), compiled.assumptions.begin(),

@@ -244,6 +244,7 @@ bool any_derivatives(const std::vector<emit::FunctionInfo>& functions) {
 DerivativeSources tree_sources(const model::Mechanism& mechanism,
                                const dynamics::DerivationOptions& options) {
   dynamics::DerivationOptions plain = options;
+  plain.planar = false;
   plain.articulated.clear();  // M is factorised for the derivatives anyway
   plain.for_derivatives = true;
   const Equations equations = dynamics::derive_equations(mechanism, plain);

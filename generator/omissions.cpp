@@ -87,7 +87,11 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
   std::vector<Omission> list;
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   if (!compiled.shape.has_rate()) list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
-  if (!compiled.shape.time.any()) list.push_back({"t", "nothing depends on time", 0});
+  if (!compiled.shape.time.any())
+    list.push_back({"t",
+                    compiled.shape.clock ? "nothing depends on time but what the caller gives"
+                                         : "nothing depends on time, states hold none",
+                    0});
   const auto none = [&](auto member) {
     return std::all_of(mechanism.joints.begin(), mechanism.joints.end(), [member](const model::Joint& joint) {
       return std::all_of(joint.coordinates.begin(), joint.coordinates.end(),

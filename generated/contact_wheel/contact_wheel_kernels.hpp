@@ -29,6 +29,71 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+// What products of two numbers lose by rounding (Dekker, Numerische Mathematik 18, 1971; factors are split by powers of
+// two, so that fused operations change nothing). Nothing where a number type is wider than that matters.
+template <class Real>
+Real product_error(const Real& a, const Real& b, const Real& product, const Real& scale) noexcept {
+  const Real more = a * scale, much = b * scale, a1 = (more + a) - more, b1 = (much + b) - much, a0 = a - a1, b0 = b - b1;
+  return ((a1 * b1 - product) + a1 * b0 + a0 * b1) + a0 * b0;
+}
+inline double product_error(double a, double b, double product) noexcept {
+  return product_error<double>(a, b, product, 134217728);
+}
+inline float product_error(float a, float b, float product) noexcept { return product_error<float>(a, b, product, 4096); }
+template <class Real>
+Real product_error(const Real&, const Real&, const Real&) noexcept { return Real(0.0); }
+
+// An angle that follows from time, as a sum of two numbers: rounded to one, it is off by more and more.
+template <class Real>
+struct Angle {
+  Real high, low;
+
+  Angle(const Real& value) noexcept : high(value), low(Real(0.0)) {}
+  Angle(const Time<Real>& t) noexcept : high(t.high), low(t.low) {}
+  Angle(const Real& a, const Real& b) noexcept : high(a + b), low(Real(0.0)) {
+    const Real part = high - a;
+    low = (a - (high - part)) + (b - part);
+  }
+  explicit operator Real() const noexcept { return high; }
+
+  friend Angle operator-(const Angle& a) noexcept { return Angle(-a.high, -a.low); }
+  friend Angle operator+(const Angle& a, const Angle& b) noexcept {
+    const Angle sum(a.high, b.high);
+    return Angle(sum.high, sum.low + (a.low + b.low));
+  }
+  friend Angle operator-(const Angle& a, const Angle& b) noexcept { return a + -b; }
+  friend Angle operator*(const Angle& a, const Angle& b) noexcept {
+    const Real product = a.high * b.high;
+    return Angle(product, product_error(a.high, b.high, product) + (a.high * b.low + a.low * b.high));
+  }
+  friend Angle operator/(const Angle& a, const Angle& b) noexcept {
+    const Real quotient = a.high / b.high, product = quotient * b.high;
+    const Real rest = (a.high - product) - product_error(quotient, b.high, product);
+    return Angle(quotient, (rest + (a.low - quotient * b.low)) / b.high);
+  }
+};
+
+template <class Real>
+void sine_cosine(const Angle<Real>& x, Real& s, Real& c) noexcept {
+  Real s0, c0, s1, c1;
+  sine_cosine(x.high, s0, c0);
+  sine_cosine(x.low, s1, c1);
+  s = s0 * c1 + c0 * s1;
+  c = c0 * c1 - s0 * s1;
+}
+template <class Real>
+Real sine(const Angle<Real>& x) noexcept {
+  Real s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+template <class Real>
+Real cosine(const Angle<Real>& x) noexcept {
+  Real s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+
 template <class Real>
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[2]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
@@ -89,7 +154,7 @@ template <class Real>
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[2]) noexcept {
   const Real stretch2 = state.y[1] + Real(0.4);
   const Real push2_0 = stretch2 * Real(20000.0) + state.z[1] * Real(1500.0);
-  const Real expression = state.t * model.expression_2;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.expression_2;
   Real expression_14, expression_2;
   detail::sine_cosine(expression, expression_14, expression_2);
   const Real expression_3 = expression_2 - Real(1.0);
@@ -121,7 +186,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   const Real stretch2 = state.y[1] + Real(0.4);
   const Real push2_0 = stretch2 * Real(20000.0) + state.z[1] * Real(1500.0);
-  const Real expression = state.t * model.expression_2;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.expression_2;
   Real expression_14, expression_2;
   detail::sine_cosine(expression, expression_14, expression_2);
   const Real expression_3 = expression_2 - Real(1.0);
@@ -157,7 +222,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[2]) noexcept {
   const Real stretch2 = state.y[1] + Real(0.4);
   const Real push2_0 = stretch2 * Real(20000.0) + state.z[1] * Real(1500.0);
-  const Real expression = state.t * model.expression_2;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.expression_2;
   Real expression_14, expression_2;
   detail::sine_cosine(expression, expression_14, expression_2);
   const Real expression_3 = expression_2 - Real(1.0);

@@ -10,6 +10,9 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // - quaternions are near unit length; a step ends with unit length
+// - time is a sum of three numbers, which 7 additions move
+// - angles that follow from time are sums of two numbers, so that the phase stays right: operation counts
+//   hold each of their operations, sines and cosines as one, it takes several (see detail::Angle)
 // Left out
 // - constant factors: constant factors of a product are multiplied with each other first (1 operations of
 //   forward_dynamics)
@@ -53,10 +56,40 @@ struct Parameters {
   Real load_mass = Real(800.0);  ///< mass of the load, kg
 };
 
-/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
+/// Time in s, as a sum of three numbers: where steps are many, t = t + h in one number drifts, or stands still. It reads
+/// and is set like a number; with -ffast-math it is one.
+template <class Real = double>
+struct Time {
+  Real high, low, rest;
+
+  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  operator Real() const noexcept { return high; }
+};
+
+template <class Real>
+Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
+  Time<Real> later;
+  const Real step = h + t.rest;
+  const Real low = t.low + step;
+  later.rest = step - (low - t.low);
+  later.high = t.high + low;
+  later.low = low - (later.high - t.high);
+  return later;
+}
+
+template <class Real>
+Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
+  t = t + h;
+  return t;
+}
+
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s,
+/// m/s).
 template <class Real = double>
 struct State {
-  Real t;
+  Time<Real> t;
   Real y[4];
   Real z[3];
 };
@@ -192,7 +225,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 367 operations.
+/// 385 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

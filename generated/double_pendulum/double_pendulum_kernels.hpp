@@ -57,13 +57,13 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c0 = l1 * mr_y;
   elbow_h_y = l1 * (parameters.m1 + parameters.m2);
   c2 = l1 * elbow_h_y;
+  c6 = elbow_h_y * Real(9.81);
   invD_1 = Real(1.0) / S_yy;
 }
 
 template <class Real>
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
-  initial.t = Real(0.0);
   initial.y[0] = Real(0.7853981633974483);
   initial.y[1] = Real(0.7853981633974483);
   initial.z[0] = Real(0.0);
@@ -139,29 +139,26 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
+  const Real w1_z = state.z[0] + state.z[1];
+  const Real plww0 = state.z[0] * state.z[0];
+  const Real plww1 = w1_z * w1_z;
+  const Real pla1_x = r1_x * plww0;
+  const Real pla1_y = r1_y * plww0 + Real(9.81);
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
-  const Real h0b_x = s0 * model.elbow_h_y;
-  const Real h0_x = h1b_x + h0b_x;
-  const Real bQp0 = h0_x * Real(9.81);
-  const Real bW0w22 = state.z[0] * state.z[0];
-  const Real ba1o_x = r1_x * bW0w22;
-  const Real ba1o_y = Real(9.81) + r1_y * bW0w22;
-  const Real bQp1 = h1b_x * ba1o_y + h1b_y * ba1o_x;
-  const Real zw_1 = state.z[1] * (state.z[0] + (state.z[0] + state.z[1]));
-  const Real bdf1_x = h1b_x * zw_1;
-  const Real bdf1_y = h1b_y * zw_1;
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real E1 = D1 + model.S_yy;
-  const Real L_1_0 = E1 * model.invD_1;
-  const Real H1_0_0 = E1 + (D1 - (E1 * L_1_0 - model.c2));
-  const Real u1_0 = r1_x * bdf1_y - (bQp0 - (r1_y * bdf1_x + bQp1 * L_1_0));
+  const Real plf1_x = plww1 * h1b_x;
+  const Real plf1_y = plww1 * h1b_y;
+  const Real pln1 = pla1_x * h1b_y + pla1_y * h1b_x;
+  const Real p1_1l_z = r1_x * h1b_x - r1_y * h1b_y;
+  const Real L_1_0 = p1_1l_z * model.invD_1;
+  const Real H1_0_0 = p1_1l_z * L_1_0 - model.c2;
+  const Real u1_0 = r1_y * plf1_x + (r1_x * plf1_y - (s0 * model.c6 - pln1 * L_1_0));
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = u1_0 * invD_0;
-  const Real y_1 = bQp1 * model.invD_1;
-  const Real zdot_1 = y_1 + L_1_0 * y_0;
-  zdot[0] = y_0;
-  zdot[1] = -zdot_1;
+  const Real y_1 = pln1 * model.invD_1;
+  const Real zdotr_1 = y_1 - (y_0 + L_1_0 * y_0);
+  zdot[0] = -y_0;
+  zdot[1] = -zdotr_1;
 }
 
 template <class Real>
@@ -242,14 +239,12 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& i
   State<Real> stage = state;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
   detail::rates(model, stage, input, v1, a1);
-  stage.t = state.t + half;
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
   detail::rates(model, stage, input, v2, a2);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
   detail::rates(model, stage, input, v3, a3);
-  stage.t = state.t + h;
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
   detail::rates(model, stage, input, v4, a4);
@@ -258,7 +253,6 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& i
     state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
   for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  state.t = state.t + h;
 }
 
 }  // namespace double_pendulum

@@ -17,6 +17,9 @@
 // - bodies are rigid; joints are ideal and without limits
 // - a spring's length is sqrt(|dr|^2 + (1e-09 m)^2), so that its direction is defined at zero length
 // - quaternions are near unit length; a step ends with unit length
+// - time is a sum of three numbers, which 7 additions move
+// - angles that follow from time are sums of two numbers, so that the phase stays right: operation counts
+//   hold each of their operations, sines and cosines as one, it takes several (see detail::Angle)
 // Left out
 // - joint springs: none
 // - joint dampers: none
@@ -57,13 +60,43 @@ struct Parameters {
   Real tyre = Real(200000.0);  ///< vertical stiffness of the tyre, N/m
 };
 
-/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
+/// Time in s, as a sum of three numbers: where steps are many, t = t + h in one number drifts, or stands still. It reads
+/// and is set like a number; with -ffast-math it is one.
+template <class Real = double>
+struct Time {
+  Real high, low, rest;
+
+  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  operator Real() const noexcept { return high; }
+};
+
+template <class Real>
+Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
+  Time<Real> later;
+  const Real step = h + t.rest;
+  const Real low = t.low + step;
+  later.rest = step - (low - t.low);
+  later.high = t.high + low;
+  later.low = low - (later.high - t.high);
+  return later;
+}
+
+template <class Real>
+Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
+  t = t + h;
+  return t;
+}
+
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s,
+/// m/s).
 /// The independent positions and z are the state proper. The others (lower_ball_qw, lower_ball_qx,
 /// lower_ball_qy, lower_ball_qz, upper) follow from them: they are where close_loops starts its search and
 /// what it found.
 template <class Real = double>
 struct State {
-  Real t;
+  Time<Real> t;
   Real y[6];
   Real z[1];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
@@ -231,7 +264,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 4173 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
+/// 4191 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

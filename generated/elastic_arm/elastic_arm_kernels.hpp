@@ -29,6 +29,71 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+// What products of two numbers lose by rounding (Dekker, Numerische Mathematik 18, 1971; factors are split by powers of
+// two, so that fused operations change nothing). Nothing where a number type is wider than that matters.
+template <class Real>
+Real product_error(const Real& a, const Real& b, const Real& product, const Real& scale) noexcept {
+  const Real more = a * scale, much = b * scale, a1 = (more + a) - more, b1 = (much + b) - much, a0 = a - a1, b0 = b - b1;
+  return ((a1 * b1 - product) + a1 * b0 + a0 * b1) + a0 * b0;
+}
+inline double product_error(double a, double b, double product) noexcept {
+  return product_error<double>(a, b, product, 134217728);
+}
+inline float product_error(float a, float b, float product) noexcept { return product_error<float>(a, b, product, 4096); }
+template <class Real>
+Real product_error(const Real&, const Real&, const Real&) noexcept { return Real(0.0); }
+
+// An angle that follows from time, as a sum of two numbers: rounded to one, it is off by more and more.
+template <class Real>
+struct Angle {
+  Real high, low;
+
+  Angle(const Real& value) noexcept : high(value), low(Real(0.0)) {}
+  Angle(const Time<Real>& t) noexcept : high(t.high), low(t.low) {}
+  Angle(const Real& a, const Real& b) noexcept : high(a + b), low(Real(0.0)) {
+    const Real part = high - a;
+    low = (a - (high - part)) + (b - part);
+  }
+  explicit operator Real() const noexcept { return high; }
+
+  friend Angle operator-(const Angle& a) noexcept { return Angle(-a.high, -a.low); }
+  friend Angle operator+(const Angle& a, const Angle& b) noexcept {
+    const Angle sum(a.high, b.high);
+    return Angle(sum.high, sum.low + (a.low + b.low));
+  }
+  friend Angle operator-(const Angle& a, const Angle& b) noexcept { return a + -b; }
+  friend Angle operator*(const Angle& a, const Angle& b) noexcept {
+    const Real product = a.high * b.high;
+    return Angle(product, product_error(a.high, b.high, product) + (a.high * b.low + a.low * b.high));
+  }
+  friend Angle operator/(const Angle& a, const Angle& b) noexcept {
+    const Real quotient = a.high / b.high, product = quotient * b.high;
+    const Real rest = (a.high - product) - product_error(quotient, b.high, product);
+    return Angle(quotient, (rest + (a.low - quotient * b.low)) / b.high);
+  }
+};
+
+template <class Real>
+void sine_cosine(const Angle<Real>& x, Real& s, Real& c) noexcept {
+  Real s0, c0, s1, c1;
+  sine_cosine(x.high, s0, c0);
+  sine_cosine(x.low, s1, c1);
+  s = s0 * c1 + c0 * s1;
+  c = c0 * c1 - s0 * s1;
+}
+template <class Real>
+Real sine(const Angle<Real>& x) noexcept {
+  Real s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+template <class Real>
+Real cosine(const Angle<Real>& x) noexcept {
+  Real s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+
 template <class Real>
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[6]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
@@ -263,17 +328,17 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real push2_0 = state.z[2] * Real(4.0);
   const Real push3_0 = state.y[3] * model.k + state.z[3] * model.expression_8;
   const Real push5_0 = state.y[5] * model.k + state.z[5] * model.expression_9;
-  const Real expression = state.t * Real(3.0);
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * Real(3.0);
   const Real expression_2 = detail::sine(expression);
   const Real expression_3 = expression_2 * Real(20.0);
   const Real expression_4 = expression_3 + Real(61.931506158593194);
   const Real push0_0_2 = push0_0 - expression_4;
-  const Real expression_5 = Real(4.0) * state.t;
+  const detail::Angle<Real> expression_5 = Real(4.0) * detail::Angle<Real>(state.t);
   const Real expression_6 = detail::sine(expression_5);
   const Real expression_7 = Real(8.0) * expression_6;
   const Real expression_8 = expression_7 + Real(20.234312889933875);
   const Real push2_0_2 = push2_0 - expression_8;
-  const Real expression_9 = state.t * Real(5.0);
+  const detail::Angle<Real> expression_9 = detail::Angle<Real>(state.t) * Real(5.0);
   const Real expression_10 = detail::sine(expression_9);
   const Real expression_11 = expression_10 * Real(2.0);
   const Real expression_12 = expression_11 + Real(2.9282972584132296);
@@ -324,110 +389,91 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(state.y[5], t46, t47);
   const Real s5 = t45 * t46 + t42 * t47;
   const Real c5 = t42 * t46 - t45 * t47;
-  const Real h5b_x = s5 * Real(0.3);
-  const Real h5b_y = c5 * Real(0.3);
-  const Real h3b_x = s3 * Real(1.8);
-  const Real h3b_y = c3 * Real(1.8);
-  const Real h3_x = h5b_x - h3b_x;
-  const Real h3_y = h5b_y - h3b_y;
-  const Real h1b_y = c1 * Real(5.15);
-  const Real h1_y = h3_y + h1b_y;
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4_z = w3_z + state.z[4];
+  const Real w5_z = w4_z + state.z[5];
   const Real push0_0 = state.z[0] * Real(8.0);
+  const Real push1_0 = state.y[1] * model.k + state.z[1] * model.expression_7;
   const Real push2_0 = state.z[2] * Real(4.0);
-  const Real expression = state.t * Real(3.0);
+  const Real push3_0 = state.y[3] * model.k + state.z[3] * model.expression_8;
+  const Real push5_0 = state.y[5] * model.k + state.z[5] * model.expression_9;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * Real(3.0);
   const Real expression_2 = detail::sine(expression);
   const Real expression_3 = expression_2 * Real(20.0);
-  const Real expression_4 = Real(4.0) * state.t;
-  const Real expression_5 = detail::sine(expression_4);
-  const Real expression_6 = Real(8.0) * expression_5;
-  const Real expression_7 = state.t * Real(5.0);
-  const Real expression_8 = detail::sine(expression_7);
-  const Real expression_9 = expression_8 * Real(2.0);
-  const Real bQp0 = h1_y * Real(9.81);
-  const Real bW1w22 = w1_z * w1_z;
-  const Real ba2o_x = Real(9.81) - r2_x * bW1w22;
-  const Real ba2o_y = r2_y * bW1w22;
-  const Real zw_2 = state.z[2] * (w1_z + w2_z);
-  const Real zw_3 = state.z[3] * (w2_z + w3_z);
-  const Real bW3w22 = w3_z * w3_z;
-  const Real ba4o_x = ba2o_x + r4_x * bW3w22;
-  const Real ba4o_y = ba2o_y - r4_y * bW3w22;
-  const Real bQp4 = h5b_x * ba4o_y + h5b_y * ba4o_x;
-  const Real zw_4 = state.z[4] * (w3_z + w4_z);
-  const Real zw_5 = state.z[5] * (state.z[5] + (w4_z + w4_z));
-  const Real t128 = zw_4 + zw_5;
-  const Real bf5c_x = h5b_x * t128;
-  const Real bf5c_y = h5b_y * t128;
-  const Real bn4c_z = r4_x * bf5c_y - r4_y * bf5c_x;
-  const Real t134 = zw_2 + zw_3;
-  const Real bf3c_x = bf5c_x + h3_x * t134;
-  const Real bf3c_y = bf5c_y + h3_y * t134;
-  const Real bQ0_0 = r2_y * bf3c_x - (r2_x * bf3c_y + (bQp0 - bn4c_z));
-  const Real bQ2_0 = bn4c_z - (h3_x * ba2o_y + h3_y * ba2o_x);
-  const Real b_5 = bQp4 - (state.y[5] * model.k + state.z[5] * model.expression_9);
-  const Real U5_0sf_x = h5b_y * Real(16.666666666666668);
-  const Real U5_0sf_y = h5b_x * Real(16.666666666666668);
-  const Real U5_0IA_xx = h5b_y * U5_0sf_x;
-  const Real U5_0IA_xy = h5b_x * U5_0sf_x;
-  const Real U5_0IA_yy = h5b_x * U5_0sf_y;
-  const Real U5_0ff_x = b_5 * U5_0sf_x;
-  const Real U5_0ff_y = b_5 * U5_0sf_y;
-  const Real U4_0u = b_5 - (bQp4 - (state.z[4] - expression_9 - Real(2.9282972584132296)));
-  const Real I4pH0_z = r4_x * U5_0IA_xy + r4_y * U5_0IA_xx;
-  const Real I4pH1_z = r4_x * U5_0IA_yy + r4_y * U5_0IA_xy;
-  const Real hand4n_z = r4_y * U5_0ff_x + (r4_x * U5_0ff_y - (b_5 - U4_0u));
-  const Real I3rH0_z = h3b_y - I4pH0_z;
-  const Real I3rH1_z = h3b_x - I4pH1_z;
-  const Real I3rJ_zz = r4_x * I4pH1_z + r4_y * I4pH0_z - Real(0.6133333333333334);
-  const Real U3_0i = Real(1.0) / I3rJ_zz;
-  const Real U3_0sf_x = I3rH0_z * U3_0i;
-  const Real U3_0sf_y = I3rH1_z * U3_0i;
-  const Real U3_0sn_z = I3rJ_zz * U3_0i;
-  const Real U3_0u = hand4n_z - (bQ2_0 + (state.y[3] * model.k + state.z[3] * model.expression_8));
-  const Real U3_0IA_xx = U5_0IA_xx - I3rH0_z * U3_0sf_x;
-  const Real U3_0IA_xy = U5_0IA_xy - I3rH1_z * U3_0sf_x;
-  const Real U3_0IA_yy = U5_0IA_yy - I3rH1_z * U3_0sf_y;
-  const Real U3_0ff_x = U5_0ff_x + U3_0sf_x * U3_0u;
-  const Real U3_0ff_y = U5_0ff_y + U3_0sf_y * U3_0u;
-  const Real U3_0fn_z = hand4n_z - U3_0sn_z * U3_0u;
-  const Real U2_0u = U3_0fn_z - (bQ2_0 + (push2_0 - expression_6 - Real(20.234312889933875)));
-  const Real I2pH0_z = r2_x * U3_0IA_xy + r2_y * U3_0IA_xx;
-  const Real I2pH1_z = r2_x * U3_0IA_yy + r2_y * U3_0IA_xy;
-  const Real hand2n_z = r2_y * U3_0ff_x + (r2_x * U3_0ff_y - (U3_0fn_z - U2_0u));
-  const Real I1rJ_zz = r2_x * I2pH1_z + r2_y * I2pH0_z - Real(2.325);
-  const Real U1_0i = Real(1.0) / I1rJ_zz;
-  const Real U1_0sn_z = I1rJ_zz * U1_0i;
-  const Real U1_0u = hand2n_z + (bQ0_0 + (state.y[1] * model.k + state.z[1] * model.expression_7));
-  const Real U0_0u = U1_0sn_z * U1_0u - (hand2n_z + (bQ0_0 + (push0_0 - expression_3 -
-      Real(61.931506158593194))));
-  const Real acc0u = U0_0u * Real(20.0);
-  const Real acc1u = U1_0i * U1_0u;
-  const Real zdot_1 = acc1u - U1_0sn_z * acc0u;
-  const Real al1_0_z = acc0u + zdot_1;
-  const Real acc2o_x = r2_y * al1_0_z;
-  const Real acc2o_y = r2_x * al1_0_z;
-  const Real acc2u = U2_0u * Real(33.333333333333336);
-  const Real zdot_2 = al1_0_z - acc2u;
-  const Real al2_0_z = al1_0_z - zdot_2;
-  const Real acc3u = U3_0i * U3_0u;
-  const Real zdot_3 = U3_0sn_z * al2_0_z + (U3_0sf_y * acc2o_y + (acc3u + U3_0sf_x * acc2o_x));
-  const Real al3_0_z = al2_0_z - zdot_3;
-  const Real acc4o_x = acc2o_x - r4_y * al3_0_z;
-  const Real acc4o_y = acc2o_y - r4_x * al3_0_z;
-  const Real acc4u = U4_0u * Real(100.0);
-  const Real zdot_4 = al3_0_z + acc4u;
-  const Real acc5u = b_5 * Real(16.666666666666668);
-  const Real zdot_5 = U5_0sf_y * acc4o_y + (U5_0sf_x * acc4o_x - (zdot_4 - (al3_0_z - acc5u)));
-  zdot[0] = acc0u;
-  zdot[1] = zdot_1;
-  zdot[2] = -zdot_2;
-  zdot[3] = -zdot_3;
-  zdot[4] = -zdot_4;
-  zdot[5] = -zdot_5;
+  const Real expression_4 = expression_3 + Real(61.931506158593194);
+  const Real push0_0_2 = push0_0 - expression_4;
+  const detail::Angle<Real> expression_5 = Real(4.0) * detail::Angle<Real>(state.t);
+  const Real expression_6 = detail::sine(expression_5);
+  const Real expression_7 = Real(8.0) * expression_6;
+  const Real expression_8 = expression_7 + Real(20.234312889933875);
+  const Real push2_0_2 = push2_0 - expression_8;
+  const detail::Angle<Real> expression_9 = detail::Angle<Real>(state.t) * Real(5.0);
+  const Real expression_10 = detail::sine(expression_9);
+  const Real expression_11 = expression_10 * Real(2.0);
+  const Real expression_12 = expression_11 + Real(2.9282972584132296);
+  const Real push4_0 = state.z[4] - expression_12;
+  const Real plww1 = w1_z * w1_z;
+  const Real pla2_x = r2_x * plww1 - Real(9.81);
+  const Real pla2_y = r2_y * plww1;
+  const Real plww3 = w3_z * w3_z;
+  const Real pla4_x = pla2_x - r4_x * plww3;
+  const Real pla4_y = pla2_y - r4_y * plww3;
+  const Real plww5 = w5_z * w5_z;
+  const Real h5b_x = s5 * Real(0.3);
+  const Real h5b_y = c5 * Real(0.3);
+  const Real plf5_x = plww5 * h5b_x;
+  const Real plf5_y = plww5 * h5b_y;
+  const Real pln5 = pla4_x * h5b_y - pla4_y * h5b_x;
+  const Real plnc4 = r4_x * plf5_y - r4_y * plf5_x;
+  const Real h3b_x = s3 * Real(1.8);
+  const Real h3b_y = c3 * Real(1.8);
+  const Real plf3_x = plf5_x - plww3 * h3b_x;
+  const Real plf3_y = plf5_y - plww3 * h3b_y;
+  const Real pln3 = plnc4 - (pla2_x * h3b_y - pla2_y * h3b_x);
+  const Real plnc2 = r2_x * plf3_y - r2_y * plf3_x;
+  const Real pln1 = plnc2 + c1 * Real(50.5215);
+  const Real plu0 = push1_0 - push0_0_2;
+  const Real plu1 = pln1 - (push1_0 - push2_0_2);
+  const Real plu2 = push3_0 - push2_0_2;
+  const Real plu3 = pln3 + (push3_0 - push4_0);
+  const Real plu4 = push5_0 - push4_0;
+  const Real plu5 = push5_0 + pln5;
+  const Real p3_2l_z = r2_x * h3b_x + r2_y * h3b_y;
+  const Real p5_4l_z = r4_x * h5b_x + r4_y * h5b_y;
+  const Real p5_2l_z = r2_x * h5b_x + r2_y * h5b_y;
+  const Real L_5_3 = p5_4l_z * Real(16.666666666666668);
+  const Real H5_3_3 = p5_4l_z * L_5_3 - Real(0.6133333333333334);
+  const Real H5_3_1 = p3_2l_z - p5_2l_z * L_5_3;
+  const Real L_5_1 = p5_2l_z * Real(16.666666666666668);
+  const Real H5_1_1 = p5_2l_z * L_5_1 - Real(2.325);
+  const Real u5_3 = plu3 + plu5 * L_5_3;
+  const Real u5_1 = plu1 + plu5 * L_5_1;
+  const Real invD_3 = Real(1.0) / H5_3_3;
+  const Real L_3_1 = H5_3_1 * invD_3;
+  const Real H3_1_1 = H5_1_1 - H5_3_1 * L_3_1;
+  const Real u3_1 = u5_1 + u5_3 * L_3_1;
+  const Real invD_1 = Real(1.0) / H3_1_1;
+  const Real y_0 = plu0 * Real(20.0);
+  const Real y_1 = u3_1 * invD_1;
+  const Real y_2 = plu2 * Real(33.333333333333336);
+  const Real y_3 = u5_3 * invD_3;
+  const Real zdot_3 = y_3 + L_3_1 * y_1;
+  const Real y_4 = plu4 * Real(100.0);
+  const Real y_5 = plu5 * Real(16.666666666666668);
+  const Real zdot_5 = y_5 - (L_5_3 * zdot_3 + L_5_1 * y_1);
+  const Real zdotr_1 = y_0 + y_1;
+  const Real zdotr_2 = y_1 + y_2;
+  const Real zdotr_3 = y_2 - zdot_3;
+  const Real zdotr_4 = zdot_3 - y_4;
+  const Real zdotr_5 = y_4 + zdot_5;
+  zdot[0] = y_0;
+  zdot[1] = -zdotr_1;
+  zdot[2] = zdotr_2;
+  zdot[3] = -zdotr_3;
+  zdot[4] = -zdotr_4;
+  zdot[5] = -zdotr_5;
 }
 
 template <class Real>
@@ -479,13 +525,13 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real w4_z = w3_z + state.z[4];
   const Real push0_0 = state.z[0] * Real(8.0);
   const Real push2_0 = state.z[2] * Real(4.0);
-  const Real expression = state.t * Real(3.0);
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * Real(3.0);
   const Real expression_2 = detail::sine(expression);
   const Real expression_3 = expression_2 * Real(20.0);
-  const Real expression_4 = Real(4.0) * state.t;
+  const detail::Angle<Real> expression_4 = Real(4.0) * detail::Angle<Real>(state.t);
   const Real expression_5 = detail::sine(expression_4);
   const Real expression_6 = Real(8.0) * expression_5;
-  const Real expression_7 = state.t * Real(5.0);
+  const detail::Angle<Real> expression_7 = detail::Angle<Real>(state.t) * Real(5.0);
   const Real expression_8 = detail::sine(expression_7);
   const Real expression_9 = expression_8 * Real(2.0);
   const Real aQp0 = h1_y * Real(9.81);

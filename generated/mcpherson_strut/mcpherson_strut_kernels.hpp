@@ -29,6 +29,71 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+// What products of two numbers lose by rounding (Dekker, Numerische Mathematik 18, 1971; factors are split by powers of
+// two, so that fused operations change nothing). Nothing where a number type is wider than that matters.
+template <class Real>
+Real product_error(const Real& a, const Real& b, const Real& product, const Real& scale) noexcept {
+  const Real more = a * scale, much = b * scale, a1 = (more + a) - more, b1 = (much + b) - much, a0 = a - a1, b0 = b - b1;
+  return ((a1 * b1 - product) + a1 * b0 + a0 * b1) + a0 * b0;
+}
+inline double product_error(double a, double b, double product) noexcept {
+  return product_error<double>(a, b, product, 134217728);
+}
+inline float product_error(float a, float b, float product) noexcept { return product_error<float>(a, b, product, 4096); }
+template <class Real>
+Real product_error(const Real&, const Real&, const Real&) noexcept { return Real(0.0); }
+
+// An angle that follows from time, as a sum of two numbers: rounded to one, it is off by more and more.
+template <class Real>
+struct Angle {
+  Real high, low;
+
+  Angle(const Real& value) noexcept : high(value), low(Real(0.0)) {}
+  Angle(const Time<Real>& t) noexcept : high(t.high), low(t.low) {}
+  Angle(const Real& a, const Real& b) noexcept : high(a + b), low(Real(0.0)) {
+    const Real part = high - a;
+    low = (a - (high - part)) + (b - part);
+  }
+  explicit operator Real() const noexcept { return high; }
+
+  friend Angle operator-(const Angle& a) noexcept { return Angle(-a.high, -a.low); }
+  friend Angle operator+(const Angle& a, const Angle& b) noexcept {
+    const Angle sum(a.high, b.high);
+    return Angle(sum.high, sum.low + (a.low + b.low));
+  }
+  friend Angle operator-(const Angle& a, const Angle& b) noexcept { return a + -b; }
+  friend Angle operator*(const Angle& a, const Angle& b) noexcept {
+    const Real product = a.high * b.high;
+    return Angle(product, product_error(a.high, b.high, product) + (a.high * b.low + a.low * b.high));
+  }
+  friend Angle operator/(const Angle& a, const Angle& b) noexcept {
+    const Real quotient = a.high / b.high, product = quotient * b.high;
+    const Real rest = (a.high - product) - product_error(quotient, b.high, product);
+    return Angle(quotient, (rest + (a.low - quotient * b.low)) / b.high);
+  }
+};
+
+template <class Real>
+void sine_cosine(const Angle<Real>& x, Real& s, Real& c) noexcept {
+  Real s0, c0, s1, c1;
+  sine_cosine(x.high, s0, c0);
+  sine_cosine(x.low, s1, c1);
+  s = s0 * c1 + c0 * s1;
+  c = c0 * c1 - s0 * s1;
+}
+template <class Real>
+Real sine(const Angle<Real>& x) noexcept {
+  Real s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+template <class Real>
+Real cosine(const Angle<Real>& x) noexcept {
+  Real s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real>
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
@@ -132,7 +197,7 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
       Real(0.9156733568092016));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
@@ -261,7 +326,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
       Real(0.2088879845220991));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
@@ -392,7 +457,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
       Real(0.9156733568092016));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
@@ -660,7 +725,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
       Real(0.9156733568092016));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
@@ -844,7 +909,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(0.2088879845220991));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
@@ -1165,7 +1230,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(0.2088879845220991));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
@@ -1479,7 +1544,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
       Real(0.2088879845220991));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
@@ -1706,7 +1771,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t54 = t1 * Real(0.9156733568092016);
   const Real t55 = t1 * Real(0.3433775088034506);
   const Real t74 = t12 * t55 + (t11 * t54 + (t8 * t52 + (t6 * t50 - (t1 * t53 + t2 * t48) * Real(0.2))));
-  const Real t81 = detail::cosine(state.t * model.rate);
+  const Real t81 = detail::cosine(detail::Angle<Real>(state.t) * model.rate);
   const Real t87 = t17 - (Real(0.36) - (t81 - Real(1.0)) * model.c1);
   const Real t89 = t20 - Real(0.27);
   const Real t92 = (t22 * t29 - t24 * t26) / t45;
@@ -1839,7 +1904,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
   const Real g_strut_2 = strutd_y * strutad1_x_2 - (strutd_x * strutad1p_z_2 + strutd_z * strutad1_y_2);
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
@@ -2018,7 +2083,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
       Real(0.2088879845220991));
   const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
   const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real expression = state.t * model.rate;
+  const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;

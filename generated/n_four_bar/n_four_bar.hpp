@@ -19,7 +19,7 @@
 // - bodies are rigid; joints are ideal and without limits
 // Left out
 // - Z: dy/dt = z, so there is no position_rate
-// - t: nothing depends on time
+// - t: nothing depends on time, states hold none
 // - joint springs: none
 // - joint dampers: none
 // - inputs: none
@@ -53,10 +53,9 @@ namespace n_four_bar {
 template <class Real = double>
 struct Parameters {};
 
-/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
+/// Generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
 template <class Real = double>
 struct State {
-  Real t;
   Real y[5];
   Real z[5];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
@@ -193,7 +192,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 1915 operations.
+/// 1912 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -9,6 +9,7 @@
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
+// - time is a sum of three numbers, which 7 additions move
 // Left out
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (18 operations
 //   of forward_dynamics)
@@ -19,7 +20,7 @@
 // - common factors: factors that several terms of a sum share are multiplied once (1 operations of
 //   forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
-// - t: nothing depends on time
+// - t: nothing depends on time but what the caller gives
 // - joint springs: none
 // - joint dampers: none
 // - frame forces: none
@@ -49,10 +50,40 @@ namespace puma560 {
 template <class Real = double>
 struct Parameters {};
 
-/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
+/// Time in s, as a sum of three numbers: where steps are many, t = t + h in one number drifts, or stands still. It reads
+/// and is set like a number; with -ffast-math it is one.
+template <class Real = double>
+struct Time {
+  Real high, low, rest;
+
+  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  operator Real() const noexcept { return high; }
+};
+
+template <class Real>
+Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
+  Time<Real> later;
+  const Real step = h + t.rest;
+  const Real low = t.low + step;
+  later.rest = step - (low - t.low);
+  later.high = t.high + low;
+  later.low = low - (later.high - t.high);
+  return later;
+}
+
+template <class Real>
+Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
+  t = t + h;
+  return t;
+}
+
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s,
+/// m/s).
 template <class Real = double>
 struct State {
-  Real t;
+  Time<Real> t;
   Real y[6];
   Real z[6];
 };
@@ -136,7 +167,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 2277 operations. For inputs sampled at the stages include puma560_kernels.hpp and pass a function of the
+/// 2295 operations. For inputs sampled at the stages include puma560_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -11,10 +11,11 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // - quaternions are near unit length; a step ends with unit length
+// - time is a sum of three numbers, which 7 additions move
 // Left out
 // - common factors: factors that several terms of a sum share are multiplied once (3 operations of
 //   forward_dynamics)
-// - t: nothing depends on time
+// - t: nothing depends on time but what the caller gives
 // - joint springs: none
 // - joint dampers: none
 // - factorisation: M is constant, its factors are computed with the model
@@ -47,10 +48,40 @@ struct Parameters {
   Real drag = Real(0.0009);  ///< aerodynamic drag of the frame, assumed, N s/m
 };
 
-/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
+/// Time in s, as a sum of three numbers: where steps are many, t = t + h in one number drifts, or stands still. It reads
+/// and is set like a number; with -ffast-math it is one.
+template <class Real = double>
+struct Time {
+  Real high, low, rest;
+
+  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  operator Real() const noexcept { return high; }
+};
+
+template <class Real>
+Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
+  Time<Real> later;
+  const Real step = h + t.rest;
+  const Real low = t.low + step;
+  later.rest = step - (low - t.low);
+  later.high = t.high + low;
+  later.low = low - (later.high - t.high);
+  return later;
+}
+
+template <class Real>
+Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
+  t = t + h;
+  return t;
+}
+
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s,
+/// m/s).
 template <class Real = double>
 struct State {
-  Real t;
+  Time<Real> t;
   Real y[7];
   Real z[6];
 };
@@ -158,7 +189,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 867 operations. For inputs sampled at the stages include quadrotor_kernels.hpp and pass a function of the
+/// 885 operations. For inputs sampled at the stages include quadrotor_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

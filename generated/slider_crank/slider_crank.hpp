@@ -15,8 +15,9 @@
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
+// - time is a sum of three numbers, which 7 additions move
 // Left out
-// - t: nothing depends on time
+// - t: nothing depends on time but what the caller gives
 // - joint springs: none
 // - joint dampers: none
 // - frame forces: none
@@ -52,12 +53,42 @@ struct Parameters {
   Real flywheel = Real(0.12);  ///< inertia of crankshaft and flywheel about their axis, kg m^2
 };
 
-/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
+/// Time in s, as a sum of three numbers: where steps are many, t = t + h in one number drifts, or stands still. It reads
+/// and is set like a number; with -ffast-math it is one.
+template <class Real = double>
+struct Time {
+  Real high, low, rest;
+
+  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  operator Real() const noexcept { return high; }
+};
+
+template <class Real>
+Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
+  Time<Real> later;
+  const Real step = h + t.rest;
+  const Real low = t.low + step;
+  later.rest = step - (low - t.low);
+  later.high = t.high + low;
+  later.low = low - (later.high - t.high);
+  return later;
+}
+
+template <class Real>
+Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
+  t = t + h;
+  return t;
+}
+
+/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s,
+/// m/s).
 /// The independent positions and z are the state proper. The others (rod, piston) follow from them: they are
 /// where close_loops starts its search and what it found.
 template <class Real = double>
 struct State {
-  Real t;
+  Time<Real> t;
   Real y[3];
   Real z[1];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
@@ -196,7 +227,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 535 operations. For inputs sampled at the stages include slider_crank_kernels.hpp and pass a function of
+/// 553 operations. For inputs sampled at the stages include slider_crank_kernels.hpp and pass a function of
 /// the state instead of `input`.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

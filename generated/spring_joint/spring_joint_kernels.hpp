@@ -62,7 +62,6 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
 template <class Real>
 State<Real> initial_state(const Model<Real>& model) noexcept {
   State<Real> initial;
-  initial.t = Real(0.0);
   initial.y[0] = Real(0.0);
   initial.y[1] = -model.expression;
   initial.y[2] = Real(0.0);
@@ -218,14 +217,12 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& i
   State<Real> stage = state;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
   detail::rates(model, stage, input, v1, a1);
-  stage.t = state.t + half;
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
   detail::rates(model, stage, input, v2, a2);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
   detail::rates(model, stage, input, v3, a3);
-  stage.t = state.t + h;
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
   detail::rates(model, stage, input, v4, a4);
@@ -234,7 +231,6 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& i
     state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
   for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
-  state.t = state.t + h;
 }
 
 }  // namespace spring_joint

@@ -18,7 +18,7 @@
 // - bodies are rigid; joints are ideal and without limits
 // - a spring's length is sqrt(|dr|^2 + (1e-09 m)^2), so that its direction is defined at zero length
 // Left out
-// - t: nothing depends on time
+// - t: nothing depends on time, states hold none
 // - joint springs: none
 // - joint dampers: none
 // - inputs: none
@@ -55,12 +55,11 @@ struct Parameters {
   Real c0 = Real(4530.0);  ///< stiffness of the spring, N/m
 };
 
-/// Time t (s), generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
+/// Generalized coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).
 /// The independent positions and z are the state proper. The others (Theta, gamma, delta, Phi, epsilon,
 /// Omega) follow from them: they are where close_loops starts its search and what it found.
 template <class Real = double>
 struct State {
-  Real t;
   Real y[7];
   Real z[1];
   /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
@@ -205,7 +204,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 2009 operations.
+/// 2006 operations.
 template <class Real>
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -17,7 +17,7 @@ struct Arguments {
   ModelArguments model;
   std::string folder;
   std::vector<std::string> functions;
-  bool explain = false;
+  bool clock = false, explain = false;
   std::string dump;  ///< pass whose programs are printed, or kAllPasses; empty: none
 };
 
@@ -47,6 +47,7 @@ int run(const Arguments& arguments) {
     fmt::print(stderr, "error: {}\n", conflict);
     return kUsage;
   }
+  loaded->options.clock = arguments.clock;
   if (!arguments.functions.empty()) loaded->options.functions = arguments.functions;
   if (!arguments.dump.empty())
     loaded->options.watch = [&](const passes::PassRecord& pass, const ir::Module& module) {
@@ -83,6 +84,7 @@ void add_compile(CLI::App& app, int& status) {
                    "functions to emit (default: all, of the steps rk4_step)")
       ->delimiter(',')
       ->check(check_function);
+  command->add_flag("--clock", arguments->clock, "keep the time in State, though nothing depends on it");
   command->add_flag("--explain", arguments->explain,
                     "print what was compared with what, what each pass did and what was left out");
   command

@@ -76,7 +76,7 @@ Matrix3 turned_point(const Matrix3& S, const Ex& c, const Ex& s, const std::stri
 
 std::vector<CompositeBody> derive_composites(const LinkTree& tree, const WorkingFrames& frames,
                                              Statements& statements,
-                                             const std::function<bool(std::size_t link)>& joins) {
+                                             const std::function<Joins(std::size_t link)>& joins) {
   const std::size_t n = tree.links.size();
   std::vector<MassMoments> in_link(n), in_working(n);  // sums over the link's body and children so far
   std::vector<Ex> working_polar(n, 0);
@@ -101,12 +101,16 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
     const Matrix3& second = body.moments.second;
     body.J_xx = statements.bind(fmt::format("Jx{}", i), second[1][1] + second[2][2]);
     body.J_yy = statements.bind(fmt::format("Jy{}", i), second[0][0] + second[2][2]);
-    if (link.parent == kGround || !joins(i)) continue;
+    if (link.parent == kGround || joins(i) == Joins::kNot) continue;
 
     const Vector3& r = frames.offset(i);
     const std::string at_parent = fmt::format("at{}", i);
+    const bool as_mass = joins(i) == Joins::kMass;
     MassMoments moved = body.moments;
-    if (!link.parallel) {
+    if (as_mass) {
+      moved.first = kinematics::zero_vector();
+      moved.second = kinematics::zero_matrix();
+    } else if (!link.parallel) {
       moved.first = statements.bind(h + at_parent, frames.rotation(i) * moved.first);
       moved.second = rotated(frames.rotation(i), moved.second, S + at_parent, statements);
     }
@@ -115,7 +119,7 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
     MassMoments& target = link.parallel ? in_working[link.parent] : in_link[link.parent];
     if (link.parallel) {
       const Ex shift = statements.bind(fmt::format("D{}", i), r[0] * middle[0] + r[1] * middle[1]);
-      const Ex half = statements.bind(fmt::format("E{}", i), body.J_zz + shift);
+      const Ex half = as_mass ? shift : statements.bind(fmt::format("E{}", i), body.J_zz + shift);
       working_polar[link.parent] =
           statements.bind(fmt::format("Jc{}", i), working_polar[link.parent] + half + shift);
     }

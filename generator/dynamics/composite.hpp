@@ -24,12 +24,18 @@ struct CompositeBody {
   Ex J_xx, J_yy, J_zz;  ///< moments of inertia; J_zz = S_xx + S_yy is that about the axis of a turn
 };
 
-/// One per link, inward by recursion. Links that `joins` is false for are left out of their parents, with what is
-/// outward of them.
+/// How a link counts with its parent.
+enum class Joins {
+  kRigid,  ///< as part of one rigid body
+  kMass,   ///< its mass alone, at its origin: the parent carries it without turning it
+  kNot     ///< not at all, nor what is outward of it
+};
+
+/// One per link, inward by recursion.
 std::vector<CompositeBody> derive_composites(const kinematics::LinkTree& tree,
                                              const kinematics::WorkingFrames& frames,
                                              kinematics::Statements& statements,
-                                             const std::function<bool(std::size_t link)>& joins);
+                                             const std::function<Joins(std::size_t link)>& joins);
 
 /// Velocity field `linear` + `angular` × x of a rigid motion, x from the link's origin.
 struct Twist {

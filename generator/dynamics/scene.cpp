@@ -28,7 +28,7 @@ Scene::Scene(const model::Mechanism& model, const kinematics::LinkTreeOptions& o
       tree(kinematics::build_link_tree(model, leaves.parameters, statements, options)),
       states(kinematics::derive_link_states(model, layout, tree, leaves, statements)),
       frames(tree, states, statements),
-      composites(derive_composites(tree, frames, statements, [](std::size_t) { return true; })),
+      composites(derive_composites(tree, frames, statements, [](std::size_t) { return Joins::kRigid; })),
       omega(derive_angular_velocities(tree, frames, states, statements)),
       columns(all_columns(tree, states, frames)) {}
 

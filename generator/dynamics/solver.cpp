@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/absolute_rates.hpp"
 #include "dynamics/articulated.hpp"
 #include "dynamics/energy.hpp"
 #include "support/check.hpp"
@@ -23,10 +24,14 @@ struct Row {
   Wrench share;                     ///< G (or U) / D
 };
 
+/// Whether x are accelerations of joints, or those of links where the scene moves in planes.
+enum class Basis { kJoints, kLinks };
+
 class Solver {
  public:
-  Solver(Scene& scene, const ArticulatedLinks& articulated, const std::vector<Ex>& b)
+  Solver(Scene& scene, const ArticulatedLinks& articulated, const std::vector<Ex>& b, Basis basis)
       : scene_(scene),
+        basis_(basis),
         statements_(scene.statements),
         articulated_(articulated),
         count_(b.size()),
@@ -39,13 +44,17 @@ class Solver {
         force_in_link_(scene.link_count()),
         x_(count_) {
     for (std::size_t k = 0; k < count_; ++k) rows_[k].u = b[k];
-    rigid_ = derive_composites(scene.tree, scene.frames, statements_,
-                               [this](std::size_t i) { return !articulated_[i]; });
+    rigid_ = derive_composites(scene.tree, scene.frames, statements_, [this](std::size_t i) {
+      return articulated_[i] ? Joins::kNot : is_carried_along(i) ? Joins::kMass : Joins::kRigid;
+    });
   }
 
   std::vector<Ex> solve() {
     for (std::size_t i = 0; i < scene_.link_count(); ++i) set_rows(i);
-    add_rotors();
+    if (basis_ == Basis::kLinks)
+      add_planar_rotors(scene_, H_);
+    else
+      add_rotors();
     for (std::size_t i = scene_.link_count(); i-- > 0;)
       if (articulated_[i])
         give_way(i);
@@ -65,6 +74,11 @@ class Solver {
  private:
   std::string named(const char* quantity, std::size_t i, std::size_t j) const {
     return fmt::format("{}{}_{}", quantity, i, j);
+  }
+
+  /// Moved, but not turned, by its parent.
+  bool is_carried_along(std::size_t i) const {
+    return basis_ == Basis::kLinks && turns_beside_parent(scene_.tree, i);
   }
 
   Wrench bound(const std::string& name, const Wrench& wrench) {
@@ -94,6 +108,7 @@ class Solver {
               statements_.bind(named("M", *entry, *column.entry), power(moving, scene_.columns[j][d].twist));
           if (*entry < *column.entry) row.inward.push_back(*entry);
         }
+        if (is_carried_along(j)) moving.moment = kinematics::zero_vector();
         if (scene_.tree.links[j].parent != kGround)
           moving =
               to_parent(scene_.tree, scene_.frames, j, moving, named("p", *column.entry, j), statements_);
@@ -237,6 +252,7 @@ class Solver {
   }
 
   Scene& scene_;
+  Basis basis_;
   kinematics::Statements& statements_;
   const ArticulatedLinks& articulated_;
   std::size_t count_;
@@ -253,7 +269,12 @@ class Solver {
 
 std::vector<Ex> solve_accelerations(Scene& scene, const ArticulatedLinks& articulated,
                                     const std::vector<Ex>& b) {
-  return Solver(scene, articulated, b).solve();
+  return Solver(scene, articulated, b, Basis::kJoints).solve();
+}
+
+std::vector<Ex> solve_planar_accelerations(Scene& scene, const std::vector<Ex>& u) {
+  const ArticulatedLinks none(scene.link_count(), false);
+  return joint_rates_of(scene, Solver(scene, none, u, Basis::kLinks).solve());
 }
 
 }  // namespace jourdain::dynamics

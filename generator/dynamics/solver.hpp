@@ -18,4 +18,7 @@ using ArticulatedLinks = std::vector<bool>;
 std::vector<Ex> solve_accelerations(Scene& scene, const ArticulatedLinks& articulated,
                                     const std::vector<Ex>& b);
 
+/// dz/dt where the scene moves_in_planes, through the accelerations of links; `u` by planar_forces.
+std::vector<Ex> solve_planar_accelerations(Scene& scene, const std::vector<Ex>& u);
+
 }  // namespace jourdain::dynamics

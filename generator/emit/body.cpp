@@ -34,6 +34,31 @@ std::string at_least(const Text& text, Strength strength) {
   return text.strength >= strength ? text.text : "(" + text.text + ")";
 }
 
+/// Values that depend on time and that an angle is made of: operands of sines and cosines, through sums and products.
+std::vector<bool> angles_of_time(const Program& program) {
+  const std::size_t n = program.nodes.size();
+  std::vector<bool> depends(n, false), is_angle(n, false);
+  const auto operands = [&](std::size_t i, const auto& visit) {
+    const Node& node = program.nodes[i];
+    const int count = ir::operand_count(node.op);
+    if (count > 0) visit(node.a.value);
+    if (count > 1) visit(node.b.value);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const Node& node = program.nodes[i];
+    depends[i] = node.op == Op::kLeaf && node.leaf == ir::LeafKind::kTime;
+    operands(i, [&](std::size_t operand) { depends[i] = depends[i] || depends[operand]; });
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    const Op op = program.nodes[i].op;
+    const bool turns = op == Op::kSin || op == Op::kCos;
+    if (turns || (is_angle[i] && op != Op::kSqrt && op != Op::kAtan2))
+      operands(i, [&](std::size_t operand) { is_angle[operand] = is_angle[operand] || depends[operand]; });
+    if (turns || op == Op::kSqrt || op == Op::kAtan2) is_angle[i] = false;
+  }
+  return is_angle;
+}
+
 class BodyPrinter {
  public:
   BodyPrinter(const Program& program, Names names, const LeafText& leaf, const OutputText& output,
@@ -43,6 +68,7 @@ class BodyPrinter {
         output_(output),
         stored_(stored),
         uses_(ir::use_counts(program)),
+        is_angle_(angles_of_time(program)),
         name_(program.nodes.size()) {
     for (std::size_t i = 0; i < program.nodes.size(); ++i)
       if (const auto it = stored.find(ValueId(i)); it != stored.end())
@@ -60,13 +86,14 @@ class BodyPrinter {
     const std::vector<std::size_t> part_of = cut(statements, maximum_statements);
     const std::size_t parts = statements.empty() ? 1 : part_of[statements.back()] + 1;
     const auto slots = work_slots(statements, part_of, parts);
+    for (const auto& [i, slot] : slots) is_angle_[i] = false;
     body.work_size = slots.size();
     body.parts.resize(parts);
     for (std::size_t part = 0; part < parts; ++part)
       print_part(body.parts[part], part, statements, part_of, slots);
     for (const ir::Output& output : program_.outputs)
       if (!stored_.count(output.value))
-        body.parts.back().lines.push_back(output_(output, expression(output.value, true).text));
+        body.parts.back().lines.push_back(output_(output, expression(output.value).text));
     return body;
   }
 
@@ -192,29 +219,48 @@ class BodyPrinter {
     if (second_.count(i)) return;
     const auto it = pair_.find(i);
     if (it == pair_.end()) {
-      const char* declare = stored_.count(ValueId(i)) ? "" : "const Real ";
-      part.lines.push_back(fmt::format("{}{} = {};", declare, name_[i], expression(ValueId(i), false).text));
+      const char* declare = stored_.count(ValueId(i)) ? ""
+                            : is_angle_[i]            ? "const detail::Angle<Real> "
+                                                      : "const Real ";
+      part.lines.push_back(fmt::format("{}{} = {};", declare, name_[i], operation(ValueId(i)).text));
       return;
     }
     const bool sine_first = program_.nodes[i].op == Op::kSin;
     const std::string &sine = name_[sine_first ? i : it->second],
                       &cosine = name_[sine_first ? it->second : i];
     part.lines.push_back(fmt::format("Real {}, {};", sine, cosine));
-    part.lines.push_back(fmt::format("detail::sine_cosine({}, {}, {});",
-                                     expression(program_.nodes[i].a, true).text, sine, cosine));
+    part.lines.push_back(
+        fmt::format("detail::sine_cosine({}, {}, {});", angle(program_.nodes[i].a).text, sine, cosine));
   }
 
-  /// The expression of a value; `by_name` for one that has a name already.
-  Text expression(ValueId id, bool by_name) const {
-    if (by_name && !name_[id.value].empty()) return {name_[id.value]};
+  /// A value as a Real: by its name where it has one.
+  Text expression(ValueId id) const {
+    const Text text = angle(id);
     const Node& node = program_[id];
-    const auto a = [&](Strength strength) { return at_least(expression(node.a, true), strength); };
-    const auto b = [&](Strength strength) { return at_least(expression(node.b, true), strength); };
+    const bool is_time = node.op == Op::kLeaf && node.leaf == ir::LeafKind::kTime;
+    if (is_time) return {fmt::format("Real({})", leaf_(node.leaf, node.index))};
+    return is_angle_[id.value] ? Text{fmt::format("Real({})", text.text)} : text;
+  }
+
+  /// A value as it is computed: an Angle where it is one.
+  Text angle(ValueId id) const { return name_[id.value].empty() ? operation(id) : Text{name_[id.value]}; }
+
+  Text operand(ValueId id, bool of_angle, Strength strength) const {
+    return {at_least(of_angle ? angle(id) : expression(id), strength)};
+  }
+
+  Text operation(ValueId id) const {
+    const Node& node = program_[id];
+    const bool is_angle = is_angle_[id.value];
+    const auto a = [&](Strength strength) { return operand(node.a, is_angle, strength).text; };
+    const auto b = [&](Strength strength) { return operand(node.b, is_angle, strength).text; };
     switch (node.op) {
       case Op::kLiteral:
         return {literal_text(node.literal)};
       case Op::kLeaf:
-        return {leaf_(node.leaf, node.index)};
+        return {node.leaf == ir::LeafKind::kTime
+                    ? fmt::format("detail::Angle<Real>({})", leaf_(node.leaf, node.index))
+                    : leaf_(node.leaf, node.index)};
       case Op::kNegate:
         return {"-" + a(Strength::kAtom), Strength::kSum};
       case Op::kAdd:
@@ -226,14 +272,13 @@ class BodyPrinter {
       case Op::kDivide:
         return {a(Strength::kProduct) + " / " + b(Strength::kAtom), Strength::kProduct};
       case Op::kSqrt:
-        return {fmt::format("detail::square_root({})", expression(node.a, true).text)};
+        return {fmt::format("detail::square_root({})", expression(node.a).text)};
       case Op::kSin:
-        return {fmt::format("detail::sine({})", expression(node.a, true).text)};
+        return {fmt::format("detail::sine({})", angle(node.a).text)};
       case Op::kCos:
-        return {fmt::format("detail::cosine({})", expression(node.a, true).text)};
+        return {fmt::format("detail::cosine({})", angle(node.a).text)};
       case Op::kAtan2:
-        return {fmt::format("detail::arctangent2({}, {})", expression(node.a, true).text,
-                            expression(node.b, true).text)};
+        return {fmt::format("detail::arctangent2({}, {})", expression(node.a).text, expression(node.b).text)};
     }
     return {};
   }
@@ -243,12 +288,18 @@ class BodyPrinter {
   const OutputText& output_;
   const StoredValues& stored_;
   std::vector<std::size_t> uses_;
+  std::vector<bool> is_angle_;
   std::vector<std::string> name_;  ///< of statements; empty for what is written inside them
   std::map<std::size_t, std::size_t> pair_;
   std::set<std::size_t> second_;
 };
 
 }  // namespace
+
+bool turns_with_time(const Program& program) {
+  const std::vector<bool> is_angle = angles_of_time(program);
+  return std::find(is_angle.begin(), is_angle.end(), true) != is_angle.end();
+}
 
 Body print_body(const Program& program, Names names, const LeafText& leaf, const OutputText& output,
                 const StoredValues& stored, std::size_t maximum_statements) {

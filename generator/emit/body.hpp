@@ -38,6 +38,10 @@ using StoredValues = std::map<ir::ValueId, std::string>;
 Body print_body(const ir::Program& program, Names names, const LeafText& leaf, const OutputText& output,
                 const StoredValues& stored = {}, std::size_t maximum_statements = kMaximumStatements);
 
+/// Does a sine or cosine depend on time? Such angles are computed as detail::Angle; a value that passes from part to part
+/// is rounded.
+bool turns_with_time(const ir::Program& program);
+
 /// Shortest decimal that reads back as `value`, as a Real.
 std::string literal_text(double value);
 

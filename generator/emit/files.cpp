@@ -35,6 +35,7 @@ SceneShape shape_of(const ModelText& model) {
   shape.inputs = model.inputs.size();
   shape.output_numbers = numbers;
   shape.time = model.time;
+  shape.clock = model.clock;
   shape.constraints = model.constraints.size();
   shape.has_dependents = !model.dependents.empty();
   shape.closings = model.closings;
@@ -46,6 +47,7 @@ class Emitter {
   Emitter(const ModelText& model, const std::vector<FunctionInfo>& functions, const ir::Module& module)
       : model_(model), functions_(functions), module_(module), scene_(shape_of(model)) {
     Names names({"Scalar",
+                 "Time",
                  "Parameters",
                  "State",
                  "Input",
@@ -91,8 +93,9 @@ class Emitter {
         {"NY", fmt::format("{}", scene_.positions)},
         {"NZ", fmt::format("{}", scene_.velocities)},
         {"NO", fmt::format("{}", scene_.outputs)},
+        {"TIME", scene_.clock ? std::string(template_text("time.in")) : ""},
+        {"STATE_DOC", state_doc(model_)},
         {"STATE", state_members()},
-        {"STATE_NOTE", state_note(model_)},
         {"NG", guard_limits(model_)},
         {"GUARD", guard_functions(model_)},
         {"OUTPUTS", output_struct(model_)},
@@ -104,6 +107,7 @@ class Emitter {
              ? fmt::format("  using Linearization = {}::Linearization<Real>;\n", model_.name)
              : ""},
         {"ARCTANGENT", ir::has_arctangent(module_) ? std::string(template_text("arctangent.in")) : ""},
+        {"ANGLE", has_angle() ? std::string(template_text("angle.in")) : ""},
         {"STEP_SUPPORT", step_support(step_scene(), functions_, module_)},
         {"HISTORY", history_struct(step_scene(), functions_)},
         {"NU", fmt::format("{}", model_.inputs.size())},
@@ -289,7 +293,8 @@ class Emitter {
     if (function.shape == Shape::kCorrection)
       text = "  State<Real> closed = state;\n" + text + "  state = closed;\n";
     if (function.shape == Shape::kState)
-      text = "  State<Real> initial;\n  initial.t = Real(0.0);\n" + text + "  return initial;\n";
+      text = fmt::format("  State<Real> initial;\n{}{}  return initial;\n",
+                         scene_.clock ? "  initial.t = Real(0.0);\n" : "", text);
     return "\ntemplate <class Real>\n" + wrapped(signature(function, "Real", scene_, &text) + " {", 0) +
            text + "}\n";
   }
@@ -350,8 +355,14 @@ class Emitter {
         scene_.count(array.extents[0]), scene_.count(array.extents[1]), name);
   }
 
+  bool has_angle() const {
+    return std::any_of(functions_.begin(), functions_.end(), [this](const FunctionInfo& f) {
+      return f.shape != Shape::kStep && turns_with_time(program(f.name));
+    });
+  }
+
   std::string state_members() const {
-    std::string text;
+    std::string text = scene_.clock ? "  Time<Real> t;\n" : "";
     if (scene_.positions > 0) text += fmt::format("  Real y[{}];\n", scene_.positions);
     if (scene_.velocities > 0) text += fmt::format("  Real z[{}];\n", scene_.velocities);
     return text + guard_members(model_);

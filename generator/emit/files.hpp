@@ -51,6 +51,7 @@ struct ModelText {
   std::vector<std::string> positions, velocities, inputs;  ///< names in order
   model::Tangent tangent;
   model::TimeDependence time;
+  bool clock = false;           ///< see SceneShape
   bool all_derivatives = true;  ///< those of the residual hold all terms
   std::vector<OutputDeclaration> outputs;
   std::vector<ParameterText> parameters;

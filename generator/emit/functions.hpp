@@ -58,6 +58,7 @@ struct SceneShape {
   std::size_t positions = 0, velocities = 0, quaternions = 0, outputs = 0;
   std::size_t inputs = 0, output_numbers = 0;
   model::TimeDependence time;
+  bool clock = false;  ///< states hold the time: something depends on it, inputs may, or it was asked for
   std::size_t constraints = 0;  ///< rows of all loops
   bool has_dependents = false;  ///< some positions follow from others
   int closings =

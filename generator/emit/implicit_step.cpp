@@ -9,6 +9,7 @@
 
 #include "emit/body.hpp"
 #include "emit/layout.hpp"
+#include "emit/steppers.hpp"
 #include "emit/templates.hpp"
 
 namespace jourdain::emit {
@@ -245,7 +246,7 @@ std::string stage_text(const StepScene& scene, const Rosenbrock& method, std::si
   text += line("stage.sum_z[i]", or_zero(combination(C, method.gamma, i, "z")));
   text += "  }\n";
   if (i > 0) {
-    if (method.nodes[i] != 0)
+    if (scene.shape.clock && method.nodes[i] != 0)
       text += fmt::format("  stage.state.t = state.t + {}h;\n",
                           method.nodes[i] == 1 ? "" : literal_text(method.nodes[i]) + " * ");
     text += "  detail::displace(state, stage.y, stage.state);\n";
@@ -340,7 +341,7 @@ std::string rosenbrock_body(const StepScene& scene, const Rosenbrock& method) {
     text += fmt::format("  state.y[{0}] = stage.state.y[{0}];\n", entry);
   if (turns) text += "  stage.state = state;\n";
   text += fmt::format("  detail::displace({}, stage.y, state);\n", turns ? "stage.state" : "state");
-  return text + "  state.t = state.t + h;\n";
+  return scene.shape.clock ? text + "  state.t = state.t + h;\n" : text;
 }
 
 long closings_of(const StepScene& scene, const Rosenbrock& method) {
@@ -370,14 +371,15 @@ long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, con
     if (i > 0) total += displace;
     const bool moves = std::any_of(method.A[i].begin(), method.A[i].end(), [](double a) { return a != 0; });
     if (moves) total += 2 * n;
-    if (i > 0 && method.nodes[i] != 0) total += method.nodes[i] == 1 ? 1 : 2;
+    if (scene.shape.clock && i > 0 && method.nodes[i] != 0)
+      total += kClockOperations + (method.nodes[i] != 1);
     total += 6 * n + quaternions * (kTurningRate + 2 * kRotate);  // c, rate, v
     total +=
         (change ? 6 : 4) * n + 8 * pairs + 4 * pairs + n + 4 * n;  // right-hand side, solution, increments
   }
   total +=
       n * (ends_at_last_stage(method) ? 4 : 3 * combination_operations(method.m, 1, method.m.size()) + 2);
-  return total + displace + 1;
+  return total + displace + scene.shape.clock * kClockOperations;
 }
 
 }  // namespace jourdain::emit

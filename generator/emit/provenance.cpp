@@ -31,12 +31,16 @@ std::string provenance(const ModelText& model, bool has_rate) {
   return text;
 }
 
-std::string state_note(const ModelText& model) {
-  if (model.dependents.empty()) return "";
+std::string state_doc(const ModelText& model) {
+  const std::string members =
+      fmt::format("{} coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).",
+                  model.clock ? "Time t (s), generalized" : "Generalized");
+  if (model.dependents.empty()) return wrapped_doc(members, 0);
   std::string names;
   for (const std::size_t entry : model.dependents)
     names += (names.empty() ? "" : ", ") + model.positions[entry];
-  return wrapped_doc("The independent positions and z are the state proper. The others (" + names +
+  return wrapped_doc(members, 0) +
+         wrapped_doc("The independent positions and z are the state proper. The others (" + names +
                          ") follow from them: they are where close_loops starts its search and what it "
                          "found.",
                      0);

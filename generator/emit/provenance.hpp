@@ -10,7 +10,7 @@ namespace jourdain::emit {
 /// The comment at the top: source, equations, loops, assumptions, what was left out, what was checked.
 std::string provenance(const ModelText& model, bool has_rate);
 
-/// What a State's positions are where some depend on others; empty otherwise.
-std::string state_note(const ModelText& model);
+/// What a State holds, and which of its positions depend on others.
+std::string state_doc(const ModelText& model);
 
 }  // namespace jourdain::emit

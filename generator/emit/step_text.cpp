@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 #include "emit/implicit_step.hpp"
 #include "emit/layout.hpp"
@@ -41,11 +42,31 @@ bool any_step(const std::vector<FunctionInfo>& functions) {
                      [](const FunctionInfo& f) { return f.shape == Shape::kStep; });
 }
 
+bool moves_clock(const std::string& line) { return line.find(".t = ") != std::string::npos; }
+
+/// The text of an explicit step, without its clock where states hold no time.
+std::string explicit_body(const StepScene& scene, const FunctionInfo& function) {
+  std::istringstream lines{std::string(template_text(function.name + ".in"))};
+  std::string text;
+  for (std::string line; std::getline(lines, line);)
+    if (scene.shape.clock || !moves_clock(line)) text += line + "\n";
+  return text;
+}
+
+/// Operations that move the clock in an explicit step; of products with h those of the way.
+long clock_operations(const Stepper& stepper) {
+  std::istringstream lines{std::string(template_text(stepper.name + "_step.in"))};
+  long count = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (moves_clock(line)) count += kClockOperations + std::count(line.begin(), line.end(), '*');
+  return count;
+}
+
 std::string body(const StepScene& scene, const FunctionInfo& function) {
   const std::string correction = scene.shape.correction();
   const std::string corrected = correction.empty() ? "" : fmt::format("  {}(model, state);\n", correction);
   if (scene.shape.velocities == 0) {
-    std::string text = "  state.t = state.t + h;\n";
+    std::string text = scene.shape.clock ? "  state.t = state.t + h;\n" : "";
     for (int k = 0; k < scene.shape.closings; ++k) text += corrected;
     return text;
   }
@@ -54,7 +75,7 @@ std::string body(const StepScene& scene, const FunctionInfo& function) {
     for (int k = 1; k < scene.shape.closings && scene.shape.has_dependents; ++k) text += corrected;
     return text;
   }
-  std::string text(template_text(function.name + ".in"));
+  std::string text = explicit_body(scene, function);
   for (const model::Tangent::Scalar& quaternion : scene.tangent.quaternions)
     text += fmt::format("  detail::normalise(state.y + {});\n", quaternion.position);
   return text + corrected;
@@ -132,14 +153,16 @@ long step_operations(const StepScene& scene, const Stepper& stepper, const ir::M
     return program ? static_cast<long>(ir::count_operations(*program).arithmetic()) : 0;
   };
   const long correction = scene.shape.constraints > 0 ? count(scene.shape.correction()) : 0;
-  if (scene.shape.velocities == 0) return 1 + scene.shape.closings * correction;
+  if (scene.shape.velocities == 0)
+    return scene.shape.clock * kClockOperations + scene.shape.closings * correction;
   if (const Rosenbrock* method = find_rosenbrock(stepper.name))
     return correction * (1 + closings_of(scene, *method)) + count("residual_derivatives") +
            stepper.evaluations * count("residual") +
            rosenbrock_operations(scene, *method, *find_program(module, "residual_derivatives"));
   const long entries = static_cast<long>(scene.shape.positions + scene.shape.velocities);
   return correction + stepper.evaluations * (count("forward_dynamics") + count("position_rate")) +
-         stepper.fixed_operations + stepper.entry_operations * entries +
+         stepper.fixed_operations + (scene.shape.clock ? clock_operations(stepper) : 0) +
+         stepper.entry_operations * entries +
          kNormaliseOperations * static_cast<long>(scene.tangent.quaternions.size());
 }
 

@@ -15,7 +15,8 @@ struct Stepper {
   int evaluations = 0;            ///< of forward_dynamics per step; implicit: of residual
   int history = 0;                ///< earlier steps whose rates it remembers
   std::vector<std::string> uses;  ///< steppers that its template calls
-  long fixed_operations = 0;  ///< per step, beside those per entry; quotients of literals count as literals
+  long fixed_operations =
+      0;  ///< per step, beside those per entry and the clock's; quotients of literals count as literals
   long entry_operations = 0;  ///< per step and entry of y and z
   std::string comment;        ///< a sentence for the declaration
   bool implicit = false;      ///< linearly implicit: remembers accelerations
@@ -30,6 +31,9 @@ const std::vector<Stepper>& all_steppers();
 
 /// Nothing where no stepper has the name.
 const Stepper* find_stepper(const std::string& name);
+
+/// Additions that move the clock once.
+inline constexpr long kClockOperations = 7;
 
 /// Operations per quaternion that bring it back to unit length.
 inline constexpr long kNormaliseOperations = 14;

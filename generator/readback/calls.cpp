@@ -44,7 +44,7 @@ const Type* Interpreter::type_of(const Value& value) const {
       return types.number();
     case Value::Kind::kPlace:
     case Value::Kind::kPointer:
-      return value.type;
+      return types_.is_sum(value.type) ? types.number() : value.type;
   }
   return nullptr;
 }

@@ -25,6 +25,8 @@ class Domain {
 
   /// Operations since the last `clear_count`; quotients of two literals count as literals.
   const ir::Operations& count() const { return count_; }
+  /// What is one addition here takes that many more.
+  void count_additions(std::size_t more) { count_.add += more; }
   void clear_count() { count_ = {}; }
 
  protected:

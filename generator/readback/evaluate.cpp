@@ -8,6 +8,9 @@ namespace jourdain::readback {
 
 namespace {
 
+/// Additions of Time's operator+.
+constexpr std::size_t kMovesTime = 7;
+
 Value of_number(Number number) {
   Value value;
   value.kind = Value::Kind::kNumber;
@@ -276,6 +279,8 @@ Value Interpreter::assign(const Expression& expression) {
   const Value place = evaluate(*expression.a);
   if (place.kind != Value::Kind::kPlace) refuse_at(expression.place, "an assignment to what is no variable");
   if (place.is_const) refuse_at(expression.place, "an assignment to a constant");
+  if (types_.is_sum(place.type) && expression.b->kind == ExpressionKind::kBinary)
+    domain_.count_additions(kMovesTime - 1);
   store(place, value, expression);
   return place;
 }

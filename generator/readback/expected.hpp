@@ -51,6 +51,7 @@ struct Expected {
   std::vector<ExpectedTangent> scalars, quaternions;  ///< of the independent coordinates
   std::vector<std::size_t> dependents;                ///< entries of y that close_loops sets
   bool dynamics_depend_on_time = false, outputs_depend_on_time = false;
+  bool clock = false;  ///< states hold the time
   bool all_derivatives = true;
   int closings = 1;  ///< calls of close_loops where dependent positions were not moved along
   double least_regularity = 0, greatest_opening = 0;

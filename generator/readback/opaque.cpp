@@ -17,9 +17,10 @@ constexpr double kTolerance = 1e-40;
 
 void append(ExactVector& list, const ExactVector& more) { list.insert(list.end(), more.begin(), more.end()); }
 
-ExactVector arguments_of(const Motion& motion, const ExactVector& input = {},
+ExactVector arguments_of(const Expected& expected, const Motion& motion, const ExactVector& input = {},
                          const ExactVector& accelerations = {}) {
-  ExactVector list = {motion.t};
+  ExactVector list;
+  if (expected.clock) list.push_back(motion.t);
   append(list, motion.y);
   append(list, motion.z);
   append(list, input);
@@ -53,20 +54,21 @@ const ExactVector& OpaqueSystem::answer(const std::string& function, ExactVector
 }
 
 ExactVector OpaqueSystem::position_rate(const Motion& motion) {
-  return answer("position_rate", arguments_of(motion), expected_.positions.size());
+  return answer("position_rate", arguments_of(expected_, motion), expected_.positions.size());
 }
 
 ExactVector OpaqueSystem::forward_dynamics(const Motion& motion, const ExactVector& input) {
-  return answer("forward_dynamics", arguments_of(motion, input), expected_.velocities.size());
+  return answer("forward_dynamics", arguments_of(expected_, motion, input), expected_.velocities.size());
 }
 
 ExactVector OpaqueSystem::residual(const Motion& motion, const ExactVector& input,
                                    const ExactVector& accelerations) {
-  return answer("residual", arguments_of(motion, input, accelerations), expected_.velocities.size());
+  return answer("residual", arguments_of(expected_, motion, input, accelerations),
+                expected_.velocities.size());
 }
 
 ExactVector OpaqueSystem::sample(const Motion& motion) {
-  return answer("input", arguments_of(motion), expected_.inputs.size());
+  return answer("input", arguments_of(expected_, motion), expected_.inputs.size());
 }
 
 const ir::Program& OpaqueSystem::program(const std::string& name) const {
@@ -79,7 +81,7 @@ Derivatives OpaqueSystem::residual_derivatives(const Motion& motion, const Exact
                                                const ExactVector& accelerations) {
   const std::vector<ir::Output>& outputs = program("residual_derivatives").outputs;
   const ExactVector& values =
-      answer("residual_derivatives", arguments_of(motion, input, accelerations), outputs.size());
+      answer("residual_derivatives", arguments_of(expected_, motion, input, accelerations), outputs.size());
   const std::size_t n = expected_.velocities.size();
   Derivatives result = {zero_matrix(n, n), zero_matrix(n, n), zero_matrix(n, n),
                         zero_matrix(n, expected_.inputs.size()), ExactVector(n, exact(0.0))};
@@ -100,7 +102,7 @@ void OpaqueSystem::correct(Motion& motion) {
   const std::string name = correction_of(expected_);
   if (name.empty()) return;
   const std::vector<ir::Output>& outputs = program(name).outputs;
-  const ExactVector& values = answer(name, arguments_of(motion), outputs.size());
+  const ExactVector& values = answer(name, arguments_of(expected_, motion), outputs.size());
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const ir::Output& output = outputs[i];
     const auto row = static_cast<std::size_t>(std::max(output.row, 0));

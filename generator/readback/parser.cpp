@@ -1,5 +1,6 @@
 #include "readback/parser.hpp"
 
+#include "readback/known_text.hpp"
 #include "readback/statement_parser.hpp"
 
 namespace jourdain::readback {
@@ -37,8 +38,30 @@ class FileParser : public StatementParser {
     while (!accept("}"))
       if (accept_word("namespace"))
         inner_namespace();
-      else
+      else if (!known_text())
         item();
+  }
+
+  /// Takes a passage that stands for numbers.
+  bool known_text() {
+    for (const KnownText& text : known_texts()) {
+      if (text.scope != scope_ || !begins(text.tokens)) continue;
+      for (std::size_t i = 0; i + 1 < text.tokens.tokens.size(); ++i) take();
+      const Symbol name = unit_.symbols[text.type], space = unit_.symbols[text.scope];
+      if (!unit_.numbers.insert(name).second) refuse_here("no second " + std::string(text.type));
+      if (text.scope.empty())
+        known_.struct_templates.insert(name);
+      else
+        known_.qualified.insert({space, name});
+      return true;
+    }
+    return false;
+  }
+
+  bool begins(const Tokens& text) const {
+    for (std::size_t i = 0; i + 1 < text.tokens.size(); ++i)
+      if (peek(i).kind != text.tokens[i].kind || peek(i).text != text.tokens[i].text) return false;
+    return true;
   }
 
   void inner_namespace() {

@@ -57,7 +57,8 @@ class TextStep {
   }
 
   void write_motion(const Value& state, const Motion& motion) {
-    ExactVector all = {motion.t};
+    ExactVector all;
+    if (expected_.clock) all.push_back(motion.t);
     for (const ExactVector* part : {&motion.y, &motion.z, &motion.guards})
       all.insert(all.end(), part->begin(), part->end());
     if (all.size() != state.type->cells) throw Refusal("a State of another size");
@@ -66,9 +67,11 @@ class TextStep {
 
   Motion read_motion(const Value& state) {
     const ExactVector all = read(state);
-    const auto begin = all.begin() + 1, z = begin + static_cast<long>(expected_.positions.size()),
+    const auto begin = all.begin() + expected_.clock,
+               z = begin + static_cast<long>(expected_.positions.size()),
                guards = z + static_cast<long>(expected_.velocities.size());
-    return {all[0], ExactVector(begin, z), ExactVector(z, guards), ExactVector(guards, all.end())};
+    return {expected_.clock ? all[0] : exact(0.0), ExactVector(begin, z), ExactVector(z, guards),
+            ExactVector(guards, all.end())};
   }
 
   Value input(const StepData& data) {

@@ -48,7 +48,8 @@ Texts output_members(const Expected& expected) {
 }
 
 Texts state_members(const Expected& expected) {
-  Texts texts = {"Real t"};
+  Texts texts;
+  if (expected.clock) texts.push_back("Time<Real> t");
   if (!expected.positions.empty()) texts.push_back(fmt::format("Real y[{}]", expected.positions.size()));
   if (!expected.velocities.empty()) texts.push_back(fmt::format("Real z[{}]", expected.velocities.size()));
   if (expected.constraints.empty()) return texts;

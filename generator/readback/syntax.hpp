@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -184,6 +185,7 @@ struct Unit {
   std::vector<TypeName> struct_instantiations;
   std::vector<const Struct*> structs;
   std::vector<const Constant*> constants;
+  std::set<Symbol> numbers;  ///< struct templates that stand for the type of their numbers
   // Where all of it lives.
   std::deque<Expression> expressions;
   std::deque<Statement> statements;

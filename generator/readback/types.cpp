@@ -34,6 +34,7 @@ TypeTable::TypeTable(const Unit& unit, NumberType number, IntegerOf integer_of)
       native_(of(Type::Kind::kNative)),
       float_(of(Type::Kind::kNative)),
       number_(of(Type::Kind::kNumber)),
+      sum_(of(Type::Kind::kNumber)),
       function_(of(Type::Kind::kFunction)) {}
 
 const Type* TypeTable::array(const Type* element, long extent) {
@@ -106,6 +107,9 @@ const Type* TypeTable::resolve(const TypeName& name, const Lookup& lookup) {
           it != lookup.inside->syntax->aliases.end())
         return resolve(it->second, {&lookup.inside->bindings, nullptr, nullptr});
   }
+  if (unit_.numbers.count(last) && name.arguments.size() == 1 &&
+      resolve(name.arguments[0].type, lookup) == &number_)
+    return &sum_;
   const Struct* syntax = find_struct(name.path, lookup);
   if (!syntax) throw Refusal(fmt::format("the type {} is not known here", text_of(unit_, name)));
   return instance(*syntax, bindings_of(*syntax, name, lookup));

@@ -67,6 +67,8 @@ class TypeTable {
   TypeTable(const Unit& unit, NumberType number, IntegerOf integer_of);
 
   const Type* number() const { return &number_; }
+  /// A sum of several numbers: in exact arithmetic one.
+  bool is_sum(const Type* type) const { return type == &sum_; }
   const Type* integer() const { return &integer_; }
   const Type* native() const { return &native_; }
   const Type* boolean() const { return &boolean_; }
@@ -93,7 +95,7 @@ class TypeTable {
   const Unit& unit_;
   NumberType number_type_;
   IntegerOf integer_of_;
-  Type void_, boolean_, integer_, native_, float_, number_, function_;
+  Type void_, boolean_, integer_, native_, float_, number_, sum_, function_;
   std::deque<Type> types_;
   std::deque<StructType> struct_types_;
   std::map<std::pair<const Type*, long>, const Type*> arrays_;

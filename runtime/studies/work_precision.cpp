@@ -116,7 +116,6 @@ WorkPoint measure_errors(const Flow<double>& flow, std::size_t index, double h, 
     flow.step(method, point, h, steps, memory);
     result.finite = all_finite(point.x) && flow.is_trusted();
     if (!result.finite) return result;
-    point.t = reference.points[k].t;
     result.end = errors_at(point.x, reference.points[k].x, positions);
     result.finite = result.end.position < astray;
     if (!result.finite) return result;

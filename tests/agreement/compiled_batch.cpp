@@ -19,13 +19,18 @@ using Evaluate = void (*)(double t, const double* p, const double* y, const doub
 /// Generic over Model: functions are found by argument-dependent lookup, sizes are the model's, and what a scene does not
 /// have is left out. Outputs are nothing but numbers.
 constexpr const char* kDriver = R"(
+template <class State, class Real>
+auto set_time(State& state, Real t, int) -> decltype(void(state.t)) { state.t = t; }
+template <class State, class Real>
+void set_time(State&, Real, long) {}
+
 template <class Model>
 void evaluate(const Model& model, double t, const double* y, const double* z, const double* u, const double* zdot,
               double h, double* out) {
   using Real = typename Model::Scalar;
   constexpr int ny = Model::position_count, nz = Model::velocity_count;
   typename Model::State state = initial_state(model);
-  state.t = static_cast<Real>(t);
+  set_time(state, static_cast<Real>(t), 0);
   typename Model::Input input{};
   if constexpr (Model::input_count > 0)
     for (int i = 0; i < Model::input_count; ++i) input.u[i] = static_cast<Real>(u[i]);

@@ -106,7 +106,7 @@ TEST(FreeRoots, MatchIndependentAccelerations) {
           [&derived](const Sample& s) { return interpreted<double>(derived.module, "forward_dynamics", s); };
     };
     dynamics::DerivationOptions chosen;
-    chosen.articulated = choose_articulation(mechanism, {}).links;
+    choose_articulation(mechanism, {}).set(chosen);
     const Derived mixed = derive(mechanism, chosen), factorised = derive(mechanism);
     const double snapped = worst_error(cases, interpret(mixed));
     const double plain = worst_error(cases, interpret(factorised));
@@ -125,7 +125,7 @@ TEST(FreeRoots, TakeFewOperations) {
   const auto operations = [](const std::string& robot) {
     const model::Mechanism mechanism = free_robot(robot);
     dynamics::DerivationOptions options;
-    options.articulated = choose_articulation(mechanism, {}).links;
+    choose_articulation(mechanism, {}).set(options);
     for (const ir::Program& program : derive(mechanism, options).module.functions)
       if (program.name == "forward_dynamics") return ir::count_operations(program).arithmetic();
     return std::size_t(0);

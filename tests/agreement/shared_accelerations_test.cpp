@@ -121,7 +121,7 @@ TEST_F(SharedAccelerations, TakeAsFewOperationsAsEver) {
     if (robot == "panda") options.locked_joints = {"panda_finger_joint1", "panda_finger_joint2"};
     const model::Mechanism mechanism = read_model(urdf_path(robot), options);
     dynamics::DerivationOptions chosen;
-    chosen.articulated = choose_articulation(mechanism, {}).links;
+    choose_articulation(mechanism, {}).set(chosen);
     for (const ir::Program& program : derive(mechanism, chosen).module.functions)
       if (program.name == function) return ir::count_operations(program).arithmetic();
     return std::size_t(0);

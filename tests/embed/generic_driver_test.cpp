@@ -21,7 +21,9 @@ void check(const char* name) {
   auto state = initial_state(model);
   const typename Model::Input input{};
   for (int i = 0; i < 100; ++i) rk4_step(model, state, input, 1e-4);
-  EXPECT_NEAR(state.t, 0.01, 1e-15) << name;
+  if constexpr (requires { state.t; }) {
+    EXPECT_NEAR(state.t, 0.01, 1e-15) << name;
+  }
   Results<Model> r;
   visit_functions(model, state, input, r, [](const char*, auto&& call) { call(); });
   EXPECT_TRUE(std::isfinite(r.kinetic) && r.kinetic >= 0 && std::isfinite(r.potential)) << name;

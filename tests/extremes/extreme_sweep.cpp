@@ -136,7 +136,7 @@ template Accuracy accuracy<float>(const Derived&, const Sample&, Loss);
 
 Derived derive_extreme(const model::Mechanism& mechanism) {
   dynamics::DerivationOptions options;
-  options.articulated = choose_articulation(mechanism, {}).links;
+  choose_articulation(mechanism, {}).set(options);
   return derive(mechanism, options);
 }
 

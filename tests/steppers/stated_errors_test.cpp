@@ -66,7 +66,7 @@ State moved(const Model& model, const State& state, const Rates<State>& f, Long 
   State result = state;
   for (std::size_t i = 0; i < std::size(f.y); ++i) result.y[i] += h * f.y[i];
   for (std::size_t i = 0; i < std::size(f.z); ++i) result.z[i] += h * f.z[i];
-  result.t += h;
+  if constexpr (requires { result.t; }) result.t += h;
   if constexpr (requires { close_loops(model, result); }) close_loops(model, result);
   return result;
 }
