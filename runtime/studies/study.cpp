@@ -217,6 +217,9 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   if (!study.untrusted_from && (options.question.tolerance || options.question.budget)) {
     progress("recommendation", 0);
     study.advice = advise(options.question, study.work, flow, sampling, study.reference, held);
+    if (study.advice)
+      study.alternatives = study_alternatives(flow, *study.advice, options.question.tolerance, sampling,
+                                              study.reference, options.seconds / 16, progress);
   }
   study.loops = study_loops(flow, study.work, study.advice ? &*study.advice : nullptr, study.judged);
   progress("", 1);

@@ -7,6 +7,7 @@
 
 #include "model/mechanism.hpp"
 #include "studies/advice.hpp"
+#include "studies/alternatives.hpp"
 #include "studies/error_sources.hpp"
 #include "studies/extremes.hpp"
 #include "studies/first_kind.hpp"
@@ -61,6 +62,7 @@ struct Study {
   Stability stability;
   std::vector<ExtremeSweep> extremes;  ///< empty without 50 digits
   std::optional<Advice> advice;
+  Alternatives alternatives;   ///< to the recommended step
   std::vector<LoopRun> loops;  ///< empty without loops
   /// s: when the loops' closing turns singular, or leaves what is proven, at the shortest step; then there is no advice.
   std::optional<double> untrusted_from;

@@ -209,6 +209,25 @@ TEST_F(Reports, RecommendationsAreConfirmedByTheirRun) {
   }
 }
 
+TEST_F(Reports, OtherIntegratorsAreComparedAtEqualError) {
+  for (const auto& [name, report] : reports_) {
+    const json &rows = report["alternatives"]["rows"], &advice = report["recommendation"];
+    ASSERT_EQ(rows.size(), 5u) << name;
+    EXPECT_EQ(rows[0]["integrator"], advice["method"]) << name;
+    EXPECT_EQ(rows[0]["largest_error"]["position"], advice["largest_error"]["position"]) << name;
+    EXPECT_EQ(rows[0]["ratio"], 1) << name;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const json& row = rows[i];
+      ASSERT_TRUE(row["finished"].get<bool>()) << name << " " << row["integrator"];
+      EXPECT_GT(row["ratio"].get<double>(), 0) << name << " " << row["integrator"];
+      EXPECT_GE(row["calls"].get<long>(), row["steps"].get<long>()) << name << " " << row["integrator"];
+      EXPECT_EQ(row["keeps_error"].get<bool>(), row["largest_error"]["position"].get<double>() <= 1e-6);
+      EXPECT_TRUE(i == 4 || row["keeps_error"].get<bool>()) << name << " " << row["integrator"];
+    }
+    EXPECT_NE(texts_[name].find("other integrators on the same right-hand side"), std::string::npos);
+  }
+}
+
 TEST_F(Reports, TheReferenceIsBetterThanEveryMethod) {
   for (const auto& [name, report] : reports_) {
     EXPECT_LT(report["reference"]["error"].get<double>(), 1e-17) << name;
@@ -259,6 +278,7 @@ TEST_F(Reports, ThePageIsWholeAndNeedsNothingElse) {
   EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
   EXPECT_NE(page.find("id=\"work_precision\""), std::string::npos);
   EXPECT_NE(page.find("\"frames\":["), std::string::npos);
+  EXPECT_NE(page.find("<td>Dormand-Prince 5(4)</td>"), std::string::npos);
   EXPECT_EQ(page.substr(page.size() - 8), "</html>\n");
 }
 
