@@ -28,8 +28,6 @@ constexpr double kMostSteps = 2e7;  ///< of the shortest length
 constexpr long kLargeScene =
     5000;  ///< operations of forward dynamics beyond which 50 digits must be asked for
 
-constexpr std::size_t kMostVelocities = 24;  ///< of scenes whose derivatives are compiled unasked
-
 struct Arguments {
   RunArguments run;
   studies::StudyOptions study;
@@ -92,21 +90,6 @@ bool check_steps(const studies::StudyOptions& options) {
 
 DerivativeTerms terms_of(const Arguments& arguments) {
   return arguments.run.model.derivatives == "applied" ? DerivativeTerms::kApplied : DerivativeTerms::kAll;
-}
-
-/// All steppers; without linearly implicit ones where a scene is large.
-std::vector<std::string> default_methods(DerivativeTerms terms, std::size_t velocities) {
-  std::vector<std::string> methods = methods_for(terms);
-  if (velocities <= kMostVelocities) return methods;
-  methods.erase(std::remove_if(methods.begin(), methods.end(),
-                               [](const std::string& m) { return emit::find_stepper(m)->implicit; }),
-                methods.end());
-  fmt::print(stderr,
-             "note: with more than {} velocities linearly implicit methods are left out, whose derivatives "
-             "take long to "
-             "compile; --methods asks for them\n",
-             kMostVelocities);
-  return methods;
 }
 
 /// Whether there is none.
