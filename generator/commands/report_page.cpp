@@ -153,7 +153,7 @@ Plot energy_plot(const jourdain_model_table& table, const Study& study) {
 
 Plot forms_plot(const Study& study) {
   Plot plot{"first_kind",
-            "Generalized coordinates and equations of the first kind, plain numeric code",
+            "Generalized coordinates and equations of the first kind; emitted where it says so",
             "run time per simulated second, s",
             "largest position error of a body, m",
             true,

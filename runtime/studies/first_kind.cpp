@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <string_view>
 
 #include "reference/descriptor.hpp"
 #include "reference/minimal.hpp"
 #include "studies/tangent_space.hpp"
+#include "studies/work.hpp"
 
 namespace jourdain::studies {
 
@@ -65,14 +68,25 @@ VectorXd rk4(double t, const VectorXd& x, double h, Rates&& f) {
 class Form {
  public:
   virtual ~Form() = default;
-  virtual void step(double t, double h) = 0;
+  virtual void steps(double t, double h, long count) = 0;
   virtual Bodies bodies(double t) const = 0;
   /// |g| and |G x + g_t| now.
   virtual std::pair<double, double> drift(double) const { return {0, 0}; }
   virtual bool finite() const = 0;
 };
 
-class MinimalForm : public Form {
+/// By a plain numeric reference.
+class NumericForm : public Form {
+ public:
+  void steps(double t, double h, long count) override {
+    for (long i = 0; i < count; ++i) step(t + static_cast<double>(i) * h, h);
+  }
+
+ private:
+  virtual void step(double t, double h) = 0;
+};
+
+class MinimalForm : public NumericForm {
  public:
   MinimalForm(const reference::Reference<double>& model, const Descriptor& absolute, const Inputs& inputs,
               const Point<double>& start)
@@ -105,7 +119,7 @@ class MinimalForm : public Form {
   VectorXd x_;
 };
 
-class DescriptorForm : public Form {
+class DescriptorForm : public NumericForm {
  public:
   DescriptorForm(const Descriptor& model, const Inputs& inputs, reference::AbsoluteState<double> start,
                  bool projecting)
@@ -173,6 +187,39 @@ class DescriptorForm : public Form {
   reference::AbsoluteState<double> state_;
 };
 
+/// By emitted code; `place` says where the bodies are at a point of its flow.
+class EmittedForm : public Form {
+ public:
+  using Place = std::function<Bodies(const Point<double>&)>;
+
+  EmittedForm(const Flow<double>& flow, std::size_t method, Place place)
+      : flow_(flow),
+        method_(flow.table().methods[method]),
+        place_(std::move(place)),
+        point_(flow.start()),
+        memory_(flow.fresh_memory(method_)) {}
+
+  void steps(double t, double h, long count) override {
+    point_.t = t;
+    flow_.step(method_, point_, h, count, memory_);
+  }
+  Bodies bodies(double) const override { return place_(point_); }
+  std::pair<double, double> drift(double) const override {
+    const Residuals open = flow_.residuals(point_);
+    return {open.position, open.velocity};
+  }
+  bool finite() const override {
+    return std::all_of(point_.x.begin(), point_.x.end(), [](double entry) { return std::isfinite(entry); });
+  }
+
+ private:
+  const Flow<double>& flow_;
+  const jourdain_method& method_;
+  Place place_;
+  Point<double> point_;
+  Memory memory_;
+};
+
 void compare(const Bodies& bodies, const Bodies& exact, FormPoint& point) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     point.position_error = std::max(point.position_error, (bodies[b].p_WC - exact[b].p_WC).norm());
@@ -201,7 +248,7 @@ FormPoint run(Form& form, double h, double sampling, const std::vector<Bodies>& 
   for (std::size_t k = 1; k < exact.size() && point.finite; ++k) {
     const double t = sampling * static_cast<double>(k - 1);
     const auto begin = Clock::now();
-    for (long i = 0; i < block; ++i) form.step(t + static_cast<double>(i) * h, h);
+    form.steps(t, h, block);
     time += std::chrono::duration<double>(Clock::now() - begin).count();
     point.step_time = time / static_cast<double>(static_cast<long>(k) * block);
     point.finite = form.finite();
@@ -221,11 +268,71 @@ double form_step_time(const FormCurve& curve, int bodies) {
   return 4 * (kOfBody * bodies + kOfEntry * std::pow(curve.unknowns, 3));
 }
 
+/// A curve to be filled, and how its runs begin.
+struct Candidate {
+  FormCurve curve;
+  double step_time = 0;  ///< s, nominal
+  std::function<std::unique_ptr<Form>()> make;
+};
+
+/// The table's classical Runge-Kutta method.
+std::optional<std::size_t> runge_kutta(const jourdain_model_table& table) {
+  for (int m = 0; m < table.method_count; ++m)
+    if (std::string_view(table.methods[m].name) == "rk4") return static_cast<std::size_t>(m);
+  return {};
+}
+
+VectorXd part(const Point<double>& point, std::size_t first, std::size_t last) {
+  return Eigen::Map<const VectorXd>(point.x.data() + first, Eigen::Index(last - first));
+}
+
+std::optional<Candidate> emitted_candidate(const std::string& name, const Flow<double>& flow,
+                                           const Descriptor& absolute, int unknowns) {
+  const std::optional<std::size_t> method = runge_kutta(flow.table());
+  if (!method) return {};
+  const auto place = [&flow, &absolute](const Point<double>& point) {
+    return absolute.absolute_state(point.t, part(point, 0, flow.position_count()),
+                                   part(point, flow.position_count(), flow.size()));
+  };
+  return Candidate{{name, static_cast<int>(flow.size()), unknowns, {}},
+                   step_time(flow.table().methods[*method]),
+                   [&flow, method, place] { return std::make_unique<EmittedForm>(flow, *method, place); }};
+}
+
+/// Fills a curve as far as `seconds` of work allow; `shown` tells how much of them are spent.
+void fill(Candidate& candidate, const std::vector<double>& steps, double sampling,
+          const std::vector<Bodies>& exact, double seconds, const std::function<void(double)>& shown) {
+  std::vector<FormPoint>& points = candidate.curve.points;
+  double spent = 0;
+  for (const double h : steps) {
+    if (h > 1.001 * sampling) continue;
+    const double expected = candidate.step_time * sampling / h * static_cast<double>(exact.size() - 1);
+    const bool any =
+        std::any_of(points.begin(), points.end(), [](const FormPoint& point) { return point.finite; });
+    if (spent + expected > (any ? seconds : 4 * seconds)) break;
+    shown(std::min(1.0, spent / seconds));
+    points.push_back(run(*candidate.make(), h, sampling, exact));
+    spent += expected;
+  }
+}
+
+/// The scene as free bodies, from where and as they move at the start.
+struct FreeScene {
+  Descriptor absolute;
+  Flow<double> flow;
+
+  FreeScene(const EmittedFreeBodies& free, const std::vector<double>& parameters, const Bodies& start)
+      : absolute(free.mechanism, std::span<const double>(parameters)), flow(free.flow) {
+    flow.set_start(free_state(free.mechanism, parameters, start));
+  }
+};
+
 }  // namespace
 
 std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std::vector<double>& parameters,
-                                   const Flow<double>& flow, const std::vector<double>& steps,
-                                   double sampling, const ReferenceSolution& reference, double seconds,
+                                   const Flow<double>& flow, const EmittedFreeBodies* free,
+                                   const std::vector<double>& steps, double sampling,
+                                   const ReferenceSolution& reference, double seconds,
                                    const Progress& progress) {
   const reference::Reference<double> minimal(mechanism, std::span<const double>(parameters));
   const Descriptor absolute(mechanism, std::span<const double>(parameters));
@@ -236,34 +343,38 @@ std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std:
   const std::vector<Bodies> exact = exact_bodies(absolute, states, reference, sampling);
   const auto unknowns =
       static_cast<int>(absolute.rates(absolute_start, to_vector(inputs.at(start.t))).unknowns);
-  const auto nb = static_cast<int>(mechanism.bodies.size());
-  std::vector<FormCurve> curves;
+  const auto nb = static_cast<int>(mechanism.bodies.size()),
+             nz = static_cast<int>(minimal.coordinate_count());
+  std::vector<Candidate> candidates;
+  const auto add_numeric = [&](const std::string& name, int size, int system,
+                               std::function<std::unique_ptr<Form>()> make) {
+    FormCurve curve{name, size, system, {}};
+    const double time = form_step_time(curve, nb);
+    candidates.push_back({std::move(curve), time, std::move(make)});
+  };
   if (!flow.has_loops())
-    curves.push_back({"minimal coordinates",
-                      static_cast<int>(start.x.size()),
-                      static_cast<int>(minimal.coordinate_count()),
-                      {}});
-  curves.push_back({"descriptor form", 13 * nb, unknowns, {}});
-  curves.push_back({"descriptor form, projected", 13 * nb, unknowns, {}});
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    double spent = 0;
-    const double step_time = form_step_time(curves[c], nb);
-    for (const double h : steps) {
-      if (h > 1.001 * sampling) continue;
-      const double expected = step_time * sampling / h * static_cast<double>(exact.size() - 1);
-      const bool any = std::any_of(curves[c].points.begin(), curves[c].points.end(),
-                                   [](const FormPoint& point) { return point.finite; });
-      if (spent + expected > (any ? seconds : 4 * seconds)) break;
-      progress("equations of the first kind",
-               (double(c) + std::min(1.0, spent / seconds)) / double(curves.size()));
-      std::unique_ptr<Form> form;
-      if (!flow.has_loops() && c == 0)
-        form = std::make_unique<MinimalForm>(minimal, absolute, inputs, start);
-      else
-        form = std::make_unique<DescriptorForm>(absolute, inputs, absolute_start, c + 1 == curves.size());
-      curves[c].points.push_back(run(*form, h, sampling, exact));
-      spent += expected;
-    }
+    add_numeric("minimal coordinates", static_cast<int>(start.x.size()), nz,
+                [&] { return std::make_unique<MinimalForm>(minimal, absolute, inputs, start); });
+  for (const bool projecting : {false, true})
+    add_numeric(projecting ? "descriptor form, projected" : "descriptor form", 13 * nb, unknowns,
+                [&, projecting] {
+                  return std::make_unique<DescriptorForm>(absolute, inputs, absolute_start, projecting);
+                });
+  std::optional<FreeScene> free_scene;
+  if (free) {
+    free_scene.emplace(*free, parameters, absolute_start.bodies);
+    if (auto candidate = emitted_candidate("emitted: minimal coordinates", flow, absolute, nz))
+      candidates.push_back(std::move(*candidate));
+    if (auto candidate = emitted_candidate("emitted: free bodies", free_scene->flow, free_scene->absolute,
+                                           free->flow.table().constraint_count))
+      candidates.push_back(std::move(*candidate));
+  }
+  std::vector<FormCurve> curves;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    fill(candidates[c], steps, sampling, exact, seconds, [&](double done) {
+      progress("equations of the first kind", (double(c) + done) / double(candidates.size()));
+    });
+    curves.push_back(std::move(candidates[c].curve));
   }
   return curves;
 }

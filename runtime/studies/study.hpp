@@ -68,10 +68,11 @@ struct Study {
   std::optional<double> untrusted_from;
 };
 
-/// `long_flow` may be null: no 50 digits then. Inputs and starts of the flows are the same. `tangent` is that of the emitted
+/// `long_flow` may be null: no 50 digits then; `free` too: no emitted code of the first kind. Inputs and starts of the flows are the same. `tangent` is that of the emitted
 /// State, of the independent coordinates; `parameters` in the mechanism's order.
 Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent,
                 const std::vector<double>& parameters, const Flow<double>& flow,
-                const Flow<LongReal>* long_flow, const StudyOptions& options, const Progress& progress);
+                const Flow<LongReal>* long_flow, const EmittedFreeBodies* free, const StudyOptions& options,
+                const Progress& progress);
 
 }  // namespace jourdain::studies
