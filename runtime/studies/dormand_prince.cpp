@@ -26,6 +26,7 @@ constexpr double kDense[] = {-12715105075.0 / 11282082432,  0,
                              69997945.0 / 29380423};
 
 constexpr double kSafety = 0.9, kLeastFactor = 0.2, kGreatestFactor = 5;
+constexpr double kStretch = 1.01;  ///< of the last step
 constexpr double kExponent = 0.2;  ///< 1 over the order
 constexpr int kMostAttempts = 50;
 constexpr double kShortest = 16 * 0x1p-52;  ///< step over |t|
@@ -103,7 +104,7 @@ bool DormandPrince::step() {
   if (h_ == 0) h_ = starting_step();
   double greatest = kGreatestFactor;
   for (int i = 0; i < kMostAttempts; ++i) {
-    const double h = std::min(h_, end_ - t_);
+    const double h = kStretch * h_ < end_ - t_ ? h_ : end_ - t_;  // no tiny step is left at the end
     if (!(h > kShortest * std::fabs(t_))) return false;
     const double error = attempt(h);
     const double factor = std::isfinite(error) ? kSafety * std::pow(error, -kExponent) : kLeastFactor;
