@@ -187,6 +187,13 @@ std::vector<std::string> loadable_functions(const std::vector<std::string>& step
   return functions;
 }
 
+std::vector<std::string> compiler_command(NumberType number) {
+  std::vector<std::string> command = {compiler(), "-std=c++17"};
+  const NumberText text = text_of(number);
+  command.insert(command.end(), text.compiler_options.begin(), text.compiler_options.end());
+  return command;
+}
+
 studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, NumberType number) {
   const support::TemporaryFolder folder;
   const auto in_folder = [&folder](const std::string& file) { return folder.path() + "/" + file; };
@@ -195,9 +202,9 @@ studies::LoadedModel build_model(const std::string& name, const CompiledModel& c
   for (const char* header : {"model_table.h", "long_real.hpp"})
     support::write_file(in_folder(header), emit::template_text(header));
   support::write_file(in_folder("shim.cpp"), shim(name, text, compiled));
-  std::vector<std::string> command = {compiler(), "-std=c++17", "-fPIC", "-shared"};
-  command.insert(command.end(), text.compiler_options.begin(), text.compiler_options.end());
-  for (const std::string& argument : {in_folder("shim.cpp"), std::string("-o"), in_folder("model.so")})
+  std::vector<std::string> command = compiler_command(number);
+  for (const std::string& argument : {std::string("-fPIC"), std::string("-shared"), in_folder("shim.cpp"),
+                                      std::string("-o"), in_folder("model.so")})
     command.push_back(argument);
   command.insert(command.end(), text.link_options.begin(), text.link_options.end());
   const support::ProcessResult result = support::run_process(command);

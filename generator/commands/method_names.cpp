@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "emit/steppers.hpp"
@@ -35,6 +36,20 @@ std::vector<std::string> methods_for(DerivativeTerms terms) {
   for (const emit::Stepper& stepper : emit::all_steppers())
     if (check_derivative_terms({stepper.name}, terms).empty()) names.push_back(stepper.name);
   return names;
+}
+
+std::vector<std::string> default_methods(DerivativeTerms terms, std::size_t velocities) {
+  std::vector<std::string> methods = methods_for(terms);
+  if (velocities <= kMostVelocities) return methods;
+  methods.erase(std::remove_if(methods.begin(), methods.end(),
+                               [](const std::string& m) { return emit::find_stepper(m)->implicit; }),
+                methods.end());
+  fmt::print(stderr,
+             "note: with more than {} velocities linearly implicit methods are left out, whose derivatives "
+             "take long to "
+             "compile; --methods asks for them\n",
+             kMostVelocities);
+  return methods;
 }
 
 }  // namespace jourdain::commands

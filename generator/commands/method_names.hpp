@@ -17,4 +17,9 @@ std::string check_derivative_terms(const std::vector<std::string>& functions, De
 /// All steppers, or those that keep their order with these terms.
 std::vector<std::string> methods_for(DerivativeTerms terms);
 
+inline constexpr std::size_t kMostVelocities = 24;  ///< of scenes whose derivatives are compiled unasked
+
+/// Those, without linearly implicit ones where a scene is large, which a note on stderr says.
+std::vector<std::string> default_methods(DerivativeTerms terms, std::size_t velocities);
+
 }  // namespace jourdain::commands

@@ -24,10 +24,8 @@ void ProgressBar::clear() {
 }
 
 void ProgressBar::show(const std::string& what, double done) {
-  const auto since = [](Clock::time_point t) {
-    return std::chrono::duration<double>(Clock::now() - t).count();
-  };
-  if (!shown_ || since(begin_) < 1 || (what == last_what_ && since(last_) < 0.1)) return;
+  const double since = std::chrono::duration<double>(Clock::now() - last_).count();
+  if (!shown_ || (what == last_what_ && since < 0.1)) return;
   last_ = Clock::now();
   last_what_ = what;
   drawn_ = true;

@@ -6,7 +6,7 @@
 
 namespace jourdain::commands {
 
-/// Drawn on stderr where that is a terminal, once the work has taken a second; gone at the end of its life.
+/// Drawn on stderr where that is a terminal, from the first word on; gone at the end of its life.
 class ProgressBar {
  public:
   ProgressBar();
@@ -23,7 +23,7 @@ class ProgressBar {
 
   bool shown_, drawn_ = false;
   std::string last_what_;
-  Clock::time_point begin_ = Clock::now(), last_ = begin_;
+  Clock::time_point last_ = Clock::now();
 };
 
 }  // namespace jourdain::commands

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <future>
 #include <memory>
 
 #include "commands/commands.hpp"
@@ -27,8 +28,6 @@ namespace {
 constexpr double kMostSteps = 2e7;  ///< of the shortest length
 constexpr long kLargeScene =
     5000;  ///< operations of forward dynamics beyond which 50 digits must be asked for
-
-constexpr std::size_t kMostVelocities = 24;  ///< of scenes whose derivatives are compiled unasked
 
 struct Arguments {
   RunArguments run;
@@ -94,21 +93,6 @@ DerivativeTerms terms_of(const Arguments& arguments) {
   return arguments.run.model.derivatives == "applied" ? DerivativeTerms::kApplied : DerivativeTerms::kAll;
 }
 
-/// All steppers; without linearly implicit ones where a scene is large.
-std::vector<std::string> default_methods(DerivativeTerms terms, std::size_t velocities) {
-  std::vector<std::string> methods = methods_for(terms);
-  if (velocities <= kMostVelocities) return methods;
-  methods.erase(std::remove_if(methods.begin(), methods.end(),
-                               [](const std::string& m) { return emit::find_stepper(m)->implicit; }),
-                methods.end());
-  fmt::print(stderr,
-             "note: with more than {} velocities linearly implicit methods are left out, whose derivatives "
-             "take long to "
-             "compile; --methods asks for them\n",
-             kMostVelocities);
-  return methods;
-}
-
 /// Whether there is none.
 bool print_conflict(const std::string& conflict) {
   if (!conflict.empty()) fmt::print(stderr, "error: {}\n", conflict);
@@ -132,9 +116,46 @@ bool settle(Arguments& arguments) {
   return print_conflict(check_derivative_terms(arguments.methods, terms_of(arguments)));
 }
 
+/// The scene as free bodies.
+struct FreeModel {
+  model::Mechanism mechanism;
+  studies::LoadedModel loaded;
+};
+
+/// Compiles the scene as free bodies while other work goes on. Nothing where there is no such scene, or it is too large.
+std::future<std::optional<FreeModel>> build_free_bodies(const Arguments& arguments,
+                                                        const LoadedMechanism& loaded) {
+  constexpr std::size_t kMostBodies = 8;  // of which g++ does not take longer than of the rest
+  const auto nothing = [] {
+    return std::async(std::launch::deferred, [] { return std::optional<FreeModel>(); });
+  };
+  if (!arguments.study.forms || loaded.velocity_count() > kMostBodies) return nothing();
+  const std::optional<model::Mechanism> mechanism = studies::as_free_bodies(loaded.mechanism);
+  if (!mechanism) return nothing();
+  support::Diagnostics ignored("free bodies", "");
+  CompileOptions options;
+  options.name = loaded.options.name + "_free_bodies";
+  options.functions = loadable_functions({"rk4"});
+  options.loops = loops::plan_loops(*mechanism, ignored);
+  if (!options.loops) return nothing();
+  const auto compiled = std::make_shared<CompiledModel>(compile(*mechanism, options));
+  if (!compiled->verdict.accepted()) return nothing();
+  const NumberType number = number_type(arguments.run.real);
+  return std::async(std::launch::async, [mechanism, compiled, number, name = options.name] {
+    return std::optional<FreeModel>({*mechanism, build_model(name, *compiled, number)});
+  });
+}
+
+studies::EmittedFreeBodies emitted(const FreeModel& free, const studies::Inputs& inputs, bool hold) {
+  studies::Flow<double> flow(free.loaded.table(), inputs);
+  if (hold) flow.hold_inputs();
+  return {free.mechanism, flow};
+}
+
 studies::Study make_study(const Arguments& arguments, const RunModel& model, const RunInputs& inputs,
                           const model::Tangent& tangent, const studies::Flow<double>& flow,
-                          const jourdain_model_table* long_table, ProgressBar& bar) {
+                          const jourdain_model_table* long_table, const std::optional<FreeModel>& free,
+                          ProgressBar& bar) {
   std::optional<studies::Flow<LongReal>> long_flow;
   if (long_table) {
     long_flow.emplace(*long_table, *inputs.inputs);
@@ -142,8 +163,10 @@ studies::Study make_study(const Arguments& arguments, const RunModel& model, con
   }
   studies::StudyOptions options = arguments.study;
   options.conserves_energy = inputs.what.empty() && conserves_energy(model.loaded.mechanism);
+  std::optional<studies::EmittedFreeBodies> free_bodies;
+  if (free) free_bodies.emplace(emitted(*free, *inputs.inputs, options.hold_inputs));
   return studies::run_study(model.loaded.mechanism, tangent, model.parameters, flow,
-                            long_flow ? &*long_flow : nullptr, options,
+                            long_flow ? &*long_flow : nullptr, free_bodies ? &*free_bodies : nullptr, options,
                             [&bar](const std::string& what, double done) { bar.show(what, done); });
 }
 
@@ -191,7 +214,11 @@ int run(Arguments arguments) {
     print_refusal(compiled.verdict);
     return kInternal;
   }
+  bar.show("deriving the equations of the first kind", 0);
+  std::future<std::optional<FreeModel>> building = build_free_bodies(arguments, model->loaded);
   const LoadedModels models = build_models(arguments, name, compiled, bar);
+  const std::optional<FreeModel> free = building.get();
+  if (free) studies::set_parameters(free->loaded.table(), model->parameters);
   const jourdain_model_table& table = models.working.table();
   const jourdain_model_table* long_table = models.precise ? &models.precise->table() : nullptr;
   for (const jourdain_model_table* t : {&table, long_table})
@@ -202,7 +229,7 @@ int run(Arguments arguments) {
   flow.set_start(inputs->start);
   if (!check_closed(*model, flow)) return kModelWrong;
   const studies::Study study =
-      make_study(arguments, *model, *inputs, compiled.tangent, flow, long_table, bar);
+      make_study(arguments, *model, *inputs, compiled.tangent, flow, long_table, free, bar);
   write_report(arguments, folder, head_of(arguments, model->loaded, inputs->what), flow, study, figure, bar);
   return kSuccess;
 }

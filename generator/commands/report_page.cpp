@@ -153,7 +153,7 @@ Plot energy_plot(const jourdain_model_table& table, const Study& study) {
 
 Plot forms_plot(const Study& study) {
   Plot plot{"first_kind",
-            "Generalized coordinates and equations of the first kind, plain numeric code",
+            "Generalized coordinates and equations of the first kind; emitted where it says so",
             "run time per simulated second, s",
             "largest position error of a body, m",
             true,
@@ -314,6 +314,17 @@ std::string loops_section(const studies::ReportHead& head, const jourdain_model_
   return text + "</table></div>\n";
 }
 
+std::string alternatives_section(const jourdain_model_table& table, const Study& study) {
+  const auto row = [](const std::vector<std::string>& cells, const char* tag) {
+    std::string text = "<tr>";
+    for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+    return text + "</tr>\n";
+  };
+  std::string text = "<div class=\"table\"><table>" + row(studies::alternatives_head(), "th");
+  for (const std::vector<std::string>& cells : studies::alternatives_rows(study)) text += row(cells, "td");
+  return text + "</table></div>\n" + list(studies::alternatives_remarks(table, study));
+}
+
 }  // namespace
 
 std::vector<support::FileText> report_pages(const studies::ReportHead& head,
@@ -335,6 +346,8 @@ std::vector<support::FileText> report_pages(const studies::ReportHead& head,
               "<p class=\"soft\">Largest position error along the way (rad, m) by step size; the "
               "Pareto front stands out.</p>\n" +
                   errors_table(table, study) + drawing(svgs[next++]));
+  if (!study.alternatives.rows.empty())
+    sections += section("Other integrators at equal error", alternatives_section(table, study));
   if (has_sources)
     sections += section("Where the error comes from", sources_table(table, study) + drawing(svgs[next++]));
   if (!study.stability.points.empty()) {

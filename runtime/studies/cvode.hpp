@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "studies/adaptive_integrator.hpp"
 #include "studies/flow.hpp"
 
 namespace jourdain::studies {
@@ -14,5 +15,12 @@ namespace jourdain::studies {
 std::optional<std::vector<Point<double>>> solved_by_cvode(const Flow<double>& flow,
                                                           const Point<double>& start, double interval,
                                                           long count, double tolerance);
+
+/// As one calls CVODE: Adams methods with fixed-point iteration, or BDF with Newton iteration and dense Jacobians by differences.
+enum class CvodeKind { kAdams, kBdf };
+
+/// Relative tolerance `tolerance`, absolute a tenth of it. `rates` must outlive the result.
+std::unique_ptr<AdaptiveIntegrator> make_cvode(CvodeKind kind, CountedRates& rates,
+                                               const Point<double>& start, double end, double tolerance);
 
 }  // namespace jourdain::studies

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <string_view>
 
-#include "reference/descriptor.hpp"
-#include "reference/minimal.hpp"
+#include "studies/scene_forms.hpp"
 #include "studies/tangent_space.hpp"
+#include "studies/work.hpp"
 
 namespace jourdain::studies {
 
@@ -14,8 +16,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Eigen::VectorXd;
-using Bodies = std::vector<reference::AbsoluteBody<double>>;
-using Descriptor = reference::DescriptorReference<double>;
 
 constexpr double kLost = 1e3;  ///< m; a run that is further off counts as failed
 
@@ -53,126 +53,6 @@ class TreeStates {
   model::Tangent tangent_;
 };
 
-/// One classical Runge-Kutta step of x' = f(t, x).
-template <class Rates>
-VectorXd rk4(double t, const VectorXd& x, double h, Rates&& f) {
-  const VectorXd k1 = f(t, x), k2 = f(t + h / 2, x + h / 2 * k1), k3 = f(t + h / 2, x + h / 2 * k2),
-                 k4 = f(t + h, x + h * k3);
-  return x + h / 6 * (k1 + 2 * (k2 + k3) + k4);
-}
-
-/// The scene in one form: its state as a vector, steps, and where the bodies are.
-class Form {
- public:
-  virtual ~Form() = default;
-  virtual void step(double t, double h) = 0;
-  virtual Bodies bodies(double t) const = 0;
-  /// |g| and |G x + g_t| now.
-  virtual std::pair<double, double> drift(double) const { return {0, 0}; }
-  virtual bool finite() const = 0;
-};
-
-class MinimalForm : public Form {
- public:
-  MinimalForm(const reference::Reference<double>& model, const Descriptor& absolute, const Inputs& inputs,
-              const Point<double>& start)
-      : model_(model), absolute_(absolute), inputs_(inputs), x_(to_vector(start.x)) {}
-
-  void step(double t, double h) override {
-    x_ = rk4(t, x_, h, [this](double time, const VectorXd& x) { return rates(time, x); });
-    for (const std::size_t first : absolute_.layout().quaternions)
-      x_.segment<4>(Eigen::Index(first)).normalize();
-  }
-  Bodies bodies(double t) const override {
-    return absolute_.absolute_state(t, x_.head(positions()), x_.tail(x_.size() - positions()));
-  }
-  bool finite() const override { return x_.allFinite(); }
-
- private:
-  Eigen::Index positions() const { return static_cast<Eigen::Index>(model_.position_count()); }
-
-  VectorXd rates(double t, const VectorXd& x) const {
-    const reference::State<double> state{t, x.head(positions()), x.tail(x.size() - positions())};
-    const reference::Terms<double> terms = model_.evaluate(state, to_vector(inputs_.at(t)));
-    VectorXd f(x.size());
-    f << model_.position_rate(state), reference::forward_dynamics(terms);
-    return f;
-  }
-
-  const reference::Reference<double>& model_;
-  const Descriptor& absolute_;
-  const Inputs& inputs_;
-  VectorXd x_;
-};
-
-class DescriptorForm : public Form {
- public:
-  DescriptorForm(const Descriptor& model, const Inputs& inputs, reference::AbsoluteState<double> start,
-                 bool projecting)
-      : model_(model), inputs_(inputs), projecting_(projecting), state_(std::move(start)) {}
-
-  void step(double t, double h) override {
-    const auto rates = [this](double time, const VectorXd& x) { return derivative(time, x); };
-    state_ = unpacked(t + h, rk4(t, packed(state_), h, rates));
-    for (auto& body : state_.bodies) body.orientation.normalize();
-    if (projecting_) state_ = model_.projected(std::move(state_));
-  }
-  Bodies bodies(double) const override { return state_.bodies; }
-  std::pair<double, double> drift(double t) const override {
-    const auto rates = model_.rates(state_, to_vector(inputs_.at(t)));
-    const auto largest = [](const VectorXd& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0.0; };
-    return {largest(rates.g), largest(rates.g_rate)};
-  }
-  bool finite() const override { return packed(state_).allFinite(); }
-
- private:
-  /// Body by body: centre of mass, quaternion w x y z, v, ω.
-  static constexpr Eigen::Index kEntries = 13;
-
-  static VectorXd packed(const reference::AbsoluteState<double>& state) {
-    VectorXd x(kEntries * Eigen::Index(state.bodies.size()));
-    Eigen::Index first = 0;
-    for (const auto& body : state.bodies) {
-      const Eigen::Quaterniond& q = body.orientation;
-      x.segment<kEntries>(first) << body.p_WC, q.w(), q.x(), q.y(), q.z(), body.v_C, body.omega;
-      first += kEntries;
-    }
-    return x;
-  }
-
-  reference::AbsoluteState<double> unpacked(double t, const VectorXd& x) const {
-    reference::AbsoluteState<double> state{t, {}, state_.near};
-    for (Eigen::Index first = 0; first < x.size(); first += kEntries) {
-      const auto entry = x.segment<kEntries>(first);
-      state.bodies.push_back({entry.head<3>(), Eigen::Quaterniond(entry[3], entry[4], entry[5], entry[6]),
-                              entry.segment<3>(7), entry.tail<3>()});
-    }
-    return state;
-  }
-
-  VectorXd derivative(double t, const VectorXd& x) {
-    reference::AbsoluteState<double> state = unpacked(t, x);
-    for (auto& body : state.bodies) body.orientation.normalize();
-    const auto rates = model_.rates(state, to_vector(inputs_.at(t)));
-    state_.near = rates.near;
-    VectorXd f(x.size());
-    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-      const Eigen::Index first = kEntries * Eigen::Index(b);
-      const Eigen::Vector3d& omega = state.bodies[b].omega;
-      const Eigen::Quaterniond spin(0, omega.x() / 2, omega.y() / 2, omega.z() / 2);
-      const Eigen::Quaterniond turn = state.bodies[b].orientation * spin;
-      f.segment<kEntries>(first) << state.bodies[b].v_C, turn.w(), turn.x(), turn.y(), turn.z(),
-          rates.xdot.segment<6>(6 * Eigen::Index(b));
-    }
-    return f;
-  }
-
-  const Descriptor& model_;
-  const Inputs& inputs_;
-  bool projecting_;
-  reference::AbsoluteState<double> state_;
-};
-
 void compare(const Bodies& bodies, const Bodies& exact, FormPoint& point) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     point.position_error = std::max(point.position_error, (bodies[b].p_WC - exact[b].p_WC).norm());
@@ -193,7 +73,7 @@ std::vector<Bodies> exact_bodies(const Descriptor& absolute, const TreeStates& s
   return result;
 }
 
-FormPoint run(Form& form, double h, double sampling, const std::vector<Bodies>& exact) {
+FormPoint run(SceneForm& form, double h, double sampling, const std::vector<Bodies>& exact) {
   FormPoint point;
   point.h = h;
   const long block = std::lround(sampling / h);
@@ -201,7 +81,7 @@ FormPoint run(Form& form, double h, double sampling, const std::vector<Bodies>& 
   for (std::size_t k = 1; k < exact.size() && point.finite; ++k) {
     const double t = sampling * static_cast<double>(k - 1);
     const auto begin = Clock::now();
-    for (long i = 0; i < block; ++i) form.step(t + static_cast<double>(i) * h, h);
+    form.steps(t, h, block);
     time += std::chrono::duration<double>(Clock::now() - begin).count();
     point.step_time = time / static_cast<double>(static_cast<long>(k) * block);
     point.finite = form.finite();
@@ -221,49 +101,129 @@ double form_step_time(const FormCurve& curve, int bodies) {
   return 4 * (kOfBody * bodies + kOfEntry * std::pow(curve.unknowns, 3));
 }
 
+/// A curve to be filled, and how its runs begin.
+struct Candidate {
+  FormCurve curve;
+  double step_time = 0;  ///< s, nominal
+  std::function<std::unique_ptr<SceneForm>()> make;
+};
+
+/// The table's classical Runge-Kutta method.
+std::optional<std::size_t> runge_kutta(const jourdain_model_table& table) {
+  for (int m = 0; m < table.method_count; ++m)
+    if (std::string_view(table.methods[m].name) == "rk4") return static_cast<std::size_t>(m);
+  return {};
+}
+
+/// The scene's references at its start, and the forms that begin there.
+class Scene {
+ public:
+  Scene(const model::Mechanism& mechanism, const std::vector<double>& parameters, const Flow<double>& flow,
+        const ReferenceSolution& reference)
+      : flow_(flow),
+        parameters_(parameters),
+        minimal_(mechanism, std::span<const double>(parameters)),
+        absolute_(mechanism, std::span<const double>(parameters)),
+        states_(mechanism, flow),
+        start_(reference.points.front()),
+        absolute_start_(absolute_.absolute(start_.t, states_.positions(start_), states_.velocities(start_))),
+        bodies_(static_cast<int>(mechanism.bodies.size())) {}
+
+  std::vector<Bodies> exact(const ReferenceSolution& reference, double sampling) const {
+    return exact_bodies(absolute_, states_, reference, sampling);
+  }
+
+  /// With loops there is no form in plain minimal coordinates.
+  std::vector<Candidate> numeric() const {
+    std::vector<Candidate> list;
+    if (!flow_.has_loops())
+      list.push_back(numeric({"minimal coordinates", size(), freedom(), {}},
+                             [this] { return minimal_form(minimal_, absolute_, flow_.inputs(), start_); }));
+    const VectorXd u = to_vector(flow_.inputs().at(start_.t));
+    const auto unknowns = static_cast<int>(absolute_.rates(absolute_start_, u).unknowns);
+    for (const bool projecting : {false, true})
+      list.push_back(
+          numeric({projecting ? "descriptor form, projected" : "descriptor form", 13 * bodies_, unknowns, {}},
+                  [this, projecting] {
+                    return descriptor_form(absolute_, flow_.inputs(), absolute_start_, projecting);
+                  }));
+    return list;
+  }
+
+  /// Where both have the method. Goes with `free`, whose flow then starts where this does.
+  std::vector<Candidate> emitted(const EmittedFreeBodies& free) {
+    free_absolute_.emplace(free.mechanism, std::span<const double>(parameters_));
+    free_flow_.emplace(free.flow);
+    free_flow_->set_start(free_state(free.mechanism, parameters_, absolute_start_.bodies));
+    if (!runge_kutta(flow_.table()) || !runge_kutta(free_flow_->table())) return {};
+    const auto free_size = static_cast<int>(free_flow_->size());
+    return {emitted({"emitted: minimal coordinates", size(), freedom(), {}}, flow_, absolute_),
+            emitted({"emitted: free bodies", free_size, free_flow_->table().constraint_count, {}},
+                    *free_flow_, *free_absolute_)};
+  }
+
+ private:
+  int size() const { return static_cast<int>(start_.x.size()); }
+  int freedom() const { return static_cast<int>(minimal_.coordinate_count()); }
+
+  Candidate numeric(FormCurve curve, std::function<std::unique_ptr<SceneForm>()> make) const {
+    const double time = form_step_time(curve, bodies_);
+    return {std::move(curve), time, std::move(make)};
+  }
+
+  static Candidate emitted(FormCurve curve, const Flow<double>& flow, const Descriptor& absolute) {
+    const std::size_t method = *runge_kutta(flow.table());
+    return {std::move(curve), step_time(flow.table().methods[method]),
+            [&flow, &absolute, method] { return emitted_form(flow, method, absolute); }};
+  }
+
+  const Flow<double>& flow_;
+  const std::vector<double>& parameters_;
+  reference::Reference<double> minimal_;
+  Descriptor absolute_;
+  TreeStates states_;
+  const Point<double>& start_;
+  reference::AbsoluteState<double> absolute_start_;
+  int bodies_;
+  std::optional<Descriptor> free_absolute_;
+  std::optional<Flow<double>> free_flow_;
+};
+
+/// Fills a curve as far as `seconds` of work allow; `shown` tells how much of them are spent.
+void fill(Candidate& candidate, const std::vector<double>& steps, double sampling,
+          const std::vector<Bodies>& exact, double seconds, const std::function<void(double)>& shown) {
+  std::vector<FormPoint>& points = candidate.curve.points;
+  double spent = 0;
+  for (const double h : steps) {
+    if (h > 1.001 * sampling) continue;
+    const double expected = candidate.step_time * sampling / h * static_cast<double>(exact.size() - 1);
+    const bool any =
+        std::any_of(points.begin(), points.end(), [](const FormPoint& point) { return point.finite; });
+    if (spent + expected > (any ? seconds : 4 * seconds)) break;
+    shown(std::min(1.0, spent / seconds));
+    points.push_back(run(*candidate.make(), h, sampling, exact));
+    spent += expected;
+  }
+}
+
 }  // namespace
 
 std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std::vector<double>& parameters,
-                                   const Flow<double>& flow, const std::vector<double>& steps,
-                                   double sampling, const ReferenceSolution& reference, double seconds,
+                                   const Flow<double>& flow, const EmittedFreeBodies* free,
+                                   const std::vector<double>& steps, double sampling,
+                                   const ReferenceSolution& reference, double seconds,
                                    const Progress& progress) {
-  const reference::Reference<double> minimal(mechanism, std::span<const double>(parameters));
-  const Descriptor absolute(mechanism, std::span<const double>(parameters));
-  const Inputs& inputs = flow.inputs();
-  const TreeStates states(mechanism, flow);
-  const Point<double>& start = reference.points.front();
-  const auto absolute_start = absolute.absolute(start.t, states.positions(start), states.velocities(start));
-  const std::vector<Bodies> exact = exact_bodies(absolute, states, reference, sampling);
-  const auto unknowns =
-      static_cast<int>(absolute.rates(absolute_start, to_vector(inputs.at(start.t))).unknowns);
-  const auto nb = static_cast<int>(mechanism.bodies.size());
+  Scene scene(mechanism, parameters, flow, reference);
+  std::vector<Candidate> candidates = scene.numeric();
+  if (free)
+    for (Candidate& candidate : scene.emitted(*free)) candidates.push_back(std::move(candidate));
+  const std::vector<Bodies> exact = scene.exact(reference, sampling);
   std::vector<FormCurve> curves;
-  if (!flow.has_loops())
-    curves.push_back({"minimal coordinates",
-                      static_cast<int>(start.x.size()),
-                      static_cast<int>(minimal.coordinate_count()),
-                      {}});
-  curves.push_back({"descriptor form", 13 * nb, unknowns, {}});
-  curves.push_back({"descriptor form, projected", 13 * nb, unknowns, {}});
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    double spent = 0;
-    const double step_time = form_step_time(curves[c], nb);
-    for (const double h : steps) {
-      if (h > 1.001 * sampling) continue;
-      const double expected = step_time * sampling / h * static_cast<double>(exact.size() - 1);
-      const bool any = std::any_of(curves[c].points.begin(), curves[c].points.end(),
-                                   [](const FormPoint& point) { return point.finite; });
-      if (spent + expected > (any ? seconds : 4 * seconds)) break;
-      progress("equations of the first kind",
-               (double(c) + std::min(1.0, spent / seconds)) / double(curves.size()));
-      std::unique_ptr<Form> form;
-      if (!flow.has_loops() && c == 0)
-        form = std::make_unique<MinimalForm>(minimal, absolute, inputs, start);
-      else
-        form = std::make_unique<DescriptorForm>(absolute, inputs, absolute_start, c + 1 == curves.size());
-      curves[c].points.push_back(run(*form, h, sampling, exact));
-      spent += expected;
-    }
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    fill(candidates[c], steps, sampling, exact, seconds, [&](double done) {
+      progress("equations of the first kind", (double(c) + done) / double(candidates.size()));
+    });
+    curves.push_back(std::move(candidates[c].curve));
   }
   return curves;
 }

@@ -1,6 +1,7 @@
 // Generalized coordinates against equations of the first kind: the same scene in descriptor form (absolute coordinates,
 // multipliers), plain and projected onto its constraints after each step, beside the numeric reference in minimal
-// coordinates. All three are plain numeric code with the same classical Runge-Kutta method, so that their times compare.
+// coordinates. These three are plain numeric code with the same classical Runge-Kutta method, so that their times compare. Where the
+// scene was compiled as free bodies as well, emitted code in both coordinates is compared in the same way.
 #pragma once
 
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "model/mechanism.hpp"
 #include "studies/flow.hpp"
+#include "studies/free_bodies.hpp"
 #include "studies/reference_solution.hpp"
 
 namespace jourdain::studies {
@@ -29,11 +31,18 @@ struct FormCurve {
   std::vector<FormPoint> points;
 };
 
+/// The result of `as_free_bodies`, compiled, with the inputs and parameters of the flow that it is compared with.
+struct EmittedFreeBodies {
+  const model::Mechanism& mechanism;
+  Flow<double> flow;
+};
+
 /// Curves over `steps` (s, descending, divisors of `sampling`), each as far as `seconds` of work allow. `parameters` in the
-/// mechanism's order; `reference` is of `flow`. With loops there are no plain minimal coordinates to compare with.
+/// mechanism's order; `reference` is of `flow`. `free` may be null. With loops there are no plain minimal coordinates to compare with.
 std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std::vector<double>& parameters,
-                                   const Flow<double>& flow, const std::vector<double>& steps,
-                                   double sampling, const ReferenceSolution& reference, double seconds,
+                                   const Flow<double>& flow, const EmittedFreeBodies* free,
+                                   const std::vector<double>& steps, double sampling,
+                                   const ReferenceSolution& reference, double seconds,
                                    const Progress& progress);
 
 }  // namespace jourdain::studies

@@ -26,7 +26,7 @@ struct ReportHead {
 /// For a terminal, lines of 110 characters at most.
 std::string report_text(const ReportHead& head, const jourdain_model_table& table, const Study& study);
 
-/// work_precision.csv, error_sources.csv, stability.csv, extremes.csv, first_kind.csv, loops.csv: as far as the study has them.
+/// work_precision.csv, error_sources.csv, stability.csv, extremes.csv, first_kind.csv, loops.csv, alternatives.csv: as far as the study has them.
 std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain_model_table& table,
                                           const Study& study);
 
@@ -59,6 +59,14 @@ std::string loops_text(const ReportHead& head, const jourdain_model_table& table
 /// Run by run: method, step, number of steps, largest |g| and |dg/dt|.
 std::vector<std::vector<std::string>> loop_rows(const jourdain_model_table& table, const Study& study);
 std::string loops_csv(const ReportHead& head, const jourdain_model_table& table, const Study& study);
+
+/// Other integrators beside the recommended step, for a terminal; empty where nothing was recommended.
+std::string alternatives_text(const jourdain_model_table& table, const Study& study);
+std::vector<std::string> alternatives_head();
+std::vector<std::vector<std::string>> alternatives_rows(const Study& study);
+/// Sentences on what the columns mean.
+std::vector<std::string> alternatives_remarks(const jourdain_model_table& table, const Study& study);
+std::string alternatives_csv(const Study& study);
 
 /// That explicit methods are held to short steps by a damped mode and not by accuracy; empty where they are not.
 std::string stiff_text(const jourdain_model_table& table, const Study& study);

@@ -214,6 +214,27 @@ Json forms_json(const Study& study) {
   return forms;
 }
 
+Json alternatives_json(const jourdain_model_table& table, const Study& study) {
+  const Alternatives& a = study.alternatives;
+  Json rows = Json::array();
+  for (const Alternative& row : a.rows) {
+    Json entry = {{"integrator", row.name}, {"finished", row.finished}};
+    if (row.finished)
+      entry.update({{"relative_tolerance", number(row.tolerance)},
+                    {"step_s", number(row.h)},
+                    {"largest_error", norms(row.error)},
+                    {"keeps_error", row.keeps},
+                    {"steps", row.steps},
+                    {"calls", row.calls},
+                    {"worst_step_calls", row.worst_calls},
+                    {"run_time_per_simulated_second_s", row.run_time.least},
+                    {"run_time_quartiles_s", {row.run_time.lower_quartile, row.run_time.upper_quartile}},
+                    {"ratio", number(time_ratio(a, row))}});
+    rows.push_back(std::move(entry));
+  }
+  return {{"error", a.error}, {"rows", rows}, {"remarks", alternatives_remarks(table, study)}};
+}
+
 Json advice_json(const jourdain_model_table& table, const Study& study) {
   const Question& question = study.options.question;
   Json result = {{"tolerance", number(question.tolerance)},
@@ -242,6 +263,7 @@ std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain
     files.push_back({"stability.csv", stability_csv(table, study.stability)});
   if (!study.extremes.empty()) files.push_back({"extremes.csv", extremes_csv(study.extremes)});
   if (!study.forms.empty()) files.push_back({"first_kind.csv", first_kind_csv(study)});
+  if (!study.alternatives.rows.empty()) files.push_back({"alternatives.csv", alternatives_csv(study)});
   if (!study.loops.empty()) files.push_back({"loops.csv", loops_csv(head, table, study)});
   return files;
 }
@@ -269,6 +291,7 @@ std::string report_json(const ReportHead& head, const jourdain_model_table& tabl
                        {"loops", loops_json(head, table, study)},
                        {"extremes", extremes_json(study)},
                        {"first_kind", forms_json(study)},
+                       {"alternatives", alternatives_json(table, study)},
                        {"recommendation", advice_json(table, study)}};
   return report.dump(1) + "\n";
 }

@@ -88,9 +88,11 @@ std::string sources_table(const jourdain_model_table& table, const Study& study)
 std::string forms_table(const Study& study) {
   if (study.forms.empty()) return "";
   std::string text = fmt::format(
-      "\n  the same scene in other coordinates, by the plain numeric references (classical Runge-Kutta "
-      "method):\n"
-      "  errors are those of the formulation, times those of the references\n"
+      "\n  the same scene in other coordinates, each by the classical Runge-Kutta method: by plain numeric "
+      "references,\n"
+      "  whose times say nothing of emitted code, and \"emitted\" where the scene can be written as free "
+      "bodies\n"
+      "  whose joints are closed by multipliers, with one projection a step\n"
       "  {:<28} {:>7} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
       "form", "states", "unknowns", "h", "error, m", "drift", "us a step");
   for (const FormCurve& curve : study.forms) {
@@ -229,7 +231,7 @@ std::string report_text(const ReportHead& head, const jourdain_model_table& tabl
   for (const std::string& remark : remarks(table, study)) text += wrapped(remark);
   text += "\n" + methods_table(table, study) + errors_table(table, study) + sources_table(table, study) +
           loops_text(head, table, study) + stability_text(table, study) + extremes_text(study.extremes) +
-          forms_table(study);
+          forms_table(study) + alternatives_text(table, study);
   const std::string advice = advice_text(table, study);
   if (!advice.empty()) text += "\n  " + advice + "\n";
   return text;

@@ -175,7 +175,8 @@ void leave_out_useless_steps(Study& study) {
 
 Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent,
                 const std::vector<double>& parameters, const Flow<double>& given,
-                const Flow<LongReal>* long_flow, const StudyOptions& options, const Progress& progress) {
+                const Flow<LongReal>* long_flow, const EmittedFreeBodies* free, const StudyOptions& options,
+                const Progress& progress) {
   Study study;
   study.options = options;
   Flow<double> flow = given;
@@ -209,14 +210,17 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   study.stability =
       study_stability(flow, study.reference, tangent, options.conserves_energy, options.seconds, progress);
   if (options.forms)
-    study.forms = study_forms(mechanism, parameters, flow, steps_within_limit(study, flow.table()), sampling,
-                              study.reference, options.seconds / 4, progress);
+    study.forms = study_forms(mechanism, parameters, flow, free, steps_within_limit(study, flow.table()),
+                              sampling, study.reference, options.seconds / 4, progress);
   if (long_flow)
     study.extremes =
         study_extremes(mechanism, tangent, parameters, flow, *long_flow, study.reference, progress);
   if (!study.untrusted_from && (options.question.tolerance || options.question.budget)) {
     progress("recommendation", 0);
     study.advice = advise(options.question, study.work, flow, sampling, study.reference, held);
+    if (study.advice)
+      study.alternatives = study_alternatives(flow, *study.advice, options.question.tolerance, sampling,
+                                              study.reference, options.seconds / 16, progress);
   }
   study.loops = study_loops(flow, study.work, study.advice ? &*study.advice : nullptr, study.judged);
   progress("", 1);

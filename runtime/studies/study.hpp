@@ -7,6 +7,7 @@
 
 #include "model/mechanism.hpp"
 #include "studies/advice.hpp"
+#include "studies/alternatives.hpp"
 #include "studies/error_sources.hpp"
 #include "studies/extremes.hpp"
 #include "studies/first_kind.hpp"
@@ -61,15 +62,17 @@ struct Study {
   Stability stability;
   std::vector<ExtremeSweep> extremes;  ///< empty without 50 digits
   std::optional<Advice> advice;
+  Alternatives alternatives;   ///< to the recommended step
   std::vector<LoopRun> loops;  ///< empty without loops
   /// s: when the loops' closing turns singular, or leaves what is proven, at the shortest step; then there is no advice.
   std::optional<double> untrusted_from;
 };
 
-/// `long_flow` may be null: no 50 digits then. Inputs and starts of the flows are the same. `tangent` is that of the emitted
+/// `long_flow` may be null: no 50 digits then; `free` too: no emitted code of the first kind. Inputs and starts of the flows are the same. `tangent` is that of the emitted
 /// State, of the independent coordinates; `parameters` in the mechanism's order.
 Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent,
                 const std::vector<double>& parameters, const Flow<double>& flow,
-                const Flow<LongReal>* long_flow, const StudyOptions& options, const Progress& progress);
+                const Flow<LongReal>* long_flow, const EmittedFreeBodies* free, const StudyOptions& options,
+                const Progress& progress);
 
 }  // namespace jourdain::studies

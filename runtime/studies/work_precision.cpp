@@ -31,14 +31,6 @@ double largest_entry(const std::vector<Point<double>>& points, std::size_t first
 
 void widen(double& largest, double value) { largest = std::max(largest, value); }
 
-ErrorNorms errors_at(const std::vector<double>& x, const std::vector<double>& reference,
-                     std::size_t positions) {
-  ErrorNorms norms;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    widen(i < positions ? norms.position : norms.velocity, std::fabs(x[i] - reference[i]));
-  return norms;
-}
-
 bool all_finite(const std::vector<double>& x) {
   return std::all_of(x.begin(), x.end(), [](double entry) { return std::isfinite(entry); });
 }
@@ -98,6 +90,19 @@ class Timer {
 
 }  // namespace
 
+ErrorNorms errors_at(const std::vector<double>& x, const std::vector<double>& reference,
+                     std::size_t positions) {
+  ErrorNorms norms;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    widen(i < positions ? norms.position : norms.velocity, std::fabs(x[i] - reference[i]));
+  return norms;
+}
+
+StepTime spread_of(std::vector<double> samples) {
+  std::sort(samples.begin(), samples.end());
+  return {samples.front(), samples[samples.size() / 4], samples[3 * samples.size() / 4]};
+}
+
 WorkPoint measure_errors(const Flow<double>& flow, std::size_t index, double h, double sampling,
                          const ReferenceSolution& reference, bool conserves_energy) {
   const jourdain_method& method = flow.table().methods[index];
@@ -139,10 +144,7 @@ std::vector<StepTime> measure_step_times(const jourdain_model_table& table, cons
   for (int repeat = 0; repeat < kTimingRepeats; ++repeat)
     for (std::size_t m = 0; m < timers.size(); ++m) samples[m].push_back(timers[m].step_time());
   std::vector<StepTime> times;
-  for (std::vector<double>& sample : samples) {
-    std::sort(sample.begin(), sample.end());
-    times.push_back({sample.front(), sample[sample.size() / 4], sample[3 * sample.size() / 4]});
-  }
+  for (const std::vector<double>& sample : samples) times.push_back(spread_of(sample));
   return times;
 }
 

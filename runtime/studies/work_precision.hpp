@@ -36,6 +36,13 @@ struct WorkPrecision {
   std::vector<std::optional<double>> orders;  ///< by method: measured; none where no range of steps shows one
 };
 
+/// Largest differences of the first `positions` entries, and of the others.
+ErrorNorms errors_at(const std::vector<double>& x, const std::vector<double>& reference,
+                     std::size_t positions);
+
+/// Least and quartiles of some samples.
+StepTime spread_of(std::vector<double> samples);
+
 /// Runs steps of length h and compares with the reference at every multiple of `sampling` (s), a multiple of h and of the
 /// reference's interval.
 WorkPoint measure_errors(const Flow<double>& flow, std::size_t method, double h, double sampling,

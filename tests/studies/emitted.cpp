@@ -39,20 +39,24 @@ std::vector<std::string> all_loadable_functions() {
   return functions;
 }
 
-EmittedModel emitted_from(const std::string& text, const std::vector<std::string>& functions) {
-  support::Diagnostics diagnostics("model.toml", text);
-  const auto mechanism = model::read_mechanism(diagnostics);
-  JD_CHECK(mechanism.has_value(), "the test's model has {} diagnostics", diagnostics.all().size());
+EmittedModel emitted_from(const model::Mechanism& mechanism, const std::vector<std::string>& functions) {
   CompileOptions options;
   static int count = 0;  // objects of one process share what has one name
   options.name = "emitted_model" + std::to_string(++count);
   options.functions = functions;
-  const CompiledModel compiled = compile(*mechanism, options);
+  const CompiledModel compiled = compile(mechanism, options);
   JD_CHECK(compiled.verdict.accepted(), "refused: {}", compiled.verdict.failures.front());
-  EmittedModel result{*mechanism, compiled.tangent,
+  EmittedModel result{mechanism, compiled.tangent,
                       commands::build_model(options.name, compiled, commands::NumberType::kDouble)};
-  studies::set_parameters(result.table(), parameter_values(*mechanism));
+  studies::set_parameters(result.table(), parameter_values(mechanism));
   return result;
+}
+
+EmittedModel emitted_from(const std::string& text, const std::vector<std::string>& functions) {
+  support::Diagnostics diagnostics("model.toml", text);
+  const auto mechanism = model::read_mechanism(diagnostics);
+  JD_CHECK(mechanism.has_value(), "the test's model has {} diagnostics", diagnostics.all().size());
+  return emitted_from(*mechanism, functions);
 }
 
 EmittedModel emitted_model(const std::string& name, const std::vector<std::string>& functions) {

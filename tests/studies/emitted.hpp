@@ -24,6 +24,9 @@ struct EmittedModel {
 /// Functions that a model is emitted with: every stepper and the derivatives of forward dynamics, or a few where those are long.
 std::vector<std::string> all_loadable_functions();
 
+/// Parameters have their values in the mechanism.
+EmittedModel emitted_from(const model::Mechanism& mechanism, const std::vector<std::string>& functions);
+
 /// Of a description in TOML; parameters have their values there.
 EmittedModel emitted_from(const std::string& text,
                           const std::vector<std::string>& functions = all_loadable_functions());

@@ -253,7 +253,7 @@ TEST(Stability, ReportSaysThatTheGovernorIsStiff) {
   options.question.tolerance = 1e-5;
   options.forms = false;
   const Study study =
-      run_study(governor.mechanism, governor.tangent, parameters, flow, nullptr, options, kSilent);
+      run_study(governor.mechanism, governor.tangent, parameters, flow, nullptr, nullptr, options, kSilent);
   const auto says = testing::HasSubstr("stiff: explicit methods need h < ");
   EXPECT_THAT(advice_text(governor.table(), study), says);
   const ReportHead head{"flyball_governor", "", "", "", "double", "", "", ""};

@@ -1,0 +1,159 @@
+#include "commands/code_cost.hpp"
+
+#include <cxxabi.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include "support/check.hpp"
+#include "support/files.hpp"
+#include "support/process.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+/// A function of the object by its mangled name.
+struct Node {
+  long stack = 0, code = 0;  ///< its own, bytes
+  std::set<std::string> callees;
+};
+using CallGraph = std::map<std::string, Node>;
+
+/// The text behind `key` up to the closing quotation mark; empty where there is none.
+std::string quoted_after(const std::string& line, const std::string& key) {
+  const std::size_t begin = line.find(key + "\"");
+  if (begin == std::string::npos) return "";
+  const std::size_t first = begin + key.size() + 1;
+  return line.substr(first, line.find('"', first) - first);
+}
+
+/// "shim.cpp:_Z4step" is the function _Z4step.
+std::string symbol_of(const std::string& title) { return title.substr(title.rfind(':') + 1); }
+
+/// The compiler's graph of calls: a node for each function, "…\n528 bytes (static)", and an edge for each call.
+CallGraph read_calls(const std::string& text) {
+  CallGraph graph;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("edge:"))
+      graph[symbol_of(quoted_after(line, "sourcename: "))].callees.insert(
+          symbol_of(quoted_after(line, "targetname: ")));
+    const std::string label = quoted_after(line, "label: ");
+    const std::size_t bytes = label.rfind(" bytes (");
+    if (!line.starts_with("node:") || bytes == std::string::npos) continue;
+    const bool bounded = label.find("dynamic", bytes) == std::string::npos ||
+                         label.find("bounded", bytes) != std::string::npos;
+    JD_CHECK(bounded, "a frame depends on data: {}", label);
+    const std::size_t begin = label.rfind("\\n", bytes) + 2;
+    graph[symbol_of(quoted_after(line, "title: "))].stack =
+        std::atol(label.substr(begin, bytes - begin).c_str());
+  }
+  return graph;
+}
+
+/// Adds the sizes that `nm -S` prints: value, size, kind, name. Parts that the compiler split off count with the whole.
+void read_sizes(const std::string& text, CallGraph& graph) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::string value, size, kind, name;
+    if (!(fields >> value >> size >> kind >> name)) continue;
+    const auto found = graph.find(name.substr(0, name.find(".cold")));
+    if (found != graph.end()) found->second.code += std::strtol(size.c_str(), nullptr, 16);
+  }
+}
+
+/// The emitted code has no recursion.
+long deepest_stack(const CallGraph& graph, const std::string& symbol) {
+  const auto node = graph.find(symbol);
+  if (node == graph.end()) return 0;
+  long below = 0;
+  for (const std::string& callee : node->second.callees)
+    below = std::max(below, deepest_stack(graph, callee));
+  return node->second.stack + below;
+}
+
+void collect(const CallGraph& graph, const std::string& symbol, std::set<std::string>& reached) {
+  const auto node = graph.find(symbol);
+  if (node == graph.end() || !reached.insert(symbol).second) return;
+  for (const std::string& callee : node->second.callees) collect(graph, callee, reached);
+}
+
+CodeCost cost_of(const CallGraph& graph, const std::string& symbol) {
+  std::set<std::string> reached;
+  collect(graph, symbol, reached);
+  CodeCost cost{deepest_stack(graph, symbol), 0};
+  for (const std::string& name : reached) cost.code += graph.at(name).code;
+  return cost;
+}
+
+std::string demangled(const std::string& symbol) {
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> text(
+      abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &status), std::free);
+  return text ? text.get() : symbol;
+}
+
+/// Of the function whose name in C++ holds `signature`.
+std::optional<CodeCost> find_cost(const CallGraph& graph, const std::string& signature) {
+  for (const auto& [symbol, node] : graph)
+    if (node.stack > 0 && demangled(symbol).find(signature) != std::string::npos)
+      return cost_of(graph, symbol);
+  return {};
+}
+
+std::string run(const std::vector<std::string>& command) {
+  const support::ProcessResult result = support::run_process(command);
+  if (result.status == 0) return result.output;
+  throw support::EnvironmentError(fmt::format("'{}' fails (exit status {}):\n{}", command.front(),
+                                              result.status, result.output.substr(0, 2000)));
+}
+
+/// Does the compiler draw graphs of calls?
+bool draws_calls(const std::string& folder, NumberType number) {
+  support::write_file(folder + "/empty.cpp", "");
+  std::vector<std::string> command = compiler_command(number);
+  for (const std::string& argument : {std::string("-fcallgraph-info=su"), std::string("-c"),
+                                      folder + "/empty.cpp", std::string("-o"), folder + "/empty.o"})
+    command.push_back(argument);
+  return support::run_process(command).status == 0;
+}
+
+CallGraph compiled_graph(const std::string& folder, const std::string& name, NumberType number) {
+  std::vector<std::string> command = compiler_command(number);
+  const std::string object = folder + "/object";
+  for (const std::string& argument : {std::string("-fcallgraph-info=su"), std::string("-c"),
+                                      folder + "/" + name + ".cpp", std::string("-o"), object + ".o"})
+    command.push_back(argument);
+  run(command);
+  CallGraph graph = read_calls(support::read_file(object + ".ci"));
+  read_sizes(run({"nm", "-S", "--defined-only", object + ".o"}), graph);
+  return graph;
+}
+
+}  // namespace
+
+std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& name,
+                                                          const CompiledModel& compiled, NumberType number) {
+  const support::TemporaryFolder folder;
+  if (!draws_calls(folder.path(), number)) return {};
+  for (const emit::File& file : compiled.files)
+    support::write_file(folder.path() + "/" + file.name, file.text);
+  const CallGraph graph = compiled_graph(folder.path(), name, number);
+  const std::string real = number == NumberType::kFloat ? "float" : "double";
+  std::map<std::string, CodeCost> costs;
+  const auto add = [&](const std::string& function, const std::string& signature) {
+    if (const std::optional<CodeCost> cost = find_cost(graph, signature)) costs[function] = *cost;
+  };
+  add("model", fmt::format("{}::Model<{}>::Model(", name, real));
+  for (const emit::FunctionInfo& function : compiled.functions)
+    add(function.name, fmt::format("{}::{}<{}>(", name, function.name, real));
+  return costs;
+}
+
+}  // namespace jourdain::commands

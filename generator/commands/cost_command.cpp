@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands/commands.hpp"
+#include "commands/cost_text.hpp"
+#include "commands/method_names.hpp"
+#include "commands/progress.hpp"
+#include "commands/run_setup.hpp"
+#include "model/angles.hpp"
+#include "support/files.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+struct Arguments {
+  RunArguments run;
+  studies::StepCostOptions steps;
+  std::vector<std::string> methods;
+  std::string output;
+};
+
+studies::ReportHead head_of(const Arguments& arguments, const LoadedMechanism& loaded) {
+  return {loaded.options.name,
+          loaded.mechanism.description,
+          loaded.options.path,
+          loaded.options.sha256,
+          arguments.run.real,
+          compiler_text(number_type(arguments.run.real)),
+          fmt::format("Jourdain {}", emit::kVersion),
+          ""};
+}
+
+/// Makes the report and prints it; the exit status.
+int report_on(const Arguments& arguments, const RunModel& model, const CompiledModel& compiled,
+              ProgressBar& bar) {
+  const std::string& name = model.loaded.options.name;
+  const NumberType number = number_type(arguments.run.real);
+  bar.show("compiling the emitted code", 0);
+  const studies::LoadedModel loaded = build_model(name, compiled, number);
+  studies::set_parameters(loaded.table(), model.parameters);
+  int status = kSuccess;
+  const std::optional<RunInputs> inputs = read_inputs(arguments.run, model, loaded.table(), nullptr, status);
+  if (!inputs) return status;
+  studies::Flow<double> flow(loaded.table(), *inputs->inputs);
+  flow.set_start(inputs->start);
+  if (!check_closed(model, flow)) return kModelWrong;
+  bar.show("stack and code", 0);
+  const studies::ReportHead head = head_of(arguments, model.loaded);
+  CostReport report{head, compiled,          loaded.table(),       code_costs(name, compiled, number),
+                    {},   arguments.steps.h, studies::clock_tick()};
+  report.steps = measure_step_costs(flow, model::angular_positions(model.loaded.mechanism), arguments.steps,
+                                    [&bar](const std::string& what, double done) { bar.show(what, done); });
+  if (!arguments.output.empty()) support::write_file(arguments.output, cost_json(report));
+  bar.clear();
+  fmt::print("{}", cost_text(report));
+  if (!arguments.output.empty()) fmt::print("  wrote {}\n", arguments.output);
+  return kSuccess;
+}
+
+int run(Arguments arguments) {
+  const DerivativeTerms terms =
+      arguments.run.model.derivatives == "applied" ? DerivativeTerms::kApplied : DerivativeTerms::kAll;
+  if (const std::string conflict = check_derivative_terms(arguments.methods, terms); !conflict.empty()) {
+    fmt::print(stderr, "error: {}\n", conflict);
+    return kUsage;
+  }
+  int status = kSuccess;
+  const std::optional<RunModel> model = read_run(arguments.run, status);
+  if (!model) return status;
+  if (!arguments.output.empty())
+    support::check_writable(std::filesystem::absolute(arguments.output).parent_path().string());
+  const std::size_t velocities = model->loaded.velocity_count();
+  if (velocities == 0) {
+    fmt::print(stderr, "error: '{}' has no degree of freedom: there are no steps\n",
+               model->loaded.options.name);
+    return kModelWrong;
+  }
+  if (arguments.methods.empty()) arguments.methods = default_methods(terms, velocities);
+  ProgressBar bar;
+  bar.show("deriving the equations", 0);
+  CompileOptions options = model->loaded.options;
+  options.functions = loadable_functions(arguments.methods);
+  const CompiledModel compiled = compile(model->loaded.mechanism, options);
+  if (!compiled.verdict.accepted()) {
+    print_refusal(compiled.verdict);
+    return kInternal;
+  }
+  return report_on(arguments, *model, compiled, bar);
+}
+
+}  // namespace
+
+void add_cost(CLI::App& app, int& status) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "cost", "operations, stack, code and measured times of single steps: jourdain cost arm.toml");
+  arguments->run.add_to(*command);
+  command->add_option("-o,--output", arguments->output, "JSON file to write (default: none)");
+  command->add_option("--methods", arguments->methods, "steppers (default: all)")
+      ->delimiter(',')
+      ->check(check_method);
+  command->add_option("--step", arguments->steps.h, "s")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--warm", arguments->steps.warm, "single steps of each method, one after the other")
+      ->check(CLI::Range(1L, 100000000L))
+      ->capture_default_str();
+  command->add_option("--cold", arguments->steps.cold, "single steps of each method with evicted caches")
+      ->check(CLI::Range(1L, 100000L))
+      ->capture_default_str();
+  command->callback([arguments, &status] { status = run(*arguments); });
+}
+
+}  // namespace jourdain::commands
