@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "commands/answer.hpp"
+#include "commands/guide.hpp"
 #include "commands/plot.hpp"
 #include "commands/scene.hpp"
 #include "commands/stability_page.hpp"
@@ -19,24 +20,6 @@ namespace {
 using studies::ErrorSources;
 using studies::Study;
 using studies::WorkPoint;
-
-/// A line of slope `order` through the last of the points that rounding (`floor`) leaves alone, over those before it that are near
-/// it: run time grows with 1/h.
-Series guide(const Series& series, int order, double floor) {
-  constexpr double kRounding = 30, kNear = 2;  // times the floor; of the line
-  Series line{"", {}, {}, series.colour, true, false, true};
-  std::size_t anchor = series.x.size();
-  while (anchor > 0 && !(series.y[anchor - 1] > kRounding * floor)) --anchor;
-  if (anchor == 0) return line;
-  for (std::size_t i = anchor; i-- > 0;) {
-    const double y = series.y[anchor - 1] * std::pow(series.x[i] / series.x[anchor - 1], -order);
-    if (!(y < kNear * series.y[i] && y > series.y[i] / kNear)) break;
-    line.x.push_back(series.x[i]);
-    line.y.push_back(y);
-  }
-  if (line.x.size() < 2) return {"", {}, {}, series.colour, true, false, true};
-  return line;
-}
 
 Plot work_precision_plot(const jourdain_model_table& table, const Study& study) {
   Plot plot{"work_precision",
@@ -56,7 +39,7 @@ Plot work_precision_plot(const jourdain_model_table& table, const Study& study) 
       series.x.push_back(p.run_time);
       series.y.push_back(p.largest.position);
     }
-    const Series line = guide(series, table.methods[m].order, floor);
+    const Series line = order_guide(series, table.methods[m].order, floor);
     plot.series.push_back(std::move(series));
     plot.series.push_back(line);
   }
@@ -286,7 +269,9 @@ std::string section_html(const Section& section, std::vector<support::FileText>&
     files.push_back({shown[i].name + ".svg", svgs[i]});
   }
   for (const Plot& plot : section.plots)
-    if (!shows_anything(plot)) text += explained("Nothing to draw: " + escaped(plot.title) + ".");
+    if (!shows_anything(plot))
+      text +=
+          explained("Not drawn, for it has no values that its axes can show: " + escaped(plot.title) + ".");
   return text;
 }
 

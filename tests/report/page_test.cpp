@@ -91,9 +91,9 @@ void expect_readable(const json& seen, double width, const json& advice) {
 }
 
 /// A planar tree, one with a quaternion, a closed loop.
-class Page : public testing::TestWithParam<std::pair<std::string, std::vector<std::string>>> {};
+class PageOf : public testing::TestWithParam<std::pair<std::string, std::vector<std::string>>> {};
 
-TEST_P(Page, IsReadableInABrowser) {
+TEST_P(PageOf, IsReadableInABrowser) {
   const auto& [name, options] = GetParam();
   const support::TemporaryFolder folder;
   const std::string out = folder.path() + "/out";
@@ -108,12 +108,42 @@ TEST_P(Page, IsReadableInABrowser) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Models, Page,
+    Models, PageOf,
     testing::Values(
         std::pair{"cart_pole", std::vector<std::string>{}},
         std::pair{"lagrange_top", std::vector<std::string>{"--no-forms", "--methods", "heun,rk4,rodas4"}},
         std::pair{"four_bar", std::vector<std::string>{"--no-forms", "--methods", "heun,rk4,rk5"}}),
     [](const auto& one) { return one.param.first; });
+
+constexpr const char* kAtRest = R"(
+[model]
+name = "rest"
+gravity = [0, 0, 0]
+[[body]]
+name = "block"
+mass = 1
+shape = { kind = "box", size = [0.1, 0.2, 0.3] }
+[[joint]]
+name = "slide"
+type = "prismatic"
+parent = "world"
+child = "block"
+)";
+
+TEST(Page, DrawsNoPlotWithoutData) {
+  const support::TemporaryFolder folder;
+  const std::string out = folder.path() + "/out", model = folder.path() + "/rest.toml";
+  support::write_file(model, kAtRest);
+  const support::ProcessResult result =
+      support::run_process({JOURDAIN_BINARY, "report", model, "--methods", "heun,rk4", "--effort", "0.2",
+                            "--no-forms", "-o", out});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const std::string page = support::read_file(out + "/report.html");
+  EXPECT_EQ(page.find("id=\"work_precision\""), std::string::npos);
+  EXPECT_NE(page.find("no values that its axes can show: Error against run time"), std::string::npos);
+  EXPECT_EQ(result.output.find("work_precision.svg"), std::string::npos) << result.output;
+  EXPECT_NE(page.find("No step is recommended"), std::string::npos);
+}
 
 void replace_once(std::string& text, const std::string& part, const std::string& by) {
   const std::size_t at = text.find(part);
