@@ -168,14 +168,16 @@ std::string warnings_html(const std::vector<std::string>& remarks) {
 
 std::string answer_html(const jourdain_model_table& table, const Study& study) {
   const std::string sentence = studies::advice_text(table, study);
-  std::string text;
-  if (study.advice && !study.untrusted_from)
-    text = recommendation_html(table, study);
-  else
-    text = "<p class=\"lead\">No step is recommended.</p>\n";
-  if (sentence.empty())
-    text += "<p>Nothing was asked for: a largest error (--tolerance) or a run time (--budget).</p>\n";
-  const std::string doubt = study.advice && !study.advice->confirmed
+  const bool has_answer = study.advice && !study.untrusted_from;
+  const std::string reason =
+      sentence.empty()
+          ? "nothing was asked for, neither a largest error (--tolerance) nor a run time (--budget)"
+          : sentence;
+  const std::string text =
+      has_answer
+          ? recommendation_html(table, study)
+          : "<p class=\"lead\">No step is recommended.</p>\n<p>Why? In short: " + escaped(reason) + ".</p>\n";
+  const std::string doubt = has_answer && !study.advice->confirmed
                                 ? "<p class=\"warning\">NOT CONFIRMED: the run that was to confirm this "
                                   "step missed what was asked for</p>\n"
                                 : "";
