@@ -90,10 +90,10 @@ std::string why_step(const Study& study) {
   if (has_tolerance)
     return fmt::format("With the next longer one that was tried, {}, the error is {}.", time_text(next->h),
                        power_text(next->largest.position));
-  return fmt::format("With the next shorter one that was tried, {}, the error is {} and {} take {}.",
-                     time_text(next->h), power_text(next->largest.position),
-                     time_text(study.options.question.period),
-                     time_text(next->run_time * study.options.question.period));
+  return fmt::format(
+      "With the next shorter one that was tried, {}, the error is {} and each {} of motion takes {}.",
+      time_text(next->h), power_text(next->largest.position), time_text(study.options.question.period),
+      time_text(next->run_time * study.options.question.period));
 }
 
 std::string why_method(const jourdain_model_table& table, const Study& study) {
@@ -116,6 +116,15 @@ std::string asked_text(const studies::Question& question) {
                      time_text(*question.budget), time_text(question.period));
 }
 
+/// Where the error is too small for the reference to tell.
+std::string doubt_text(const Study& study) {
+  constexpr double kSharp = 1e-13;  // a reference with that error tells all that double has
+  const double least = 10 * study.reference.error;
+  if (study.reference.error <= kSharp || study.advice->error.position >= least) return "";
+  return fmt::format(" The reference cannot tell errors that small: those below {} say nothing.",
+                     power_text(least));
+}
+
 std::string words_html(const Study& study) {
   return fmt::format(
       "<p class=\"soft\">A <b>step</b> is how far one call of the program moves the motion on in time; a "
@@ -131,9 +140,9 @@ std::string recommendation_html(const jourdain_model_table& table, const Study& 
                      name_of(table, a.method), time_text(a.h)) +
          fmt::format(
              "<p>Over {} of motion its error was never more than {}; {}. One step took {} here, so that a "
-             "second of motion takes {}.</p>\n",
+             "second of motion takes {}.{}</p>\n",
              time_text(study.judged), error_text(a.error.position), asked_text(study.options.question),
-             time_text(a.step_time), time_text(a.run_time)) +
+             time_text(a.step_time), time_text(a.run_time), doubt_text(study)) +
          fmt::format("<p>Why this step? {} Why this method? {}</p>\n", why_step(study),
                      why_method(table, study));
 }
