@@ -2,99 +2,132 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace jourdain::commands {
 
 namespace {
 
-using model::Frame;
+using model::JointType;
 using model::Mechanism;
+using model::Numbers3;
+
+bool turns(JointType type) {
+  return type != JointType::kFixed && type != JointType::kPrismatic && type != JointType::kCurve &&
+         type != JointType::kFree;
+}
+
+bool slides(JointType type) { return type == JointType::kPrismatic || type == JointType::kCylindrical; }
+
+bool has_axis(JointType type) {
+  return (turns(type) && type != JointType::kSpherical) || type == JointType::kPrismatic;
+}
+
+Numbers3 unit(const Numbers3& v) {
+  const double length = std::hypot(v[0], v[1], v[2]);
+  return {v[0] / length, v[1] / length, v[2] / length};
+}
 
 class FigureMaker {
  public:
-  explicit FigureMaker(const Mechanism& mechanism) { figure_.mechanism = mechanism; }
+  FigureMaker(const Mechanism& mechanism, const std::vector<double>& parameters)
+      : mechanism_(mechanism), parameters_(parameters) {}
 
   Figure make() {
+    figure_.mechanism = mechanism_;
     figure_.mechanism.outputs.clear();
-    for (std::size_t b = 0; b < figure_.mechanism.bodies.size(); ++b) add_body(b);
-    for (std::size_t j = 0; j < figure_.mechanism.joints.size(); ++j) add_joint(j);
-    for (std::size_t k = 0; k < figure_.mechanism.loops.size(); ++k) add_loop(k);
-    const std::size_t springs = figure_.mechanism.springs.size();
-    for (std::size_t i = 0; i < springs; ++i) {
-      const model::Spring& spring = figure_.mechanism.springs[i];
-      const std::size_t from = add_output(spring.from), to = add_output(spring.to);
-      figure_.lines.push_back({LineKind::kSpring, from, to});
-    }
+    figure_.gravity = numbers(mechanism_.gravity);
+    holds_something_.resize(mechanism_.bodies.size());
+    for (std::size_t b = 0; b < mechanism_.bodies.size(); ++b) add_body(b);
+    for (const model::Joint& joint : mechanism_.joints) add_joint(joint);
+    for (const model::Loop& loop : mechanism_.loops) add_loop(loop);
+    for (const model::Spring& spring : mechanism_.springs)
+      figure_.lines.push_back({LineKind::kSpring, attached(spring.from), attached(spring.to)});
+    for (const model::Load& load : mechanism_.loads) attached(load.frame);
+    for (std::size_t b = 0; b < mechanism_.bodies.size(); ++b)
+      if (!holds_something_[b]) stick(b, figure_.bodies[b].center);
     return std::move(figure_);
   }
 
  private:
-  std::size_t add_output(model::FrameIndex frame) {
-    model::Output output;
-    output.name = fmt::format("figure_point_{}", figure_.point_count);
-    output.kind = model::OutputKind::kPose;
-    output.frame = frame;
-    figure_.mechanism.outputs.push_back(output);
-    return figure_.point_count++;
-  }
+  double number(const model::Expression& e) const { return e.evaluate<double>(parameters_); }
 
-  std::size_t add_point(std::optional<model::BodyIndex> body, const model::Placement& placement) {
-    Frame frame;
-    frame.name = fmt::format("figure_frame_{}", figure_.point_count);
-    frame.body = body;
-    frame.placement = placement;
-    figure_.mechanism.frames.push_back(frame);
-    return add_output(model::FrameIndex(figure_.mechanism.frames.size() - 1));
-  }
+  Numbers3 numbers(const model::Vector3& v) const { return {number(v[0]), number(v[1]), number(v[2])}; }
 
   void add_body(std::size_t index) {
-    const model::Body body = figure_.mechanism.bodies[index];
-    origins_.push_back(add_point(model::BodyIndex(index), {}));
-    const double mass = body.mass.evaluate<double>(parameter_values());
-    if (mass <= 0) return;
-    model::Placement center;
-    center.position = body.center_of_mass;
-    const std::size_t point = add_point(model::BodyIndex(index), center);
-    figure_.lines.push_back({LineKind::kBody, origins_.back(), point});
-    figure_.masses.push_back({point, mass, body.name});
+    const model::Body& body = mechanism_.bodies[index];
+    model::Frame frame;
+    frame.name = fmt::format("figure_frame_{}", index);
+    frame.body = model::BodyIndex(index);
+    figure_.mechanism.frames.push_back(frame);
+    model::Output output;
+    output.name = fmt::format("figure_pose_{}", index);
+    output.kind = model::OutputKind::kPose;
+    output.frame = model::FrameIndex(figure_.mechanism.frames.size() - 1);
+    figure_.mechanism.outputs.push_back(output);
+    figure_.bodies.push_back({body.name, number(body.mass), numbers(body.center_of_mass)});
+    if (body.shape) add_shape(index, *body.shape);
   }
 
-  void add_joint(std::size_t index) {
-    const model::Joint joint = figure_.mechanism.joints[index];
-    if (joint.type == model::JointType::kFree) return;
-    const std::size_t child = origins_[joint.child.value];
-    const std::size_t anchor = add_point(joint.parent, joint.placement);
-    if (joint.parent) figure_.lines.push_back({LineKind::kBody, origins_[joint.parent->value], anchor});
-    figure_.lines.push_back({LineKind::kSlide, anchor, child});
+  void add_shape(std::size_t index, const model::Shape& shape) {
+    const model::Matrix3 R = model::rotation_from_rpy(numbers(mechanism_.bodies[index].inertia_axes.rpy));
+    figure_.shapes.push_back({index, shape.kind, figure_.bodies[index].center, R, numbers(shape.size),
+                              number(shape.radius), number(shape.length), shape.axis});
   }
 
-  /// Each body reaches to its end of the loop; a rod joins the ends.
-  void add_loop(std::size_t index) {
-    const model::Loop loop = figure_.mechanism.loops[index];
+  /// A line from the body's origin.
+  void stick(std::size_t body, const Numbers3& to) {
+    if (std::hypot(to[0], to[1], to[2]) == 0) return;
+    figure_.lines.push_back({LineKind::kBody, {body, {}}, {body, to}});
+  }
+
+  FigurePoint point(std::optional<model::BodyIndex> body, const model::Placement& placement) {
+    FigurePoint result{{}, numbers(placement.position)};
+    if (!body) return result;
+    result.body = body->value;
+    holds_something_[body->value] = true;
+    stick(body->value, result.position);
+    return result;
+  }
+
+  FigurePoint attached(model::FrameIndex index) {
+    const model::Frame& frame = mechanism_.frames[index.value];
+    return point(frame.body, frame.placement);
+  }
+
+  Numbers3 axis_in(const model::Placement& placement, const std::array<double, 3>& axis) const {
+    return model::product(model::rotation_from_rpy(numbers(placement.rotation.rpy)), unit(axis));
+  }
+
+  void add_joint(const model::Joint& joint) {
+    figure_.flies |= joint.type == JointType::kFree || joint.type == JointType::kSpherical;
+    if (joint.type == JointType::kFree) return;
+    FigureJoint drawn{
+        point(joint.parent, joint.placement), {}, turns(joint.type), slides(joint.type), joint.child.value};
+    if (has_axis(joint.type)) drawn.axis = axis_in(joint.placement, joint.axis);
+    figure_.joints.push_back(drawn);
+    if (!drawn.turns || drawn.slides || joint.type == JointType::kPlanar || joint.type == JointType::kScrew)
+      figure_.lines.push_back({LineKind::kSlide, drawn.at, {joint.child.value, {}}});
+  }
+
+  void add_loop(const model::Loop& loop) {
     if (loop.type == model::LoopType::kResidual) return;
-    const std::size_t from = add_end(loop.from), to = add_end(loop.to);
-    figure_.lines.push_back(
-        {loop.type == model::LoopType::kRod ? LineKind::kBody : LineKind::kSlide, from, to});
+    const FigurePoint from = attached(loop.from), to = attached(loop.to);
+    const bool is_rod = loop.type == model::LoopType::kRod;
+    figure_.lines.push_back({is_rod ? LineKind::kBody : LineKind::kSlide, from, to});
+    for (const FigurePoint& end : {from, to}) figure_.joints.push_back({end, {}, true, false, {}});
   }
 
-  std::size_t add_end(model::FrameIndex index) {
-    const std::optional<model::BodyIndex> body = figure_.mechanism.frames[index.value].body;
-    const std::size_t point = add_output(index);
-    if (body) figure_.lines.push_back({LineKind::kBody, origins_[body->value], point});
-    return point;
-  }
-
-  std::vector<double> parameter_values() const {
-    std::vector<double> values;
-    for (const model::Parameter& parameter : figure_.mechanism.parameters) values.push_back(parameter.value);
-    return values;
-  }
-
+  const Mechanism& mechanism_;
+  const std::vector<double>& parameters_;
   Figure figure_;
-  std::vector<std::size_t> origins_;  // point of each body's origin
+  std::vector<bool> holds_something_;  // by body
 };
 
 }  // namespace
 
-Figure make_figure(const Mechanism& mechanism) { return FigureMaker(mechanism).make(); }
+Figure make_figure(const Mechanism& mechanism, const std::vector<double>& parameters) {
+  return FigureMaker(mechanism, parameters).make();
+}
 
 }  // namespace jourdain::commands

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/check.hpp"
@@ -50,9 +51,10 @@ std::string script(const Plot& plot, const std::string& output) {
                       plot.height, quoted(plot.name));
   text += "set output " + quoted(output) + "\n";
   text += "set title " + quoted(plot.title) + " noenhanced\nset xlabel " + quoted(plot.x_title) +
-          " noenhanced offset 0,0.4\nset ylabel " + quoted(plot.y_title) + " noenhanced\n";
+          " noenhanced\nset ylabel " + quoted(plot.y_title) + " noenhanced\n";
   text +=
-      "set key bmargin center horizontal noenhanced samplen 2 width -2\nset grid lc rgb '#808080' lw "
+      "set key bmargin center horizontal noenhanced samplen 2 width -2 height 1\nset grid lc rgb '#808080' "
+      "lw "
       "0.4\nset border lw 0.8\n";
   if (plot.x_logarithmic) text += "set logscale x 10\nset format x '10^{%L}'\n";
   if (plot.y_logarithmic) text += "set logscale y 10\nset format y '10^{%L}'\n";
@@ -69,8 +71,7 @@ std::string script(const Plot& plot, const std::string& output) {
                     series.marks ? fmt::format(" pt {} ps {}", kMarks[colour], series.lines ? 0.6 : 1.1) : "",
                     series.title.empty() ? "notitle" : "title " + quoted(series.title));
   }
-  if (list.empty())
-    return text + "set xrange [1:10]\nset yrange [1:10]\nplot 1/0 notitle\nset output\nreset session\n";
+  JD_CHECK(!list.empty(), "plot '{}' shows nothing", plot.name);
   return text + "plot " + list + "\nset output\nreset session\n";
 }
 
@@ -106,6 +107,11 @@ std::string themed(std::string svg, const std::string& name) {
 
 }  // namespace
 
+bool shows_anything(const Plot& plot) {
+  return std::any_of(plot.series.begin(), plot.series.end(),
+                     [&plot](const Series& series) { return has_data(plot, series); });
+}
+
 void check_plotter() {
   try {
     if (support::run_process({"gnuplot", "--version"}).status == 0) return;
@@ -115,6 +121,7 @@ void check_plotter() {
 }
 
 std::vector<std::string> draw(const std::vector<Plot>& plots) {
+  if (plots.empty()) return {};
   const support::TemporaryFolder folder;
   std::string text;
   const auto path_of = [&folder](const Plot& plot) { return folder.path() + "/" + plot.name + ".svg"; };

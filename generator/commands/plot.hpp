@@ -24,10 +24,13 @@ struct Plot {
   int height = 520;
 };
 
+/// Has it a point that its axes can show?
+bool shows_anything(const Plot& plot);
+
 /// Throws EnvironmentError with a remedy where gnuplot cannot be run.
 void check_plotter();
 
-/// The plots as SVG texts, in order. Throws EnvironmentError with gnuplot's words when it fails.
+/// The plots, which must show something, as SVG texts, in order. Throws EnvironmentError with gnuplot's words when it fails.
 std::vector<std::string> draw(const std::vector<Plot>& plots);
 
 }  // namespace jourdain::commands

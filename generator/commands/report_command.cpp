@@ -205,7 +205,7 @@ int run(Arguments arguments) {
   }
   ProgressBar bar;
   bar.show("deriving the equations", 0);
-  const Figure figure = make_figure(model->loaded.mechanism);
+  const Figure figure = make_figure(model->loaded.mechanism, model->parameters);
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
   if (velocities <= kMostVelocities) options.functions.push_back("forward_dynamics_derivatives");

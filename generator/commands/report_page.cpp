@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 
+#include "commands/answer.hpp"
+#include "commands/guide.hpp"
 #include "commands/plot.hpp"
+#include "commands/scene.hpp"
 #include "commands/stability_page.hpp"
 #include "emit/templates.hpp"
 
@@ -18,52 +21,9 @@ using studies::ErrorSources;
 using studies::Study;
 using studies::WorkPoint;
 
-constexpr double kFrameInterval = 0.02;  ///< s, of the animation
-constexpr std::size_t kMostFrames = 1500;
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
-/// A guide of slope `order` through the last point of a series.
-Series guide(const Series& series, int order, double x_power) {
-  Series line{"", {}, {}, series.colour, true, false, true};
-  if (series.x.empty()) return line;
-  const double x = series.x.back(), y = series.y.back();
-  const double first = series.x.front();
-  for (const double at : {first, x}) {
-    line.x.push_back(at);
-    line.y.push_back(y * std::pow(at / x, x_power * order));
-  }
-  return line;
-}
-
-/// Points of one method that lie well above the floor of rounding, for the guide.
-Series truncated(const Series& series, double floor) {
-  Series result = series;
-  while (!result.y.empty() && result.y.back() < 30 * floor) {
-    result.x.pop_back();
-    result.y.pop_back();
-  }
-  return result;
-}
-
 Plot work_precision_plot(const jourdain_model_table& table, const Study& study) {
   Plot plot{"work_precision",
-            "Error against run time; dashed: slopes of the methods' orders",
+            "Error against run time; dashed: the order's slope, where errors follow it",
             "run time per simulated second, s",
             "largest position error, rad or m",
             true,
@@ -79,8 +39,7 @@ Plot work_precision_plot(const jourdain_model_table& table, const Study& study) 
       series.x.push_back(p.run_time);
       series.y.push_back(p.largest.position);
     }
-    // Run time grows with 1/h.
-    const Series line = guide(truncated(series, floor), table.methods[m].order, -1);
+    const Series line = order_guide(series, table.methods[m].order, floor);
     plot.series.push_back(std::move(series));
     plot.series.push_back(line);
   }
@@ -215,75 +174,6 @@ std::string sources_table(const jourdain_model_table& table, const Study& study)
   return text + "</table></div>\n";
 }
 
-using Axis = std::array<double, 3>;
-
-/// Right-handed axes: the third is against gravity, the first the inertial axis that is nearest to level.
-std::array<Axis, 3> view_axes(const model::Mechanism& mechanism) {
-  Axis up{0, 0, 1};
-  Axis g{};
-  std::vector<double> parameters;
-  for (const model::Parameter& p : mechanism.parameters) parameters.push_back(p.value);
-  for (std::size_t i = 0; i < 3; ++i) g[i] = mechanism.gravity[i].evaluate<double>(parameters);
-  const double strength = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-  if (strength > 0)
-    for (std::size_t i = 0; i < 3; ++i) up[i] = -g[i] / strength;
-  Axis across{1, 0, 0};
-  if (std::fabs(up[0]) > 0.9) across = {0, 1, 0};
-  const double share = across[0] * up[0] + across[1] * up[1] + across[2] * up[2];
-  double length = 0;
-  for (std::size_t i = 0; i < 3; ++i) across[i] -= share * up[i], length += across[i] * across[i];
-  for (double& entry : across) entry /= std::sqrt(length);
-  const Axis depth{up[1] * across[2] - up[2] * across[1], up[2] * across[0] - up[0] * across[2],
-                   up[0] * across[1] - up[1] * across[0]};
-  return {across, depth, up};
-}
-
-/// The points at one state, x y z each, to a tenth of a millimetre of a metre-sized mechanism.
-std::string frame_text(const studies::Flow<double>& flow, const studies::Point<double>& point,
-                       const Figure& figure) {
-  const jourdain_model_table& table = flow.table();
-  std::vector<double> u(static_cast<std::size_t>(table.input_count)),
-      values(static_cast<std::size_t>(table.output_count));
-  table.outputs(&point.t, point.x.data(), point.x.data() + table.position_count, u.data(), values.data());
-  std::string text;
-  for (std::size_t p = 0; p < figure.point_count; ++p)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double value = values[12 * p + i];
-      text += fmt::format("{}{:.5g}", text.empty() ? "" : ",", std::fabs(value) < 1e-9 ? 0.0 : value);
-    }
-  return "[" + text + "]";
-}
-
-std::string figure_json(const studies::Flow<double>& flow, const Study& study, const Figure& figure) {
-  const studies::ReferenceSolution& reference = study.reference;
-  const auto most = std::max<std::size_t>(1, reference.points.size() / kMostFrames);
-  const auto stride =
-      std::max(most, static_cast<std::size_t>(std::lround(kFrameInterval / reference.interval)));
-  std::string frames, lines, masses;
-  for (std::size_t k = 0; k < reference.points.size(); k += stride)
-    frames += (frames.empty() ? "" : ",\n") + frame_text(flow, reference.points[k], figure);
-  const auto kind = [](LineKind k) {
-    return k == LineKind::kBody ? "body" : k == LineKind::kSlide ? "slide" : "spring";
-  };
-  for (const FigureLine& line : figure.lines)
-    lines += fmt::format("{}{{\"kind\":\"{}\",\"from\":{},\"to\":{}}}", lines.empty() ? "" : ",",
-                         kind(line.kind), line.from, line.to);
-  for (const FigureMass& mass : figure.masses)
-    masses +=
-        fmt::format("{}{{\"point\":{},\"mass\":{:.6g}}}", masses.empty() ? "" : ",", mass.point, mass.mass);
-  const auto axes = view_axes(figure.mechanism);
-  const auto axis = [](const Axis& a) { return fmt::format("[{:.6g},{:.6g},{:.6g}]", a[0], a[1], a[2]); };
-  return fmt::format(
-      "{{\"interval\":{:.9g},\"duration\":{:.9g},\"view\":{{\"turn\":0.5,\"tilt\":0.3}},\"axes\":[{},{},{}],"
-      "\"lines\":[{}],\"masses\":[{}],\"frames\":[\n{}]}}",
-      reference.interval * static_cast<double>(stride), study.judged, axis(axes[0]), axis(axes[1]),
-      axis(axes[2]), lines, masses, frames);
-}
-
-std::string section(const std::string& title, const std::string& text) {
-  return fmt::format("<h2>{}</h2>\n{}", escaped(title), text);
-}
-
 std::string items(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences) text += "<li>" + escaped(sentence) + "</li>\n";
@@ -293,8 +183,6 @@ std::string items(const std::vector<std::string>& sentences) {
 std::string list(const std::vector<std::string>& sentences) {
   return "<ul>\n" + items(sentences) + "</ul>\n";
 }
-
-std::string drawing(const std::string& svg) { return "<figure>" + svg + "</figure>\n"; }
 
 std::string loops_section(const studies::ReportHead& head, const jourdain_model_table& table,
                           const Study& study) {
@@ -314,7 +202,7 @@ std::string loops_section(const studies::ReportHead& head, const jourdain_model_
   return text + "</table></div>\n";
 }
 
-std::string alternatives_section(const jourdain_model_table& table, const Study& study) {
+std::string alternatives_table(const jourdain_model_table& table, const Study& study) {
   const auto row = [](const std::vector<std::string>& cells, const char* tag) {
     std::string text = "<tr>";
     for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
@@ -325,57 +213,122 @@ std::string alternatives_section(const jourdain_model_table& table, const Study&
   return text + "</table></div>\n" + list(studies::alternatives_remarks(table, study));
 }
 
+/// A part of the page: text, then its plots.
+struct Section {
+  std::string title, text;
+  std::vector<Plot> plots;
+};
+
+std::string explained(const std::string& text) { return "<p class=\"soft\">" + text + "</p>\n"; }
+
+Section work_section(const jourdain_model_table& table, const Study& study) {
+  return {
+      "Error against run time",
+      explained("Each row is a method, each column from the sixth on a length of the step; the entries are "
+                "its largest position errors (rad, m). Halving the step divides the error by about 2 to the "
+                "power of the order. Blue: no other entry is both faster and more accurate.") +
+          errors_table(table, study),
+      {work_precision_plot(table, study)}};
+}
+
+Section sources_section(const jourdain_model_table& table, const Study& study) {
+  return {"Where the error comes from",
+          explained("Truncation: what each step by itself is off by. Propagated: what becomes of that by the "
+                    "end. Rounding: every number is kept to so many digits only. The table has the powers of "
+                    "h that they grow with.") +
+              sources_table(table, study),
+          {sources_plot(table, study, shown_method(table, study, 4))}};
+}
+
+Section stability_section(const jourdain_model_table& table, const Study& study) {
+  const std::vector<std::string> remarks = studies::stability_remarks(table, study);
+  std::vector<std::string> plain;
+  std::remove_copy_if(remarks.begin(), remarks.end(), std::back_inserter(plain), is_warning);
+  return {"Stability",
+          explained(
+              "With longer steps than these the errors of a method are expected to grow from step to step.") +
+              warnings_html(remarks) + stability_table(table, study) + list(plain),
+          stability_plots(table, study)};
+}
+
+Section energy_section(const jourdain_model_table& table, const Study& study) {
+  return {"Energy",
+          explained("Nothing drives or brakes this mechanism: its energy should not change."),
+          {energy_plot(table, study)}};
+}
+
+std::vector<Section> sections_of(const studies::ReportHead& head, const jourdain_model_table& table,
+                                 const Study& study) {
+  std::vector<Section> list = {work_section(table, study)};
+  if (!study.alternatives.rows.empty())
+    list.push_back({"Other integrators at equal error", alternatives_table(table, study), {}});
+  if (!study.sources.empty()) list.push_back(sources_section(table, study));
+  if (!study.stability.points.empty()) list.push_back(stability_section(table, study));
+  if (!head.loops.empty()) list.push_back({"Closed loops", loops_section(head, table, study), {}});
+  if (!study.extremes.empty()) list.push_back({"Extremes", extremes_table(study), {}});
+  if (study.options.conserves_energy) list.push_back(energy_section(table, study));
+  if (!study.forms.empty()) list.push_back({"Equations of the first kind", "", {forms_plot(study)}});
+  return list;
+}
+
+/// The plots that show something become files and stand in their section; instead of others it says so.
+std::string section_html(const Section& section, std::vector<support::FileText>& files) {
+  std::string text = fmt::format("<h2>{}</h2>\n{}", escaped(section.title), section.text);
+  std::vector<Plot> shown;
+  std::copy_if(section.plots.begin(), section.plots.end(), std::back_inserter(shown), shows_anything);
+  const std::vector<std::string> svgs = draw(shown);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    text += "<figure>" + svgs[i] + "</figure>\n";
+    files.push_back({shown[i].name + ".svg", svgs[i]});
+  }
+  for (const Plot& plot : section.plots)
+    if (!shows_anything(plot))
+      text +=
+          explained("Not drawn, for it has no values that its axes can show: " + escaped(plot.title) + ".");
+  return text;
+}
+
+std::string basis_html(const std::vector<std::string>& remarks, const std::string& provenance) {
+  std::vector<std::string> plain;
+  std::remove_copy_if(remarks.begin(), remarks.end(), std::back_inserter(plain), is_warning);
+  return "<h2>What the numbers rest on</h2>\n" + list(plain) + explained(escaped(provenance));
+}
+
+std::string provenance_text(const studies::ReportHead& head, const Study& study) {
+  const std::string scenario = head.scenario.empty() ? "" : "; " + head.scenario;
+  return fmt::format("{} in {} over {}{}. From {} (SHA-256 {}), compiled by {}.", head.generator, head.real,
+                     studies::time_text(study.judged), scenario, head.path, head.sha256.substr(0, 12),
+                     head.compiler);
+}
+
 }  // namespace
 
 std::vector<support::FileText> report_pages(const studies::ReportHead& head,
                                             const studies::Flow<double>& flow, const Study& study,
                                             const Figure& figure) {
   const jourdain_model_table& table = flow.table();
-  std::vector<Plot> plots = {work_precision_plot(table, study)};
-  const bool has_sources = !study.sources.empty(), has_energy = study.options.conserves_energy;
-  const bool has_forms = !study.forms.empty();
-  if (has_sources) plots.push_back(sources_plot(table, study, shown_method(table, study, 4)));
-  const std::vector<Plot> of_stability = stability_plots(table, study);
-  plots.insert(plots.end(), of_stability.begin(), of_stability.end());
-  if (has_energy) plots.push_back(energy_plot(table, study));
-  if (has_forms) plots.push_back(forms_plot(study));
-  const std::vector<std::string> svgs = draw(plots);
-  std::size_t next = 0;
-  std::string sections =
-      section("Error against run time",
-              "<p class=\"soft\">Largest position error along the way (rad, m) by step size; the "
-              "Pareto front stands out.</p>\n" +
-                  errors_table(table, study) + drawing(svgs[next++]));
-  if (!study.alternatives.rows.empty())
-    sections += section("Other integrators at equal error", alternatives_section(table, study));
-  if (has_sources)
-    sections += section("Where the error comes from", sources_table(table, study) + drawing(svgs[next++]));
-  if (!study.stability.points.empty()) {
-    std::string text = stability_table(table, study) + list(studies::stability_remarks(table, study));
-    for (std::size_t i = 0; i < of_stability.size(); ++i) text += drawing(svgs[next++]);
-    sections += section("Stability", text);
-  }
-  if (!head.loops.empty()) sections += section("Closed loops", loops_section(head, table, study));
-  if (!study.extremes.empty()) sections += section("Extremes", extremes_table(study));
-  if (has_energy) sections += section("Energy", drawing(svgs[next++]));
-  if (has_forms) sections += section("Equations of the first kind", drawing(svgs[next++]));
-  const std::string remarks = items(studies::remarks(table, study));
+  std::vector<support::FileText> files(1);
+  const std::vector<std::string> remarks = studies::remarks(table, study);
+  std::string sections;
+  for (const Section& section : sections_of(head, table, study)) sections += section_html(section, files);
+  const std::string title = head.name + (head.description.empty() ? "" : ": " + head.description);
   const std::string advice = studies::advice_text(table, study);
-  const std::string scenario = head.scenario.empty() ? "" : "; " + head.scenario;
-  const std::string page = emit::fill(
-      emit::template_text("report.html.in"),
-      {{"AT", "@"},
-       {"TITLE", escaped(head.name) + ": error against run time"},
-       {"HEADING", escaped(head.name + (head.description.empty() ? "" : ": " + head.description))},
-       {"PROVENANCE", escaped(fmt::format("{} in {} over {}{}. From {} (SHA-256 {}), compiled by {}.",
-                                          head.generator, head.real, studies::time_text(study.judged),
-                                          scenario, head.path, head.sha256.substr(0, 12), head.compiler))},
-       {"ADVICE", advice.empty() ? "" : "<p class=\"advice\">" + escaped(advice) + "</p>"},
-       {"REMARKS", remarks},
-       {"SECTIONS", sections},
-       {"FIGURE", figure_json(flow, study, figure)}});
-  std::vector<support::FileText> files = {{"report.html", page}};
-  for (std::size_t i = 0; i < plots.size(); ++i) files.push_back({plots[i].name + ".svg", svgs[i]});
+  const auto script = [](const char* name) { return std::string(emit::template_text(name)); };
+  files[0] = {
+      "report.html",
+      emit::fill(
+          emit::template_text("report.html.in"),
+          {{"AT", "@"},
+           {"TITLE", escaped(head.name) + ": error against run time"},
+           {"HEADING", escaped(title)},
+           {"WARNINGS", warnings_html(remarks)},
+           {"ANSWER", answer_html(table, study)},
+           {"ADVICE", advice.empty() ? "" : explained("In the report's words: " + escaped(advice) + ".")},
+           {"BASIS", basis_html(remarks, provenance_text(head, study))},
+           {"SECTIONS", sections},
+           {"FIGURE", scene_json(flow, study, figure)},
+           {"SCENE", script("report_scene.js.in")},
+           {"PLAYER", script("report_player.js.in")}})};
   return files;
 }
 

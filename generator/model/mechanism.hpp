@@ -49,13 +49,24 @@ struct Inertia {
 
 enum class InertiaPoint { kCenterOfMass, kOrigin };
 
+/// Lengths in m; kBox uses `size`, the others `radius`, `length` and `axis` as far as they have them.
+struct Shape {
+  enum class Kind { kBox, kCylinder, kSphere, kRod };
+  Kind kind = Kind::kBox;
+  Vector3 size = {};
+  Expression radius = {};
+  Expression length = {};
+  std::size_t axis = 2;  ///< 0, 1, 2: the length lies along x, y, z
+};
+
 struct Body {
   std::string name;
   Expression mass;         ///< kg
   Vector3 center_of_mass;  ///< m, in the body frame
   Inertia inertia;         ///< about `inertia_point`, in the axes `inertia_axes`
   InertiaPoint inertia_point = InertiaPoint::kCenterOfMass;
-  Rotation inertia_axes;  ///< orientation of the inertia's axes in the body frame
+  Rotation inertia_axes;            ///< orientation of the inertia's axes in the body frame
+  std::optional<Shape> shape = {};  ///< that the inertia follows from, about the centre of mass in its axes
   bool lumped =
       false;  ///< published parameter set that need not be one rigid body's (no triangle inequality)
   SourceRange where = {};

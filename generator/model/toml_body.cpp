@@ -84,6 +84,7 @@ class BodyReader {
       read_mass(body, *kind == Shape::Kind::kRod ? "" : "or a density in its shape");
     }
     body.inertia = shape_inertia(shape, body.mass);
+    body.shape = shape;
   }
 
   std::optional<Shape::Kind> shape_kind(const toml::table& entries) {

@@ -353,8 +353,8 @@ TEST(Report, JudgesChaoticMotionOnlyWhileTwoReferencesAgree) {
   const std::string path = folder.path() + "/chaos.toml";
   support::write_file(path, text);
   const support::ProcessResult result =
-      jourdain({"report", path, "--duration", "30s", "--effort", "0.3", "--no-forms", "--no-plots",
-                "--methods", "rk4,rk5", "-o", folder.path() + "/out"});
+      jourdain({"report", path, "--duration", "30s", "--effort", "0.3", "--no-forms", "--methods", "rk4,rk5",
+                "-o", folder.path() + "/out"});
   ASSERT_EQ(result.status, 0) << result.output;
   const json report = json::parse(support::read_file(folder.path() + "/out/report.json"));
   EXPECT_LT(report["reference"]["error"].get<double>(), 1e-6);
@@ -362,6 +362,8 @@ TEST(Report, JudgesChaoticMotionOnlyWhileTwoReferencesAgree) {
   EXPECT_GT(report["judged_s"].get<double>(), 2);
   const std::size_t second = result.output.find('\n') + 1;
   EXPECT_EQ(result.output.compare(second, 20, "  NOT THE WHOLE TIME"), 0) << result.output;
+  const std::string page = support::read_file(folder.path() + "/out/report.html");
+  EXPECT_NE(page.find("</h1>\n<p class=\"warning\">NOT THE WHOLE TIME"), std::string::npos);
 }
 
 TEST(Report, FailuresOfTheEnvironmentEndWithStatusThree) {
