@@ -22,6 +22,7 @@ constexpr double kTolerance = 1e-6, kSampling = 0.016, kDuration = 2;
 /// Neighbouring steps of the search, and the steps in a sampling interval that end it.
 constexpr double kFiner = 1.06;
 constexpr long kMostSteps = 4096;
+constexpr std::uint64_t kRandomScenes = 8;
 
 model::Mechanism model_called(const std::string& name) {
   const std::string path = fmt::format("{}/models/{}.toml", JOURDAIN_SOURCE_DIR, name);
@@ -66,6 +67,7 @@ struct Tally {
 
 void judge(const std::string& name, const model::Mechanism& mechanism, Tally& tally) {
   const EmittedModel model = emitted_from(mechanism, all_loadable_functions());
+  if (model.table().velocity_count == 0) return;
   const ConstantInputs none(std::vector<double>(static_cast<std::size_t>(model.table().input_count)));
   const Flow<double> flow(model.table(), none);
   StudyOptions options;
@@ -108,7 +110,11 @@ void judge(const std::string& name, const model::Mechanism& mechanism, Tally& ta
 int main(int count, char** arguments) {
   using namespace jourdain::tests;
   Tally tally;
-  for (int i = 1; i < count; ++i) judge(arguments[i], model_called(arguments[i]), tally);
+  for (int i = 1; i < count; ++i) {
+    const std::string name = arguments[i];
+    const bool is_seed = name.find_first_not_of("0123456789") == std::string::npos;
+    judge(name, is_seed ? random_scene(std::stoul(name)) : model_called(name), tally);
+  }
   if (count == 1) {
     std::vector<std::string> names;
     for (const auto& entry :
@@ -116,7 +122,7 @@ int main(int count, char** arguments) {
       if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
     std::sort(names.begin(), names.end());
     for (const std::string& name : names) judge(name, model_called(name), tally);
-    for (const std::uint64_t seed : {1, 2, 3, 5, 8, 13})
+    for (std::uint64_t seed = 1; seed <= kRandomScenes; ++seed)
       judge(fmt::format("random scene {}", seed), random_scene(seed), tally);
   }
   fmt::print(
