@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "emit/step_text.hpp"
@@ -112,7 +113,8 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
         "  Real yd[Model::position_count];\n  ::{}::position_rate(model(), to_state(t, y, z), yd);\n", name);
     rates += "  write(yd, ydot, Model::position_count);\n";
   }
-  const bool with_derivatives = has(compiled, "forward_dynamics_derivatives");
+  const bool is_long = number.parts > 1;
+  const bool with_derivatives = !is_long && has(compiled, "forward_dynamics_derivatives");
   std::string derivatives;
   if (with_derivatives)
     derivatives = fmt::format(
@@ -194,6 +196,21 @@ std::vector<std::string> compiler_command(NumberType number) {
   return command;
 }
 
+namespace {
+
+/// Operations. Optimising thousands of CLN's calls in one function takes minutes, and saves a tenth of the time.
+constexpr long kLongestOptimised = 2000;
+
+long largest_function(const CompiledModel& compiled) {
+  std::size_t largest = 0;
+  for (const ir::Program& program : compiled.module.functions)
+    if (program.name != "forward_dynamics_derivatives")
+      largest = std::max(largest, ir::count_operations(program).arithmetic());
+  return static_cast<long>(largest);
+}
+
+}  // namespace
+
 studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, NumberType number) {
   const support::TemporaryFolder folder;
   const auto in_folder = [&folder](const std::string& file) { return folder.path() + "/" + file; };
@@ -203,6 +220,7 @@ studies::LoadedModel build_model(const std::string& name, const CompiledModel& c
     support::write_file(in_folder(header), emit::template_text(header));
   support::write_file(in_folder("shim.cpp"), shim(name, text, compiled));
   std::vector<std::string> command = compiler_command(number);
+  if (number == NumberType::kLong && largest_function(compiled) > kLongestOptimised) command.push_back("-O0");
   for (const std::string& argument : {std::string("-fPIC"), std::string("-shared"), in_folder("shim.cpp"),
                                       std::string("-o"), in_folder("model.so")})
     command.push_back(argument);

@@ -68,11 +68,13 @@ std::string sources_table(const jourdain_model_table& table, const Study& study)
       "method", "h", "truncation", "propagated", "rounding", "predicted", "measured", "ratio");
   for (const SourceSummary& summary : study.summaries) {
     const ErrorSources* s = middle_of(summary.method, study.sources);
+    const bool has_ratio = s && s->measured.position > 0;
     if (s)
-      text += fmt::format("  {:<23} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>6.2f}\n",
-                          table.methods[s->method].name, time_text(s->h), s->truncation.position,
-                          s->propagated.position, s->rounding.position, s->predicted.position,
-                          s->measured.position, s->predicted.position / s->measured.position);
+      text += fmt::format(
+          "  {:<23} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e} {:>6}\n",
+          table.methods[s->method].name, time_text(s->h), s->truncation.position, s->propagated.position,
+          s->rounding.position, s->predicted.position, s->measured.position,
+          has_ratio ? fmt::format("{:.2f}", s->predicted.position / s->measured.position) : "-");
   }
   text += fmt::format("\n  {:<23} {:>17} {:>17} {:>15} {:>27}\n", "slopes over h", "truncation", "propagated",
                       "rounding", "rounding dominates below h");
