@@ -9,7 +9,8 @@
 
 namespace jourdain {
 
-/// In units of the largest acceleration's unit roundoff: the median over some states, infinite where double has no value.
+/// In units of the largest acceleration's unit roundoff: the median over some states, infinite where double has no value at one
+/// of them.
 struct SampledError {
   double units = 0;
   std::string where;  ///< "l2 = 1e+06", or empty: at the description's parameters
