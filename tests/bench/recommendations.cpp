@@ -9,6 +9,7 @@
 #include "model/read.hpp"
 #include "properties/random_scene.hpp"
 #include "studies/emitted.hpp"
+#include "studies/report.hpp"
 #include "studies/study.hpp"
 #include "support/check.hpp"
 #include "support/files.hpp"
@@ -61,8 +62,31 @@ Found brute_force(const Flow<double>& flow, const Study& study) {
   return best;
 }
 
+/// Predicted limits that runs observed, how many of them within 5 %, and whether the report says that some are not to be trusted.
+struct Limits {
+  int observed = 0, right = 0;
+  bool is_flagged = false, is_flagged_damped = false;
+};
+
+Limits limits_of(const jourdain_model_table& table, const Study& study) {
+  constexpr double kRight = 0.05;
+  Limits result;
+  for (const MethodLimit& limit : study.stability.limits) {
+    if (!limit.observed || limit.implicit || !std::isfinite(limit.h) || limit.h == 0) continue;
+    const bool is_right = std::fabs(limit.h / limit.observed->h - 1) <= kRight;
+    ++result.observed;
+    result.right += is_right;
+    result.is_flagged_damped =
+        result.is_flagged_damped || (!is_right && limit.fast && limit.kind == ModeKind::kDamped);
+  }
+  if (!study.stability.points.empty())
+    for (const std::string& remark : stability_remarks(table, study))
+      result.is_flagged = result.is_flagged || remark.starts_with("NOT TO BE TRUSTED");
+  return result;
+}
+
 struct Tally {
-  int judged = 0, kept = 0, near = 0, whole = 0;
+  int judged = 0, kept = 0, near = 0, whole = 0, flagged = 0;
 };
 
 void judge(const std::string& name, const model::Mechanism& mechanism, Tally& tally) {
@@ -80,6 +104,8 @@ void judge(const std::string& name, const model::Mechanism& mechanism, Tally& ta
   for (const model::Parameter& parameter : mechanism.parameters) parameters.push_back(parameter.value);
   const Study study = run_study(mechanism, model.tangent, parameters, flow, nullptr, nullptr, options,
                                 [](const std::string&, double) {});
+  const Limits limits = limits_of(model.table(), study);
+  tally.flagged += limits.is_flagged;
   const Found best = brute_force(flow, study);
   ++tally.judged;
   tally.whole += study.judged > 0.999 * study.options.duration;
@@ -98,9 +124,10 @@ void judge(const std::string& name, const model::Mechanism& mechanism, Tally& ta
   tally.near += ratio <= 1.3;
   fmt::print(
       "{:<24} {:<24} {:9.3f} ms  error {:.1e} {}  search {:<24} {:9.3f} ms  {:5.2f} times its cost, judged "
-      "{:g} s\n",
+      "{:g} s; {} of {} limits within 5 %{}{}\n",
       name, method(advice.method), 1e3 * advice.h, advice.error.position, kept ? "kept " : "MISSED",
-      method(best.method), 1e3 * best.h, ratio, study.judged);
+      method(best.method), 1e3 * best.h, ratio, study.judged, limits.right, limits.observed,
+      limits.is_flagged ? ", not to be trusted" : "", limits.is_flagged_damped ? " though damped" : "");
   std::fflush(stdout);
 }
 
@@ -126,7 +153,9 @@ int main(int count, char** arguments) {
       judge(fmt::format("random scene {}", seed), random_scene(seed), tally);
   }
   fmt::print(
-      "{} scenes: tolerance kept in {}, within 1.3 times of the search in {}, the whole time judged in {}\n",
-      tally.judged, tally.kept, tally.near, tally.whole);
+      "{} scenes: tolerance kept in {}, within 1.3 times of the search in {}, the whole time judged in {}, "
+      "limits not to be "
+      "trusted in {}\n",
+      tally.judged, tally.kept, tally.near, tally.whole, tally.flagged);
   return tally.kept == tally.judged ? EXIT_SUCCESS : EXIT_FAILURE;
 }
