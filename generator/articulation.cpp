@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "dynamics/absolute_rates.hpp"
 #include "dynamics/scene.hpp"
@@ -55,7 +56,9 @@ class Choice {
     std::vector<bool> links;
     bool planar = false;
 
-    friend auto operator<=>(const Way&, const Way&) = default;
+    friend bool operator<(const Way& a, const Way& b) {
+      return std::tie(a.planar, a.links) < std::tie(b.planar, b.links);
+    }
   };
 
   std::vector<bool> none() const { return std::vector<bool>(parent_.size(), false); }

@@ -107,7 +107,7 @@ std::string history_struct(const StepScene& scene, const std::vector<FunctionInf
   const bool remembers = std::any_of(functions.begin(), functions.end(), [](const FunctionInfo& f) {
     return f.stepper && f.stepper->history > 0;
   });
-  const std::string accelerations = accelerations_struct(scene, functions);
+  std::string accelerations = accelerations_struct(scene, functions);
   if (!remembers) return accelerations;
   std::string text = wrapped_doc(
       "What a multistep method remembers: rates of y and z at the last `count` of `depth` steps, newest "
