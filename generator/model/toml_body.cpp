@@ -130,7 +130,7 @@ class BodyReader {
   }
 
   Vector3 read_size(const TomlTable& table) {
-    const Vector3 size = table.vector("size", {1.0, 1.0, 1.0});
+    Vector3 size = table.vector("size", {1.0, 1.0, 1.0});
     if (!table.has("size")) {
       table.missing("size");
       file_.complete().numbers = false;

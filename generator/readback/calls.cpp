@@ -29,7 +29,7 @@ constexpr LibraryFunction kLibrary[] = {
 }  // namespace
 
 const Type* Interpreter::type_of(const Value& value) const {
-  TypeTable& types = const_cast<TypeTable&>(types_);
+  auto& types = const_cast<TypeTable&>(types_);
   switch (value.kind) {
     case Value::Kind::kNothing:
     case Value::Kind::kList:
@@ -372,7 +372,7 @@ void Interpreter::construct(const Value& object, const Value& parameters) {
   leave(frame().base);
 }
 
-void Interpreter::replace(const std::string& name, Standin standin) {
+void Interpreter::replace(const std::string& name, const Standin& standin) {
   for (const auto& [key, list] : functions_)
     if (key.first.empty() && unit_.symbols.text(key.second) == name)
       for (const Function* function : list) standins_[function] = standin;

@@ -47,7 +47,7 @@ class Interpreter {
   /// Executes the constructor of `object` from `parameters`.
   void construct(const Value& object, const Value& parameters);
   /// From now on the function `name` of the outer namespace is not executed; `standin` is.
-  void replace(const std::string& name, Standin standin);
+  void replace(const std::string& name, const Standin& standin);
   /// Value of a static constant of a struct.
   Value constant(const Type* type, const std::string& name);
 

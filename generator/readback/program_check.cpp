@@ -212,7 +212,9 @@ class FunctionCheck {
         if (it == wanted.end() && !api.sparse)
           findings_.add("{}: the program has nothing for {}", name_, name);
         else
-          expect(name, run_.cell(place, static_cast<std::size_t>(row * columns + column)),
+          expect(name,
+                 run_.cell(place, static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                                      static_cast<std::size_t>(column)),
                  it == wanted.end() ? table_.literal(0.0) : it->second);
       }
   }
