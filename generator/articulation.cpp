@@ -30,7 +30,6 @@ class Choice {
  public:
   Choice(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options)
       : mechanism_(mechanism), options_(options) {
-    options_.accelerations_only = true;
     const dynamics::Scene scene(mechanism, options.link_tree);
     moves_in_planes_ = dynamics::moves_in_planes(scene);
     velocities_ = scene.layout.velocity_count();
@@ -140,11 +139,7 @@ class Choice {
   ir::Program program(const Way& way) {
     options_.articulated = way.links;
     options_.planar = way.planar;
-    const dynamics::Equations equations = dynamics::derive_equations(mechanism_, options_);
-    std::vector<ir::Target> targets;
-    for (std::size_t i = 0; i < equations.zdot.size(); ++i)
-      targets.push_back({"zdot", static_cast<int>(i), -1, equations.zdot[i]});
-    return ir::lower(equations.statements, targets, "zdot");
+    return lower_accelerations(mechanism_, options_);
   }
 
   /// First links of the branches: at the ground and where a link has several children.
@@ -197,6 +192,15 @@ Articulation choose_articulation(const model::Mechanism& mechanism,
   return Choice(mechanism, options).choose();
 }
 
+ir::Program lower_accelerations(const model::Mechanism& mechanism, dynamics::DerivationOptions options) {
+  options.accelerations_only = true;
+  const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
+  std::vector<ir::Target> targets;
+  for (std::size_t i = 0; i < equations.zdot.size(); ++i)
+    targets.push_back({"zdot", static_cast<int>(i), -1, equations.zdot[i]});
+  return ir::lower(equations.statements, targets, "zdot");
+}
+
 std::string accuracy_sentence(const Articulation& articulation) {
   const auto text = [](const SampledError& error) {
     return fmt::format("{:.1g} units{}", error.units, error.where.empty() ? "" : " at " + error.where);
@@ -205,13 +209,13 @@ std::string accuracy_sentence(const Articulation& articulation) {
   if (articulation.error.units >= articulation.fewest_error.units)
     return fmt::format(
         "accelerations in double lose up to {} (of rounding of the largest; median of sampled states): no "
-        "way to compute "
-        "them that was tried loses much less",
-        text(articulation.error));
+        "way of "
+        "at most {} times the operations that was tried loses {} times less",
+        text(articulation.error), kMostMore, kMuchLess);
   return fmt::format(
       "accelerations take {} operations more than the fewest (before passes), which lose up to {} where "
-      "these lose {} (of "
-      "rounding of the largest; median of sampled states)",
+      "these lose {} "
+      "(of rounding of the largest; median of sampled states)",
       articulation.spent, text(articulation.fewest_error), text(articulation.error));
 }
 

@@ -13,7 +13,7 @@
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (26 operations
 //   of forward_dynamics)
 // - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
-//   (-9 operations of forward_dynamics)
+//   (39 operations of forward_dynamics)
 // - common factors: factors that several terms of a sum share are multiplied once (1 operations of
 //   forward_dynamics)
 // - constant factors: constant factors of a product are multiplied with each other first (2 operations of

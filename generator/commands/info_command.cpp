@@ -89,6 +89,10 @@ std::string loops_text(const model::Mechanism& mechanism) {
 
 /// How M ż = k̄ − q̄ is solved, with what the two pure ways would cost before any pass.
 std::string algorithm_text(const Articulation& articulation) {
+  if (articulation.planar)
+    return fmt::format(
+        "  accelerations: of links, from which those of joints follow ({} operations, before passes)\n",
+        articulation.operations);
   if (articulation.articulated == 0 || articulation.links.size() == 1) return "";
   const auto links = std::count(articulation.links.begin(), articulation.links.end(), true);
   const std::string factorised =

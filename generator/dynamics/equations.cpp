@@ -241,7 +241,8 @@ class Derivation {
   /// M⁻¹ (k̄ − q̄), with gravity as an inertia force: that costs less than k̄ and q̄ apart. A free link is solved in
   /// its own axes, falling with gravity.
   std::vector<Ex> accelerations(const AppliedForces& applied) {
-    if (options_.planar) return solve_planar_accelerations(scene_, planar_forces(scene_, applied));
+    if (options_.planar && moves_in_planes(scene_))
+      return solve_planar_accelerations(scene_, planar_forces(scene_, applied));
     const std::vector<std::vector<Ex>> inertia =
         generalized(inertia_forces("b", {}, Gravity::kAsAcceleration), applied.on_link, "b");
     std::vector<Ex> b(count_);

@@ -16,8 +16,8 @@ using kinematics::Ex;
 /// Simplifications that the derivation may use; each can be switched off to count what it saves.
 struct DerivationOptions {
   kinematics::LinkTreeOptions link_tree;
-  std::vector<bool> articulated;    ///< see ArticulatedLinks; empty: none but free links
-  bool planar = false;              ///< accelerations of links instead of joints, see moves_in_planes
+  std::vector<bool> articulated;  ///< see ArticulatedLinks; empty: none but free links
+  bool planar = false;  ///< accelerations of links instead of joints where the scene moves_in_planes
   bool accelerations_only = false;  ///< nothing but zdot
   bool closures_only = false;       ///< nothing but the closures of loops
   bool for_derivatives = false;     ///< fills in residual, load, rates of closures; outputs take ż, λ

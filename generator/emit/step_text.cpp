@@ -53,7 +53,7 @@ std::string explicit_body(const StepScene& scene, const FunctionInfo& function) 
   return text;
 }
 
-/// Operations that move the clock in an explicit step; of products with h those of the way.
+/// Operations that move the clock in an explicit step, with the products that say by how much.
 long clock_operations(const Stepper& stepper) {
   std::istringstream lines{std::string(template_text(stepper.name + "_step.in"))};
   long count = 0;

@@ -9,7 +9,6 @@
 
 #include "agreement/shared_data.hpp"
 #include "articulation.hpp"
-#include "ir/lower.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -18,13 +17,8 @@ using ir::LeafKind;
 
 ir::Program accelerations(const model::Mechanism& mechanism, bool planar) {
   dynamics::DerivationOptions options;
-  options.accelerations_only = true;
   options.planar = planar;
-  const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
-  std::vector<ir::Target> targets;
-  for (std::size_t i = 0; i < equations.zdot.size(); ++i)
-    targets.push_back({"zdot", static_cast<int>(i), -1, equations.zdot[i]});
-  return ir::lower(equations.statements, targets, "zdot");
+  return lower_accelerations(mechanism, options);
 }
 
 /// Median over states of the error in units of rounding of the largest acceleration.
