@@ -96,6 +96,7 @@ Bindings TypeTable::bindings_of(const Struct& syntax, const TypeName& name, cons
 }
 
 const Type* TypeTable::resolve(const TypeName& name, const Lookup& lookup) {
+  if (name.path.empty()) throw Refusal("a type without a name");
   const Symbol last = name.path.back();
   if (name.path.size() == 1) {
     if (lookup.bindings)

@@ -70,6 +70,13 @@ std::size_t closing(const std::string& text, std::size_t at) {
   return std::string::npos;
 }
 
+/// Do the parentheses that open at `at` hold nothing but factors?
+bool is_product(const std::string& text, std::size_t at) {
+  const std::string inside = text.substr(at, closing(text, at) - at);
+  return std::none_of(inside.begin(), inside.end(),
+                      [](char c) { return std::string("+-/,?<>=&|").find(c) != std::string::npos; });
+}
+
 bool is_blank(const std::string& text, std::size_t begin) {
   const std::size_t first = text.find_first_not_of(' ', begin);
   return first == std::string::npos || text[first] == '\n';
@@ -226,6 +233,9 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
   if (site.fault == TextFault::kParentheses && site.offset >= 2 &&
       text.compare(site.offset - 2, 2, "+ ") == 0)
     return "a sum in another order, the same but for rounding";
+  if (site.fault == TextFault::kParentheses && site.offset >= 2 &&
+      text.compare(site.offset - 2, 2, "* ") == 0 && is_product(text, site.offset))
+    return "a product in another order, the same but for rounding";
   if (site.fault == TextFault::kDropLine && line.find("stage.state.z[i] = state.z[i];") != std::string::npos)
     return "stage.state is a copy of state";
   if (site.fault == TextFault::kIndex && (is_in_line("], sum_z[") || is_in_line("  Real y[")))

@@ -194,6 +194,9 @@ TEST(Reader, RefusesWhatIsNoCppOrMeansNothing) {
                            "return Real();",
                            "goto x;"})
     EXPECT_NE(refusal(body), "accepted") << body;
+  for (const char* body :
+       {"Pair<3> p;\nreturn a;", "return static_cast<3>(a);", "return static_cast<Pair<3>>(a);"})
+    EXPECT_NE(refusal(body, kStructs), "accepted") << body;
 }
 
 TEST(Reader, IsNotMisledByCommentsSpacesAndParentheses) {
