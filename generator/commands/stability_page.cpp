@@ -40,9 +40,9 @@ std::optional<ShownStep> shown_step(const jourdain_model_table& table, const Stu
     return ShownStep{study.advice->method, study.advice->h, true};
   std::optional<ShownStep> longest;
   for (const MethodLimit& limit : study.stability.limits)
-    if (limit.h > 0 && std::isfinite(limit.h) && has_region(limit.method) &&
-        (!longest || limit.h > longest->h))
-      longest = ShownStep{limit.method, limit.h, false};
+    if (const double h = studies::largest_stable_step(limit);
+        h > 0 && std::isfinite(h) && has_region(limit.method) && (!longest || h > longest->h))
+      longest = ShownStep{limit.method, h, false};
   return longest;
 }
 
@@ -115,7 +115,7 @@ std::string stability_table(const jourdain_model_table& table, const Study& stud
       "<div class=\"table\"><table><tr><th>largest stable step</th><th>predicted</th><th>observed</th>"
       "<th>at t</th><th>deciding mode, 1/s</th><th>it is</th></tr>\n";
   for (const MethodLimit& limit : study.stability.limits) {
-    const bool any = std::isfinite(limit.h);
+    const bool any = limit.predicts;
     text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         table.methods[limit.method].name, studies::limit_text(limit),
                         studies::observed_text(limit), any ? fmt::format("{:.4g} s", limit.time) : "-",

@@ -79,9 +79,11 @@ std::pair<std::size_t, double> cheapest(const std::vector<const WorkPoint*>& can
 
 }  // namespace
 
-std::optional<Advice> advise(const Question& question, const WorkPrecision& study, const Flow<double>& flow,
+std::optional<Advice> advise(const Question& asked, const WorkPrecision& study, const Flow<double>& flow,
                              double sampling, const ReferenceSolution& reference,
                              const std::vector<double>& held_inputs) {
+  Question question = asked;
+  if (question.tolerance) *question.tolerance -= reference.position_error;
   const std::vector<const WorkPoint*> candidates = best_points(question, study.points);
   if (candidates.empty()) return {};
   Advice advice;

@@ -48,7 +48,7 @@ MethodLimit limit_by_modes(const StabilityFunction& function, const Local& local
     if (mu.imag() < 0 || above != fast || negligible(mu, local.modes, scene)) continue;
     const ModeKind kind = kind_of(mu, scene);
     const double h = limit_of_mode(function, mu, kind, judged);
-    if (h < result.h) result = {0, h, local.point->t, mu, kind, fast, false, {}, {}};
+    if (h < result.h) result = {0, h, local.point->t, mu, kind, fast, false, false, {}, {}};
   }
   return result;
 }
@@ -94,7 +94,22 @@ double stated(const MethodLimit& limit, const StabilityFunction* function) {
   return none && limit.h < INFINITY ? 0 : limit.h;
 }
 
+/// Do frozen coefficients hold: is `decisive`, the smallest of `limits`, of a mode that outpaces every change of them, or are they
+/// all the same?
+bool predicts(const MethodLimit& decisive, const std::vector<MethodLimit>& limits, const Scene& scene) {
+  constexpr double kOutpaces = 30, kSame = 1.02, kFewestSteps = 4;
+  if (decisive.kind == ModeKind::kGrowing || !(decisive.h < scene.duration / kFewestSteps)) return false;
+  if (std::abs(decisive.mode) > kOutpaces * scene.rate) return true;
+  return std::all_of(limits.begin(), limits.end(),
+                     [&](const MethodLimit& limit) { return limit.h <= kSame * decisive.h; });
+}
+
 }  // namespace
+
+double largest_stable_step(const MethodLimit& limit) {
+  if (limit.predicts) return limit.h;
+  return limit.observed ? limit.observed->h : INFINITY;
+}
 
 ModeKind kind_of(Complex mu, const Scene& scene) {
   // Where nothing damps, what decays is the other half of what grows.
@@ -118,13 +133,15 @@ LimitsAlong limits_along(std::string_view method, const std::vector<Local>& loca
     if (limit.h < result.smallest.h && (limit.fast || !any_fast)) result.smallest = limit;
     result.limits.push_back(stated(limit, function));
   }
+  result.smallest.predicts = predicts(result.smallest, limits, scene);
+  if (!result.smallest.predicts) result.limits.assign(locals.size(), INFINITY);
   result.smallest.h = stated(result.smallest, function);
   return result;
 }
 
 bool is_stiff(const MethodLimit& limit, double rate) {
   return limit.kind == ModeKind::kDamped && limit.h > 0 && std::abs(limit.mode) > kStiff * rate &&
-         limit.h * rate * kStiff < 1;
+         largest_stable_step(limit) * rate * kStiff < 1;
 }
 
 }  // namespace jourdain::studies

@@ -4,7 +4,9 @@
 // damping ratio along the trajectory, none where that is less than a tenth of what they wander. A mode counts as *damped* or *growing*
 // by its sign, as *undamped* without damping. In a scene that damps nothing (energy is conserved, or volumes in the phase space of coordinates and momenta
 // do not shrink) every mode that rather oscillates is undamped. *Fast* modes, |µ| above three times the trajectory's own rate, are those that a
-// method need not follow but has to survive: they decide; slow ones only where no fast one has a limit. A method that lets every
+// method need not follow but has to survive: they decide; slow ones only where no fast one has a limit. Frozen coefficients predict
+// a limit only while they hardly change: of modes above thirty times that rate, or where the limits at all points agree. Elsewhere
+// the smallest of the points' limits is no more than an estimate, and runs alone say what is stable. A method that lets every
 // undamped mode grow has no stable step ("none: undamped mode") unless a damped mode asks for a step so short that undamped ones
 // grow less than e-fold over the trajectory.
 #pragma once
@@ -37,15 +39,19 @@ struct MethodLimit {
   std::complex<double> mode;  ///< that decides, 1/s; the fastest where the whole system decides
   ModeKind kind = ModeKind::kDamped;
   bool fast = false;                      ///< see above
+  bool predicts = false;                  ///< frozen coefficients hold, see above; else h is an estimate
   bool implicit = false;                  ///< the method is linearly implicit and L-stable: h is infinite
-  std::optional<ObservedLimit> observed;  ///< none where nothing is predicted or runs show no limit near it
+  std::optional<ObservedLimit> observed;  ///< none where runs show no limit near a predicted one
   std::optional<double>
-      stable_until;  ///< implicit: longest h tried (s), at which the run held, as at shorter ones
+      stable_until;  ///< nothing predicted: longest h tried (s), at which the run held, as at shorter ones
 };
+
+/// What is known of it, s: predicted, or observed where nothing is; 0: none is stable, infinity: nothing is known.
+double largest_stable_step(const MethodLimit& limit);
 
 ModeKind kind_of(std::complex<double> mu, const Scene& scene);
 
-/// Limits of one method at each of `locals`, and the smallest one that decides; method 0 in all of them.
+/// Limits of one method at each of `locals` where they predict anything, and the smallest one that decides; method 0 in all of them.
 struct LimitsAlong {
   std::vector<double> limits;  ///< s; 0: none is stable, infinity: no limit is known
   MethodLimit smallest;

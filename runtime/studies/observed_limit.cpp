@@ -91,7 +91,7 @@ class Runs {
       if (budget_.is_over()) return {};
       advance(run, h);
       advance(finer, h, kFiner);
-      if (beyond(velocities(run.point) - velocities(finer.point), 1)) return true;
+      if (beyond(velocities(run.point) - velocities(finer.point), kDiverged)) return true;
     }
     return false;
   }
@@ -104,7 +104,9 @@ class Runs {
       for (Run* each : {&run, &other}) advance(*each, h);
       for (Run* each : {&finer, &finer_other}) advance(*each, h, kFiner);
       widest = std::max(widest, distance(finer, finer_other));
-      if (!(distance(run, other) < kParted * widest)) return true;
+      if (!(distance(run, other) < kParted * widest) ||
+          beyond(velocities(run.point) - velocities(finer.point), kDiverged))
+        return true;
     }
     return false;
   }

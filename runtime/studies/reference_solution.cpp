@@ -35,6 +35,17 @@ double difference(const std::vector<Point<Real>>& a, const std::vector<Point<Rea
   return largest;
 }
 
+/// Largest difference of one of the first `positions` entries; `a` has `stride` points for one of `b`.
+template <class Real>
+double position_difference(const std::vector<Point<Real>>& a, const std::vector<Point<Real>>& b,
+                           std::size_t stride, std::size_t positions) {
+  double largest = 0;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    for (std::size_t i = 0; i < positions; ++i)
+      largest = std::max(largest, std::fabs(double(a[k * stride].x[i] - b[k].x[i])));
+  return largest;
+}
+
 /// How many samples two solutions have together before they part; `a` and `b` have so many points for a sample.
 template <class Real>
 std::size_t samples_together(const std::vector<Point<Real>>& a, std::size_t of_a,
@@ -86,7 +97,9 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
   ReferenceSolution solution;
   solution.method = "Gragg-Bulirsch-Stoer in 50 digits";
   solution.interval = std::ldexp(interval, -level);
-  solution.error = difference(*exact, *looser, std::size_t(1) << (level - looser_level));
+  const std::size_t stride = std::size_t(1) << (level - looser_level);
+  solution.error = difference(*exact, *looser, stride);
+  solution.position_error = position_difference(*exact, *looser, stride, flow.position_count());
   for (const Point<LongReal>& point : *exact) {
     Point<double>& rounded = solution.points.emplace_back();
     rounded.t = double(point.t);
@@ -115,6 +128,7 @@ std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double sampl
   solution.method = "CVODE (Adams) in double";
   solution.interval = interval;
   solution.error = difference(*points, *looser, 1);
+  solution.position_error = position_difference(*points, *looser, 1, flow.position_count());
   solution.open = residuals(flow, *points);
   solution.points = std::move(*points);
   return solution;

@@ -24,6 +24,7 @@ struct ReferenceSolution {
   Residuals open;                      ///< of the loops, largest at the points
   double error =
       0;  ///< largest difference of an entry to the solution with the other, looser tolerance, over 1 + |x|
+  double position_error = 0;  ///< the same of positions alone, rad or m
 };
 
 /// Difference of two solutions, over 1 + |x|, beyond which neither is a reference.

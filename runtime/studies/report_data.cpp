@@ -129,10 +129,11 @@ Json roundings_json(const jourdain_model_table& table, const Study& study) {
   return points;
 }
 
-/// 0 where no step is stable, null where no limit is known.
+/// 0 where no step is stable, null where nothing is predicted.
 Json limit_json(const jourdain_model_table& table, const MethodLimit& limit) {
-  Json entry = {{"method", table.methods[limit.method].name}, {"predicted_s", number(limit.h)}};
-  if (std::isfinite(limit.h)) {
+  Json entry = {{"method", table.methods[limit.method].name},
+                {"predicted_s", limit.predicts ? number(limit.h) : Json()}};
+  if (limit.predicts) {
     const char* kinds[] = {"damped", "undamped", "growing"};
     entry["time_s"] = limit.time;
     entry["mode_per_s"] = {limit.mode.real(), limit.mode.imag()};

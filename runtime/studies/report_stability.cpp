@@ -14,19 +14,6 @@ constexpr double kTransient = 100;  ///< growth that eigenvalues hide, worth a r
 
 std::string instant(double t) { return t == 0 ? "0 s" : time_text(t); }
 
-std::string kind_text(const MethodLimit& limit) {
-  const std::string speed = limit.fast ? "" : ", not much faster than the motion";
-  switch (limit.kind) {
-    case ModeKind::kDamped:
-      return "damped" + speed;
-    case ModeKind::kUndamped:
-      return "undamped" + speed;
-    case ModeKind::kGrowing:
-      return (limit.mode.real() < 0 ? "decaying" : "growing") + speed;
-  }
-  return "";
-}
-
 /// Names of the methods whose limits fulfil something.
 template <class Condition>
 std::string names_where(const jourdain_model_table& table, const Stability& stability,
@@ -37,18 +24,16 @@ std::string names_where(const jourdain_model_table& table, const Stability& stab
   return text;
 }
 
-bool is_predicted(const MethodLimit& limit) { return limit.h > 0 && std::isfinite(limit.h); }
-
 std::string disagreeing_text(const jourdain_model_table& table, const Stability& stability) {
   constexpr double kAgreement = 0.05;
   return names_where(table, stability, [](const MethodLimit& limit) {
-    return is_predicted(limit) && limit.observed && std::fabs(limit.observed->h / limit.h - 1) > kAgreement;
+    return limit.predicts && limit.observed && std::fabs(limit.observed->h / limit.h - 1) > kAgreement;
   });
 }
 
-std::string slow_text(const jourdain_model_table& table, const Stability& stability) {
+std::string unpredicted_text(const jourdain_model_table& table, const Stability& stability) {
   return names_where(table, stability,
-                     [](const MethodLimit& limit) { return is_predicted(limit) && !limit.fast; });
+                     [](const MethodLimit& limit) { return !limit.predicts && !limit.implicit; });
 }
 
 std::string owners_text(const Stability& stability) {
@@ -80,9 +65,9 @@ std::string mode_text(std::complex<double> mu) {
 }
 
 std::string limit_text(const MethodLimit& limit) {
-  if (limit.h == 0) return limit.kind == ModeKind::kUndamped ? "none: undamped mode" : "none";
   if (limit.implicit) return "none: L-stable";
-  return std::isfinite(limit.h) ? time_text(limit.h) : "no mode limits it";
+  if (!limit.predicts) return "-";
+  return limit.h == 0 ? "none: undamped mode" : time_text(limit.h);
 }
 
 std::string observed_text(const MethodLimit& limit) {
@@ -90,7 +75,10 @@ std::string observed_text(const MethodLimit& limit) {
   return limit.observed ? time_text(limit.observed->h) : "-";
 }
 
-std::string judged_text(const MethodLimit& limit) { return std::isfinite(limit.h) ? kind_text(limit) : "-"; }
+std::string judged_text(const MethodLimit& limit) {
+  if (!limit.predicts) return "-";
+  return limit.kind == ModeKind::kDamped ? "damped" : "undamped";
+}
 
 std::vector<std::string> stability_remarks(const jourdain_model_table& table, const Study& study) {
   const Stability& s = study.stability;
@@ -102,22 +90,26 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
       s.damps ? fmt::format("the trajectory's own rate is {:.3g} /s; the fastest decay is {:.3g} times that",
                             s.rate, s.stiffness)
               : fmt::format("the trajectory's own rate is {:.3g} /s; the scene damps nothing", s.rate));
-  if (std::any_of(s.limits.begin(), s.limits.end(), [](const MethodLimit& l) { return l.observed; }))
+  if (std::any_of(s.limits.begin(), s.limits.end(),
+                  [](const MethodLimit& l) { return l.predicts && l.observed; }))
     list.push_back(
-        "observed limits: runs from the state at that t on, velocities displaced by a millionth along the "
-        "mode; -: none found");
+        "observed where predicted: runs from the state at that t on, velocities displaced by a millionth "
+        "along the mode; -: none found");
   if (std::any_of(s.limits.begin(), s.limits.end(), [](const MethodLimit& l) { return l.implicit; }))
     list.push_back(
         "L-stable methods have no limit in linear theory; what is observed of them are runs from the start "
-        "over "
-        "the whole time");
+        "over the whole time, until a velocity is ten times the largest of the reference");
   const std::string apart = disagreeing_text(table, s);
   if (!apart.empty())
     list.push_back("NOT TO BE TRUSTED: predicted and observed limits differ by more than 5 % for " + apart);
-  const std::string slow = slow_text(table, s);
-  if (!slow.empty())
-    list.push_back("estimates only, of modes that are not much faster than the motion: the limits of " +
-                   slow);
+  const std::string unpredicted = unpredicted_text(table, s);
+  if (!unpredicted.empty())
+    list.push_back(fmt::format(
+        "no prediction for {}: no mode that limits them is thirty times faster than the motion or stays as "
+        "it "
+        "is; observed of them are runs from the start over the whole time, until a velocity is ten times the "
+        "largest of the reference",
+        unpredicted));
   if (s.transient_growth > kTransient)
     list.push_back(
         fmt::format("eigenvalues mislead here: at 0.9 of its limit {} lets some differences grow "
@@ -133,7 +125,7 @@ std::string stability_text(const jourdain_model_table& table, const Study& study
   std::string text = fmt::format("\n  largest stable step\n  {:<24} {:>19} {:>17} {:>10} {:>24}  {}\n",
                                  "method", "predicted", "observed", "at t", "deciding mode, 1/s", "it is");
   for (const MethodLimit& limit : study.stability.limits) {
-    const bool any = std::isfinite(limit.h);
+    const bool any = limit.predicts;
     text += fmt::format("  {:<24} {:>19} {:>17} {:>10} {:>24}  {}\n", table.methods[limit.method].name,
                         limit_text(limit), observed_text(limit), any ? instant(limit.time) : "-",
                         any ? mode_text(limit.mode) : "-", judged_text(limit));
@@ -147,11 +139,11 @@ std::string stiff_text(const jourdain_model_table& table, const Study& study) {
   const MethodLimit* longest = stiff_limit(study.stability);
   if (!longest) return "";
   if (study.advice) {
-    const double own = study.stability.limits[study.advice->method].h;
+    const double own = largest_stable_step(study.stability.limits[study.advice->method]);
     if (std::isfinite(own) && !(study.advice->h > kNear * own)) return "";
   }
   return fmt::format("stiff: explicit methods need h < {} ({}), whatever the accuracy asked for",
-                     time_text(longest->h), table.methods[longest->method].name);
+                     time_text(largest_stable_step(*longest)), table.methods[longest->method].name);
 }
 
 std::string stability_csv(const jourdain_model_table& table, const Stability& stability) {

@@ -151,6 +151,11 @@ std::string advice_text(const jourdain_model_table& table, const Study& study) {
   if (study.untrusted_from)
     return fmt::format(
         "within {}: no recommendation, the loops turn singular or leave what is proven of them", asked);
+  if (!study.advice && question.tolerance && study.reference.position_error >= *question.tolerance)
+    return fmt::format(
+        "within {}: no recommendation, the reference itself is only known to {:.1g}; allow more, or try "
+        "--reference extrapolation (slow)",
+        asked, study.reference.position_error);
   if (!study.advice) return fmt::format("no method and step of this study keep within {}{}", asked, remark);
   const Advice& a = *study.advice;
   const std::string inputs = inputs_text(study);

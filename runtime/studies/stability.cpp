@@ -75,8 +75,7 @@ void look_for_transients(const Flow<double>& flow, const std::vector<Local>& loc
     const StabilityFunction* function = stability_function(flow.table().methods[limit.method].name);
     const bool polynomial =
         function && function->kind == StabilityFunction::Kind::kOneStep && function->denominator.size() == 1;
-    if (!polynomial || !(limit.h > 0) || !std::isfinite(limit.h) || result.transient_method == "rk4")
-      continue;
+    if (!polynomial || !limit.predicts || !(limit.h > 0) || result.transient_method == "rk4") continue;
     const Local& local = local_at(locals, limit.time);
     if (local.modes.defective) continue;
     result.transient_growth = transient_growth(*function, local, kWithin * limit.h, scene);
@@ -118,7 +117,8 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
     progress("step limits", 0.5 + 0.5 * double(limit.method) / double(result.limits.size()));
     const jourdain_method& method = flow.table().methods[limit.method];
     const StabilityFunction* function = stability_function(method.name);
-    if (limit.implicit) {
+    if (limit.predicts && !(limit.h > 0)) continue;
+    if (!limit.predicts) {
       const double share = budget.left() / static_cast<double>(result.limits.size() - limit.method);
       Budget part(share);
       const double duration = reference.points.back().t - reference.points.front().t;
@@ -128,7 +128,6 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
       budget.spend(share - part.left());
       continue;
     }
-    if (!function || !(limit.h > 0) || !std::isfinite(limit.h) || limit.kind == ModeKind::kGrowing) continue;
     const Local& local = local_at(locals, limit.time);
     const VectorXd direction = velocities_of(limit.mode, local);
     if (!(direction.norm() > 0)) continue;
@@ -164,7 +163,8 @@ LimitsAlong no_limits(std::size_t count) {
 const MethodLimit* stiff_limit(const Stability& stability) {
   const MethodLimit* longest = nullptr;
   for (const MethodLimit& limit : stability.limits)
-    if (limit.h > 0 && std::isfinite(limit.h) && !limit.implicit && (!longest || limit.h > longest->h))
+    if (const double h = largest_stable_step(limit);
+        h > 0 && std::isfinite(h) && !limit.implicit && (!longest || h > largest_stable_step(*longest)))
       longest = &limit;
   return longest && is_stiff(*longest, stability.rate) ? longest : nullptr;
 }

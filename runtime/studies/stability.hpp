@@ -68,7 +68,8 @@ struct LimitRuns {
 /// - damped, `stiff`: a velocity is that largest one off a run with an eighth of the step, within 2000 steps at least. Such runs
 ///   often settle on a false oscillation before they get to ten times;
 /// - damped: displaced and undisplaced run are a hundred times as far apart as those with an eighth of the step have been,
-///   within 500 steps at least. Neither resonance nor trajectories that part by themselves count.
+///   within 500 steps at least, or ten times the largest velocity: both may settle on the same false oscillation. Neither
+///   resonance nor trajectories that part by themselves count.
 /// Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, where a million steps and the time do for
 /// that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted one, or the budget is spent.
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,

@@ -148,7 +148,7 @@ SourceSummary summarise(std::size_t method, const Study& study) {
 std::vector<double> steps_within_limit(const Study& study, const jourdain_model_table& table) {
   double limit = INFINITY;
   for (const MethodLimit& l : study.stability.limits)
-    if (std::string_view(table.methods[l.method].name) == "rk4" && l.h > 0) limit = l.h;
+    if (std::string_view(table.methods[l.method].name) == "rk4" && l.h > 0) limit = largest_stable_step(l);
   std::vector<double> steps;
   for (const double h : study.steps)
     if (h < limit) steps.push_back(h);
@@ -199,6 +199,12 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   const std::vector<double> held = flow.inputs().at(0.0);
   study.work = study_work_precision(flow, study.steps, sampling, study.reference, options.conserves_energy,
                                     held, progress);
+  if (options.question.tolerance) {
+    const std::vector<double> shorter =
+        go_on_to_shorter_steps(study.work, study.steps.back(), *options.question.tolerance, flow, sampling,
+                               study.reference, options.conserves_energy, options.seconds, progress);
+    study.steps.insert(study.steps.end(), shorter.begin(), shorter.end());
+  }
   leave_out_useless_steps(study);
   const bool parts = !study.reference.exact.empty() && long_flow && !options.hold_inputs;
   if (parts) {

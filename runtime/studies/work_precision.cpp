@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "studies/work.hpp"
+
 namespace jourdain::studies {
 
 namespace {
@@ -46,6 +48,14 @@ double smallest_error(const std::vector<WorkPoint>& points) {
   for (const WorkPoint& point : points)
     if (point.finite && point.largest.position > 0) smallest = std::min(smallest, point.largest.position);
   return smallest;
+}
+
+/// Of the points with this step.
+double least_error(const std::vector<WorkPoint>& points, double h) {
+  double least = INFINITY;
+  for (const WorkPoint& point : points)
+    if (point.h < 1.001 * h && point.finite) least = std::min(least, point.largest.position);
+  return least;
 }
 
 std::optional<double> order_of(std::size_t method, const std::vector<WorkPoint>& points, double floor) {
@@ -178,10 +188,49 @@ WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<d
       point.run_time = study.step_times[m].least / steps[i];
       study.points.push_back(point);
     }
-  const double floor = std::max(reference.error, smallest_error(study.points));
-  for (std::size_t m = 0; m < methods; ++m) study.orders.push_back(order_of(m, study.points, floor));
-  mark_pareto_front(study.points);
+  judge_orders(study, reference);
   return study;
+}
+
+void judge_orders(WorkPrecision& study, const ReferenceSolution& reference) {
+  const double floor = std::max(reference.error, smallest_error(study.points));
+  study.orders.clear();
+  for (std::size_t m = 0; m < study.step_times.size(); ++m)
+    study.orders.push_back(order_of(m, study.points, floor));
+  mark_pareto_front(study.points);
+}
+
+std::vector<double> go_on_to_shorter_steps(WorkPrecision& study, double h, double tolerance,
+                                           const Flow<double>& flow, double sampling,
+                                           const ReferenceSolution& reference, bool conserves_energy,
+                                           double seconds, const Progress& progress) {
+  constexpr double kFalls = 1.5, kMostSteps = 4096;  // of a sampling interval
+  double level = 0;
+  for (int m = 0; m < flow.table().method_count; ++m)
+    level += step_time(flow.table().methods[m]) * study.duration;
+  Budget budget(seconds);
+  std::vector<double> more;
+  for (double best = least_error(study.points, h), before = kFalls * best;
+       best > tolerance && before >= kFalls * best && sampling / h < 0.999 * kMostSteps;) {
+    h /= 2;
+    budget.spend(level / h);
+    if (budget.is_over()) break;
+    progress("shorter steps", 1 - budget.left() / seconds);
+    std::vector<WorkPoint> points;
+    for (const WorkPoint& point : study.points) {
+      points.push_back(point);
+      if (point.h > 2.001 * h) continue;
+      WorkPoint next = measure_errors(flow, point.method, h, sampling, reference, conserves_energy);
+      next.run_time = study.step_times[point.method].least / h;
+      points.push_back(next);
+    }
+    study.points = std::move(points);
+    more.push_back(h);
+    before = best;
+    best = least_error(study.points, h);
+  }
+  if (!more.empty()) judge_orders(study, reference);
+  return more;
 }
 
 void mark_pareto_front(std::vector<WorkPoint>& points) {

@@ -63,6 +63,16 @@ WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<d
                                    double sampling, const ReferenceSolution& reference, bool conserves_energy,
                                    const std::vector<double>& held_inputs, const Progress& progress);
 
+/// Halves the shortest step `h` (s) as long as no point is within `tolerance` and the least error falls, 4096 steps an interval of
+/// `sampling` and `seconds` of nominal work at most. The steps that were added, descending.
+std::vector<double> go_on_to_shorter_steps(WorkPrecision& study, double h, double tolerance,
+                                           const Flow<double>& flow, double sampling,
+                                           const ReferenceSolution& reference, bool conserves_energy,
+                                           double seconds, const Progress& progress);
+
+/// Measured orders and the Pareto front of the points as they are.
+void judge_orders(WorkPrecision& study, const ReferenceSolution& reference);
+
 /// Marks the points that no other one beats in both run time and largest position error.
 void mark_pareto_front(std::vector<WorkPoint>& points);
 

@@ -62,6 +62,11 @@ Found brute_force(const Flow<double>& flow, const Study& study) {
   return best;
 }
 
+bool is_wrong(const MethodLimit& limit) {
+  constexpr double kRight = 0.05;
+  return limit.predicts && limit.observed && std::fabs(limit.h / limit.observed->h - 1) > kRight;
+}
+
 /// Predicted limits that runs observed, how many of them within 5 %, and whether the report says that some are not to be trusted.
 struct Limits {
   int observed = 0, right = 0;
@@ -69,20 +74,29 @@ struct Limits {
 };
 
 Limits limits_of(const jourdain_model_table& table, const Study& study) {
-  constexpr double kRight = 0.05;
   Limits result;
   for (const MethodLimit& limit : study.stability.limits) {
-    if (!limit.observed || limit.implicit || !std::isfinite(limit.h) || limit.h == 0) continue;
-    const bool is_right = std::fabs(limit.h / limit.observed->h - 1) <= kRight;
+    if (!limit.predicts || !limit.observed) continue;
     ++result.observed;
-    result.right += is_right;
+    result.right += !is_wrong(limit);
     result.is_flagged_damped =
-        result.is_flagged_damped || (!is_right && limit.fast && limit.kind == ModeKind::kDamped);
+        result.is_flagged_damped || (is_wrong(limit) && limit.kind == ModeKind::kDamped);
   }
   if (!study.stability.points.empty())
     for (const std::string& remark : stability_remarks(table, study))
       result.is_flagged = result.is_flagged || remark.starts_with("NOT TO BE TRUSTED");
   return result;
+}
+
+/// The limits that runs do not show so.
+std::string wrong_limits_text(const jourdain_model_table& table, const Study& study) {
+  std::string text;
+  for (const MethodLimit& limit : study.stability.limits)
+    if (is_wrong(limit))
+      text += fmt::format("  {:<24} predicted {:.4g} s, {:.3f} times the observed; {} /s at {:.4g} s, {}\n",
+                          table.methods[limit.method].name, limit.h, limit.h / limit.observed->h,
+                          mode_text(limit.mode), limit.time, judged_text(limit));
+  return text;
 }
 
 struct Tally {
@@ -128,6 +142,7 @@ void judge(const std::string& name, const model::Mechanism& mechanism, Tally& ta
       name, method(advice.method), 1e3 * advice.h, advice.error.position, kept ? "kept " : "MISSED",
       method(best.method), 1e3 * best.h, ratio, study.judged, limits.right, limits.observed,
       limits.is_flagged ? ", not to be trusted" : "", limits.is_flagged_damped ? " though damped" : "");
+  fmt::print("{}", wrong_limits_text(model.table(), study));
   std::fflush(stdout);
 }
 

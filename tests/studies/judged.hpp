@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "model/coordinates.hpp"
 #include "studies/emitted.hpp"
 #include "studies/stability.hpp"
 
@@ -32,7 +31,7 @@ struct Judged {
         none(std::vector<double>(static_cast<std::size_t>(model.table().input_count))),
         flow(model.table(), none),
         reference(solve_reference(flow, nullptr, ReferenceKind::kCvode, interval, count, 1, 1, kSilent)),
-        tangent(model::tangent_of(model.mechanism, model::lay_out_coordinates(model.mechanism))),
+        tangent(model.tangent),
         stability(study_stability(flow, reference, tangent, conserves_energy, 60, kSilent)) {}
 
   const MethodLimit& limit(const std::string& method) const {

@@ -222,6 +222,27 @@ TEST(Stability, ForcedCartDivergesWhereItsSpringAndDamperSayAndNotWhereItResonat
     cart.expect_observed(method);
 }
 
+TEST(Stability, PredictsNothingWhereModesChangeAsFastAsTheMotion) {
+  const Judged four_bar(emitted_model("four_bar"), 32, false);
+  for (const char* method : {"semi_implicit_euler", "heun", "rk4", "rk5", "adams_bashforth3"}) {
+    const MethodLimit& limit = four_bar.limit(method);
+    EXPECT_FALSE(limit.predicts) << method;
+    EXPECT_EQ(limit_text(limit), "-") << method;
+    ASSERT_TRUE(limit.observed) << method;
+    EXPECT_EQ(limit.observed->start, 0) << method;
+    EXPECT_EQ(largest_stable_step(limit), limit.observed->h) << method;
+    for (const StabilityPoint& point : four_bar.stability.points)
+      EXPECT_EQ(point.limits[limit.method], INFINITY) << method;
+  }
+  EXPECT_LT(four_bar.limit("heun").observed->h, four_bar.limit("rk4").observed->h);
+}
+
+TEST(Stability, ObservesFalseOscillationsAsDivergence) {
+  // A strut whose runs settle on a cycle of two steps, with and without displacement.
+  const Judged strut(emitted_model("mcpherson_strut"), 32, false);
+  strut.expect_observed("semi_implicit_euler");
+}
+
 TEST(Stability, TopOnABallJointHasNoModeOfItsQuaternion) {
   const Judged top(emitted_model("lagrange_top"), 32, true);
   for (const StabilityPoint& point : top.stability.points) EXPECT_EQ(point.eigenvalues.size(), 6u);

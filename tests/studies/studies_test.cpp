@@ -74,6 +74,8 @@ TEST(ReferenceSolution, StatesAnErrorThatCoversTheTrueOne) {
   EXPECT_EQ(double(end.t), 2);
   EXPECT_LE(std::fabs(double(end.x[0] - cos(end.t))), exact.error + 1e-40);
   EXPECT_LT(exact.error, 1e-18);
+  EXPECT_GT(exact.position_error, 0);
+  EXPECT_LE(exact.position_error, 2 * exact.error);  // |x| is at most 1
   const ReferenceSolution cheap =
       solve_reference(flow, nullptr, ReferenceKind::kAutomatic, kSampling, 32, 3, 2, kSilent);
   EXPECT_TRUE(cheap.exact.empty());
@@ -141,6 +143,34 @@ TEST(WorkPrecision, ErrorsAreTheTrueOnesAndOrdersTheMethodsOwn) {
   EXPECT_NEAR(*work.orders[1], 4, 0.01);
 }
 
+TEST(WorkPrecision, GoesOnToShorterStepsWhereNoneKeepsTheToleranceAndErrorsFall) {
+  Oscillator study;
+  study.steps = {kSampling, kSampling / 2};
+  WorkPrecision work = study.work();
+  const auto more = [&](double tolerance, double seconds) {
+    const double shortest = work.points.back().h;
+    return go_on_to_shorter_steps(work, shortest, tolerance, study.flow, kSampling, study.reference, true,
+                                  seconds, kSilent);
+  };
+  EXPECT_TRUE(more(1, 10).empty());
+  EXPECT_TRUE(more(1e-9, 0).empty());
+  EXPECT_FALSE(advise({1e-9, {}}, work, study.flow, kSampling, study.reference, {0}));
+  const std::vector<double> steps = more(1e-9, 10);
+  ASSERT_FALSE(steps.empty());
+  EXPECT_EQ(steps.front(), kSampling / 4);
+  ASSERT_EQ(work.points.size(), 2 * (2 + steps.size()));
+  for (std::size_t i = 1; i < work.points.size(); ++i) {
+    const bool same_method = work.points[i].method == work.points[i - 1].method;
+    EXPECT_EQ(same_method, work.points[i].h == work.points[i - 1].h / 2) << i;
+  }
+  const auto advice = advise({1e-9, {}}, work, study.flow, kSampling, study.reference, {0});
+  ASSERT_TRUE(advice);
+  EXPECT_LE(advice->error.position, 1e-9);
+  // Rounding ends what steps can do.
+  more(1e-30, 1000);
+  EXPECT_GT(work.points.back().h, kSampling / 4096);
+}
+
 TEST(WorkPrecision, TheParetoFrontHasNoPointThatAnotherBeats) {
   std::vector<WorkPoint> points(4);
   const auto set = [](WorkPoint& point, double time, double error) {
@@ -190,6 +220,18 @@ TEST(Advice, IsTheCheapestThatKeepsTheTolerance) {
   }
   EXPECT_FALSE(advise({1e-30, {}}, work, study.flow, kSampling, study.reference, {0}));
   EXPECT_FALSE(advise({{}, 1e-15}, work, study.flow, kSampling, study.reference, {0}));
+}
+
+TEST(Advice, IsNotGivenWithinWhatTheReferenceDoesNotKnow) {
+  Oscillator study;
+  const WorkPrecision work = study.work();
+  ReferenceSolution rough = study.reference;
+  rough.position_error = 9e-7;
+  const auto advice = advise({1e-6, {}}, work, study.flow, kSampling, rough, {0});
+  ASSERT_TRUE(advice);
+  EXPECT_LE(advice->error.position + rough.position_error, 1e-6);
+  rough.position_error = 1e-6;
+  EXPECT_FALSE(advise({1e-6, {}}, work, study.flow, kSampling, rough, {0}));
 }
 
 TEST(Advice, IsTheMostAccurateWithinABudget) {
