@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kDisplacement = 1e-6;  ///< of the largest velocity: small, so that the linear picture holds
 constexpr double kDiverged = 10;        ///< times the largest of the same velocity in the reference
+constexpr double kOff = 1;              ///< the same of a difference that short steps cannot bring about
 constexpr double kMoving =
     1e-2;                      ///< of the largest velocity: entries that move less count as if they moved so
 constexpr double kGrown = 40;  ///< logarithm of the growth that a run 2 % beyond the limit has time for
@@ -91,7 +92,7 @@ class Runs {
       if (budget_.is_over()) return {};
       advance(run, h);
       advance(finer, h, kFiner);
-      if (beyond(velocities(run.point) - velocities(finer.point), kDiverged)) return true;
+      if (beyond(velocities(run.point) - velocities(finer.point), kOff)) return true;
     }
     return false;
   }
