@@ -1,0 +1,137 @@
+// A report's figures against runs and solutions that know nothing of how reports are made.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/files.hpp"
+#include "support/process.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kInterval = 1e-3, kSampling = 16e-3, kTolerance = 1e-6;
+const std::vector<std::string> kMethods = {"semi_implicit_euler", "heun", "rk4", "rk5", "rosw43", "rodas4"};
+
+/// A method with a step, and the error that the report states.
+struct Claim {
+  std::string method;
+  double h = 0, error = 0;
+  bool recommended = false;
+
+  /// Between two comparisons.
+  double compared() const { return std::max(h, kSampling); }
+};
+
+std::vector<Claim> claims_of(const json& report) {
+  std::vector<Claim> claims;
+  for (const json& point : report["points"])
+    if (point["finite"].get<bool>())
+      claims.push_back({point["method"], point["step_s"], point["largest"]["position"]});
+  const json& advice = report["recommendation"];
+  if (advice.contains("method"))
+    claims.push_back({advice["method"], advice["step_s"], advice["largest_error"]["position"], true});
+  return claims;
+}
+
+/// Errors of the claims: the first number printed is what the solution is known to.
+std::vector<double> audited(const std::string& folder, const std::string& name, double duration,
+                            const std::vector<Claim>& claims) {
+  support::write_file(
+      folder + "/main.cpp",
+      fmt::format("#include \"{0}_kernels.hpp\"\n#include \"audit/audit.hpp\"\n"
+                  "int main(int count, char** arguments) {{ return "
+                  "audit::run<{0}::Model, {0}::Accelerations<double>>(count, arguments); }}\n",
+                  name));
+  const auto compiled = support::run_process({"c++", "-std=c++20", "-O2", "-I" + folder,
+                                              fmt::format("-I{}/tests", JOURDAIN_SOURCE_DIR),
+                                              folder + "/main.cpp", "-o", folder + "/audit"});
+  EXPECT_EQ(compiled.status, 0) << compiled.output;
+  std::vector<std::string> command = {folder + "/audit", std::to_string(std::lround(duration / kInterval)),
+                                      fmt::format("{}", kInterval)};
+  for (const Claim& claim : claims)
+    for (const std::string& argument :
+         {claim.method, fmt::format("{}", claim.h), std::to_string(std::lround(claim.compared() / claim.h)),
+          std::to_string(std::lround(claim.compared() / kInterval))})
+      command.push_back(argument);
+  const auto result = support::run_process(command);
+  EXPECT_EQ(result.status, 0) << result.output;
+  std::istringstream lines(result.output);
+  std::vector<double> numbers;
+  for (double number = 0; lines >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+class Audit : public testing::TestWithParam<const char*> {};
+
+#ifndef JOURDAIN_SANITIZED  // reports in 50 digits are too slow there
+
+TEST_P(Audit, FindsTheErrorsThatTheReportStates) {
+  const std::string name = GetParam();
+  const support::TemporaryFolder folder;
+  const std::string model = fmt::format("{}/models/{}.toml", JOURDAIN_SOURCE_DIR, name);
+  std::vector<std::string> report = {JOURDAIN_BINARY,
+                                     "report",
+                                     model,
+                                     "--tolerance",
+                                     "1e-6",
+                                     "--halvings",
+                                     "6",
+                                     "--effort",
+                                     "0.5",
+                                     "-o",
+                                     folder.path() + "/report",
+                                     "--methods"};
+  std::vector<std::string> compile = {JOURDAIN_BINARY, "compile", model, "-o", folder.path(), "--functions"};
+  for (const std::string& method : kMethods) {
+    report.push_back(method);
+    compile.push_back(method + "_step");
+  }
+  for (const char* function : {"initial_state", "position_rate", "forward_dynamics"})
+    compile.push_back(function);
+  ASSERT_EQ(support::run_process(report).status, 0);
+  ASSERT_EQ(support::run_process(compile).status, 0);
+  const json figures = json::parse(support::read_file(folder.path() + "/report/report.json"));
+  const double judged = figures["judged_s"];
+  EXPECT_NEAR(judged, figures["duration_s"], 1e-9);
+  std::vector<Claim> claims = claims_of(figures);
+  std::erase_if(claims, [](const Claim& claim) {  // the audit's solution is known every interval only
+    return std::fabs(std::remainder(claim.compared(), kInterval)) > 1e-9;
+  });
+  ASSERT_GE(claims.size(), 12u);
+  EXPECT_TRUE(claims.back().recommended);
+  const std::vector<double> errors = audited(folder.path(), name, judged, claims);
+  ASSERT_EQ(errors.size(), claims.size() + 1);
+  constexpr double kFar = 1e-2;
+  double worst = 0;
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    const Claim& claim = claims[i];
+    // Runs far off may be unstable ones, where the last bit counts.
+    const double relative = errors[i + 1] < kFar ? 1e-3 : 0.2;
+    EXPECT_NEAR(claim.error, errors[i + 1], relative * errors[i + 1] + 1e-12)
+        << claim.method << " " << claim.h;
+    if (claim.error > 1e-9 && claim.error < kFar)
+      worst = std::max(worst, std::fabs(claim.error / errors[i + 1] - 1));
+    if (claim.recommended) {
+      EXPECT_LE(errors[i + 1], kTolerance);
+    }
+  }
+  fmt::print(
+      "{}: {} errors within {:.1e}; recommended {}_step, h = {:.4g} s, error {:.2g}; solution known to "
+      "{:.0e}\n",
+      name, claims.size(), worst, claims.back().method, claims.back().h, errors.back(), errors.front());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Audit,
+                         testing::Values("lagrange_top", "crane", "ur5", "shaking_cart", "four_bar",
+                                         "slider_crank", "mcpherson_strut", "spring_four_bar",
+                                         "contact_wheel", "elastic_arm", "flyball_governor"));
+
+#endif
+
+}  // namespace
+}  // namespace jourdain::tests
