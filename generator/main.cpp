@@ -25,6 +25,23 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
+/// The arguments after the program's name, in reverse as CLI11 takes them. Options that take several values would take the model too:
+/// a second value that is a model file is moved to the front.
+std::vector<std::string> reversed_arguments(int argc, char** argv) {
+  const auto is_model = [](std::string_view text) {
+    return text.ends_with(".toml") || text.ends_with(".urdf");
+  };
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (std::size_t i = 2; i < arguments.size(); ++i)
+    if (is_model(arguments[i]) && !arguments[i - 1].starts_with("-")) {
+      std::rotate(arguments.begin() + 1, arguments.begin() + static_cast<std::ptrdiff_t>(i),
+                  arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      break;
+    }
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,7 +55,7 @@ int main(int argc, char** argv) {
   commands::add_all(app, status);
   if (is_unknown_command(app, argc, argv)) return commands::kUsage;
   try {
-    app.parse(argc, argv);
+    app.parse(reversed_arguments(argc, argv));
     return status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? commands::kSuccess : commands::kUsage;

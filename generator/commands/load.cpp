@@ -31,11 +31,8 @@ std::string sha256(const std::string& text) {
   return hex;
 }
 
-/// Emitted files never name a folder of the machine.
-std::string printed_path(const std::string& path) {
-  const std::filesystem::path p(path);
-  return p.is_absolute() ? p.filename().string() : p.lexically_normal().generic_string();
-}
+/// Emitted files name no folder: they are the same from wherever the command was called.
+std::string printed_path(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 std::string check_name(const std::string& name) {
   if (!model::is_identifier(name) || name.find("__") != std::string::npos || name[0] == '_')

@@ -119,6 +119,7 @@ struct ExpressionError {
 
 inline constexpr std::size_t kMaximumExpressionLength = 2000;
 inline constexpr int kMaximumExpressionDepth = 100;
+inline constexpr std::size_t kMaximumExpressionSize = 5000;  ///< written out, see below
 
 /// A name that an expression may use for a variable; it may have one dot in it ("hinge.rate").
 struct ScopeEntry {
@@ -130,7 +131,8 @@ using Scope = std::vector<ScopeEntry>;
 
 /// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), sqrt, sin, cos, tan and the given names. `^` binds
 /// tighter than unary minus and takes integer exponents (or 0.5) only. Text over kMaximumExpressionLength or nested
-/// deeper than kMaximumExpressionDepth, unknown names (with "did you mean"), NaN or infinity are errors.
+/// deeper than kMaximumExpressionDepth, or with more than kMaximumExpressionSize operations where tangents, sin(x)/cos(x) each, are
+/// written out, unknown names (with "did you mean"), NaN or infinity are errors.
 std::variant<Expression, ExpressionError> parse_expression(std::string_view text,
                                                            const std::vector<std::string>& parameter_names,
                                                            const Scope& scope = {});

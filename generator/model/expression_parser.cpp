@@ -242,6 +242,22 @@ class Parser {
 
 }  // namespace
 
+namespace {
+
+/// Operations and operands where shared operands count each time; no more than a little beyond the limit.
+std::size_t written_out(const Expression& expression) {
+  std::vector<std::size_t> sizes;
+  for (const Expression::Node& node : expression.nodes()) {
+    const bool leaf = sizes.empty() || node.op == Expression::Op::kLiteral ||
+                      node.op == Expression::Op::kParameter || node.op == Expression::Op::kVariable;
+    const std::size_t both = leaf ? 0 : sizes[node.left] + (node.right == node.left ? 0 : sizes[node.right]);
+    sizes.push_back(std::min(1 + both, kMaximumExpressionSize + 1));
+  }
+  return sizes.back();
+}
+
+}  // namespace
+
 std::variant<Expression, ExpressionError> parse_expression(std::string_view text,
                                                            const std::vector<std::string>& parameter_names,
                                                            const Scope& scope) {
@@ -249,7 +265,14 @@ std::variant<Expression, ExpressionError> parse_expression(std::string_view text
     return ExpressionError{
         0, 1, fmt::format("the expression is longer than {} characters", kMaximumExpressionLength), ""};
   try {
-    return Parser(text, parameter_names, scope).parse();
+    Expression result = Parser(text, parameter_names, scope).parse();
+    if (written_out(result) > kMaximumExpressionSize)
+      return ExpressionError{
+          0, text.size(),
+          fmt::format("the expression has more than {} operations where tangents are written out",
+                      kMaximumExpressionSize),
+          "tan(x) is sin(x)/cos(x): each one around another doubles what is inside"};
+    return result;
   } catch (const ExpressionError& error) {
     return error;
   }

@@ -18,6 +18,8 @@ using support::shown;
 /// Rounding of a negative moment that is forgiven, relative to the largest moment (about the origin, so that
 /// cancellation by moving to the centre of mass is covered).
 constexpr double kMomentTolerance = 1e-9;
+/// Of the largest principal moment, by which the triangle inequality may be missed: numbers of a few digits.
+constexpr double kTriangleRounding = 0.01;
 
 /// Mass moments of one or several bodies about the origin of a common frame. kg, kg m, kg m².
 struct MassMoments {
@@ -33,8 +35,7 @@ struct Pose {
 
 /// Bodies joined by fixed joints, in the frame of the first one.
 struct Group {
-  std::size_t first_body = 0;
-  std::size_t bodies = 0;
+  std::vector<std::size_t> bodies;
   bool lumped = false;
   MassMoments moments;
 };
@@ -73,8 +74,10 @@ class InertiaCheck {
         values_(default_values(mechanism)) {}
 
   void run() {
-    for (const Body& body : mechanism_.bodies) check_body(body);
-    for (const Group& group : groups())
+    const std::vector<Group> all = groups();
+    for (std::size_t g = 0; g < all.size(); ++g)
+      for (const std::size_t b : all[g].bodies) check_body(mechanism_.bodies[b], all[g], g == 0);
+    for (const Group& group : all)
       if (!group.lumped) check_triangle(group);
   }
 
@@ -95,7 +98,8 @@ class InertiaCheck {
     return {mass, {mass * c[0], mass * c[1], mass * c[2]}, inertia};
   }
 
-  void check_body(const Body& body) {
+  /// Where others are fixed to it, or nothing moves it, only the sum counts.
+  void check_body(const Body& body, const Group& group, bool is_at_rest) {
     const MassMoments m = moments(body);
     if (m.mass < 0) return;  // reported by check_numbers; its inertia means nothing
     const double allowed = kMomentTolerance * largest_moment(m.inertia);
@@ -109,13 +113,22 @@ class InertiaCheck {
       return;
     }
     const Numbers3 moment = symmetric_eigenvalues(central_inertia(m));
-    if (moment[0] < -allowed)
-      diagnostics_.error(
-          where,
-          fmt::format("inertia of body '{}' about its centre of mass is indefinite: principal moments "
-                      "{:.5g}, {:.5g}, {:.5g} kg m^2",
-                      shown(body.name), moment[0], moment[1], moment[2]),
-          hint_at_point(body));
+    if (moment[0] >= -allowed) return;
+    const std::string message = fmt::format(
+        "inertia of body '{}' about its centre of mass is indefinite: principal moments "
+        "{:.5g}, {:.5g}, {:.5g} kg m^2",
+        shown(body.name), moment[0], moment[1], moment[2]);
+    if (is_at_rest)
+      diagnostics_.warning(where, message, "no joint moves it: left out");
+    else if (group.bodies.size() > 1 && is_definite(group.moments))
+      diagnostics_.warning(where, message, "with the bodies fixed to it it is not: used as it is");
+    else
+      diagnostics_.error(where, message, hint_at_point(body));
+  }
+
+  static bool is_definite(const MassMoments& moments) {
+    return symmetric_eigenvalues(central_inertia(moments))[0] >=
+           -kMomentTolerance * largest_moment(moments.inertia);
   }
 
   std::string hint_at_point(const Body& body) const {
@@ -148,7 +161,7 @@ class InertiaCheck {
 
   void add(Group& group, std::size_t b, const Pose& pose) const {
     const MassMoments m = moved(moments(mechanism_.bodies[b]), pose);
-    if (group.bodies++ == 0) group.first_body = b;
+    group.bodies.push_back(b);
     group.lumped = group.lumped || mechanism_.bodies[b].lumped;
     group.moments.mass += m.mass;
     group.moments.first = sum(group.moments.first, m.first);
@@ -156,20 +169,21 @@ class InertiaCheck {
   }
 
   void check_triangle(const Group& group) {
-    if (group.bodies == 0) return;
+    if (group.bodies.empty()) return;
     const Numbers3 moment = symmetric_eigenvalues(central_inertia(group.moments));
     const double allowed = kMomentTolerance * largest_moment(group.moments.inertia);
     if (moment[0] < -allowed || moment[0] + moment[1] >= moment[2] - allowed) return;
-    const Body& body = mechanism_.bodies[group.first_body];
-    const std::string with = group.bodies == 1 ? ""
-                             : group.bodies == 2
-                                 ? " with the body fixed to it"
-                                 : fmt::format(" with the {} bodies fixed to it", group.bodies - 1);
+    const Body& body = mechanism_.bodies[group.bodies.front()];
+    const std::size_t others = group.bodies.size() - 1;
+    const std::string with = others == 0   ? ""
+                             : others == 1 ? " with the body fixed to it"
+                                           : fmt::format(" with the {} bodies fixed to it", others);
     const std::string message = fmt::format(
         "no rigid body has the inertia of '{}'{}: principal moments {:.5g} + {:.5g} < {:.5g} kg m^2",
         shown(body.name), with, moment[0], moment[1], moment[2]);
     const SourceRange where = body.inertia_where.line == 0 ? body.where : body.inertia_where;
-    if (triangle_ == support::Severity::kError)
+    const bool is_rounding = moment[2] - moment[0] - moment[1] <= kTriangleRounding * moment[2];
+    if (triangle_ == support::Severity::kError && !is_rounding)
       diagnostics_.error(where, message, "inertia_kind = \"lumped\" takes it as it is");
     else
       diagnostics_.warning(where, message, "used as it is");

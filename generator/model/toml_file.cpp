@@ -94,7 +94,7 @@ bool TomlFile::is_underflow(const toml::node& node) const {
 Expression TomlFile::parsed(const toml::value<std::string>& text, const Scope& scope) {
   const auto result = parse_expression(text.get(), names_, scope);
   if (const auto* wrong = std::get_if<ExpressionError>(&result))
-    return number_error(inside(text, *wrong), wrong->message, wrong->hint);
+    return number_error(inside(text, wrong->offset, wrong->length), wrong->message, wrong->hint);
   const Expression& expression = std::get<Expression>(result);
   if (!expression.has_no_variable()) return expression;
   const double at_defaults = value(expression);
@@ -105,15 +105,24 @@ Expression TomlFile::parsed(const toml::value<std::string>& text, const Scope& s
   return expression;
 }
 
-/// The offending part of an expression, or all of it where the string is written with escapes.
-SourceRange TomlFile::inside(const toml::value<std::string>& text, const ExpressionError& error) const {
+/// A part of an expression or a unit, or all of it where the string is written with escapes.
+SourceRange TomlFile::inside(const toml::value<std::string>& text, std::size_t offset,
+                             std::size_t length) const {
   const toml::source_position& begin = text.source().begin;
   const std::size_t quote = lines_.offset(static_cast<int>(begin.line), static_cast<int>(begin.column));
   const std::string_view written = std::string_view(diagnostics_.text()).substr(quote);
   const std::size_t first = written.find_first_not_of(written.substr(0, 1));
   const bool as_written =
       !text.get().empty() && first != std::string_view::npos && written.substr(first).starts_with(text.get());
-  return as_written ? lines_.range(quote + first + error.offset, error.length) : range(text.source());
+  return as_written ? lines_.range(quote + first + offset, length) : range(text.source());
+}
+
+std::optional<Unit> TomlFile::unit(const toml::value<std::string>& text, std::size_t offset) {
+  const auto result = parse_unit(std::string_view(text.get()).substr(offset));
+  if (const auto* unit = std::get_if<Unit>(&result)) return *unit;
+  const auto& wrong = std::get<UnitError>(result);
+  error(inside(text, offset + wrong.offset, wrong.length), wrong.message, wrong.hint);
+  return {};
 }
 
 double TomlFile::constant(const toml::node& node, const std::string& what) {

@@ -140,7 +140,12 @@ std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const
     Input input;
     input.name = table.required_text("name").value_or("");
     input.where = table.where("name");
-    input.unit = table.text("unit").value_or("");
+    if (const std::optional<Unit> unit = table.unit("unit"); table.has("unit") && unit) {
+      if (unit->factor != 1)
+        table.error("unit", fmt::format("the emitted code takes input '{}' in SI units", shown(input.name)),
+                    fmt::format("'{}', with the conversion in the expressions that use it", unit->si));
+      input.unit = *table.text("unit");
+    }
     input.description = table.text("description").value_or("");
     if (input.name.empty()) continue;
     check_identifier(file, input.where, "input", input.name);

@@ -28,11 +28,27 @@ void check_parameter_name(TomlFile& file, const Parameter& parameter) {
                "C++ reserves such names");
 }
 
-/// The default value must lie in the range.
-void read_range(const TomlTable& table, Parameter& parameter) {
+/// A number, an expression, or a number with its unit: "120 rpm". In SI units, as the parameter's unit then is.
+void read_number(TomlFile& file, const toml::node& node, const std::string& what, Parameter& parameter) {
+  const auto* text = node.as_string();
+  const auto quantity = text ? split_quantity(text->get()) : std::nullopt;
+  if (!quantity) {
+    parameter.value = file.constant(node, what);
+    return;
+  }
+  const std::optional<Unit> unit = file.unit(*text, text->get().size() - quantity->second.size());
+  if (!unit) return;
+  if (!parameter.unit.empty())
+    file.error(file.range(node.source()), fmt::format("{} has two units", what), "one says it");
+  parameter.value = in_si(quantity->first, *unit);
+  parameter.unit = unit->si;
+}
+
+/// The default value must lie in the range, which has the same unit.
+void read_range(const TomlTable& table, const Unit& unit, Parameter& parameter) {
   const std::optional<std::array<double, 2>> range = table.constant_pair("range");
   if (!range || !table.has("value")) return;
-  const auto [least, greatest] = *range;
+  const double least = in_si((*range)[0], unit), greatest = in_si((*range)[1], unit);
   if (!(least < greatest))
     table.error("range",
                 fmt::format("{} is empty: {} is not below {}", table.quoted("range"), least, greatest),
@@ -40,7 +56,7 @@ void read_range(const TomlTable& table, Parameter& parameter) {
   else if (!(least <= parameter.value && parameter.value <= greatest))
     table.error("range", fmt::format("{} is {}, outside its range from {} to {}", table.what(),
                                      parameter.value, least, greatest));
-  parameter.range = range;
+  parameter.range = {least, greatest};
 }
 
 /// The value is the number itself, or stands in a table with unit, description and range.
@@ -48,18 +64,22 @@ void read_value(TomlFile& file, const toml::node& node, Parameter& parameter) {
   const std::string what = fmt::format("parameter '{}'", support::shown(parameter.name));
   const toml::table* details = node.as_table();
   if (!details) {
-    parameter.value = file.constant(node, what);
+    read_number(file, node, what, parameter);
     return;
   }
   const TomlTable table(file, *details, what, file.range(node.source()),
                         {"value", "unit", "description", "range"});
-  parameter.unit = table.text("unit").value_or("");
+  const std::optional<Unit> unit = table.unit("unit");
+  if (table.has("unit") && unit) parameter.unit = *table.text("unit");
   parameter.description = table.text("description").value_or("");
   if (const toml::node* value = table.find("value"))
-    parameter.value = file.constant(*value, what);
+    read_number(file, *value, what, parameter);
   else
     table.missing("value");
-  read_range(table, parameter);
+  if (!unit) return;
+  parameter.value = in_si(parameter.value, *unit);
+  if (unit->factor != 1) parameter.unit = unit->si;
+  read_range(table, *unit, parameter);
 }
 
 }  // namespace

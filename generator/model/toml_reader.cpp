@@ -164,7 +164,7 @@ class TomlReader {
     const TomlTable table(file_, *section, "[model]", top.where("model"),
                           {"name", "description", "source", "gravity"});
     mechanism.name = table.required_text("name").value_or("");
-    if (table.text("name")) check_model_name(table, mechanism.name);
+    check_model_name(table, mechanism.name);
     mechanism.description = table.text("description").value_or("");
     mechanism.source = table.text("source").value_or("");
     mechanism.gravity = table.vector("gravity", mechanism.gravity);
@@ -173,14 +173,9 @@ class TomlReader {
   static void check_model_name(const TomlTable& table, const std::string& name) {
     constexpr int kLongest = 100;
     int length = 0;
-    bool printable = true;
     for (std::size_t i = 0; i < name.size(); ++length) {
-      const support::Utf8Character character = support::utf8_at(name, i);
-      printable = printable && character.printable;
-      i += character.bytes;
+      i += support::utf8_at(name, i).bytes;
     }
-    if (length == 0) table.error("name", "the model's name is empty");
-    if (!printable) table.error("name", "the model's name has characters that cannot be printed");
     if (length > kLongest)
       table.error("name", fmt::format("the model's name is longer than {} characters", kLongest));
   }

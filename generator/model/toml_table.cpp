@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/utf8.hpp"
+
 namespace jourdain::model {
 
 using support::shown;
@@ -13,6 +15,17 @@ namespace {
 
 /// A quaternion written with a few digits is meant to have unit length.
 constexpr double kQuaternionTolerance = 1e-6;
+
+/// Line breaks and tabs count as printable.
+bool is_printable(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const support::Utf8Character character = support::utf8_at(text, i);
+    if (!character.printable && std::string_view("\n\r\t").find(text[i]) == std::string_view::npos)
+      return false;
+    i += character.bytes;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -75,16 +88,30 @@ void TomlTable::wrong_type(std::string_view key, std::string_view expected) cons
   error(key, fmt::format("{} must be {}, not {}", quoted(key), expected, type_in_words(*find(key))));
 }
 
+std::optional<Unit> TomlTable::unit(std::string_view key) const {
+  if (!has(key)) return Unit();
+  if (!text(key)) return {};
+  return file_.unit(*find(key)->as_string());
+}
+
 std::optional<std::string> TomlTable::text(std::string_view key) const {
   if (!has(key)) return {};
-  if (const auto* text = find(key)->as_string()) return text->get();
-  wrong_type(key, "a string");
+  const auto* text = find(key)->as_string();
+  if (!text)
+    wrong_type(key, "a string");
+  else if (!is_printable(text->get()))
+    error(key, fmt::format("{} has characters that cannot be printed", quoted(key)));
+  else
+    return text->get();
   return {};
 }
 
 std::optional<std::string> TomlTable::required_text(std::string_view key) const {
   if (!has(key)) missing(key);
-  return text(key);
+  std::optional<std::string> found = text(key);
+  if (!found || !found->empty()) return found;
+  error(key, fmt::format("{} is empty", quoted(key)));
+  return {};
 }
 
 std::optional<std::size_t> TomlTable::choice(std::string_view key,

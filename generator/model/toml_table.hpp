@@ -10,6 +10,7 @@
 
 #include "model/finish.hpp"
 #include "model/mechanism.hpp"
+#include "model/units.hpp"
 #include "support/diagnostics.hpp"
 #include "support/line_index.hpp"
 
@@ -41,12 +42,15 @@ class TomlFile {
   /// At the parameters' default values.
   double value(const Expression& expression) const { return expression.evaluate<double>(values_); }
 
+  /// The unit of measurement from `offset` in the text on; nothing after a diagnostic.
+  std::optional<Unit> unit(const toml::value<std::string>& text, std::size_t offset = 0);
+
   Completeness& complete() { return complete_; }
 
  private:
   Expression number_error(SourceRange where, std::string message, std::string hint = "");
   Expression parsed(const toml::value<std::string>& text, const Scope& scope);
-  SourceRange inside(const toml::value<std::string>& text, const ExpressionError& error) const;
+  SourceRange inside(const toml::value<std::string>& text, std::size_t offset, std::size_t length) const;
   bool is_underflow(const toml::node& node) const;
 
   support::Diagnostics& diagnostics_;
@@ -73,8 +77,11 @@ class TomlTable {
   /// Of the value of `key`; line 0 where it is missing.
   SourceRange where_given(std::string_view key) const { return has(key) ? where(key) : SourceRange(); }
 
-  /// The text of `key`; nothing (after a diagnostic if it has another type) where it is missing.
+  /// The text of `key`; nothing (after a diagnostic if it has another type, or characters that cannot be printed) where it is missing.
   std::optional<std::string> text(std::string_view key) const;
+  /// The unit of measurement that `key` names, 1 where it is missing; nothing after a diagnostic.
+  std::optional<Unit> unit(std::string_view key) const;
+  /// A text that is not empty.
   std::optional<std::string> required_text(std::string_view key) const;
   /// One of `allowed`, or nothing after a diagnostic; the first one where it is missing.
   std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& allowed) const;

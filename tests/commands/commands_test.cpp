@@ -48,6 +48,43 @@ TEST(CommandLine, ExitStatusSaysWhoIsWrong) {
   EXPECT_EQ(files_in(folder.path()), 0u);
 }
 
+TEST(CommandLine, OptionsOfSeveralValuesLeaveTheModelAlone) {
+  const support::TemporaryFolder folder;
+  support::write_file(folder.path() + "/arm.urdf", R"(<robot name="arm">
+  <link name="base"/>
+  <link name="a"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="b"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="c"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="j1" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/></joint>
+  <joint name="j2" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 1 0"/></joint>
+  <joint name="j3" type="continuous"><parent link="b"/><child link="c"/><axis xyz="0 1 0"/></joint>
+</robot>)");
+  const std::string arm = folder.path() + "/arm.urdf";
+  expect(jourdain({"check", "--lock", "j1", "j2", arm}), 0, "1 degree of freedom");
+  expect(jourdain({"check", "--lock", "j1,j2", arm}), 0, "1 degree of freedom");
+  expect(jourdain({"check", arm, "--lock", "j1", "j2"}), 0, "1 degree of freedom");
+  expect(jourdain({"compile", "--functions", "mass_matrix", "k_bar", arm, "-o", folder.path() + "/out"}), 0,
+         "");
+  EXPECT_EQ(files_in(folder.path() + "/out"), 4u);
+}
+
+TEST(Compile, WritesTheSameBytesFromWhereverItIsCalled) {
+  const support::TemporaryFolder folder;
+  const std::string models = JOURDAIN_SOURCE_DIR + std::string("/models");
+  const auto from = [&](const std::string& where, const std::string& path, const std::string& out) {
+    const auto result = support::run_process(
+        {"env", "-C", where, JOURDAIN_BINARY, "compile", path, "-o", folder.path() + "/" + out});
+    EXPECT_EQ(result.status, 0) << result.output;
+    std::string text;
+    for (const char* file : {"pendulum.hpp", "pendulum_kernels.hpp", "pendulum.cpp", "pendulum.json"})
+      text += support::read_file(folder.path() + "/" + out + "/" + file);
+    return text;
+  };
+  const std::string there = from(models, "pendulum.toml", "a");
+  EXPECT_EQ(from(JOURDAIN_SOURCE_DIR, "models/pendulum.toml", "b"), there);
+  EXPECT_EQ(from(folder.path(), models + "/pendulum.toml", "c"), there);
+}
+
 TEST(CommandLine, EveryMalformedModelEndsWithStatusOne) {
   int models = 0;
   for (const auto& entry :

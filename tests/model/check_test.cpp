@@ -73,6 +73,27 @@ TEST(CheckMechanism, JudgesTheTriangleAfterMerging) {
   EXPECT_EQ(messages(welded({odd, body(2, 0, 0, 0)}, {0.0, 0.0, 2.0})), "");
 }
 
+TEST(CheckMechanism, ForgivesRoundedMomentsWithAWarning) {
+  EXPECT_NE(messages(welded({body(1, 1, 1, 2.01)})).find("warning: no rigid body"), std::string::npos);
+  EXPECT_NE(messages(welded({body(1, 1, 1, 2.03)})).find("error: no rigid body"), std::string::npos);
+}
+
+TEST(CheckMechanism, JudgesIndefiniteInertiasAfterMergingWhereAJointMovesThem) {
+  const Body antenna = body(0.01, -1e-8, 2e-8, 3e-8), base = body(10, 1, 1, 1);
+  EXPECT_NE(messages(welded({antenna})).find("error: inertia of body 'b0'"), std::string::npos);
+  EXPECT_NE(messages(welded({antenna, body(0, 0, 0, 0)})).find("error: inertia of body 'b0'"),
+            std::string::npos);
+  const std::string merged = messages(welded({base, antenna}));
+  EXPECT_NE(merged.find("warning: inertia of body 'b1'"), std::string::npos);
+  EXPECT_EQ(merged.find("error"), std::string::npos);
+  Mechanism fixed = welded({antenna, base});
+  fixed.joints[0].set_type(JointType::kFixed);
+  fixed.joints[1].set_type(JointType::kRevolute);
+  const std::string at_rest = messages(fixed);
+  EXPECT_NE(at_rest.find("no joint moves it"), std::string::npos);
+  EXPECT_EQ(at_rest.find("error"), std::string::npos);
+}
+
 TEST(CheckMechanism, TurnsInertiasWhenMerging) {
   Mechanism mechanism = welded({body(1, 1, 1, 3), body(1, 0, 1, 1)});
   EXPECT_NE(messages(mechanism), "");

@@ -1,0 +1,38 @@
+// Units of measurement as they stand in model files: "mm", "N m s/rad", "kg m^2", "rpm".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace jourdain::model {
+
+/// Exponents of m, kg, s, A; an angle has none.
+using Dimension = std::array<int, 4>;
+
+struct Unit {
+  long double factor = 1;  ///< SI units in one of it
+  Dimension dimension{};
+  std::string si;  ///< the same with each symbol replaced by the SI unit of its kind
+};
+
+struct UnitError {
+  std::size_t offset = 0, length = 1;  ///< of what is wrong
+  std::string message, hint;
+};
+
+/// Symbols with exponents (m^2, s^-1), multiplied by blanks, '*' or '·', divided by '/'. Only one factor or a pair of parentheses may follow a
+/// '/': what comes after that would be read one way by some and the other by others. Empty, "1" and "-" are one.
+std::variant<Unit, UnitError> parse_unit(std::string_view text);
+
+/// A number and the text after it ("120 rpm", "-2.5e3 N/m"); nothing where the text is not one.
+std::optional<std::pair<double, std::string>> split_quantity(std::string_view text);
+
+/// In SI units, rounded once.
+double in_si(double value, const Unit& unit);
+
+}  // namespace jourdain::model
