@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
+#include <sstream>
 
 #include "emit/step_text.hpp"
 #include "emit/templates.hpp"
@@ -174,9 +176,12 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
        {"OUTPUTS_POINTER", with_outputs ? "outputs" : "nullptr"}});
 }
 
-std::string compiler() {
+/// In words, as in "ccache g++".
+std::vector<std::string> compiler() {
   const char* chosen = std::getenv("CXX");
-  return chosen && *chosen ? chosen : "c++";
+  std::istringstream words(chosen ? chosen : "");
+  std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
+  return command.empty() ? std::vector<std::string>{"c++"} : command;
 }
 
 }  // namespace
@@ -190,7 +195,8 @@ std::vector<std::string> loadable_functions(const std::vector<std::string>& step
 }
 
 std::vector<std::string> compiler_command(NumberType number) {
-  std::vector<std::string> command = {compiler(), "-std=c++17"};
+  std::vector<std::string> command = compiler();
+  command.emplace_back("-std=c++17");
   const NumberText text = text_of(number);
   command.insert(command.end(), text.compiler_options.begin(), text.compiler_options.end());
   return command;
@@ -228,12 +234,13 @@ studies::LoadedModel build_model(const std::string& name, const CompiledModel& c
   const support::ProcessResult result = support::run_process(command);
   if (result.status != 0)
     throw support::EnvironmentError(fmt::format("'{}' cannot compile the emitted code (exit status {}):\n{}",
-                                                compiler(), result.status, result.output.substr(0, 2000)));
+                                                fmt::join(compiler(), " "), result.status,
+                                                result.output.substr(0, 2000)));
   return studies::LoadedModel(in_folder("model.so"));
 }
 
 std::string compiler_text(NumberType number) {
-  std::string text = compiler();
+  std::string text = fmt::format("{}", fmt::join(compiler(), " "));
   for (const std::string& option : text_of(number).compiler_options) text += " " + option;
   return text;
 }

@@ -34,6 +34,7 @@ struct Arguments {
   double duration = 10, step = 1e-3;
   long every = 10;
   std::string method = "rk4";
+  std::vector<std::string> outputs;
   std::string output;
   std::string plot;
 };
@@ -50,6 +51,47 @@ std::string field(const std::string& name) {
   return quoted + "\"";
 }
 
+/// One of the numbers that the emitted `outputs` writes.
+struct OutputNumber {
+  std::size_t index = 0;
+  std::string name;
+};
+
+/// "tracer.position[0]", …: of all outputs, or of those with a name of `chosen`.
+std::vector<OutputNumber> output_numbers(const std::vector<readback::ExpectedOutput>& outputs,
+                                         const std::vector<std::string>& chosen) {
+  std::vector<OutputNumber> numbers;
+  std::size_t index = 0;
+  for (const readback::ExpectedOutput& output : outputs)
+    for (const readback::ExpectedMember& member : output.members)
+      for (int row = 0; row < member.rows; ++row)
+        for (int column = 0; column < member.columns; ++column, ++index) {
+          if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), output.name) == chosen.end())
+            continue;
+          std::string name = output.name;
+          if (!member.name.empty()) name += "." + member.name;
+          if (member.rows > 1) name += fmt::format("[{}]", row);
+          if (member.is_matrix) name += fmt::format("[{}]", column);
+          numbers.push_back({index, name});
+        }
+  return numbers;
+}
+
+/// A sentence on a name that no output has; empty where there is none.
+std::string unknown_output(const model::Mechanism& mechanism, const std::vector<std::string>& chosen) {
+  std::vector<std::string> names;
+  for (const model::Output& output : mechanism.outputs) names.push_back(output.name);
+  for (const std::string& name : chosen) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const std::string near = support::nearest(name, names);
+    return fmt::format("no output '{}'; {}", support::shown(name),
+                       !near.empty()   ? fmt::format("did you mean '{}'?", near)
+                       : names.empty() ? "the model has none"
+                                       : fmt::format("there are {}", fmt::join(names, ", ")));
+  }
+  return "";
+}
+
 struct Trajectory {
   Point<double> end;
   std::vector<Point<double>> points;  ///< every one that was written
@@ -64,8 +106,9 @@ class Simulation {
  public:
   /// `guard` may be null.
   Simulation(const Flow<double>& flow, const Arguments& arguments, bool conserves_energy,
-             const LoopGuard* guard)
+             std::vector<OutputNumber> outputs, const LoopGuard* guard)
       : flow_(flow),
+        outputs_(std::move(outputs)),
         table_(flow.table()),
         arguments_(arguments),
         bounds_(flow, flow.start(), conserves_energy),
@@ -123,7 +166,11 @@ class Simulation {
     for (int i = 0; i < table_.position_count; ++i) csv += "," + field(table_.position_names[i]);
     for (int i = 0; i < table_.velocity_count; ++i)
       csv += "," + field(fmt::format("{}_velocity", table_.velocity_names[i]));
-    csv += ",kinetic_energy,potential_energy,total_energy\n";
+    csv += ",kinetic_energy,potential_energy,total_energy";
+    for (int i = 0; i < table_.input_count; ++i)
+      csv += "," + field(fmt::format("{}_input", table_.input_names[i]));
+    for (const OutputNumber& output : outputs_) csv += "," + field(output.name);
+    csv += "\n";
   }
 
   /// Total energy, J.
@@ -139,11 +186,20 @@ class Simulation {
     table_.potential_energy(&now.t, now.x.data(), z, &potential);
     csv += fmt::format("{}", now.t);
     for (double value : now.x) csv += fmt::format(",{}", value);
-    csv += fmt::format(",{},{},{}\n", kinetic, potential, kinetic + potential);
+    csv += fmt::format(",{},{},{}", kinetic, potential, kinetic + potential);
+    const std::vector<double> u = flow_.inputs().at(now.t);
+    for (const double value : u) csv += fmt::format(",{}", value);
+    if (!outputs_.empty()) {
+      std::vector<double> values(static_cast<std::size_t>(table_.output_count));
+      table_.outputs(&now.t, now.x.data(), z, u.data(), values.data());
+      for (const OutputNumber& output : outputs_) csv += fmt::format(",{}", values[output.index]);
+    }
+    csv += "\n";
     return kinetic + potential;
   }
 
   const Flow<double>& flow_;
+  std::vector<OutputNumber> outputs_;
   const jourdain_model_table& table_;
   const Arguments& arguments_;
   RunBounds bounds_;
@@ -221,6 +277,11 @@ int run(const Arguments& arguments) {
     fmt::print(stderr, "error: {}\n", conflict);
     return kUsage;
   }
+  if (const std::string unknown = unknown_output(model->loaded.mechanism, arguments.outputs);
+      !unknown.empty()) {
+    fmt::print(stderr, "error: {}\n", unknown);
+    return kUsage;
+  }
   options.functions = loadable_functions({arguments.method});
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) {
@@ -240,7 +301,9 @@ int run(const Arguments& arguments) {
   const std::optional<LoopGuard> guard =
       model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
                            : std::nullopt;
-  const Trajectory result = Simulation(flow, arguments, conserves, guard ? &*guard : nullptr).run(steps, csv);
+  const std::vector<OutputNumber> outputs = output_numbers(compiled.expected.outputs, arguments.outputs);
+  const Trajectory result =
+      Simulation(flow, arguments, conserves, outputs, guard ? &*guard : nullptr).run(steps, csv);
   if (result.breach) {
     fmt::print(stderr, "{}",
                breach_text(flow, compiled.tangent, *result.breach, arguments.method, arguments.step));
@@ -277,6 +340,7 @@ void add_simulate(CLI::App& app, int& status) {
       ->capture_default_str();
   command->add_option("--output", arguments->output,
                       "CSV file, or - for standard output (default: NAME.csv)");
+  command->add_option("--outputs", arguments->outputs, "outputs to write (default: all)")->delimiter(',');
   command->add_option("--plot", arguments->plot, "SVG file of the coordinates over time; needs gnuplot");
   command->callback([arguments, &status] { status = run(*arguments); });
 }

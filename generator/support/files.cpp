@@ -1,7 +1,12 @@
 #include "support/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -16,35 +21,88 @@ namespace jourdain::support {
 
 namespace {
 
+constexpr std::size_t kLargestFile = std::size_t(256) << 20;
+
 [[noreturn]] void fail(const std::string& path, const char* what, const std::string& why) {
   throw EnvironmentError(fmt::format("{}: cannot be {}: {}", path, what, why));
 }
 
 std::string last_error() { return errno == 0 ? "unknown error" : std::strerror(errno); }
 
-/// A name next to `path` that no file has yet.
-std::filesystem::path temporary_beside(const std::string& path) {
+/// An open file, closed at the end of its life.
+class OpenFile {
+ public:
+  OpenFile(const std::string& path, int flags) : number_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~OpenFile() { close(); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool is_open() const { return number_ >= 0; }
+  int number() const { return number_; }
+  bool close() {
+    const bool closed = number_ < 0 || ::close(number_) == 0;
+    number_ = -1;
+    return closed;
+  }
+
+ private:
+  int number_;
+};
+
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(file, text.data(), text.size());
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+/// `text` in a new file next to `path`, under a name that no file has.
+std::filesystem::path write_temporary(const std::string& path, std::string_view text) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail(path, "written", "it is a folder");
   std::random_device random;
   for (;;) {
-    const std::filesystem::path candidate = fmt::format("{}.{:08x}.tmp", path, random());
-    std::error_code ignored;
-    if (!std::filesystem::exists(candidate, ignored)) return candidate;
+    const std::string temporary = fmt::format("{}.{:08x}.tmp", path, random());
+    errno = 0;
+    OpenFile out(temporary, O_WRONLY | O_CREAT | O_EXCL);
+    if (!out.is_open() && errno == EEXIST) continue;
+    if (!out.is_open()) fail(path, "written", last_error());
+    if (write_all(out.number(), text) && out.close()) return temporary;
+    const std::string why = last_error();
+    std::filesystem::remove(temporary, ignored);
+    fail(path, "written", why);
   }
 }
 
-/// `text` in a new file next to `path`.
-std::filesystem::path write_temporary(const std::string& path, std::string_view text) {
+/// Is there a file with just this text? Then it keeps its time, and what is built from it need not be built again.
+bool is_written(const std::string& path, std::string_view text) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail(path, "written", "it is a folder");
-  const std::filesystem::path temporary = temporary_beside(path);
-  errno = 0;
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (out) return temporary;
-  const std::string why = last_error();
-  std::filesystem::remove(temporary, error);
-  fail(path, "written", why);
+  if (!std::filesystem::is_regular_file(path, error) ||
+      std::filesystem::file_size(path, error) != text.size())
+    return false;
+  std::ifstream in(path, std::ios::binary);
+  return std::equal(text.begin(), text.end(), std::istreambuf_iterator<char>(in),
+                    std::istreambuf_iterator<char>());
+}
+
+/// What is left in a file or a pipe, at most kLargestFile bytes.
+std::string read_all(const std::string& path, int file) {
+  constexpr int kPatience = 10000;  // ms
+  std::string text;
+  char buffer[65536];
+  for (;;) {
+    const ssize_t count = read(file, buffer, sizeof buffer);
+    if (count == 0) return text;
+    if (count > 0) text.append(buffer, static_cast<std::size_t>(count));
+    if (text.size() > kLargestFile)
+      fail(path, "read", fmt::format("it is larger than {} MiB", kLargestFile >> 20));
+    if (count > 0 || errno == EINTR) continue;
+    if (errno != EAGAIN) fail(path, "read", last_error());
+    pollfd waiting{file, POLLIN, 0};
+    if (poll(&waiting, 1, kPatience) == 0) fail(path, "read", "nothing arrives");
+  }
 }
 
 /// Makes `folder` where it is missing; the outermost folder that was made, empty where none was.
@@ -62,17 +120,17 @@ std::filesystem::path make_folder(const std::string& folder) {
 }  // namespace
 
 std::string read_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail(path, "read", "it is a folder");
   errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) fail(path, "read", last_error());
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) fail(path, "read", last_error());
-  return text;
+  const OpenFile in(path, O_RDONLY | O_NONBLOCK);
+  struct stat status {};
+  if (!in.is_open() || fstat(in.number(), &status) != 0) fail(path, "read", last_error());
+  if (S_ISDIR(status.st_mode)) fail(path, "read", "it is a folder");
+  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode)) fail(path, "read", "it is a device");
+  return read_all(path, in.number());
 }
 
 void write_file(const std::string& path, std::string_view text) {
+  if (is_written(path, text)) return;
   const Uninterrupted all_of_it;
   const std::filesystem::path temporary = write_temporary(path, text);
   std::error_code error;
@@ -92,8 +150,11 @@ void write_files(const std::string& folder, const std::vector<FileText>& files) 
   };
   std::error_code ignored;
   try {
-    for (const FileText& file : files) temporary.push_back(write_temporary(path_of(file), file.text));
+    for (const FileText& file : files)
+      temporary.push_back(is_written(path_of(file), file.text) ? std::filesystem::path()
+                                                               : write_temporary(path_of(file), file.text));
     for (std::size_t i = 0; i < files.size(); ++i) {
+      if (temporary[i].empty()) continue;
       std::error_code error;
       std::filesystem::rename(temporary[i], path_of(files[i]), error);
       if (error) fail(path_of(files[i]), "written", error.message());

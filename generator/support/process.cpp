@@ -88,7 +88,10 @@ ProcessResult run_process(const std::vector<std::string>& command) {
 
 TemporaryFolder::TemporaryFolder() {
   const Uninterrupted until_known;
-  std::string pattern = (std::filesystem::temp_directory_path() / "jourdain-XXXXXX").string();
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error) throw EnvironmentError("no folder for temporary files (TMPDIR): " + error.message());
+  std::string pattern = (folder / "jourdain-XXXXXX").string();
   if (!mkdtemp(pattern.data()))
     throw EnvironmentError("cannot make a folder like '" + pattern + "': " + std::strerror(errno));
   path_ = pattern;

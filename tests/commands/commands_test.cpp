@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 #include "support/diagnostics.hpp"
@@ -281,6 +282,46 @@ TEST(Simulate, WritesAHeaderAndARowForEachInterval) {
   EXPECT_EQ(rows, 11);
   EXPECT_EQ(last.substr(0, 2), "1,");
   EXPECT_NEAR(std::stod(last.substr(last.rfind(',') + 1)), 0, 1e-9);  // released level with the pivot
+}
+
+TEST(Simulate, WritesInputsAndOutputs) {
+  const support::TemporaryFolder folder;
+  const std::string csv = folder.path() + "/f.csv";
+  const auto written = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"simulate", "models/four_bar.toml", "--duration", "0.5", "--output",
+                                          csv,        "--constant-input",     "0.25"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect(jourdain(arguments), 0, "wrote");
+    std::istringstream lines(support::read_file(csv));
+    std::vector<std::map<std::string, double>> rows;
+    std::vector<std::string> names;
+    for (std::string line, entry; std::getline(lines, line);) {
+      std::istringstream entries(line);
+      if (names.empty()) {
+        while (std::getline(entries, entry, ',')) names.push_back(entry);
+        continue;
+      }
+      std::map<std::string, double>& row = rows.emplace_back();
+      for (std::size_t i = 0; std::getline(entries, entry, ','); ++i) row[names.at(i)] = std::stod(entry);
+      EXPECT_EQ(row.size(), names.size());
+    }
+    return rows;
+  };
+  const auto rows = written({});
+  ASSERT_EQ(rows.size(), 51u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("motor_input"), 0.25);
+    EXPECT_NEAR(row.at("rocker_angle"), row.at("rocker"), 1e-12);
+    const double xx = row.at("coupler_curve.rotation[0][0]"), yx = row.at("coupler_curve.rotation[1][0]"),
+                 zx = row.at("coupler_curve.rotation[2][0]");
+    EXPECT_NEAR(xx * xx + yx * yx + zx * zx, 1, 1e-12);
+    EXPECT_TRUE(row.count("coupler_curve.position[2]"));
+  }
+  const auto chosen = written({"--outputs", "rocker_angle"});
+  EXPECT_EQ(chosen.front().count("coupler_curve.position[0]"), 0u);
+  EXPECT_EQ(chosen.back().at("rocker_angle"), rows.back().at("rocker_angle"));
+  expect(jourdain({"simulate", "models/four_bar.toml", "--output", csv, "--outputs", "rocker_angel"}), 2,
+         "did you mean 'rocker_angle'?");
 }
 
 TEST(Simulate, StopsWhereARunLeavesAllBounds) {
