@@ -162,7 +162,8 @@ std::vector<typename System<Model>::Vector> solution(Long interval, long count, 
 template <class A, class B>
 Long difference(const A& a, const B& b, int positions) {
   Long largest = 0;
-  for (int i = 0; i < positions; ++i) largest = std::max(largest, std::fabs(a[i] - b[i]));
+  for (int i = 0; i < positions; ++i)
+    if (!(std::fabs(a[i] - b[i]) <= largest)) largest = std::fabs(a[i] - b[i]);
   return largest;
 }
 
@@ -187,7 +188,7 @@ std::vector<typename System<Model>::Vector> reference(Long interval, long count,
 
 /// Arguments: intervals, their length (s), then method, h (s), steps and intervals between two comparisons, and so on. Prints the
 /// largest difference of a position for each: of the emitted steps in double, as the header says that they are called.
-template <template <class> class Model, class Accelerations>
+template <template <class> class Model, class Accelerations, template <int, class> class RateHistory>
 int run(int count, char** arguments) {
   const long intervals = std::stol(arguments[1]);
   const Long interval = std::stold(arguments[2]);
@@ -203,17 +204,27 @@ int run(int count, char** arguments) {
     const typename Model<double>::Input input{};
     typename Model<double>::State state = initial_state(model);
     Accelerations accelerations{};
+    RateHistory<1, double> one{};
+    RateHistory<2, double> two{};
     Long largest = 0;
     for (long at = stride; at <= intervals; at += stride) {
       for (long k = 0; k < steps; ++k) {
+        if (method == "euler") euler_step(model, state, input, h);
         if (method == "semi_implicit_euler") semi_implicit_euler_step(model, state, input, h);
         if (method == "heun") heun_step(model, state, input, h);
         if (method == "rk4") rk4_step(model, state, input, h);
         if (method == "rk5") rk5_step(model, state, input, h);
+        if (method == "adams_bashforth2") adams_bashforth2_step(model, state, input, h, one);
+        if (method == "adams_bashforth3") adams_bashforth3_step(model, state, input, h, two);
+        if (method == "linearly_implicit_euler")
+          linearly_implicit_euler_step(model, state, input, h, accelerations);
+        if (method == "ros34pw2") ros34pw2_step(model, state, input, h, accelerations);
         if (method == "rosw43") rosw43_step(model, state, input, h, accelerations);
         if (method == "rodas4") rodas4_step(model, state, input, h, accelerations);
       }
-      largest = std::max(largest, difference(state.y, exact[at], System<Model>::ny));
+      const Long now = difference(state.y, exact[at], System<Model>::ny);
+      if (!(now <= largest)) largest = now;
+      if (!std::isfinite(largest)) break;
     }
     std::printf("%.17Lg\n", largest);
   }
