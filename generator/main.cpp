@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
@@ -42,9 +43,7 @@ std::vector<std::string> reversed_arguments(int argc, char** argv) {
   return arguments;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   using namespace jourdain;
   CLI::App app("Jourdain compiles the description of a multibody mechanism to C++ that computes its motion.",
                "jourdain");
@@ -59,12 +58,21 @@ int main(int argc, char** argv) {
     return status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? commands::kSuccess : commands::kUsage;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace jourdain;
+  try {
+    return run(argc, argv);
   } catch (const support::EnvironmentError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    std::fprintf(stderr, "error: %s\n", error.what());
     return commands::kEnvironment;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}\nPlease report this with the model that shows it.\n",
-               error.what());
+    std::fprintf(stderr, "internal error: %s\nPlease report this with the model that shows it.\n",
+                 error.what());
     return commands::kInternal;
   }
 }

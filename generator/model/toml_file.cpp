@@ -95,7 +95,7 @@ Expression TomlFile::parsed(const toml::value<std::string>& text, const Scope& s
   const auto result = parse_expression(text.get(), names_, scope);
   if (const auto* wrong = std::get_if<ExpressionError>(&result))
     return number_error(inside(text, wrong->offset, wrong->length), wrong->message, wrong->hint);
-  const Expression& expression = std::get<Expression>(result);
+  const auto& expression = std::get<Expression>(result);
   if (!expression.has_no_variable()) return expression;
   const double at_defaults = value(expression);
   if (!std::isfinite(at_defaults))

@@ -73,13 +73,15 @@ TEST(LoopCommands, EquationsShowConstraintsAndTheirJacobian) {
 TEST(LoopCommands, SimulationsTellHowFarLoopsOpen) {
   const support::TemporaryFolder folder;
   const std::string csv = folder.path() + "/four_bar.csv";
-  const support::ProcessResult result =
-      jourdain({"simulate", "models/four_bar.toml", "--duration", "1", "--output", csv});
+  const support::ProcessResult result = jourdain(
+      {"simulate", "models/four_bar.toml", "--duration", "1", "--outputs", "rocker_angle", "--output", csv});
   expect(result, 0, "loops open by ");
   expect(result, 0, "rocker");
   const std::string text = support::read_file(csv);
-  EXPECT_EQ(text.substr(0, text.find('\n')),
-            "time,crank,coupler,rocker,crank_velocity,kinetic_energy,potential_energy,total_energy");
+  EXPECT_EQ(
+      text.substr(0, text.find('\n')),
+      "time,crank,coupler,rocker,crank_velocity,kinetic_energy,potential_energy,total_energy,motor_input,"
+      "rocker_angle");
 }
 
 /// models/four_bar.toml with its crank turned at 6 rad/s: nothing is free.
@@ -105,11 +107,11 @@ TEST(LoopCommands, AMechanismThatMotionsDetermineIsCheckedAndSimulated) {
   expect(jourdain({"info", path}), 0, "0 degrees of freedom");
   const double turn = 2 * std::acos(-1.0) / 6;
   expect(jourdain({"simulate", path, "--duration", fmt::format("{}", turn), "--step",
-                   fmt::format("{}", turn / 100), "--output", csv}),
+                   fmt::format("{}", turn / 100), "--outputs", "torque", "--output", csv}),
          0, "loops open by ");
   const std::string text = support::read_file(csv);
   EXPECT_EQ(text.substr(0, text.find('\n')),
-            "time,coupler,rocker,kinetic_energy,potential_energy,total_energy");
+            "time,coupler,rocker,kinetic_energy,potential_energy,total_energy,torque");
   const std::vector<double> start = first_row(text),
                             end = first_row(text.substr(text.rfind('\n', text.size() - 2) - 1));
   EXPECT_NEAR(end[2], start[2], 1e-12);  // the rocker is back after a turn
