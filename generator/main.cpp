@@ -32,9 +32,12 @@ std::vector<std::string> reversed_arguments(int argc, char** argv) {
   const auto is_model = [](std::string_view text) {
     return text.ends_with(".toml") || text.ends_with(".urdf");
   };
+  const auto is_option = [](std::string_view text) {
+    return text.starts_with("-") && text.find_first_of("0123456789.") != 1;
+  };
   std::vector<std::string> arguments(argv + 1, argv + argc);
   for (std::size_t i = 2; i < arguments.size(); ++i)
-    if (is_model(arguments[i]) && !arguments[i - 1].starts_with("-")) {
+    if (is_model(arguments[i]) && !is_option(arguments[i - 1])) {
       std::rotate(arguments.begin() + 1, arguments.begin() + static_cast<std::ptrdiff_t>(i),
                   arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       break;

@@ -240,10 +240,6 @@ class Parser {
   std::size_t position_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 /// Operations and operands where shared operands count each time; no more than a little beyond the limit.
 std::size_t written_out(const Expression& expression) {
   std::vector<std::size_t> sizes;

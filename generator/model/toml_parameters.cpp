@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "model/toml_names.hpp"
 #include "model/toml_sections.hpp"
@@ -44,6 +45,12 @@ void read_number(TomlFile& file, const toml::node& node, const std::string& what
   parameter.unit = unit->si;
 }
 
+void check_finite(TomlFile& file, const toml::node& node, const std::string& what,
+                  const Parameter& parameter) {
+  if (!std::isfinite(parameter.value))
+    file.error(file.range(node.source()), fmt::format("{} is not finite in SI units", what));
+}
+
 /// The default value must lie in the range, which has the same unit.
 void read_range(const TomlTable& table, const Unit& unit, Parameter& parameter) {
   const std::optional<std::array<double, 2>> range = table.constant_pair("range");
@@ -65,6 +72,7 @@ void read_value(TomlFile& file, const toml::node& node, Parameter& parameter) {
   const toml::table* details = node.as_table();
   if (!details) {
     read_number(file, node, what, parameter);
+    check_finite(file, node, what, parameter);
     return;
   }
   const TomlTable table(file, *details, what, file.range(node.source()),
@@ -79,6 +87,7 @@ void read_value(TomlFile& file, const toml::node& node, Parameter& parameter) {
   if (!unit) return;
   parameter.value = in_si(parameter.value, *unit);
   if (unit->factor != 1) parameter.unit = unit->si;
+  check_finite(file, node, what, parameter);
   read_range(table, *unit, parameter);
 }
 

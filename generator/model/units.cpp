@@ -79,6 +79,13 @@ constexpr std::array kSymbols{Symbol{"m", 1, kLength, "m"},
                               Symbol{"%", 1e-2L, kNone, "1"},
                               Symbol{"1", 1, kNone, "1"}};
 
+bool is_sensible(const Unit& unit) {
+  constexpr int kLargest = 99;
+  return std::isfinite(unit.factor) && unit.factor > 0 &&
+         std::all_of(unit.dimension.begin(), unit.dimension.end(),
+                     [](int exponent) { return std::abs(exponent) <= kLargest; });
+}
+
 class Parser {
  public:
   explicit Parser(std::string_view text) : text_(text) {}
@@ -124,6 +131,7 @@ class Parser {
       result.factor = divides ? result.factor / next.factor : result.factor * next.factor;
       for (std::size_t i = 0; i < result.dimension.size(); ++i)
         result.dimension[i] += sign * next.dimension[i];
+      if (!is_sensible(result)) fail(position_ - 1, "the unit's exponents are too large");
       result.si += (divides ? "/" : marked ? "*" : " ") + next.si;
     }
     return result;
@@ -168,6 +176,7 @@ class Parser {
     base.factor = std::pow(base.factor, static_cast<long double>(exponent));
     for (int& entry : base.dimension) entry *= exponent;
     base.si += fmt::format("^{}", exponent);
+    if (!is_sensible(base)) fail(position_ - 1, "the unit's exponents are too large");
     return base;
   }
 

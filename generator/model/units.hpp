@@ -32,7 +32,7 @@ std::variant<Unit, UnitError> parse_unit(std::string_view text);
 /// A number and the text after it ("120 rpm", "-2.5e3 N/m"); nothing where the text is not one.
 std::optional<std::pair<double, std::string>> split_quantity(std::string_view text);
 
-/// In SI units, rounded once.
+/// In SI units; computed in long double, infinite where that is beyond double.
 double in_si(double value, const Unit& unit);
 
 }  // namespace jourdain::model

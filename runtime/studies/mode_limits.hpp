@@ -5,7 +5,8 @@
 // by its sign, as *undamped* without damping. In a scene that damps nothing (energy is conserved, or volumes in the phase space of coordinates and momenta
 // do not shrink) every mode that rather oscillates is undamped. *Fast* modes, |µ| above three times the trajectory's own rate, are those that a
 // method need not follow but has to survive: they decide; slow ones only where no fast one has a limit. Frozen coefficients predict
-// a limit only while they hardly change: of modes above thirty times that rate, or where the limits at all points agree. Elsewhere
+// a limit only while they hardly change: of modes above thirty times that rate, or where the limits at all points agree, and at steps of
+// which four or more make the time. Of growing modes nothing is predicted. Elsewhere
 // the smallest of the points' limits is no more than an estimate, and runs alone say what is stable. A method that lets every
 // undamped mode grow has no stable step ("none: undamped mode") unless a damped mode asks for a step so short that undamped ones
 // grow less than e-fold over the trajectory.

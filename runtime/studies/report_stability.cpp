@@ -105,10 +105,10 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
   const std::string unpredicted = unpredicted_text(table, s);
   if (!unpredicted.empty())
     list.push_back(fmt::format(
-        "no prediction for {}: no mode that limits them is thirty times faster than the motion or stays as "
-        "it "
-        "is; observed of them are runs from the start over the whole time, until a velocity is ten times the "
-        "largest of the reference",
+        "no prediction for {}: no mode limits them, or it grows, is neither thirty times faster than the "
+        "motion "
+        "nor stays as it is, or allows more than a quarter of the time; observed of them are runs from the "
+        "start over the whole time, until a velocity is ten times the largest of the reference",
         unpredicted));
   if (s.transient_growth > kTransient)
     list.push_back(

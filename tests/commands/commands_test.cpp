@@ -67,6 +67,9 @@ TEST(CommandLine, OptionsOfSeveralValuesLeaveTheModelAlone) {
   expect(jourdain({"compile", "--functions", "mass_matrix", "k_bar", arm, "-o", folder.path() + "/out"}), 0,
          "");
   EXPECT_EQ(files_in(folder.path() + "/out"), 4u);
+  expect(jourdain({"simulate", "--constant-input", "0", "1", "-2", arm, "--duration", "0.01", "--output",
+                   folder.path() + "/a.csv"}),
+         0, "wrote");
 }
 
 TEST(Compile, WritesTheSameBytesFromWhereverItIsCalled) {

@@ -46,7 +46,7 @@ TEST(Units, HaveTheirFactorsDimensionsAndSpellingsInSi) {
     EXPECT_EQ(found.dimension, c.dimension) << c.text;
     EXPECT_EQ(found.si, c.si) << c.text;
   }
-  EXPECT_EQ(in_si(100, unit("mm")), 0.1);  // rounded once
+  EXPECT_EQ(in_si(100, unit("mm")), 0.1);
   EXPECT_EQ(in_si(180, unit("deg")), std::numbers::pi);
 }
 
@@ -66,6 +66,7 @@ TEST(Units, AreRefusedAtThePlaceWhereTheyAreNone) {
                         {"m^x", 2, "a unit's exponent is a whole number from -9 to 9, not 0"},
                         {"m^0", 2, "a unit's exponent is a whole number from -9 to 9, not 0"},
                         {"m^99999999999", 2, "a unit's exponent is a whole number from -9 to 9, not 0"},
+                        {"((m^9)^9)^9", 10, "the unit's exponents are too large"},
                         {"m**2", 2, "'' is not a unit"},
                         {"((((((((((m))))))))))", 9, "the unit's parentheses are nested too deep"}}) {
     const auto result = parse_unit(c.text);
@@ -126,6 +127,11 @@ TEST(Units, ThatAreNoneAreErrorsOfTheFile) {
   EXPECT_NE(
       read("a = { value = 20, unit = \"mm\", range = [0.01, 0.03] }\n").messages.find("outside its range"),
       std::string::npos);
+}
+
+TEST(Units, ThatTakeAValueBeyondDoubleAreErrors) {
+  EXPECT_NE(read("a = { value = 1e308, unit = \"km\" }\n").messages.find("is not finite"), std::string::npos);
+  EXPECT_NE(read("a = \"1e308 km\"\n").messages.find("is not finite"), std::string::npos);
 }
 
 }  // namespace

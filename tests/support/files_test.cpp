@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 
@@ -100,6 +102,25 @@ TEST_F(Files, AreNotFolders) {
 TEST_F(Files, CannotBeWrittenIntoAMissingFolder) {
   EXPECT_THROW(write_file(path("missing/f"), "text"), EnvironmentError);
   EXPECT_EQ(entries(), 0u);
+}
+
+TEST_F(Files, ThatAlreadyHaveTheirTextKeepTheirTime) {
+  const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+  write_files(path(""), {{"a", "same"}, {"b", "before"}});
+  for (const char* name : {"a", "b"}) std::filesystem::last_write_time(path(name), old);
+  write_files(path(""), {{"a", "same"}, {"b", "after!"}});
+  EXPECT_EQ(std::filesystem::last_write_time(path("a")), old);
+  EXPECT_GT(std::filesystem::last_write_time(path("b")), old);
+  EXPECT_EQ(read_file(path("b")), "after!");
+  write_file(path("a"), "same");
+  EXPECT_EQ(std::filesystem::last_write_time(path("a")), old);
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(Files, DevicesAreRefusedAndPipesWithoutWritersAreEmpty) {
+  EXPECT_THROW(read_file("/dev/zero"), EnvironmentError);
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(read_file(path("pipe")), "");
 }
 
 }  // namespace
