@@ -93,7 +93,7 @@ class Parser {
   Unit parse() {
     skip_blanks();
     if (at_end() || text_ == "-") return {};
-    const Unit unit = product(0);
+    Unit unit = product(0);
     if (!at_end()) fail(position_, "')' without '('");
     return unit;
   }
