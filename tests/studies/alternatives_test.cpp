@@ -194,7 +194,7 @@ TEST(Alternatives, WhatDoesNotReachTheErrorSaysSo) {
   const Alternatives study =
       study_alternatives(scene.flow, scene.advice, 1e-6, Compared::kSampling, scene.reference, 2e-6, kSilent);
   for (std::size_t i = 1; i <= 3; ++i) EXPECT_FALSE(study.rows[i].keeps) << study.rows[i].name;
-  const Alternative& engine = scene.study(1e-6).rows.back();
+  const Alternative engine = scene.study(1e-6).rows.back();
   ASSERT_TRUE(engine.h && engine.finished);
   EXPECT_NEAR(*engine.h, 2e-3, 1e-4);
   EXPECT_FALSE(engine.keeps);
