@@ -6,12 +6,11 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <optional>
 
 #include "support/check.hpp"
+#include "support/interruption.hpp"
 
 extern char** environ;
 
@@ -84,23 +83,6 @@ ProcessResult run_process(const std::vector<std::string>& command) {
   waitpid(child, &status, 0);
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  const Uninterrupted until_known;
-  std::error_code error;
-  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
-  if (error) throw EnvironmentError("no folder for temporary files (TMPDIR): " + error.message());
-  std::string pattern = (folder / "jourdain-XXXXXX").string();
-  if (!mkdtemp(pattern.data()))
-    throw EnvironmentError("cannot make a folder like '" + pattern + "': " + std::strerror(errno));
-  path_ = pattern;
-  removed_ = std::make_unique<RemovedOnInterruption>(path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace jourdain::support

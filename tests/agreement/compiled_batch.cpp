@@ -8,6 +8,7 @@
 #include "compile.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
+#include "support/process.hpp"
 
 namespace jourdain::tests {
 

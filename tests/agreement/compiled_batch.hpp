@@ -7,7 +7,7 @@
 
 #include "agreement/judge.hpp"
 #include "emit/files.hpp"
-#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {
 

@@ -16,6 +16,7 @@
 #include "pendulum/pendulum_kernels.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 extern char** environ;
 
