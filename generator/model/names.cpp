@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "model/c_names.hpp"
+
 namespace jourdain::model {
 
 namespace {
@@ -23,35 +25,10 @@ constexpr std::array<std::string_view, 97> kKeywords{
     "using",       "virtual",   "void",       "volatile",  "wchar_t",  "while",        "xor",
     "xor_eq",      "final",     "override",   "import",    "module",   "restrict"};
 
-/// Macros of the C library's headers and of common compilers.
-constexpr std::array<std::string_view, 52> kMacros{
-    "assert",         "errno",    "offsetof",   "isnan",      "isinf",        "isfinite",
-    "isnormal",       "signbit",  "fpclassify", "isgreater",  "isless",       "isunordered",
-    "setjmp",         "stdin",    "stdout",     "stderr",     "linux",        "unix",
-    "major",          "minor",    "NULL",       "NAN",        "INFINITY",     "EOF",
-    "BUFSIZ",         "RAND_MAX", "HUGE_VAL",   "HUGE_VALF",  "EXIT_SUCCESS", "EXIT_FAILURE",
-    "CLOCKS_PER_SEC", "FP_NAN",   "FP_ZERO",    "FP_NORMAL",  "FP_INFINITE",  "M_E",
-    "M_LOG2E",        "M_LOG10E", "M_LN2",      "M_LN10",     "M_PI",         "M_PI_2",
-    "M_PI_4",         "M_1_PI",   "M_2_PI",     "M_2_SQRTPI", "M_SQRT2",      "M_SQRT1_2",
-    "DOMAIN",         "OVERFLOW", "UNDERFLOW",  "MAXFLOAT"};
-
-constexpr std::array<std::string_view, 10> kEmitted{"Real",       "Model",   "State",         "Input",
-                                                    "Parameters", "Outputs", "Linearization", "RateHistory",
-                                                    "detail",     "jourdain"};
-
-/// Functions and types that C headers put into the global namespace: no namespace can have these names.
-constexpr std::array<std::string_view, 101> kGlobalNames{
-    "std",    "main",   "sin",    "cos",     "tan",     "asin",   "acos",  "atan",   "atan2",     "sinh",
-    "cosh",   "tanh",   "asinh",  "acosh",   "atanh",   "exp",    "exp2",  "expm1",  "log",       "log2",
-    "log10",  "log1p",  "logb",   "pow",     "sqrt",    "cbrt",   "hypot", "erf",    "erfc",      "gamma",
-    "lgamma", "tgamma", "ceil",   "floor",   "trunc",   "round",  "rint",  "fmod",   "remainder", "modf",
-    "frexp",  "ldexp",  "scalb",  "drem",    "fabs",    "fmax",   "fmin",  "fma",    "fdim",      "nan",
-    "finite", "j0",     "j1",     "jn",      "y0",      "y1",     "yn",    "abs",    "div",       "exit",
-    "abort",  "free",   "malloc", "random",  "rand",    "system", "time",  "clock",  "signal",    "raise",
-    "index",  "remove", "rename", "read",    "write",   "open",   "close", "link",   "unlink",    "pipe",
-    "sleep",  "pause",  "select", "sync",    "access",  "wait",   "stat",  "daemon", "nice",      "puts",
-    "printf", "perror", "gets",   "tmpfile", "timer_t", "size_t", "crypt", "swab",   "fork",      "alarm",
-    "acct"};
+/// What emitted code and the check that reads it call their own.
+constexpr std::array<std::string_view, 15> kEmitted{
+    "Real",          "Scalar",      "Time",   "Model",    "State", "Input", "Parameters", "Outputs",
+    "Linearization", "RateHistory", "detail", "jourdain", "NAME",  "std",   "main"};
 
 template <std::size_t n>
 bool contains(const std::array<std::string_view, n>& list, std::string_view name) {
@@ -69,7 +46,7 @@ bool is_identifier(std::string_view name) {
 }
 
 bool is_reserved(std::string_view name) {
-  return contains(kKeywords, name) || contains(kMacros, name) || contains(kEmitted, name);
+  return contains(kKeywords, name) || contains(kEmitted, name) || is_macro(name);
 }
 
 std::string cpp_name(std::string_view name) {
@@ -82,7 +59,7 @@ std::string cpp_name(std::string_view name) {
   if (out.empty() || out == "_") return "model";
   if (out[0] == '_') return "model" + out;
   if (is_digit(out[0])) return "model_" + out;
-  return is_reserved(out) || contains(kGlobalNames, out) ? out + "_model" : out;
+  return is_reserved(out) || is_global_name(out) ? out + "_model" : out;
 }
 
 }  // namespace jourdain::model
