@@ -16,6 +16,7 @@
 #include "module_check.hpp"
 #include "omissions.hpp"
 #include "reference/massless.hpp"
+#include "validate/snapping.hpp"
 
 namespace jourdain {
 
@@ -149,7 +150,6 @@ std::vector<std::string> validation_sentences(const validate::Verdict& verdict) 
 
 std::vector<std::string> assumptions(const model::Mechanism& mechanism, const CompileOptions& options,
                                      const CompiledModel& compiled) {
-  const validate::Verdict& verdict = compiled.verdict;
   std::vector<std::string> list = {"bodies are rigid; joints are ideal and without limits"};
   if (!options.damping) list.push_back("joint damping of the description is left out (--no-damping)");
   if (!mechanism.springs.empty())
@@ -174,11 +174,12 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
         "angles that follow from time are sums of two numbers, so that the phase stays right: operation "
         "counts hold "
         "each of their operations, sines and cosines as one, it takes several (see detail::Angle)");
-  if (mechanism.snap && verdict.snap_effect > 1e-15)
-    list.push_back(fmt::format(
-        "angles within {:g} rad of a quarter turn are exact; that changes accelerations by {:.1e} "
-        "of what they are added up from at most",
-        model::kSnapTolerance, verdict.snap_effect));
+  if (!mechanism.welded.empty())
+    list.push_back(fmt::format("joints beyond which is no mass are held at zero: {}",
+                               fmt::join(mechanism.welded, ", ")));
+  if (!mechanism.snapped.empty())
+    list.push_back(fmt::format("angles and axes within {:g} rad of a right angle are exact; {}",
+                               mechanism.snapped.tolerance, validate::snapping_sentence(mechanism)));
   return list;
 }
 
@@ -212,6 +213,11 @@ emit::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPl
 
 void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   if (!mechanism.loops.empty()) return;  // judged where they are closed
+  for (const model::JointIndex index : reference::negative_joints(mechanism)) {
+    const model::Joint& joint = mechanism.joints[index.value];
+    diagnostics.error(joint.where, fmt::format("joint '{}' moves a negative inertia", joint.name),
+                      "an indefinite inertia of a body that it moves makes the kinetic energy negative");
+  }
   for (model::JointIndex index : reference::massless_joints(mechanism)) {
     const model::Joint& joint = mechanism.joints[index.value];
     diagnostics.error(joint.where, fmt::format("joint '{}' moves no inertia", joint.name),

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "model/coordinates.hpp"
+#include "model/snap.hpp"
 
 namespace jourdain {
 
@@ -27,7 +29,7 @@ const std::vector<Switch>& switches() {
        "consecutive parallel joints share one frame and the sine and cosine of the summed angle",
        [](model::Mechanism&, CompileOptions& o) { o.derivation.link_tree.share_parallel = false; }},
       {"snapped rotations", "rotations by multiples of a right angle are permutations",
-       [](model::Mechanism& m, CompileOptions&) { m.snap = false; }},
+       [](model::Mechanism& m, CompileOptions&) { m = model::with_directions_as_read(std::move(m)); }},
       {"common factors", "factors that several terms of a sum share are multiplied once",
        [](model::Mechanism&, CompileOptions& o) { o.passes_off.push_back("factor"); }, true},
       {"constant factors", "constant factors of a product are multiplied with each other first",

@@ -76,8 +76,8 @@ void report_singular(const model::Mechanism& mechanism, support::Diagnostics& di
 void check_start(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   if (starts(mechanism)) return report_singular(mechanism, diagnostics);
   if (!starts(bare(mechanism))) {
-    diagnostics.error({}, "the mechanism's equations have no finite values at the initial state",
-                      "a curve or a motion may be singular there");
+    diagnostics.error(mechanism.where, "the mechanism's equations have no finite values at the initial state",
+                      "numbers may be too large for double, or a curve or a motion singular there");
     return;
   }
   report(mechanism, &model::Mechanism::coordinate_forces, "force", diagnostics);

@@ -7,6 +7,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "model/names.hpp"
 #include "start_check.hpp"
 #include "support/files.hpp"
+#include "validate/snapping.hpp"
 
 namespace jourdain::commands {
 
@@ -42,6 +44,16 @@ std::string check_name(const std::string& name) {
   return "";
 }
 
+void refuse_warnings(support::Diagnostics& diagnostics) {
+  const auto is_warning = [](const support::Diagnostic& d) {
+    return d.severity == support::Severity::kWarning;
+  };
+  const auto count = std::count_if(diagnostics.all().begin(), diagnostics.all().end(), is_warning);
+  if (count > 0)
+    diagnostics.error({}, fmt::format("--strict takes no warnings, and there {}",
+                                      count == 1 ? "is one" : fmt::format("are {}", count)));
+}
+
 }  // namespace
 
 void ModelArguments::add_to(CLI::App& command) {
@@ -51,7 +63,15 @@ void ModelArguments::add_to(CLI::App& command) {
       ->check(CLI::IsMember({"fixed", "free"}));
   command.add_option("--lock", read.locked_joints, "joints to lock at coordinate zero")->delimiter(',');
   command.add_flag("!--no-damping", read.damping, "URDF: leave out joint damping");
-  command.add_flag("!--no-snap", read.snap, "keep rotation entries that are nearly 0 or ±1 as they are");
+  CLI::Option* snap =
+      command.add_option("--snap", read.snap, "angles, rad, and axes this near to a right angle are that")
+          ->check(CLI::Range(0.0, model::kMaximumSnap))
+          ->capture_default_str();
+  command
+      .add_flag_callback(
+          "--no-snap", [this] { read.snap = 0; }, "angles and axes as they are read")
+      ->excludes(snap);
+  command.add_flag("--strict", strict, "warnings are errors");
   command
       .add_option("--derivatives", derivatives,
                   "terms that linearly implicit steps differentiate: all, or those of applied forces but "
@@ -68,8 +88,12 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
   if (mechanism) check_inertia(*mechanism, diagnostics);
   if (mechanism) check_start(*mechanism, diagnostics);
+  if (mechanism && !diagnostics.has_errors())
+    if (const std::string sentence = validate::snapping_sentence(*mechanism); !sentence.empty())
+      diagnostics.note({}, sentence);
   std::optional<loops::LoopPlan> plan;
   if (mechanism && !diagnostics.has_errors()) plan = loops::plan_loops(*mechanism, diagnostics);
+  if (arguments.strict) refuse_warnings(diagnostics);
   fmt::print(stderr, "{}", diagnostics.format());
   if (!mechanism || diagnostics.has_errors()) return std::nullopt;
   LoadedMechanism loaded{std::move(*mechanism), {}};
@@ -104,11 +128,14 @@ std::vector<std::string> loop_sentences(const LoadedMechanism& loaded) {
 }
 
 void print_refusal(const validate::Verdict& verdict) {
-  constexpr std::size_t kShown = 10;
-  for (std::size_t i = 0; i < std::min(kShown, verdict.failures.size()); ++i)
-    fmt::print(stderr, "error: refused to emit: {}\n", verdict.failures[i]);
-  if (verdict.failures.size() > kShown)
-    fmt::print(stderr, "error: and {} more\n", verdict.failures.size() - kShown);
+  const std::size_t more = verdict.failures.size() - 1;
+  fmt::print(stderr,
+             "error: refused to emit: {}{}\n"
+             "  The fault is the compiler's, not the description's; --no-snap, fewer --functions or another "
+             "treatment of loops may "
+             "avoid it.\n"
+             "  Please report it with the description, the options and jourdain --version.\n",
+             verdict.failures.front(), more == 0 ? "" : fmt::format(" (and {} more)", more));
 }
 
 }  // namespace jourdain::commands

@@ -21,7 +21,9 @@ struct ModelArguments {
   std::string derivatives = "all";
   model::ReadOptions read;
 
-  /// Adds MODEL, --root, --lock, --no-damping, --no-snap, --derivatives and --name.
+  bool strict = false;
+
+  /// Adds MODEL, --root, --lock, --no-damping, --snap, --no-snap, --strict, --derivatives and --name.
   void add_to(CLI::App& command);
 };
 
@@ -45,7 +47,7 @@ std::vector<std::string> loop_sentences(const LoadedMechanism& loaded);
 /// when the file cannot be read.
 std::optional<LoadedMechanism> load(const ModelArguments& arguments);
 
-/// Prints why the compiler refused to emit, at most ten reasons.
+/// Prints why the compiler refused to emit, in three lines.
 void print_refusal(const validate::Verdict& verdict);
 
 }  // namespace jourdain::commands

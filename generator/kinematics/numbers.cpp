@@ -36,12 +36,13 @@ Ex snapped(const Ex& entry, const numeric& tolerance) {
 /// Of 0 to 3 quarter turns.
 constexpr int kQuarterCosine[] = {1, 0, -1, 0};
 
-/// How many quarter turns a number is within model::kSnapTolerance, from 0 to 3.
+/// How many quarter turns a number is but for rounding, from 0 to 3.
 std::optional<int> quarter_turns(const Ex& angle) {
   if (!is_number(angle)) return {};
   const cln::cl_F value = to_float(angle), quarter = cln::pi(value) / 2;
   const cln::cl_I count = cln::round1(value / quarter);
-  if (cln::abs(value - count * quarter) > cln::rational(cln::cl_DF(model::kSnapTolerance))) return {};
+  const cln::cl_RA turns = cln::max(cln::cl_RA(cln::abs(count)), cln::cl_RA(1));
+  if (cln::abs(value - count * quarter) > turns * cln::rational(cln::cl_DF(model::kQuarterRounding))) return {};
   return cln::cl_I_to_int(cln::mod(count, 4));
 }
 

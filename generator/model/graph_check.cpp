@@ -109,12 +109,13 @@ class GraphCheck {
 
 bool check_graph(const Mechanism& mechanism, Diagnostics& diagnostics) {
   if (mechanism.bodies.empty()) {
-    diagnostics.error({}, "the mechanism has no bodies");
+    diagnostics.error(mechanism.where, "the mechanism has no bodies");
     return false;
   }
   if (!GraphCheck(mechanism, diagnostics).run()) return false;
   if (moving_joints(mechanism).empty())
-    diagnostics.error({}, "the mechanism has no degree of freedom", "every joint is fixed");
+    diagnostics.error(mechanism.where, "the mechanism has no degree of freedom",
+                      "every joint is fixed; --root free lets the root link of a URDF file move");
   return true;
 }
 

@@ -122,6 +122,8 @@ class InertiaCheck {
       diagnostics_.warning(where, message, "no joint moves it: left out");
     else if (group.bodies.size() > 1 && is_definite(group.moments))
       diagnostics_.warning(where, message, "with the bodies fixed to it it is not: used as it is");
+    else if (triangle_ == support::Severity::kWarning)
+      diagnostics_.warning(where, message, "no rigid body has it: used as it is");
     else
       diagnostics_.error(where, message, hint_at_point(body));
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/expression.hpp"
@@ -133,6 +134,7 @@ struct Joint {
   std::vector<Coordinate> coordinates;         ///< as `coordinate_kinds` says
   std::array<Expression, 4> initial_orientation{1.0, 0.0, 0.0, 0.0};  ///< spherical, free: (w, x, y, z)
   Vector3 initial_spin;                                               ///< spherical, free: ω, rad/s
+  bool mimics = false;              ///< URDF: is to follow another joint, which is not modelled
   Expression spin_damping;          ///< spherical: moment −spin_damping ω, N m s/rad
   Vector3 initial_origin;           ///< free: m, inertial frame
   Vector3 initial_origin_velocity;  ///< free: m/s, inertial frame
@@ -172,6 +174,7 @@ struct Actuator {
   Expression gear_ratio = 1.0;
   Expression rotor_inertia;  ///< kg m² (kg along a prismatic coordinate), before the gear
   SourceRange where = {};
+  bool implied = false;  ///< made by the reader: the description says nothing of inputs
 };
 
 /// An input that only expressions use.
@@ -296,6 +299,15 @@ struct Output {
   SourceRange where = {};
 };
 
+/// What snapping replaced (see model/snap.hpp): places in the order of its lists, and what the description gives there.
+struct SnappedDirections {
+  double tolerance = 0;  ///< rad
+  std::vector<std::pair<std::size_t, Vector3>> rotations;
+  std::vector<std::pair<std::size_t, std::array<double, 3>>> axes;
+
+  bool empty() const { return rotations.empty() && axes.empty(); }
+};
+
 struct Mechanism {
   std::string name;  ///< as the user wrote it; see `cpp_name`
   std::string description;
@@ -313,12 +325,15 @@ struct Mechanism {
   std::vector<Output> outputs;
   std::vector<Loop> loops;
   LoopOptions loop_options;
-  /// Constant angles within kSnapTolerance of a multiple of a quarter turn are read as that, axes within kSnapTolerance of a coordinate
-  /// axis as that.
+  /// Constant angles that are a multiple of a quarter turn but for rounding are that multiple: their matrices are permutations.
   bool snap = true;
+  SnappedDirections snapped;
+  std::vector<std::string> welded;  ///< joints that were locked because nothing with mass is beyond them
+  SourceRange where = {};           ///< of what describes it as a whole
 };
 
-inline constexpr double kSnapTolerance = 1e-9;
+/// By which a double that stands for a multiple of a quarter turn may be off, times the larger of 1 and that multiple.
+inline constexpr double kQuarterRounding = 1e-15;
 
 /// Joints parent before child, depth first from the world, siblings in order of declaration. This is the order of
 /// the coordinates (joints of type kFixed have none). The mechanism must have passed `check_mechanism`.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/mechanism.hpp"
+#include "model/snap.hpp"
 
 namespace jourdain::model {
 
@@ -15,7 +16,7 @@ struct ReadOptions {
   RootJoint root = RootJoint::kFixed;           ///< URDF only
   std::vector<std::string> locked_joints = {};  ///< become fixed joints at coordinate zero
   bool damping = true;                          ///< URDF: import <dynamics damping>
-  bool snap = true;
+  double snap = kDefaultSnap;                   ///< rad, see model/snap.hpp; 0: directions as they are read
 };
 
 /// Longest text that is read, in bytes, and the most bodies and joints.

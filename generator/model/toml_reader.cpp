@@ -158,9 +158,10 @@ class TomlReader {
   void read_model(const TomlTable& top, Mechanism& mechanism) {
     mechanism.gravity = {0.0, 0.0, -kStandardGravity};
     if (!top.has("model"))
-      return file_.error({}, "the file has no [model]", "it needs at least [model] and a name");
+      return file_.error({1, 1, 1}, "the file has no [model]", "it needs at least [model] and a name");
     const toml::table* section = top.table("model");
     if (!section) return;
+    mechanism.where = top.where("model");
     const TomlTable table(file_, *section, "[model]", top.where("model"),
                           {"name", "description", "source", "gravity"});
     mechanism.name = table.required_text("name").value_or("");
@@ -188,8 +189,8 @@ class TomlReader {
     if (list_of_tables && array->size() <= kMaximumBodies) return array;
     file_.complete().structure = false;
     if (list_of_tables)
-      file_.error(
-          {}, fmt::format("the file has {} [[{}]] tables, more than {}", array->size(), key, kMaximumBodies));
+      top.error(key, fmt::format("the file has {} [[{}]] tables, more than {}", array->size(), key,
+                                 kMaximumBodies));
     else
       top.error(key, fmt::format("'{}' must be a list of tables", key),
                 fmt::format("write [[{}]] for each one", key));

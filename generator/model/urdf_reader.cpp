@@ -28,6 +28,7 @@ class UrdfReader {
   Mechanism read(const XmlElement& robot) {
     mechanism_.gravity = {0.0, 0.0, -kStandardGravity};
     mechanism_.name = file_.name(robot).value_or("");
+    mechanism_.where = file_.element(robot);
     file_.check_children(robot, {"link", "joint", "material", "transmission", "gazebo", "sensor"});
     if (is_small(robot, "link") && is_small(robot, "joint")) {
       for (const auto* e = robot.FirstChildElement("link"); e; e = e->NextSiblingElement("link"))
@@ -124,7 +125,8 @@ class UrdfReader {
       mechanism_.actuators.push_back({.name = joint.name,
                                       .joint = JointIndex(mechanism_.joints.size()),
                                       .rotor_inertia = 0.0,
-                                      .where = joint.where});
+                                      .where = joint.where,
+                                      .implied = true});
     mechanism_.joints.push_back(std::move(joint));
   }
 
@@ -184,6 +186,7 @@ class UrdfReader {
       }
     }
     const XmlElement* mimic = file_.child(element, "mimic");
+    joint.mimics = mimic != nullptr;
     if (mimic && !locked)
       file_.diagnostics().warning(file_.element(*mimic), "<mimic> is ignored: the joint moves freely",
                                   fmt::format("--lock {} fixes it", shown(joint.name)));

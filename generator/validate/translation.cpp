@@ -21,9 +21,6 @@ namespace {
 
 using Vector = reference::VectorX<long double>;
 
-/// Mass matrices with a larger condition number have no accelerations; loops may give them some.
-constexpr long double kSolvable = 1e16L;
-
 /// The comparison at one sample.
 class Comparison {
  public:
@@ -46,7 +43,6 @@ class Comparison {
   void run() {
     const TreeOracle oracle(mechanism_, equations_, load_, point_);
     compare_with_reference(mechanism_, equations_, point_.exact, oracle, agreement_);
-    measure_snapping();
     compare_programs(module_, point_, std::cref(oracle), agreement_);
     verdict_.condition =
         std::max(verdict_.condition, static_cast<double>(reference::condition<long double>(terms_.M)));
@@ -73,23 +69,6 @@ class Comparison {
       if (size > 0 && scale[i] > 0)
         verdict_.backward_error = std::max(verdict_.backward_error, static_cast<double>(size / scale[i]));
     }
-  }
-
-  void measure_snapping() {
-    if (!mechanism_.snap || equations_.M.empty()) return;
-    if (reference::condition<long double>(terms_.M) > kSolvable) return;
-    const auto unsnapped = reference::Reference<long double>(mechanism_, parameters_, reference::Snap::kOff)
-                               .evaluate(state(), inputs());
-    const Vector a = reference::forward_dynamics<long double>(terms_),
-                 b = reference::forward_dynamics<long double>(unsnapped);
-    const Vector terms =
-        b.cwiseAbs() + terms_.M.inverse().cwiseAbs() * (unsnapped.k_scale + unsnapped.q_scale);
-    const long double norm = terms.norm();
-    const double effect = norm > 0 ? static_cast<double>((a - b).norm() / norm) : 0;
-    if (!(effect <= kSnapEffect))
-      agreement_.fail(
-          fmt::format("snapping rotations changes the accelerations by {:.2g}; use --no-snap", effect));
-    verdict_.snap_effect = std::max(verdict_.snap_effect, effect);
   }
 
   const model::Mechanism& mechanism_;

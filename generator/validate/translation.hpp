@@ -12,10 +12,6 @@
 
 namespace jourdain::validate {
 
-/// Largest change of the accelerations that snapping rotations may cause, relative to what they are added up from: kSnapTolerance,
-/// amplified by moderate condition numbers.
-inline constexpr double kSnapEffect = 1e-5;
-
 struct Verdict {
   std::size_t states = 0;  ///< compared
   double backward_error =
@@ -24,7 +20,6 @@ struct Verdict {
       0;  ///< of all numbers that programs compute, in double, relative to their scales; worst
   double condition =
       0;  ///< of M as emitted, with loops where they are closed; 2-norm, SI units as they are; worst
-  double snap_effect = 0;             ///< change of ż by snapping; worst
   std::vector<Compared> compared;     ///< what with what, in the order of comparison
   std::vector<std::string> failures;  ///< sentences; empty: accepted
 

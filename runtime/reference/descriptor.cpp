@@ -34,7 +34,7 @@ DescriptorReference<Scalar>::DescriptorReference(const model::Mechanism& mechani
       rotor_inertias_(descriptor::rotor_inertias(mechanism, parameters)) {
   JD_CHECK(parameters.size() == mechanism.parameters.size(), "{} values for {} parameters", parameters.size(),
            mechanism.parameters.size());
-  const bool snap = options.snap && mechanism.snap;
+  const bool snap = mechanism.snap;
   for (const auto& body : mechanism.bodies) bodies_.push_back(descriptor::read_body(body, parameters, snap));
   for (const auto& joint : mechanism.joints)
     joints_.push_back(descriptor::read_joint(joint, parameters, snap));

@@ -33,7 +33,6 @@ namespace jourdain::reference {
 
 struct DescriptorOptions {
   ParallelAxes parallel_axes = ParallelAxes::kFixedNormals;
-  bool snap = true;  ///< false: rotations as the file's numbers give them, whatever `Mechanism::snap` says
   /// Which loop rows count as redundant. A state that is integrated leaves the constraints a little, and rows that are redundant on
   /// them are not beside them: trajectories of overconstrained mechanisms need a coarser measure than states that are closed.
   double dependent = descriptor::kDependent;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace jourdain::reference {
 
@@ -25,17 +26,22 @@ State<long double> scattered_state(const model::CoordinateLayout& layout, int nu
   return state;
 }
 
-/// For each coordinate whether its pivot in `M` is at most `least`. Such a pivot's row is left out of the elimination.
-std::vector<bool> vanishing_pivots(const MatrixX<long double>& M, const VectorX<long double>& least) {
+/// For each coordinate whether its pivot in `M` is at most `limit`. A pivot that is at most `least` has its row left out of the elimination.
+std::vector<bool> pivots_below(const MatrixX<long double>& M, const VectorX<long double>& limit,
+                               const VectorX<long double>& least) {
   MatrixX<long double> A = M;
-  std::vector<bool> vanishing(std::size_t(A.rows()), false);
+  std::vector<bool> below(std::size_t(A.rows()), false);
   for (Eigen::Index k = A.rows() - 1; k >= 0; --k) {
-    vanishing[std::size_t(k)] = A(k, k) <= least[k];
-    if (vanishing[std::size_t(k)]) continue;
+    below[std::size_t(k)] = A(k, k) <= limit[k];
+    if (A(k, k) <= least[k]) continue;
     const VectorX<long double> column = A.col(k).head(k);
     A.topLeftCorner(k, k) -= column * column.transpose() / A(k, k);
   }
-  return vanishing;
+  return below;
+}
+
+std::vector<bool> vanishing_pivots(const MatrixX<long double>& M, const VectorX<long double>& least) {
+  return pivots_below(M, least, least);
 }
 
 /// Terms of the equations at a scattered state, without inputs.
@@ -68,6 +74,17 @@ std::vector<model::JointIndex> massless_joints(const model::Mechanism& mechanism
     for (std::size_t i = 0; i < massless.size(); ++i) massless[i] = massless[i] && vanishing[i];
   }
   return joints_of(mechanism, massless);
+}
+
+std::vector<model::JointIndex> negative_joints(const model::Mechanism& mechanism) {
+  std::vector<bool> negative(model::lay_out_coordinates(mechanism).velocity_count(), false);
+  for (int number = 0; number < kStates; ++number) {
+    const Terms<long double> terms = scattered_terms(mechanism, number);
+    const VectorX<long double> rounding = kMasslessPivot * terms.M_scale.diagonal();
+    const std::vector<bool> below = pivots_below(terms.M, -rounding.array() - std::numeric_limits<long double>::min(), rounding);
+    for (std::size_t i = 0; i < negative.size(); ++i) negative[i] = negative[i] || below[i];
+  }
+  return joints_of(mechanism, negative);
 }
 
 std::vector<model::JointIndex> singular_joints(const model::Mechanism& mechanism,

@@ -45,7 +45,7 @@ typename Reference<Scalar>::Body Reference<Scalar>::body_value(const model::Body
   tensor << value(given.xx), value(given.xy), value(given.xz),  //
       value(given.xy), value(given.yy), value(given.yz),        //
       value(given.xz), value(given.yz), value(given.zz);
-  const Matrix3<Scalar> R = rotation_value(body.inertia_axes, parameters, snapping_);
+  const Matrix3<Scalar> R = rotation_value(body.inertia_axes, parameters, mechanism_.snap);
   Body result{value(body.mass), vector_value(body.center_of_mass, parameters), R * tensor * R.transpose(),
               R.cwiseAbs() * tensor.cwiseAbs() * R.cwiseAbs().transpose()};
   if (body.inertia_point == model::InertiaPoint::kOrigin) {
@@ -57,15 +57,14 @@ typename Reference<Scalar>::Body Reference<Scalar>::body_value(const model::Body
 }
 
 template <class Scalar>
-Reference<Scalar>::Reference(const model::Mechanism& mechanism, Snap snap)
-    : Reference(mechanism, default_parameters<Scalar>(mechanism), snap) {}
+Reference<Scalar>::Reference(const model::Mechanism& mechanism)
+    : Reference(mechanism, default_parameters<Scalar>(mechanism)) {}
 
 template <class Scalar>
-Reference<Scalar>::Reference(const model::Mechanism& mechanism, std::span<const Scalar> parameters, Snap snap)
+Reference<Scalar>::Reference(const model::Mechanism& mechanism, std::span<const Scalar> parameters)
     : mechanism_(mechanism),
       layout_(model::lay_out_coordinates(mechanism)),
       parameters_(parameters.begin(), parameters.end()),
-      snapping_(snap == Snap::kAsModel && mechanism.snap),
       order_(model::depth_first(mechanism)),
       gravity_(vector_value(mechanism.gravity, parameters)) {
   JD_CHECK(parameters.size() == mechanism.parameters.size(), "{} values for {} parameters", parameters.size(),

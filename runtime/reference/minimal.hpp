@@ -83,19 +83,15 @@ struct OutputValue {
   std::vector<Scalar> values, scales;
 };
 
-/// kOff reads the rotations as the file's numbers give them, whatever `Mechanism::snap` says.
-enum class Snap { kAsModel, kOff };
-
 /// A mechanism with its parameters' values put in. Evaluations are const and independent of each other.
 template <class Scalar>
 class Reference {
  public:
   /// At the default values of the parameters.
-  explicit Reference(const model::Mechanism& mechanism, Snap snap = Snap::kAsModel);
+  explicit Reference(const model::Mechanism& mechanism);
   /// At the given values, in the order of `Mechanism::parameters`; another number of them throws
   /// InternalError.
-  Reference(const model::Mechanism& mechanism, std::span<const Scalar> parameters,
-            Snap snap = Snap::kAsModel);
+  Reference(const model::Mechanism& mechanism, std::span<const Scalar> parameters);
 
   std::size_t position_count() const { return layout_.position_count(); }
   std::size_t coordinate_count() const { return layout_.velocity_count(); }
@@ -164,7 +160,6 @@ class Reference {
   model::Mechanism mechanism_;
   model::CoordinateLayout layout_;
   std::vector<Scalar> parameters_;
-  bool snapping_;
   std::vector<std::pair<std::size_t, std::size_t>> prescribed_;  // joint, scalar coordinate
   std::vector<model::JointIndex> order_;                         // depth first
   std::vector<Body> bodies_;

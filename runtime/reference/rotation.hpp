@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -29,13 +30,14 @@ Turn<Scalar> turn_by(const Scalar& angle) {
   return {cos(angle), sin(angle)};
 }
 
-/// By the multiple of a quarter turn that `angle` (rad) is within model::kSnapTolerance, if it is.
+/// By the multiple of a quarter turn that `angle` (rad) is but for model::kQuarterRounding, if it is.
 template <class Scalar>
 Turn<Scalar> snapped_turn(const Scalar& angle) {
   using std::abs, std::atan2;
   const Scalar quarter = atan2(Scalar(1), Scalar(0));
   const double count = std::round(static_cast<double>(angle / quarter));
-  if (!(abs(angle - Scalar(count) * quarter) <= Scalar(model::kSnapTolerance))) return turn_by(angle);
+  const double rounding = model::kQuarterRounding * std::max(1.0, std::fabs(count));
+  if (!(abs(angle - Scalar(count) * quarter) <= Scalar(rounding))) return turn_by(angle);
   const int turns = static_cast<int>(std::fmod(std::fmod(count, 4) + 4, 4));
   const int cosines[] = {1, 0, -1, 0};
   return {Scalar(cosines[turns]), Scalar(cosines[(turns + 3) % 4])};
@@ -61,8 +63,8 @@ Vector3<Scalar> vector_value(const model::Vector3& vector, std::span<const Scala
   return {vector[0].evaluate(parameters), vector[1].evaluate(parameters), vector[2].evaluate(parameters)};
 }
 
-/// R = Rz(yaw) Ry(pitch) Rx(roll) at the given parameter values. With `snap`, constant angles within model::kSnapTolerance of a
-/// multiple of a quarter turn are that multiple.
+/// R = Rz(yaw) Ry(pitch) Rx(roll) at the given parameter values. With `snap`, constant angles that are a multiple of a quarter turn but
+/// for model::kQuarterRounding are that multiple.
 template <class Scalar>
 Matrix3<Scalar> rotation_value(const model::Rotation& rotation, std::span<const Scalar> parameters,
                                bool snap) {

@@ -16,8 +16,8 @@ constexpr double kExactTolerance = 1e-11;
 constexpr double kSnappedTolerance = 1e-9;
 
 /// Largest normwise error of the reference's accelerations over the states of a case.
-double worst_error(const AccelerationCase& given, const model::Mechanism& mechanism, reference::Snap snap) {
-  const reference::Reference<double> reference(mechanism, snap);
+double worst_error(const AccelerationCase& given, const model::Mechanism& mechanism) {
+  const reference::Reference<double> reference(mechanism);
   double worst = 0;
   for (const AccelerationState& state : given.states) {
     const auto order = [&](const std::vector<double>& v) {
@@ -80,7 +80,7 @@ TEST_F(SharedAccelerations, CoverEveryCoordinate) {
 
 TEST_F(SharedAccelerations, AgreeWithTheReferenceWithoutSnapping) {
   for (const AccelerationCase& given : cases_) {
-    const double error = worst_error(given, undamped(given), reference::Snap::kOff);
+    const double error = worst_error(given, model::with_directions_as_read(undamped(given)));
     EXPECT_LE(error, kExactTolerance) << given.robot;
     RecordProperty(given.robot, fmt::format("{:.1e}", error));
   }
@@ -88,8 +88,7 @@ TEST_F(SharedAccelerations, AgreeWithTheReferenceWithoutSnapping) {
 
 TEST_F(SharedAccelerations, AgreeWithTheReferenceWithSnapping) {
   for (const AccelerationCase& given : cases_)
-    EXPECT_LE(worst_error(given, undamped(given), reference::Snap::kAsModel), kSnappedTolerance)
-        << given.robot;
+    EXPECT_LE(worst_error(given, undamped(given)), kSnappedTolerance) << given.robot;
 }
 
 TEST_F(SharedAccelerations, AgreeWithInterpreterAndCompiledCode) {
@@ -104,7 +103,7 @@ TEST_F(SharedAccelerations, AgreeWithInterpreterAndCompiledCode) {
     const CompiledBatch batch({emit_model(derived, "robot")}, "g++", "double", {"-O1"});
     const double compiled = worst_over_states(
         given, mechanism, [&](const Sample& sample) { return batch.evaluate(0, sample).zdot; });
-    mechanism.snap = false;
+    mechanism = model::with_directions_as_read(mechanism);
     const Derived unsnapped = derive(mechanism);
     const double exact = worst_over_states(given, mechanism, interpret(unsnapped));
     fmt::print("{:<18} {:>12.1e} {:>12.1e} {:>12.1e}\n", given.robot, interpreter, compiled, exact);

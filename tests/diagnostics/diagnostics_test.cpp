@@ -27,7 +27,7 @@ ReadOptions options_in(const std::string& text) {
   if (begin == std::string::npos) return options;
   std::istringstream words(first_line.substr(begin + mark.size()));
   for (std::string word; words >> word;) {
-    if (word == "--no-snap") options.snap = false;
+    if (word == "--no-snap") options.snap = 0;
     if (word == "--no-damping") options.damping = false;
     if (word == "--lock") options.locked_joints.emplace_back(words >> word ? word : "");
     if (word == "--root")
