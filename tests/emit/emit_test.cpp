@@ -8,6 +8,7 @@
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
 #include "emit/body.hpp"
+#include "emit/index_constants.hpp"
 #include "emit/layout.hpp"
 #include "emit/names.hpp"
 #include "emit/templates.hpp"
@@ -28,6 +29,21 @@ TEST(Names, AreIdentifiersThatDiffer) {
   EXPECT_EQ(names.unique("x; system(\"rm\"); //", "t0"), "x_system_rm_");
   EXPECT_EQ(names.unique("__x", "t0"), "v_x");
   EXPECT_EQ(names.unique("3d", "t0"), "v3d");
+}
+
+TEST(IndexConstants, HaveNamesThatDiffer) {
+  ModelText model;
+  EXPECT_EQ(index_constants(model), "");
+  model.positions = {"a.b", "a b", "x"};
+  model.inputs = {"int"};
+  EXPECT_EQ(index_constants(model),
+            "\n// Entries by name: state.y[index::y_a_b], input.u[index::u_int].\n"
+            "namespace index {\n"
+            "inline constexpr int y_a_b = 0;\n"
+            "inline constexpr int y_a_b_2 = 1;\n"
+            "inline constexpr int y_x = 2;\n"
+            "inline constexpr int u_int = 0;\n"
+            "}  // namespace index\n");
 }
 
 TEST(Text, CannotLeaveCommentsOrStrings) {
