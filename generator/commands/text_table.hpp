@@ -6,10 +6,10 @@
 
 namespace jourdain::commands {
 
-/// A title over a first column and further ones; what has no cell is left out.
+/// Rows under a line of heads, the first of which is the table's title; rows are indented below it.
 class TextTable {
  public:
-  /// `heads`: of the columns, the first is the table's title. Columns with a head that begins with '>' are aligned at their right ends.
+  /// Columns with a head that begins with '>' are aligned at their right ends.
   explicit TextTable(std::vector<std::string> heads) : heads_(std::move(heads)) {}
 
   /// As many cells as heads; further lines and tabs in them become blanks.

@@ -156,7 +156,7 @@ TEST(LoopCommands, ParametersOutsideTheirRangeAreRefused) {
                    folder.path() + "/run.csv"}),
          0, "loops open by ");
   expect(jourdain({"info", path}), 0, "    radius ");
-  expect(jourdain({"info", path}), 0, " 0.03 to 0.1 ");
+  expect(jourdain({"info", path}), 0, "  0.03 to 0.1\n");
 }
 
 TEST(LoopCommands, AMotionCannotBeFollowed) {
