@@ -321,9 +321,10 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   result.assumptions = assumptions(mechanism, options, result);
   if (!result.verdict.accepted()) return;
   emit::ModelText text = model_text(mechanism, options);
-  text.outputs = output_texts(
+  result.outputs = output_texts(
       mechanism, options.loops ? loops::resized_outputs(mechanism, *options.loops, equations.outputs)
                                : equations.outputs);
+  text.outputs = result.outputs;
   text.assumptions = result.assumptions;
   text.left_out = left_out_sentences(result.omissions);
   text.validation = validation_sentences(result.verdict);

@@ -44,7 +44,8 @@ struct CompiledModel {
   model::Tangent tangent;               ///< of the independent coordinates
   std::vector<std::size_t> dependents;  ///< entries of y that close_loops sets
   bool all_derivatives = true;
-  std::vector<std::string> parameter_names;  ///< as in the emitted Parameters
+  std::vector<std::string> parameter_names;      ///< as in the emitted Parameters
+  std::vector<emit::OutputDeclaration> outputs;  ///< as in the emitted Outputs; filled in with `files`
   Articulation articulation;
   std::vector<emit::FunctionInfo> functions;
   ir::Module module;

@@ -121,6 +121,15 @@ inline constexpr const char* input_names[2] = {"push", nullptr};
 inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[4] = {"cart_mass", "pole_mass", "pole_half_length", nullptr};
 
+// Entries by name: state.y[index::y_slide], state.z[index::z_slide], input.u[index::u_push].
+namespace index {
+inline constexpr int y_slide = 0;
+inline constexpr int y_hinge = 1;
+inline constexpr int z_slide = 0;
+inline constexpr int z_hinge = 1;
+inline constexpr int u_push = 0;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

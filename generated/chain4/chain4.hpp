@@ -84,6 +84,18 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[1] = {nullptr};
 
+// Entries by name: state.y[index::y_hinge1], state.z[index::z_hinge1].
+namespace index {
+inline constexpr int y_hinge1 = 0;
+inline constexpr int y_hinge2 = 1;
+inline constexpr int y_hinge3 = 2;
+inline constexpr int y_hinge4 = 3;
+inline constexpr int z_hinge1 = 0;
+inline constexpr int z_hinge2 = 1;
+inline constexpr int z_hinge3 = 2;
+inline constexpr int z_hinge4 = 3;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -119,6 +119,14 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[4] = {"k", "c", "speed", nullptr};
 
+// Entries by name: state.y[index::y_bounce], state.z[index::z_bounce].
+namespace index {
+inline constexpr int y_bounce = 0;
+inline constexpr int y_suspension = 1;
+inline constexpr int z_bounce = 0;
+inline constexpr int z_suspension = 1;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -166,6 +166,17 @@ inline constexpr const char* output_names[5] = {"drive_force", "hook_pose", "hoo
     "suspension_force", nullptr};
 inline constexpr const char* parameter_names[5] = {"stroke", "rate", "rope", "load_mass", nullptr};
 
+// Entries by name: state.y[index::y_suspension_qw], state.z[index::z_suspension_wx].
+namespace index {
+inline constexpr int y_suspension_qw = 0;
+inline constexpr int y_suspension_qx = 1;
+inline constexpr int y_suspension_qy = 2;
+inline constexpr int y_suspension_qz = 3;
+inline constexpr int z_suspension_wx = 0;
+inline constexpr int z_suspension_wy = 1;
+inline constexpr int z_suspension_wz = 2;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -95,6 +95,14 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[5] = {"m1", "m2", "l1", "l2", nullptr};
 
+// Entries by name: state.y[index::y_shoulder], state.z[index::z_shoulder].
+namespace index {
+inline constexpr int y_shoulder = 0;
+inline constexpr int y_elbow = 1;
+inline constexpr int z_shoulder = 0;
+inline constexpr int z_elbow = 1;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

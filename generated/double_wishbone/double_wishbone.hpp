@@ -184,6 +184,18 @@ inline constexpr const char* output_names[3] = {"wheel", "wheel_travel", nullptr
 inline constexpr const char* parameter_names[7] = {"steering", "rate", "stiffness", "damping", "free_length",
     "tyre", nullptr};
 
+// Entries by name: state.y[index::y_lower], state.z[index::z_lower], input.u[index::u_road].
+namespace index {
+inline constexpr int y_lower = 0;
+inline constexpr int y_lower_ball_qw = 1;
+inline constexpr int y_lower_ball_qx = 2;
+inline constexpr int y_lower_ball_qy = 3;
+inline constexpr int y_lower_ball_qz = 4;
+inline constexpr int y_upper = 5;
+inline constexpr int z_lower = 0;
+inline constexpr int u_road = 0;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

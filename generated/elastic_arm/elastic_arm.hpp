@@ -141,6 +141,22 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[2] = {"tip_pose", nullptr};
 inline constexpr const char* parameter_names[3] = {"k", "damping_ratio", nullptr};
 
+// Entries by name: state.y[index::y_motor1], state.z[index::z_motor1].
+namespace index {
+inline constexpr int y_motor1 = 0;
+inline constexpr int y_elastic1 = 1;
+inline constexpr int y_motor2 = 2;
+inline constexpr int y_elastic2 = 3;
+inline constexpr int y_motor3 = 4;
+inline constexpr int y_elastic3 = 5;
+inline constexpr int z_motor1 = 0;
+inline constexpr int z_elastic1 = 1;
+inline constexpr int z_motor2 = 2;
+inline constexpr int z_elastic2 = 3;
+inline constexpr int z_motor3 = 4;
+inline constexpr int z_elastic3 = 5;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

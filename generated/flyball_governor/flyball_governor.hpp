@@ -87,6 +87,18 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[3] = {"k", "c", nullptr};
 
+// Entries by name: state.y[index::y_shaft], state.z[index::z_shaft].
+namespace index {
+inline constexpr int y_shaft = 0;
+inline constexpr int y_slider = 1;
+inline constexpr int y_arm1 = 2;
+inline constexpr int y_arm2 = 3;
+inline constexpr int z_shaft = 0;
+inline constexpr int z_slider = 1;
+inline constexpr int z_arm1 = 2;
+inline constexpr int z_arm2 = 3;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

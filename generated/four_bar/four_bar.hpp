@@ -151,6 +151,15 @@ inline constexpr const char* input_names[2] = {"motor", nullptr};
 inline constexpr const char* output_names[3] = {"coupler_curve", "rocker_angle", nullptr};
 inline constexpr const char* parameter_names[2] = {"bearing", nullptr};
 
+// Entries by name: state.y[index::y_crank], state.z[index::z_crank], input.u[index::u_motor].
+namespace index {
+inline constexpr int y_crank = 0;
+inline constexpr int y_coupler = 1;
+inline constexpr int y_rocker = 2;
+inline constexpr int z_crank = 0;
+inline constexpr int u_motor = 0;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -141,6 +141,14 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[3] = {"motor_torque", "rotor_bearing", nullptr};
 inline constexpr const char* parameter_names[3] = {"speed", "weight", nullptr};
 
+// Entries by name: state.y[index::y_outer], state.z[index::z_outer].
+namespace index {
+inline constexpr int y_outer = 0;
+inline constexpr int y_inner = 1;
+inline constexpr int z_outer = 0;
+inline constexpr int z_inner = 1;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

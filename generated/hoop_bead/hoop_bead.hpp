@@ -136,6 +136,12 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[3] = {"motor_torque", "bead_pose", nullptr};
 inline constexpr const char* parameter_names[3] = {"radius", "rate", nullptr};
 
+// Entries by name: state.y[index::y_bead], state.z[index::z_bead].
+namespace index {
+inline constexpr int y_bead = 0;
+inline constexpr int z_bead = 0;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

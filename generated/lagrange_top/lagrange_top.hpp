@@ -98,6 +98,17 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[3] = {"pose", "support", nullptr};
 inline constexpr const char* parameter_names[1] = {nullptr};
 
+// Entries by name: state.y[index::y_tip_qw], state.z[index::z_tip_wx].
+namespace index {
+inline constexpr int y_tip_qw = 0;
+inline constexpr int y_tip_qx = 1;
+inline constexpr int y_tip_qy = 2;
+inline constexpr int y_tip_qz = 3;
+inline constexpr int z_tip_wx = 0;
+inline constexpr int z_tip_wy = 1;
+inline constexpr int z_tip_wz = 2;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -117,6 +117,20 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[2] = {"first_top", nullptr};
 inline constexpr const char* parameter_names[1] = {nullptr};
 
+// Entries by name: state.y[index::y_upright0], state.z[index::z_upright0].
+namespace index {
+inline constexpr int y_upright0 = 0;
+inline constexpr int y_beam1 = 1;
+inline constexpr int y_upright1 = 2;
+inline constexpr int y_beam2 = 3;
+inline constexpr int y_upright2 = 4;
+inline constexpr int z_upright0 = 0;
+inline constexpr int z_beam1 = 1;
+inline constexpr int z_upright1 = 2;
+inline constexpr int z_beam2 = 3;
+inline constexpr int z_upright2 = 4;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -166,6 +166,23 @@ inline constexpr const char* input_names[4] = {"arm1", "arm2", "arm3", nullptr};
 inline constexpr const char* output_names[3] = {"platform_pose", "platform_velocity", nullptr};
 inline constexpr const char* parameter_names[2] = {"payload", nullptr};
 
+// Entries by name: state.y[index::y_arm1], state.z[index::z_arm1], input.u[index::u_arm1].
+namespace index {
+inline constexpr int y_arm1 = 0;
+inline constexpr int y_forearm1 = 1;
+inline constexpr int y_platform = 2;
+inline constexpr int y_arm2 = 3;
+inline constexpr int y_forearm2 = 4;
+inline constexpr int y_arm3 = 5;
+inline constexpr int y_forearm3 = 6;
+inline constexpr int z_arm1 = 0;
+inline constexpr int z_arm2 = 1;
+inline constexpr int z_arm3 = 2;
+inline constexpr int u_arm1 = 0;
+inline constexpr int u_arm2 = 1;
+inline constexpr int u_arm3 = 2;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

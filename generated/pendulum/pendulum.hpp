@@ -89,6 +89,12 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[3] = {"m", "l", nullptr};
 
+// Entries by name: state.y[index::y_pivot], state.z[index::z_pivot].
+namespace index {
+inline constexpr int y_pivot = 0;
+inline constexpr int z_pivot = 0;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -120,6 +120,28 @@ inline constexpr const char* input_names[7] = {"joint1", "joint2", "joint3", "jo
 inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[1] = {nullptr};
 
+// Entries by name: state.y[index::y_joint1], state.z[index::z_joint1], input.u[index::u_joint1].
+namespace index {
+inline constexpr int y_joint1 = 0;
+inline constexpr int y_joint2 = 1;
+inline constexpr int y_joint3 = 2;
+inline constexpr int y_joint4 = 3;
+inline constexpr int y_joint5 = 4;
+inline constexpr int y_joint6 = 5;
+inline constexpr int z_joint1 = 0;
+inline constexpr int z_joint2 = 1;
+inline constexpr int z_joint3 = 2;
+inline constexpr int z_joint4 = 3;
+inline constexpr int z_joint5 = 4;
+inline constexpr int z_joint6 = 5;
+inline constexpr int u_joint1 = 0;
+inline constexpr int u_joint2 = 1;
+inline constexpr int u_joint3 = 2;
+inline constexpr int u_joint4 = 3;
+inline constexpr int u_joint5 = 4;
+inline constexpr int u_joint6 = 5;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

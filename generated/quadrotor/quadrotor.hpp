@@ -130,6 +130,27 @@ inline constexpr const char* input_names[5] = {"thrust1", "thrust2", "thrust3", 
 inline constexpr const char* output_names[2] = {"pose", nullptr};
 inline constexpr const char* parameter_names[2] = {"drag", nullptr};
 
+// Entries by name: state.y[index::y_root_x], state.z[index::z_root_vx], input.u[index::u_thrust1].
+namespace index {
+inline constexpr int y_root_x = 0;
+inline constexpr int y_root_y = 1;
+inline constexpr int y_root_z = 2;
+inline constexpr int y_root_qw = 3;
+inline constexpr int y_root_qx = 4;
+inline constexpr int y_root_qy = 5;
+inline constexpr int y_root_qz = 6;
+inline constexpr int z_root_vx = 0;
+inline constexpr int z_root_vy = 1;
+inline constexpr int z_root_vz = 2;
+inline constexpr int z_root_wx = 3;
+inline constexpr int z_root_wy = 4;
+inline constexpr int z_root_wz = 5;
+inline constexpr int u_thrust1 = 0;
+inline constexpr int u_thrust2 = 1;
+inline constexpr int u_thrust3 = 2;
+inline constexpr int u_thrust4 = 3;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -147,6 +147,16 @@ inline constexpr const char* input_names[3] = {"gas_force", "load_torque", nullp
 inline constexpr const char* output_names[2] = {"piston_speed", nullptr};
 inline constexpr const char* parameter_names[2] = {"flywheel", nullptr};
 
+// Entries by name: state.y[index::y_crank], state.z[index::z_crank], input.u[index::u_gas_force].
+namespace index {
+inline constexpr int y_crank = 0;
+inline constexpr int y_rod = 1;
+inline constexpr int y_piston = 2;
+inline constexpr int z_crank = 0;
+inline constexpr int u_gas_force = 0;
+inline constexpr int u_load_torque = 1;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

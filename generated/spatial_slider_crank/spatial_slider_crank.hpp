@@ -116,6 +116,15 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[3] = {"pin_position", "slider_speed", nullptr};
 inline constexpr const char* parameter_names[1] = {nullptr};
 
+// Entries by name: state.y[index::y_crank], state.z[index::z_crank].
+namespace index {
+inline constexpr int y_crank = 0;
+inline constexpr int y_slider = 1;
+inline constexpr int y_cross_first = 2;
+inline constexpr int y_cross_second = 3;
+inline constexpr int z_crank = 0;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -129,6 +129,14 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[2] = {"far_pin", nullptr};
 inline constexpr const char* parameter_names[3] = {"k", "c", nullptr};
 
+// Entries by name: state.y[index::y_crank], state.z[index::z_crank].
+namespace index {
+inline constexpr int y_crank = 0;
+inline constexpr int y_coupler = 1;
+inline constexpr int y_rocker = 2;
+inline constexpr int z_crank = 0;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -94,6 +94,16 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[2] = {"rod_pose", nullptr};
 inline constexpr const char* parameter_names[3] = {"k", "damping_ratio", nullptr};
 
+// Entries by name: state.y[index::y_bush_x], state.z[index::z_bush_x].
+namespace index {
+inline constexpr int y_bush_x = 0;
+inline constexpr int y_bush_y = 1;
+inline constexpr int y_bush_angle = 2;
+inline constexpr int z_bush_x = 0;
+inline constexpr int z_bush_y = 1;
+inline constexpr int z_bush_angle = 2;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -93,6 +93,14 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[2] = {"bob_pose", nullptr};
 inline constexpr const char* parameter_names[2] = {"k", nullptr};
 
+// Entries by name: state.y[index::y_theta], state.z[index::z_theta].
+namespace index {
+inline constexpr int y_theta = 0;
+inline constexpr int y_r = 1;
+inline constexpr int z_theta = 0;
+inline constexpr int z_r = 1;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

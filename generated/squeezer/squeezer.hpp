@@ -124,6 +124,18 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[2] = {"common_pin", nullptr};
 inline constexpr const char* parameter_names[3] = {"drive", "c0", nullptr};
 
+// Entries by name: state.y[index::y_beta], state.z[index::z_beta].
+namespace index {
+inline constexpr int y_beta = 0;
+inline constexpr int y_Theta = 1;
+inline constexpr int y_gamma = 2;
+inline constexpr int y_delta = 3;
+inline constexpr int y_Phi = 4;
+inline constexpr int y_epsilon = 5;
+inline constexpr int y_Omega = 6;
+inline constexpr int z_beta = 0;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -91,6 +91,23 @@ inline constexpr const char* input_names[1] = {nullptr};
 inline constexpr const char* output_names[2] = {"energy", nullptr};
 inline constexpr const char* parameter_names[1] = {nullptr};
 
+// Entries by name: state.y[index::y_root_x], state.z[index::z_root_vx].
+namespace index {
+inline constexpr int y_root_x = 0;
+inline constexpr int y_root_y = 1;
+inline constexpr int y_root_z = 2;
+inline constexpr int y_root_qw = 3;
+inline constexpr int y_root_qx = 4;
+inline constexpr int y_root_qy = 5;
+inline constexpr int y_root_qz = 6;
+inline constexpr int z_root_vx = 0;
+inline constexpr int z_root_vy = 1;
+inline constexpr int z_root_vz = 2;
+inline constexpr int z_root_wx = 3;
+inline constexpr int z_root_wy = 4;
+inline constexpr int z_root_wz = 5;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -120,6 +120,29 @@ inline constexpr const char* input_names[7] = {"shoulder_pan_joint", "shoulder_l
 inline constexpr const char* output_names[1] = {nullptr};
 inline constexpr const char* parameter_names[1] = {nullptr};
 
+// Entries by name: state.y[index::y_shoulder_pan_joint], state.z[index::z_shoulder_pan_joint],
+//   input.u[index::u_shoulder_pan_joint].
+namespace index {
+inline constexpr int y_shoulder_pan_joint = 0;
+inline constexpr int y_shoulder_lift_joint = 1;
+inline constexpr int y_elbow_joint = 2;
+inline constexpr int y_wrist_1_joint = 3;
+inline constexpr int y_wrist_2_joint = 4;
+inline constexpr int y_wrist_3_joint = 5;
+inline constexpr int z_shoulder_pan_joint = 0;
+inline constexpr int z_shoulder_lift_joint = 1;
+inline constexpr int z_elbow_joint = 2;
+inline constexpr int z_wrist_1_joint = 3;
+inline constexpr int z_wrist_2_joint = 4;
+inline constexpr int z_wrist_3_joint = 5;
+inline constexpr int u_shoulder_pan_joint = 0;
+inline constexpr int u_shoulder_lift_joint = 1;
+inline constexpr int u_elbow_joint = 2;
+inline constexpr int u_wrist_1_joint = 3;
+inline constexpr int u_wrist_2_joint = 4;
+inline constexpr int u_wrist_3_joint = 5;
+}  // namespace index
+
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real>

@@ -3,43 +3,19 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/kind_names.hpp"
 #include "commands/load.hpp"
+#include "commands/model_facts.hpp"
 #include "commands/report_text.hpp"
 #include "loops/closed_system.hpp"
 #include "model/coordinates.hpp"
-#include "model/loop_kinds.hpp"
 
 namespace jourdain::commands {
 
 namespace {
-
-const char* type_name(model::JointType type) {
-  switch (type) {
-    case model::JointType::kFixed:
-      return "fixed";
-    case model::JointType::kRevolute:
-      return "revolute";
-    case model::JointType::kPrismatic:
-      return "prismatic";
-    case model::JointType::kScrew:
-      return "screw";
-    case model::JointType::kCylindrical:
-      return "cylindrical";
-    case model::JointType::kUniversal:
-      return "universal";
-    case model::JointType::kPlanar:
-      return "planar";
-    case model::JointType::kSpherical:
-      return "spherical";
-    case model::JointType::kFree:
-      return "free";
-    case model::JointType::kCurve:
-      return "curve";
-  }
-  return "";
-}
 
 /// "y[2]", "y[0..6]", or "prescribed" where the joint has no entry.
 std::string entries_text(const model::JointEntries& entries) {
@@ -58,7 +34,7 @@ std::string tree_text(const model::Mechanism& mechanism) {
     const model::Joint& joint = mechanism.joints[index.value];
     const std::size_t level = joint.parent ? depth[joint.parent->value] + 1 : 1;
     depth[joint.child.value] = level;
-    text += fmt::format("  {:{}}{} [{}", "", 2 * level, joint.name, type_name(joint.type));
+    text += fmt::format("  {:{}}{} [{}", "", 2 * level, joint.name, joint_type_name(joint.type));
     if (!joint.coordinates.empty() && joint.type != model::JointType::kCurve)
       text += fmt::format(" ({:g}, {:g}, {:g})", joint.axis[0], joint.axis[1], joint.axis[2]);
     if (joint.type != model::JointType::kFixed)
@@ -77,7 +53,7 @@ std::string loops_text(const model::Mechanism& mechanism) {
   };
   std::string text;
   for (const model::Loop& loop : mechanism.loops) {
-    std::string type(model::loop_kind(loop.type).name);
+    std::string type = loop_type_name(loop.type);
     std::replace(type.begin(), type.end(), '_', ' ');
     text += fmt::format("  loop {} [{}]", loop.name, type);
     if (loop.type != model::LoopType::kResidual)
@@ -104,49 +80,63 @@ std::string algorithm_text(const Articulation& articulation) {
       links, articulation.links.size(), articulation.operations, factorised, articulation.articulated);
 }
 
-std::string range_text(const model::Parameter& parameter) {
-  if (!parameter.range) return "";
-  return fmt::format(" (from {:g} to {:g})", (*parameter.range)[0], (*parameter.range)[1]);
+/// What the compiler found, in tables and sentences.
+std::string compiler_text(const CompiledModel& compiled) {
+  std::string text = operations_table(compiled.module) + algorithm_text(compiled.articulation) +
+                     omissions_text(compiled.omissions) + passes_text(compiled.passes) +
+                     verdict_text(compiled.verdict);
+  for (const std::string& assumption : compiled.assumptions)
+    text += fmt::format("  assumes: {}\n", assumption);
+  return text;
 }
 
-int run(const ModelArguments& arguments) {
-  const std::optional<LoadedMechanism> loaded = load(arguments);
-  if (!loaded) return kModelWrong;
-  const model::Mechanism& mechanism = loaded->mechanism;
-  const CompiledModel compiled = compile(mechanism, loaded->options);
-  fmt::print("{}{}{}\n{}", mechanism.name, mechanism.description.empty() ? "" : ": ", mechanism.description,
-             tree_text(mechanism));
-  fmt::print("{}  {} bodies, {}\n", loops_text(mechanism), mechanism.bodies.size(), freedom_text(*loaded));
-  if (const loops::LoopPlan* plan = loaded->plan())
+std::string info_text(const LoadedMechanism& loaded, const CompiledModel& compiled) {
+  const model::Mechanism& mechanism = loaded.mechanism;
+  std::string text = fmt::format("{}{}{}\n{}", mechanism.name, mechanism.description.empty() ? "" : ": ",
+                                 mechanism.description, tree_text(mechanism));
+  text += fmt::format("{}  {} bodies, {}\n", loops_text(mechanism), mechanism.bodies.size(),
+                      freedom_text(loaded));
+  if (const loops::LoopPlan* plan = loaded.plan())
     for (const std::string& sentence : loops::sentences(mechanism, *plan))
-      fmt::print("  loops: {}\n", sentence);
-  for (std::size_t i = 0; i < mechanism.actuators.size(); ++i) {
-    const model::Actuator& actuator = mechanism.actuators[i];
-    fmt::print("  input u[{}] {} acts on {}\n", i, actuator.name,
-               mechanism.joints[actuator.joint.value].coordinates[actuator.coordinate].name);
-  }
-  for (std::size_t i = 0; i < mechanism.inputs.size(); ++i)
-    fmt::print("  input u[{}] {} {}\n", mechanism.actuators.size() + i, mechanism.inputs[i].name,
-               mechanism.inputs[i].unit);
-  for (const model::Parameter& parameter : mechanism.parameters)
-    fmt::print("  parameter {} = {:g} {} {}{}\n", parameter.name, parameter.value, parameter.unit,
-               parameter.description, range_text(parameter));
-  fmt::print("{}{}{}{}", operations_table(compiled.module) + algorithm_text(compiled.articulation),
-             omissions_text(compiled.omissions), passes_text(compiled.passes),
-             verdict_text(compiled.verdict));
-  for (const std::string& assumption : compiled.assumptions) fmt::print("  assumes: {}\n", assumption);
-  if (compiled.verdict.accepted()) return kSuccess;
-  print_refusal(compiled.verdict);
-  return kInternal;
+      text += fmt::format("  loops: {}\n", sentence);
+  return text + facts_text(model_facts(loaded, compiled)) + compiler_text(compiled);
+}
+
+/// The facts, and what the emitted NAME.json says of functions and loops.
+std::string info_json(const LoadedMechanism& loaded, const CompiledModel& compiled) {
+  using Json = nlohmann::ordered_json;
+  Json info = model_facts(loaded, compiled);
+  const Json manifest = Json::parse(compiled.files.back().text);
+  for (const auto& [key, value] : manifest.items())
+    if (!info.contains(key) && !key.starts_with("parameter_")) info[key] = value;
+  if (loaded.plan()) info["closing"] = loops::sentences(loaded.mechanism, *loaded.plan());
+  return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+struct InfoArguments {
+  ModelArguments model;
+  bool json = false;
+};
+
+int run(const InfoArguments& arguments) {
+  const std::optional<LoadedMechanism> loaded = load(arguments.model);
+  if (!loaded) return kModelWrong;
+  const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
+  const bool accepted = compiled.verdict.accepted();
+  if (!arguments.json) fmt::print("{}", info_text(*loaded, compiled));
+  if (!accepted) print_refusal(compiled.verdict);
+  if (accepted && arguments.json) fmt::print("{}", info_json(*loaded, compiled));
+  return accepted ? kSuccess : kInternal;
 }
 
 }  // namespace
 
 void add_info(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<ModelArguments>();
-  CLI::App* command =
-      app.add_subcommand("info", "print the tree, operations and what was left out: jourdain info arm.toml");
-  arguments->add_to(*command);
+  auto arguments = std::make_shared<InfoArguments>();
+  CLI::App* command = app.add_subcommand(
+      "info", "print links, joints, frames, coordinates, inputs, operations: jourdain info arm.toml");
+  arguments->model.add_to(*command);
+  command->add_flag("--json", arguments->json, "the same as one JSON document");
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

@@ -97,6 +97,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   fmt::print(stderr, "{}", diagnostics.format());
   if (!mechanism || diagnostics.has_errors()) return std::nullopt;
   LoadedMechanism loaded{std::move(*mechanism), {}};
+  if (!arguments.path.ends_with(".toml")) loaded.limits = model::read_urdf_limits(diagnostics.text());
   loaded.options.name = arguments.name.empty() ? model::cpp_name(loaded.mechanism.name) : arguments.name;
   loaded.options.loops = std::move(plan);
   if (loaded.options.loops) fmt::print(stderr, "{}", loops::assembly_text(*loaded.options.loops));

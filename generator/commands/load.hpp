@@ -3,11 +3,13 @@
 
 #include <CLI/App.hpp>
 
+#include <map>
 #include <optional>
 #include <string>
 
 #include "compile.hpp"
 #include "model/read.hpp"
+#include "model/urdf_limits.hpp"
 
 namespace jourdain::commands {
 
@@ -29,7 +31,8 @@ struct ModelArguments {
 
 struct LoadedMechanism {
   model::Mechanism mechanism;
-  CompileOptions options;  ///< name, path, hash and the plan of the loops filled in
+  CompileOptions options;                            ///< name, path, hash and the plan of the loops filled in
+  std::map<std::string, model::Limits> limits = {};  ///< URDF: of joints, by name
 
   std::size_t freedom() const;  ///< degrees of freedom
   /// Generalized velocities of the emitted State: the independent ones, with multipliers all.

@@ -48,8 +48,8 @@ bool has_data(const Plot& plot, const Series& series) {
 
 std::string script(const Plot& plot, const std::string& output) {
   std::string text = "set encoding utf8\n";
-  text += fmt::format("set terminal svg size 860,{} dynamic font 'sans-serif,13' name {} enhanced\n",
-                      plot.height, quoted(plot.name));
+  text += fmt::format("set terminal svg size {},{} dynamic font 'sans-serif,13' name {} enhanced\n",
+                      kPlotWidth, plot.height, quoted(plot.name));
   text += "set output " + quoted(output) + "\n";
   text += "set title " + quoted(plot.title) + " noenhanced\nset xlabel " + quoted(plot.x_title) +
           " noenhanced\nset ylabel " + quoted(plot.y_title) + " noenhanced\n";
@@ -135,6 +135,19 @@ std::vector<std::string> draw(const std::vector<Plot>& plots) {
   std::vector<std::string> drawn;
   for (const Plot& plot : plots) drawn.push_back(themed(support::read_file(path_of(plot)), plot.name));
   return drawn;
+}
+
+std::string stacked(const std::vector<std::string>& drawn, int height) {
+  const int count = static_cast<int>(drawn.size());
+  std::string text = fmt::format("<svg viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\">\n",
+                                 kPlotWidth, count * height);
+  for (int i = 0; i < count; ++i) {
+    std::string panel = drawn[static_cast<std::size_t>(i)];
+    panel.insert(panel.find("<svg") + 4,
+                 fmt::format(" y=\"{}\" width=\"{}\" height=\"{}\"", i * height, kPlotWidth, height));
+    text += panel;
+  }
+  return text + "</svg>\n";
 }
 
 }  // namespace jourdain::commands

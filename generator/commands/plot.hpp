@@ -6,6 +6,8 @@
 
 namespace jourdain::commands {
 
+inline constexpr int kPlotWidth = 860;
+
 /// One line or set of marks.
 struct Series {
   std::string title;
@@ -21,7 +23,7 @@ struct Plot {
   std::string title, x_title, y_title;
   bool x_logarithmic = true, y_logarithmic = true;
   std::vector<Series> series;
-  int height = 520;
+  int height = 520;  ///< of kPlotWidth
 };
 
 /// Has it a point that its axes can show?
@@ -32,5 +34,8 @@ void check_plotter();
 
 /// The plots, which must show something, as SVG texts, in order. Throws EnvironmentError with gnuplot's words when it fails.
 std::vector<std::string> draw(const std::vector<Plot>& plots);
+
+/// SVG texts of plots of that height as one, from top to bottom.
+std::string stacked(const std::vector<std::string>& drawn, int height);
 
 }  // namespace jourdain::commands

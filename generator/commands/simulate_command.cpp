@@ -15,6 +15,8 @@
 #include "commands/progress.hpp"
 #include "commands/run_bounds.hpp"
 #include "commands/run_setup.hpp"
+#include "commands/signal_choice.hpp"
+#include "commands/signal_plot.hpp"
 #include "studies/flow.hpp"
 #include "support/files.hpp"
 
@@ -27,7 +29,6 @@ using studies::Flow;
 using studies::Point;
 
 constexpr double kLongestRun = 1e9;  ///< steps
-constexpr std::size_t kPlottedPoints = 2000;
 
 struct Arguments {
   RunArguments run;
@@ -36,7 +37,7 @@ struct Arguments {
   std::string method = "rk4";
   std::vector<std::string> outputs;
   std::string output;
-  std::string plot;
+  std::vector<std::string> plot;
 };
 
 double seconds_since(Clock::time_point begin) {
@@ -51,50 +52,10 @@ std::string field(const std::string& name) {
   return quoted + "\"";
 }
 
-/// One of the numbers that the emitted `outputs` writes.
-struct OutputNumber {
-  std::size_t index = 0;
-  std::string name;
-};
-
-/// "tracer.position[0]", …: of all outputs, or of those with a name of `chosen`.
-std::vector<OutputNumber> output_numbers(const std::vector<readback::ExpectedOutput>& outputs,
-                                         const std::vector<std::string>& chosen) {
-  std::vector<OutputNumber> numbers;
-  std::size_t index = 0;
-  for (const readback::ExpectedOutput& output : outputs)
-    for (const readback::ExpectedMember& member : output.members)
-      for (int row = 0; row < member.rows; ++row)
-        for (int column = 0; column < member.columns; ++column, ++index) {
-          if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), output.name) == chosen.end())
-            continue;
-          std::string name = output.name;
-          if (!member.name.empty()) name += "." + member.name;
-          if (member.rows > 1) name += fmt::format("[{}]", row);
-          if (member.is_matrix) name += fmt::format("[{}]", column);
-          numbers.push_back({index, name});
-        }
-  return numbers;
-}
-
-/// A sentence on a name that no output has; empty where there is none.
-std::string unknown_output(const model::Mechanism& mechanism, const std::vector<std::string>& chosen) {
-  std::vector<std::string> names;
-  for (const model::Output& output : mechanism.outputs) names.push_back(output.name);
-  for (const std::string& name : chosen) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    const std::string near = support::nearest(name, names);
-    return fmt::format("no output '{}'; {}", support::shown(name),
-                       !near.empty()   ? fmt::format("did you mean '{}'?", near)
-                       : names.empty() ? "the model has none"
-                                       : fmt::format("there are {}", fmt::join(names, ", ")));
-  }
-  return "";
-}
-
 struct Trajectory {
   Point<double> end;
-  std::vector<Point<double>> points;  ///< every one that was written
+  std::vector<double> times;  ///< of all rows, where something is drawn
+  std::vector<SampledSignal> drawn;
   double first_energy = 0, largest_drift = 0;
   studies::Residuals open;        ///< largest, of the loops
   std::vector<double> end_rates;  ///< of the positions
@@ -106,13 +67,17 @@ class Simulation {
  public:
   /// `guard` may be null.
   Simulation(const Flow<double>& flow, const Arguments& arguments, bool conserves_energy,
-             std::vector<OutputNumber> outputs, const LoopGuard* guard)
+             const Signals& signals, const Selection& selection, const LoopGuard* guard)
       : flow_(flow),
-        outputs_(std::move(outputs)),
+        signals_(signals),
+        selection_(selection),
+        with_outputs_(selection.has_outputs(signals)),
         table_(flow.table()),
         arguments_(arguments),
         bounds_(flow, flow.start(), conserves_energy),
-        guard_(guard) {}
+        guard_(guard) {
+    for (const std::size_t i : selection.drawn) state_.drawn.push_back({signals.list()[i], {}});
+  }
 
   /// Steps from the initial state, appending a CSV row every so many steps.
   Trajectory run(long steps, std::string& csv) {
@@ -163,13 +128,7 @@ class Simulation {
 
   void header(std::string& csv) const {
     csv += "time";
-    for (int i = 0; i < table_.position_count; ++i) csv += "," + field(table_.position_names[i]);
-    for (int i = 0; i < table_.velocity_count; ++i)
-      csv += "," + field(fmt::format("{}_velocity", table_.velocity_names[i]));
-    csv += ",kinetic_energy,potential_energy,total_energy";
-    for (int i = 0; i < table_.input_count; ++i)
-      csv += "," + field(fmt::format("{}_input", table_.input_names[i]));
-    for (const OutputNumber& output : outputs_) csv += "," + field(output.name);
+    for (const std::size_t i : selection_.written) csv += "," + field(signals_.list()[i].name);
     csv += "\n";
   }
 
@@ -179,27 +138,20 @@ class Simulation {
     const studies::Residuals open = flow_.residuals(now);
     state_.open.position = std::max(state_.open.position, open.position);
     state_.open.velocity = std::max(state_.open.velocity, open.velocity);
-    if (!arguments_.plot.empty()) state_.points.push_back(now);
-    double kinetic = 0, potential = 0;
-    const double* z = now.x.data() + table_.position_count;
-    table_.kinetic_energy(&now.t, now.x.data(), z, &kinetic);
-    table_.potential_energy(&now.t, now.x.data(), z, &potential);
+    const std::vector<double> values = signals_.values(flow_, now, with_outputs_);
     csv += fmt::format("{}", now.t);
-    for (double value : now.x) csv += fmt::format(",{}", value);
-    csv += fmt::format(",{},{},{}", kinetic, potential, kinetic + potential);
-    const std::vector<double> u = flow_.inputs().at(now.t);
-    for (const double value : u) csv += fmt::format(",{}", value);
-    if (!outputs_.empty()) {
-      std::vector<double> values(static_cast<std::size_t>(table_.output_count));
-      table_.outputs(&now.t, now.x.data(), z, u.data(), values.data());
-      for (const OutputNumber& output : outputs_) csv += fmt::format(",{}", values[output.index]);
-    }
+    for (const std::size_t i : selection_.written) csv += fmt::format(",{}", values[i]);
     csv += "\n";
-    return kinetic + potential;
+    if (!state_.drawn.empty()) state_.times.push_back(now.t);
+    for (std::size_t k = 0; k < state_.drawn.size(); ++k)
+      state_.drawn[k].values.push_back(values[selection_.drawn[k]]);
+    return signals_.total_energy(values);
   }
 
   const Flow<double>& flow_;
-  std::vector<OutputNumber> outputs_;
+  const Signals& signals_;
+  const Selection& selection_;
+  bool with_outputs_ = false;
   const jourdain_model_table& table_;
   const Arguments& arguments_;
   RunBounds bounds_;
@@ -243,22 +195,6 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Argumen
                coordinate_text(x[static_cast<std::size_t>(ny + i)]));
 }
 
-/// Coordinates over time.
-std::string plot_text(const std::string& title, const jourdain_model_table& table,
-                      const std::vector<Point<double>>& points) {
-  Plot plot{"trajectory", title, "t, s", "coordinates, rad or m", false, false, {}};
-  const std::size_t stride = points.size() / kPlottedPoints + 1;
-  for (int i = 0; i < table.position_count; ++i) {
-    Series series{table.position_names[i], {}, {}, i, true, false, i >= 8};
-    for (std::size_t k = 0; k < points.size(); k += stride) {
-      series.x.push_back(points[k].t);
-      series.y.push_back(points[k].x[static_cast<std::size_t>(i)]);
-    }
-    plot.series.push_back(std::move(series));
-  }
-  return draw({plot}).front();
-}
-
 int run(const Arguments& arguments) {
   const double exact_steps = arguments.duration / arguments.step;
   if (!(exact_steps >= 1 && exact_steps <= kLongestRun)) {
@@ -282,12 +218,18 @@ int run(const Arguments& arguments) {
     fmt::print(stderr, "error: {}\n", unknown);
     return kUsage;
   }
+  const std::optional<PlotRequest> plot = plot_request(arguments.plot, options.name);
+  if (!plot) return kUsage;
   options.functions = loadable_functions({arguments.method});
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) {
     print_refusal(compiled.verdict);
     return kInternal;
   }
+  const Signals signals(model->loaded, compiled.outputs);
+  for (const std::string& sentence : signals.renamed()) fmt::print(stderr, "note: {}\n", sentence);
+  const std::optional<Selection> selection = select(signals, arguments.outputs, *plot);
+  if (!selection) return kUsage;
   const studies::LoadedModel loaded = build_model(options.name, compiled, number_type(arguments.run.real));
   studies::set_parameters(loaded.table(), model->parameters);
   const std::optional<RunInputs> inputs = read_inputs(arguments.run, *model, loaded.table(), nullptr, status);
@@ -301,17 +243,18 @@ int run(const Arguments& arguments) {
   const std::optional<LoopGuard> guard =
       model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
                            : std::nullopt;
-  const std::vector<OutputNumber> outputs = output_numbers(compiled.expected.outputs, arguments.outputs);
   const Trajectory result =
-      Simulation(flow, arguments, conserves, outputs, guard ? &*guard : nullptr).run(steps, csv);
+      Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(steps, csv);
   if (result.breach) {
     fmt::print(stderr, "{}",
                breach_text(flow, compiled.tangent, *result.breach, arguments.method, arguments.step));
     return kModelWrong;
   }
-  const std::string plot =
-      arguments.plot.empty() ? "" : plot_text(model->loaded.mechanism.name, loaded.table(), result.points);
-  if (!plot.empty()) support::write_file(arguments.plot, plot);
+  const std::string picture =
+      result.drawn.empty() ? "" : signal_plot(model->loaded.mechanism.name, result.times, result.drawn);
+  if (!picture.empty()) support::write_file(plot->file, picture);
+  if (picture.empty() && !plot->file.empty())
+    fmt::print(stderr, "note: no plot: no value of what it was to show is finite\n");
   if (arguments.output == "-") {
     fmt::print("{}", csv);
     return kSuccess;
@@ -319,7 +262,7 @@ int run(const Arguments& arguments) {
   const std::string output = arguments.output.empty() ? options.name + ".csv" : arguments.output;
   support::write_file(output, csv);
   print_summary(*model, *inputs, arguments, loaded.table(), result, steps);
-  fmt::print("  wrote {}{}\n", output, plot.empty() ? "" : ", " + arguments.plot);
+  fmt::print("  wrote {}{}\n", output, picture.empty() ? "" : ", " + plot->file);
   return kSuccess;
 }
 
@@ -341,7 +284,12 @@ void add_simulate(CLI::App& app, int& status) {
   command->add_option("--output", arguments->output,
                       "CSV file, or - for standard output (default: NAME.csv)");
   command->add_option("--outputs", arguments->outputs, "outputs to write (default: all)")->delimiter(',');
-  command->add_option("--plot", arguments->plot, "SVG file of the coordinates over time; needs gnuplot");
+  command
+      ->add_option(
+          "--plot", arguments->plot,
+          "signals to draw over time, by their names in the CSV ('*' stands for any characters), and "
+          "the SVG file (defaults: positions, NAME.svg); needs gnuplot")
+      ->delimiter(',');
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

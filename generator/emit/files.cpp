@@ -6,6 +6,7 @@
 #include <map>
 
 #include "emit/body.hpp"
+#include "emit/index_constants.hpp"
 #include "emit/layout.hpp"
 #include "emit/manifest.hpp"
 #include "emit/names.hpp"
@@ -113,7 +114,7 @@ class Emitter {
         {"NU", fmt::format("{}", model_.inputs.size())},
         {"NP", fmt::format("{}", model_.parameters.size())},
         {"CONSTANTS", constant_members()},
-        {"NAME_ARRAYS", name_arrays()}};
+        {"NAME_ARRAYS", name_arrays() + index_constants(model_)}};
     std::string declarations, bodies, instantiations, parts;
     for (const char* real : {"double", "float"})
       instantiations += fmt::format("template struct Model<{}>;\n", real);

@@ -11,6 +11,24 @@
 
 namespace jourdain::emit {
 
+namespace {
+
+/// "[a][b]" with those of the two that the member's array has; a scalar has none.
+std::string subscripts(const OutputMember& member, int a, int b) {
+  return (member.rows > 1 ? fmt::format("[{}]", a) : "") + (member.is_matrix ? fmt::format("[{}]", b) : "");
+}
+
+}  // namespace
+
+std::vector<std::string> number_names(const OutputDeclaration& output, const OutputMember& member) {
+  const std::string prefix = output.name + (member.name.empty() ? "" : "." + member.name);
+  std::vector<std::string> names;
+  for (int row = 0; row < member.rows; ++row)
+    for (int column = 0; column < member.columns; ++column)
+      names.push_back(prefix + subscripts(member, row, column));
+  return names;
+}
+
 std::string output_struct(const ModelText& model) {
   if (model.outputs.empty()) return "";
   std::string text =
@@ -20,9 +38,7 @@ std::string output_struct(const ModelText& model) {
   for (const OutputDeclaration& output : model.outputs) {
     std::string members;
     for (const OutputMember& member : output.members) {
-      std::string bounds;
-      if (member.rows > 1) bounds += fmt::format("[{}]", member.rows);
-      if (member.is_matrix) bounds += fmt::format("[{}]", member.columns);
+      const std::string bounds = subscripts(member, member.rows, member.columns);
       if (member.name.empty())
         text += fmt::format("  Real {}{};  ///< {}\n", output.name, bounds, comment_text(output.comment));
       else

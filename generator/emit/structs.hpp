@@ -11,6 +11,9 @@ namespace jourdain::emit {
 /// Empty where the model asks for no outputs.
 std::string output_struct(const ModelText& model);
 
+/// How the numbers of a member are called in C++, row by row: "tracer.position[0]", …
+std::vector<std::string> number_names(const OutputDeclaration& output, const OutputMember& member);
+
 /// Members of State that tell how its loops were closed; none without loops.
 std::string guard_members(const ModelText& model);
 

@@ -17,6 +17,7 @@ void check_sources(const std::vector<support::FileText>& files, const Expected& 
   Unit unit;
   parse(unit, {&files[0], &files[1], &files[2]});
   check_structs(unit, expected, findings);
+  check_indices(unit, expected, findings);
   check_scopes(unit, findings);
   NodeTable table;
   check_programs(unit, expected, table, findings);

@@ -247,7 +247,7 @@ void check_names(const Unit& unit, const Expected& expected, Findings& findings)
       {{"input_names", expected.inputs}, {"output_names", outputs}, {"parameter_names", parameters}});
   std::size_t next = 0;
   for (const Constant* constant : unit.constants) {
-    if (constant->scope == "detail") continue;
+    if (!constant->scope.empty()) continue;  // check_indices, check_programs
     const std::string name = unit.symbols.text(constant->declarator.name);
     if (next == wanted.size() || name != wanted[next].first || !constant->is_inline) {
       findings.add("the constant {} does not belong there", name);
@@ -286,8 +286,9 @@ void check_structs(const Unit& unit, const Expected& expected, Findings& finding
   std::map<std::string, Texts> wanted = structs(expected);
   bool has_model = false;
   for (const Struct* found : unit.structs) {
-    if (!found->scope.empty()) continue;
+    if (found->scope == "detail") continue;
     const std::string name = unit.symbols.text(found->name);
+    if (!found->scope.empty()) findings.add("the struct {} does not belong into {}", name, found->scope);
     if (name == "Model") {
       if (std::exchange(has_model, true)) findings.add("Model once more");
       findings.guarded("Model", [&] { check_model(unit, *found, expected, findings); });

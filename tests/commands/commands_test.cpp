@@ -256,14 +256,6 @@ TEST(Check, SaysOkInOneLine) {
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1);
 }
 
-TEST(Info, ShowsTreeOperationsAndOmissions) {
-  const support::ProcessResult result = jourdain({"info", "models/cart_pole.toml"});
-  for (const char* part :
-       {"slide [prismatic (1, 0, 0), y[0]] -> cart", "2 degrees of freedom", "input u[0] push",
-        "parameter pole_mass = 0.1 kg", "forward_dynamics", "left out", "hoist", "assumes: "})
-    expect(result, 0, part);
-}
-
 TEST(Equations, PrintTheSameTextOnEveryRun) {
   const support::ProcessResult first = jourdain({"equations", "models/double_pendulum.toml", "--latex"});
   expect(first, 0, "2 l_{1} l_{2} m_{2} \\cos(y_{1})");

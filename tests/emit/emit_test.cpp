@@ -8,8 +8,10 @@
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
 #include "emit/body.hpp"
+#include "emit/index_constants.hpp"
 #include "emit/layout.hpp"
 #include "emit/names.hpp"
+#include "emit/structs.hpp"
 #include "emit/templates.hpp"
 #include "ir/builder.hpp"
 #include "support/check.hpp"
@@ -28,6 +30,35 @@ TEST(Names, AreIdentifiersThatDiffer) {
   EXPECT_EQ(names.unique("x; system(\"rm\"); //", "t0"), "x_system_rm_");
   EXPECT_EQ(names.unique("__x", "t0"), "v_x");
   EXPECT_EQ(names.unique("3d", "t0"), "v3d");
+}
+
+TEST(IndexConstants, HaveNamesThatDiffer) {
+  ModelText model;
+  EXPECT_EQ(index_constants(model), "");
+  model.positions = {"a.b", "a b", "x"};
+  model.inputs = {"int"};
+  EXPECT_EQ(index_constants(model),
+            "\n// Entries by name: state.y[index::y_a_b], input.u[index::u_int].\n"
+            "namespace index {\n"
+            "inline constexpr int y_a_b = 0;\n"
+            "inline constexpr int y_a_b_2 = 1;\n"
+            "inline constexpr int y_x = 2;\n"
+            "inline constexpr int u_int = 0;\n"
+            "}  // namespace index\n");
+}
+
+TEST(Outputs, HaveNumbersWithTheNamesOfTheirMembers) {
+  ModelText model;
+  model.outputs = {{"a", "", {{"", 1, 1, false}}},
+                   {"b", "", {{"v", 3, 1, false}, {"R", 2, 2, true}, {"row", 1, 2, true}}}};
+  std::vector<std::string> names;
+  for (const OutputDeclaration& output : model.outputs)
+    for (const OutputMember& member : output.members)
+      for (const std::string& name : number_names(output, member)) names.push_back(name);
+  EXPECT_THAT(names, testing::ElementsAre("a", "b.v[0]", "b.v[1]", "b.v[2]", "b.R[0][0]", "b.R[0][1]",
+                                          "b.R[1][0]", "b.R[1][1]", "b.row[0]", "b.row[1]"));
+  for (const char* declared : {"Real a;", "Real v[3];", "Real R[2][2];", "Real row[2];", "} b;"})
+    EXPECT_THAT(output_struct(model), testing::HasSubstr(declared));
 }
 
 TEST(Text, CannotLeaveCommentsOrStrings) {

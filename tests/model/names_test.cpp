@@ -25,6 +25,7 @@ TEST(CppName, MakesANamespaceOfAnyText) {
   EXPECT_EQ(cpp_name("double"), "double_model");
   EXPECT_EQ(cpp_name("sin"), "sin_model");
   EXPECT_EQ(cpp_name("time"), "time_model");
+  EXPECT_EQ(cpp_name("index"), "index_model");  // the namespace of the emitted indices
   EXPECT_EQ(cpp_name(""), "model");
   EXPECT_EQ(cpp_name("\xc3\xa9"), "model");
 }

@@ -238,8 +238,8 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
     return "a product in another order, the same but for rounding";
   if (site.fault == TextFault::kDropLine && line.find("stage.state.z[i] = state.z[i];") != std::string::npos)
     return "stage.state is a copy of state";
-  if (site.fault == TextFault::kIndex && (is_in_line("], sum_z[") || is_in_line("  Real y[")))
-    return "a scratch array is longer";
+  const bool of_number = site.fault == TextFault::kIndex || site.fault == TextFault::kDigit;
+  if (of_number && (is_in_line("], sum_z[") || is_in_line("  Real y["))) return "a scratch array is longer";
   const bool of_coupled = is_in_line("W[i][k] =") || is_in_line("W[i][coupled[q]] =") ||
                           is_in_line("step.r_z[i][k] * c[k]") || is_in_line("first_coupled[k]");
   if (of_coupled && text.find("int coupled[] = {0};") != std::string::npos)

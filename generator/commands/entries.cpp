@@ -1,0 +1,138 @@
+#include "commands/entries.hpp"
+
+#include <map>
+
+#include "emit/structs.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+using model::JointType;
+
+std::vector<double> default_values(const model::Mechanism& mechanism) {
+  std::vector<double> values;
+  for (const model::Parameter& parameter : mechanism.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+/// Entries of the tree's joints, in order; names are those of the layout.
+class TreeEntries {
+ public:
+  explicit TreeEntries(const model::Mechanism& mechanism)
+      : layout_(model::lay_out_coordinates(mechanism)), values_(default_values(mechanism)) {
+    for (const model::JointIndex index : model::depth_first(mechanism)) {
+      const model::Joint& joint = mechanism.joints[index.value];
+      joint_ = index;
+      for (std::size_t k = 0; k < joint.coordinates.size(); ++k)
+        if (!joint.coordinates[k].motion) scalar(joint.coordinates[k], k);
+      if (joint.type == JointType::kFree) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          position("m", joint.initial_origin[k]);
+          velocity("m/s", joint.initial_origin_velocity[k]);
+        }
+      }
+      if (joint.type == JointType::kFree || joint.type == JointType::kSpherical) turning(joint);
+    }
+    inputs(mechanism);
+  }
+
+  Entries entries;
+
+ private:
+  double value(const model::Expression& expression) const {
+    return expression.evaluate(std::span<const double>(values_));
+  }
+
+  void scalar(const model::Coordinate& coordinate, std::size_t k) {
+    position(position_unit(coordinate), coordinate.initial_position).coordinate = k;
+    velocity(velocity_unit(coordinate), coordinate.initial_velocity).coordinate = k;
+  }
+
+  void turning(const model::Joint& joint) {
+    for (const model::Expression& component : joint.initial_orientation) position("1", component);
+    for (const model::Expression& spin : joint.initial_spin) velocity("rad/s", spin);
+  }
+
+  Entry& position(const char* unit, const model::Expression& initial) {
+    const std::string& name = layout_.position_names[entries.positions.size()];
+    return entries.positions.emplace_back(Entry{name, unit, joint_, {}, value(initial)});
+  }
+
+  Entry& velocity(const char* unit, const model::Expression& initial) {
+    const std::string& name = layout_.velocity_names[entries.velocities.size()];
+    return entries.velocities.emplace_back(Entry{name, unit, joint_, {}, value(initial)});
+  }
+
+  void inputs(const model::Mechanism& mechanism) {
+    for (const model::Actuator& actuator : mechanism.actuators) {
+      const model::Joint& joint = mechanism.joints[actuator.joint.value];
+      entries.inputs.push_back({actuator.name, force_unit(joint.coordinates[actuator.coordinate]),
+                                actuator.joint, actuator.coordinate});
+    }
+    for (const model::Input& input : mechanism.inputs) entries.inputs.push_back({input.name, input.unit});
+  }
+
+  model::CoordinateLayout layout_;
+  std::vector<double> values_;
+  model::JointIndex joint_;
+};
+
+/// Unit of a member of an output.
+std::string output_unit(const model::Mechanism& mechanism, const model::Output& output,
+                        const std::string& member) {
+  static const std::map<std::string, std::string> members = {
+      {"position", "m"},  {"rotation", "1"},        {"v", "m/s"},     {"omega", "rad/s"},
+      {"a", "m/s^2"},     {"omega_dot", "rad/s^2"}, {"v_bar", "m/s"}, {"omega_bar", "rad/s"},
+      {"a_bar", "m/s^2"}, {"zeta_bar", "rad/s^2"},  {"force", "N"},   {"moment", "N m"}};
+  switch (output.kind) {
+    case model::OutputKind::kKineticEnergy:
+    case model::OutputKind::kPotentialEnergy:
+      return "J";
+    case model::OutputKind::kDrive:
+      return force_unit(mechanism.joints[output.joint.value].coordinates[output.coordinate]);
+    case model::OutputKind::kPose:
+    case model::OutputKind::kVelocity:
+    case model::OutputKind::kAcceleration:
+    case model::OutputKind::kJacobian:
+    case model::OutputKind::kReaction:
+    case model::OutputKind::kExpression:
+      break;
+  }
+  const auto found = members.find(member);
+  return found == members.end() ? "" : found->second;
+}
+
+}  // namespace
+
+Entries entries_of(const LoadedMechanism& loaded) {
+  Entries entries = TreeEntries(loaded.mechanism).entries;
+  const loops::LoopPlan* plan = loaded.plan();
+  if (!plan) return entries;
+  for (std::size_t i = 0; i < entries.positions.size(); ++i) entries.positions[i].initial = plan->y[i];
+  for (std::size_t i = 0; i < entries.velocities.size(); ++i) entries.velocities[i].initial = plan->z[i];
+  if (!plan->is_reduced()) return entries;
+  const std::vector<Entry> all = std::move(entries.velocities);
+  entries.velocities.clear();
+  for (const std::size_t k : plan->independent) entries.velocities.push_back(all[k]);
+  return entries;
+}
+
+const char* position_unit(const model::Coordinate& coordinate) { return coordinate.angular ? "rad" : "m"; }
+const char* velocity_unit(const model::Coordinate& coordinate) {
+  return coordinate.angular ? "rad/s" : "m/s";
+}
+const char* force_unit(const model::Coordinate& coordinate) { return coordinate.angular ? "N m" : "N"; }
+
+std::vector<OutputNumber> output_numbers(const model::Mechanism& mechanism,
+                                         const std::vector<emit::OutputDeclaration>& declared) {
+  std::vector<OutputNumber> numbers;
+  for (std::size_t k = 0; k < declared.size(); ++k)
+    for (const emit::OutputMember& member : declared[k].members)
+      for (const std::string& name : emit::number_names(declared[k], member))
+        numbers.push_back(
+            {name, declared[k].name, output_unit(mechanism, mechanism.outputs[k], member.name)});
+  return numbers;
+}
+
+}  // namespace jourdain::commands
