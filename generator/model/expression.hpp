@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/dimensions.hpp"
 #include "support/check.hpp"
 #include "support/index.hpp"
 
@@ -125,17 +126,28 @@ inline constexpr std::size_t kMaximumExpressionSize = 5000;  ///< written out, s
 struct ScopeEntry {
   std::string name;
   Variable variable;
+  Measure measure;
   std::string_view refusal = {};  ///< why it may not be used here, a hint; empty: it may
 };
 using Scope = std::vector<ScopeEntry>;
 
+struct DeclaredParameter {
+  std::string name;
+  Measure measure;
+};
+
+struct MeasuredExpression {
+  Expression expression;
+  Measure measure;
+};
+
 /// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), sqrt, sin, cos, tan and the given names. `^` binds
 /// tighter than unary minus and takes integer exponents (or 0.5) only. Text over kMaximumExpressionLength or nested
 /// deeper than kMaximumExpressionDepth, or with more than kMaximumExpressionSize operations where tangents, sin(x)/cos(x) each, are
-/// written out, unknown names (with "did you mean"), NaN or infinity are errors.
-std::variant<Expression, ExpressionError> parse_expression(std::string_view text,
-                                                           const std::vector<std::string>& parameter_names,
-                                                           const Scope& scope = {});
+/// written out, unknown names (with "did you mean"), NaN or infinity are errors, and so are sums and functions of
+/// what has the wrong dimensions (see dimensions.hpp).
+std::variant<MeasuredExpression, ExpressionError> parse_expression(
+    std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope = {});
 
 template <class T, class Literal, class VariableValue>
 T Expression::evaluate(std::span<const T> parameters, Literal&& literal, VariableValue&& variable) const {

@@ -23,7 +23,7 @@ class BodyReader {
     Body body;
     body.name = table_.required_text("name").value_or("");
     body.where = table_.where("name");
-    body.center_of_mass = table_.vector("center_of_mass");
+    body.center_of_mass = table_.vector("center_of_mass", needed::kLength);
     body.inertia_axes = table_.rotation("inertia_rpy");
     body.lumped = table_.choice("inertia_kind", {"rigid", "lumped"}) == 1;
     if (table_.choice("inertia_at", {"center_of_mass", "origin"}) == 1)
@@ -40,20 +40,21 @@ class BodyReader {
     read_mass(body, "mass = 0 makes it massless");
     if (!table_.has("inertia")) return;
     body.inertia_where = table_.where("inertia");
-    if (const toml::table* entries = table_.find("inertia")->as_table()) {
+    const toml::table* entries = table_.find("inertia")->as_table();
+    if (entries && !entries->contains("value")) {
       const TomlTable inertia(file_, *entries, "inertia of " + table_.what(), body.inertia_where,
                               {"xx", "yy", "zz", "xy", "xz", "yz"});
-      body.inertia = {inertia.number("xx"), inertia.number("yy"), inertia.number("zz"),
-                      inertia.number("xy"), inertia.number("xz"), inertia.number("yz")};
+      const auto entry = [&](const char* key) { return inertia.number(key, needed::kInertia); };
+      body.inertia = {entry("xx"), entry("yy"), entry("zz"), entry("xy"), entry("xz"), entry("yz")};
     } else {
-      const Vector3 moments = table_.vector("inertia");
+      const Vector3 moments = table_.vector("inertia", needed::kInertia);
       body.inertia = {moments[0], moments[1], moments[2], 0.0, 0.0, 0.0};
     }
   }
 
   void read_mass(Body& body, const std::string& hint) {
     body.mass_where = table_.where("mass");
-    body.mass = table_.number("mass");
+    body.mass = table_.number("mass", needed::kMass);
     if (table_.has("mass")) return;
     table_.missing("mass", hint);
     file_.complete().numbers = false;
@@ -78,7 +79,8 @@ class BodyReader {
     if (table.has("density") && *kind != Shape::Kind::kRod) {
       if (table_.has("mass"))
         table_.error("mass", table_.what() + " has a mass and a density", "leave one of them out");
-      body.mass = Expression::binary(Expression::Op::kMultiply, table.positive("density"), volume(shape));
+      body.mass = Expression::binary(Expression::Op::kMultiply, table.positive("density", needed::kDensity),
+                                     volume(shape));
       body.mass_where = table.where("density");
     } else {
       read_mass(body, *kind == Shape::Kind::kRod ? "" : "or a density in its shape");
@@ -123,14 +125,14 @@ class BodyReader {
     const bool round = kind == Shape::Kind::kCylinder || kind == Shape::Kind::kSphere;
     const bool long_one = kind == Shape::Kind::kCylinder || kind == Shape::Kind::kRod;
     if (kind == Shape::Kind::kBox) shape.size = read_size(table);
-    if (round) shape.radius = table.positive("radius");
-    if (long_one) shape.length = table.positive("length");
+    if (round) shape.radius = table.positive("radius", needed::kLength);
+    if (long_one) shape.length = table.positive("length", needed::kLength);
     if (long_one && table.has("axis")) shape.axis = table.choice("axis", {"x", "y", "z"}).value_or(2);
     return shape;
   }
 
   Vector3 read_size(const TomlTable& table) {
-    Vector3 size = table.vector("size", {1.0, 1.0, 1.0});
+    Vector3 size = table.vector("size", needed::kLength, {1.0, 1.0, 1.0});
     if (!table.has("size")) {
       table.missing("size");
       file_.complete().numbers = false;

@@ -18,6 +18,8 @@ std::string syntax_message(std::string_view description) {
   return fmt::format("TOML syntax, {}", description);
 }
 
+constexpr const char* kCountHint = "a number that has a unit is written with a point, 2.0, or as a parameter";
+
 }  // namespace
 
 std::optional<toml::table> parse_toml(support::Diagnostics& diagnostics) {
@@ -37,10 +39,10 @@ std::optional<toml::table> parse_toml(support::Diagnostics& diagnostics) {
 }
 
 void TomlFile::declare(const std::vector<Parameter>& parameters) {
-  names_.clear();
+  parameters_.clear();
   values_.clear();
   for (const Parameter& parameter : parameters) {
-    names_.push_back(parameter.name);
+    parameters_.push_back({parameter.name, Measure::parameter(parameter.unit)});
     values_.push_back(parameter.value);
   }
 }
@@ -66,17 +68,28 @@ Expression TomlFile::number_error(SourceRange where, std::string message, std::s
   return 0.0;
 }
 
-Expression TomlFile::expression(const toml::node& node, const std::string& what, const Scope& scope) {
+Expression TomlFile::expression(const toml::node& node, const Place& place, const Scope& scope) {
   const SourceRange where = range(node.source());
-  if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+  if (const auto* integer = node.as_integer()) return bare(static_cast<double>(integer->get()), place);
   if (const auto* number = node.as_floating_point()) {
-    if (!std::isfinite(number->get())) return number_error(where, fmt::format("{} is not finite", what));
+    if (!std::isfinite(number->get()))
+      return number_error(where, fmt::format("{} is not finite", place.what));
     if (is_underflow(node)) return number_error(where, "the number is out of the range of double precision");
-    return number->get();
+    return bare(number->get(), place);
   }
-  if (const auto* text = node.as_string()) return parsed(*text, scope);
-  return number_error(where,
-                      fmt::format("{} must be a number or an expression, not {}", what, type_in_words(node)));
+  if (const auto* text = node.as_string()) {
+    const std::optional<Quantity> with_unit = quantity(*text, place.needed, scope);
+    return with_unit ? converted(*with_unit, *text, place) : parsed(*text, place, scope);
+  }
+  const toml::table* table = node.as_table();
+  if (table && (table->contains("value") || table->contains("unit")))
+    return value_and_unit(*table, place, scope);
+  return number_error(
+      where, fmt::format("{} must be a number or an expression, not {}", place.what, type_in_words(node)));
+}
+
+Expression TomlFile::bare(double number, const Place& place) {
+  return place.unit ? in_si(number, *place.unit) : number;
 }
 
 /// toml++ reads 1e-400 as zero.
@@ -91,18 +104,21 @@ bool TomlFile::is_underflow(const toml::node& node) const {
   return written.substr(0, written.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos;
 }
 
-Expression TomlFile::parsed(const toml::value<std::string>& text, const Scope& scope) {
-  const auto result = parse_expression(text.get(), names_, scope);
+Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& place, const Scope& scope) {
+  const auto result = parse_expression(text.get(), parameters_, scope);
   if (const auto* wrong = std::get_if<ExpressionError>(&result))
     return number_error(inside(text, wrong->offset, wrong->length), wrong->message, wrong->hint);
-  const auto& expression = std::get<Expression>(result);
-  if (!expression.has_no_variable()) return expression;
-  const double at_defaults = value(expression);
+  const auto& [expression, measure] = std::get<MeasuredExpression>(result);
+  if (!measure.fits(place.needed))
+    return misfit(text, measure, place, measure.has_counts() ? kCountHint : "");
+  const Expression in_si_units = in_unit(expression, measure, range(text.source()), place);
+  if (!expression.has_no_variable()) return in_si_units;
+  const double at_defaults = value(in_si_units);
   if (!std::isfinite(at_defaults))
     return number_error(range(text.source()),
                         fmt::format("the value is {} at the parameters' default values",
                                     std::isnan(at_defaults) ? "not a number" : "infinite"));
-  return expression;
+  return in_si_units;
 }
 
 /// A part of an expression or a unit, or all of it where the string is written with escapes.
@@ -125,11 +141,11 @@ std::optional<Unit> TomlFile::unit(const toml::value<std::string>& text, std::si
   return {};
 }
 
-double TomlFile::constant(const toml::node& node, const std::string& what) {
-  const Expression result = expression(node, what);
+double TomlFile::constant(const toml::node& node, const Place& place) {
+  const Expression result = expression(node, place);
   if (result.is_constant()) return result.constant();
   number_error(range(node.source()),
-               fmt::format("{} must be constant, it cannot depend on parameters", what));
+               fmt::format("{} must be constant, it cannot depend on parameters", place.what));
   return 0;
 }
 

@@ -11,9 +11,14 @@ namespace {
 
 using support::shown;
 
-const Scope kLengthScope = {{"length", {.kind = Variable::Kind::kArgument}}};
-const Scope kLawScope = {{"length", {.kind = Variable::Kind::kArgument}},
-                         {"rate", {.kind = Variable::Kind::kArgument, .component = 1}}};
+/// Of a spring's length, and of its rate too where that is asked for.
+Scope spring_scope(bool with_rate) {
+  Scope scope = {{"length", {.kind = Variable::Kind::kArgument}, Measure::variable(needed::kLength)}};
+  if (with_rate)
+    scope.push_back(
+        {"rate", {.kind = Variable::Kind::kArgument, .component = 1}, Measure::variable(needed::kSpeed)});
+  return scope;
+}
 
 void read_load(TomlFile& file, const TomlTable& table, const std::string& name, const Scope& scope,
                Mechanism& mechanism) {
@@ -24,8 +29,8 @@ void read_load(TomlFile& file, const TomlTable& table, const std::string& name, 
   load.name = name;
   load.where = table.where("frame");
   load.axes = static_cast<LoadAxes>(table.choice("axes", {"frame", "world"}).value_or(0));
-  load.force = table.functions("force", scope);
-  load.moment = table.functions("moment", scope);
+  load.force = table.functions("force", needed::kForce, scope);
+  load.moment = table.functions("moment", needed::kMoment, scope);
   if (!frame) return;
   if (!mechanism.frames[frame->value].body)
     table.error("frame", fmt::format("{} acts on the world, which cannot move", table.what()));
@@ -47,12 +52,13 @@ void read_coordinate_force(TomlFile& file, const TomlTable& table, const std::st
   const std::optional<std::string> joint_name = table.required_text("joint");
   const auto joint = find_named(file, table.where("joint"), table.what() + " names", "joint", *joint_name,
                                 mechanism.joints, file.complete().structure);
+  const auto coordinate = joint ? find_coordinate(table, mechanism.joints[*joint]) : std::nullopt;
+  const Needed needed =
+      coordinate ? coordinate_needs(mechanism.joints[*joint], *coordinate).force : needed::kAnything;
   CoordinateForce force;
   force.name = name;
   force.where = table.where("joint");
-  force.force = settled(table.function("value", scope), mechanism);
-  if (!joint) return;
-  const auto coordinate = find_coordinate(table, mechanism.joints[*joint]);
+  force.force = settled(table.function("value", needed, scope), mechanism);
   if (!coordinate) return;
   force.joint = JointIndex(*joint);
   force.coordinate = *coordinate;
@@ -95,11 +101,12 @@ void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechani
     const auto from = find_frame(file, table, "from", mechanism),
                to = find_frame(file, table, "to", mechanism);
     spring.where = table.where("from");
-    spring.stiffness = table.number("stiffness");
-    spring.damping = table.number("damping");
-    spring.free_length = table.number("free_length");
-    spring.law = table.function("law", kLawScope);
-    if (table.has("potential")) spring.potential = table.function("potential", kLengthScope);
+    spring.stiffness = table.number("stiffness", needed::kStiffness);
+    spring.damping = table.number("damping", needed::kDamping);
+    spring.free_length = table.number("free_length", needed::kLength);
+    spring.law = table.function("law", needed::kForce, spring_scope(true));
+    if (table.has("potential"))
+      spring.potential = table.function("potential", needed::kEnergy, spring_scope(false));
     if (!from || !to) continue;
     spring.from = *from;
     spring.to = *to;

@@ -30,9 +30,12 @@ void add_frame(Scope& scope, const std::string& name, std::size_t index) {
   using Kind = Variable::Kind;
   constexpr const char* kAxes[] = {"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
-    scope.push_back({fmt::format("{}.{}", name, kAxes[k]), {Kind::kFramePosition, index, k}});
-    scope.push_back({fmt::format("{}.v{}", name, kAxes[k]), {Kind::kFrameVelocity, index, k}});
-    scope.push_back({fmt::format("{}.w{}", name, kAxes[k]), {Kind::kFrameSpin, index, k}});
+    const auto add = [&](const char* letter, Kind kind, const Measure& measure) {
+      scope.push_back({fmt::format("{}.{}{}", name, letter, kAxes[k]), {kind, index, k}, measure});
+    };
+    add("", Kind::kFramePosition, Measure::variable(needed::kLength));
+    add("v", Kind::kFrameVelocity, Measure::variable(needed::kSpeed));
+    add("w", Kind::kFrameSpin, Measure::variable(needed::kAngularRate));
   }
 }
 
@@ -64,23 +67,36 @@ std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std
 
 Scope general_scope(const Mechanism& mechanism) {
   using Kind = Variable::Kind;
-  Scope scope = {{"t", {.kind = Kind::kTime}}};
+  Scope scope = time_scope();
   // An actuator is called like its coordinate unless it has a name of its own: the coordinate comes first and wins.
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
     for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c) {
       const std::string& name = mechanism.joints[j].coordinates[c].name;
-      scope.push_back({name, {Kind::kPosition, j, c}});
-      scope.push_back({name + ".rate", {Kind::kVelocity, j, c}});
+      const CoordinateNeeds needs = coordinate_needs(mechanism.joints[j], c);
+      scope.push_back({name, {Kind::kPosition, j, c}, Measure::variable(needs.position)});
+      scope.push_back({name + ".rate", {Kind::kVelocity, j, c}, Measure::variable(needs.rate)});
     }
   std::size_t input = 0;
   for (const Actuator& actuator : mechanism.actuators)
-    scope.push_back({actuator.name, {Kind::kInput, input++, 0}});
-  for (const Input& own : mechanism.inputs) scope.push_back({own.name, {Kind::kInput, input++, 0}});
+    scope.push_back(
+        {actuator.name, {Kind::kInput, input++, 0}, Measure::variable(input_needs(mechanism, actuator))});
+  for (const Input& own : mechanism.inputs)
+    scope.push_back({own.name, {Kind::kInput, input++, 0}, Measure::variable(input_needs(own))});
   for (std::size_t i = 0; i < mechanism.frames.size(); ++i) add_frame(scope, mechanism.frames[i].name, i);
   for (std::size_t i = 0; i < mechanism.bodies.size(); ++i)
     add_frame(scope, mechanism.bodies[i].name, kBodies + i);
   return scope;
 }
+
+Needed input_needs(const Mechanism& mechanism, const Actuator& actuator) {
+  const bool direct = actuator.gear_ratio.is_constant() && actuator.gear_ratio.constant() == 1;
+  const Joint& joint = mechanism.joints[actuator.joint.value];
+  return direct && actuator.coordinate < joint.coordinates.size()
+             ? coordinate_needs(joint, actuator.coordinate).force
+             : needed::kAnything;
+}
+
+Needed input_needs(const Input& input) { return {{input.unit}}; }
 
 Expression settled(const Expression& expression, Mechanism& mechanism) {
   return expression.substituted([&](const Variable& variable) {
@@ -101,7 +117,7 @@ std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const
     Frame frame;
     frame.name = *name;
     frame.where = table.where("name");
-    frame.placement = {table.vector("position"), table.rotation("rpy")};
+    frame.placement = {table.vector("position", needed::kLength), table.rotation("rpy")};
     check_identifier(file, frame.where, "frame", frame.name);
     const bool taken = frame.name == "world" || std::any_of(bodies.begin(), bodies.end(), [&](const Body& b) {
                          return b.name == frame.name;

@@ -15,6 +15,11 @@ std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std
 /// t, inputs, coordinates and their rates, frames and bodies with position, velocity and angular velocity.
 Scope general_scope(const Mechanism& mechanism);
 
+/// The unit of an input; of an actuator's, anything where there is a gear, which may turn one kind of motion into
+/// the other.
+Needed input_needs(const Mechanism& mechanism, const Actuator& actuator);
+Needed input_needs(const Input& input);
+
 /// An expression of general_scope as it stands in the mechanism: bodies that it names become frames.
 Expression settled(const Expression& expression, Mechanism& mechanism);
 

@@ -18,7 +18,6 @@ using support::shown;
 const std::vector<std::string> kTypes{"fixed",     "revolute", "prismatic", "screw", "cylindrical",
                                       "universal", "planar",   "spherical", "free",  "curve"};
 const std::vector<std::string> kCommonKeys{"name", "type", "parent", "child", "position", "rpy"};
-const Scope kCurveScope = {{"s", {.kind = Variable::Kind::kArgument}}};
 
 /// Keys that a joint of this type has beside the common ones.
 std::vector<std::string> keys_of(JointType type) {
@@ -97,7 +96,7 @@ class JointReader {
     }
     sound = read_type(joint) && sound;
     sound = read_ends(joint) && sound;
-    joint.placement = {table_.vector("position"), table_.rotation("rpy")};
+    joint.placement = {table_.vector("position", needed::kLength), table_.rotation("rpy")};
     read_motion(joint);
     if (!sound) file_.complete().structure = false;
     return joint;
@@ -141,25 +140,27 @@ class JointReader {
 
   void read_motion(Joint& joint) {
     refuse_foreign_keys(joint);
-    joint.axis = table_.constant_vector("axis", joint.axis);
+    joint.axis = table_.direction("axis", joint.axis);
     joint.axis_where = table_.where("axis");
-    joint.second_axis = table_.constant_vector("second_axis", joint.second_axis);
-    if (joint.coordinates.size() == 1) read_coordinate(file_, table_, joint.coordinates[0]);
+    joint.second_axis = table_.direction("second_axis", joint.second_axis);
+    if (joint.coordinates.size() == 1)
+      read_coordinate(file_, table_, coordinate_needs(joint, 0), joint.coordinates[0]);
     if (joint.coordinates.size() > 1) read_coordinate_tables(joint);
     if (joint.type == JointType::kScrew) {
       if (!table_.has("pitch")) table_.missing("pitch", "m/rad");
-      joint.pitch = table_.number("pitch");
+      joint.pitch = table_.number("pitch", needed::kPitch);
     }
     if (joint.type == JointType::kCurve) read_curve(joint);
-    if (joint.type == JointType::kSpherical) joint.spin_damping = table_.number("damping");
+    if (joint.type == JointType::kSpherical)
+      joint.spin_damping = table_.number("damping", needed::kAngularDamping);
     if (joint.type != JointType::kSpherical && joint.type != JointType::kFree) return;
     joint.initial_orientation = table_.quaternion("initial_orientation");
-    joint.initial_spin = table_.vector("initial_angular_velocity");
+    joint.initial_spin = table_.vector("initial_angular_velocity", needed::kAngularRate);
     joint.orientation_where = table_.where_given("initial_orientation");
     joint.spin_where = table_.where_given("initial_angular_velocity");
     if (joint.type == JointType::kSpherical) return;
-    joint.initial_origin = table_.vector("initial_position");
-    joint.initial_origin_velocity = table_.vector("initial_velocity");
+    joint.initial_origin = table_.vector("initial_position", needed::kLength);
+    joint.initial_origin_velocity = table_.vector("initial_velocity", needed::kSpeed);
     joint.origin_where = table_.where_given("initial_position");
     joint.origin_velocity_where = table_.where_given("initial_velocity");
   }
@@ -183,7 +184,7 @@ class JointReader {
       if (!section) continue;
       const TomlTable table(file_, *section, fmt::format("'{}' of {}", kinds[c].suffix, table_.what()),
                             table_.where(kinds[c].suffix), coordinate_keys());
-      read_coordinate(file_, table, joint.coordinates[c]);
+      read_coordinate(file_, table, coordinate_needs(joint, c), joint.coordinates[c]);
     }
   }
 
@@ -191,7 +192,9 @@ class JointReader {
   void read_curve(Joint& joint) {
     if (!table_.has("curve")) table_.missing("curve", "three expressions of s, m");
     const std::size_t mark = file_.error_count();
-    joint.curve = table_.functions("curve", kCurveScope);
+    // The coordinate may be an angle, a length or neither.
+    const Scope scope = {{"s", {.kind = Variable::Kind::kArgument}, Measure::open()}};
+    joint.curve = table_.functions("curve", needed::kLength, scope);
     if (file_.error_count() != mark || !table_.has("curve")) return;
     std::vector<Taylor<double>> parameters;
     for (const double value : file_.values()) parameters.push_back({value, 0, 0});
@@ -272,8 +275,8 @@ std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
     actuator.coordinate = coordinate.value_or(0);
     actuator.name = coordinate ? joints[*joint].coordinates[*coordinate].name : *joint_name;
     if (const auto name = table.text("name")) actuator.name = *name;
-    actuator.gear_ratio = table.number("gear_ratio", 1.0);
-    actuator.rotor_inertia = table.number("rotor_inertia");
+    actuator.gear_ratio = table.number("gear_ratio", needed::kGearRatio, 1.0);
+    actuator.rotor_inertia = table.number("rotor_inertia", needed::kRotorInertia);
     actuator.where = table.where(table.has("name") ? "name" : "joint");
     if (table.has("rotor_inertia") && file.value(actuator.rotor_inertia) < 0)
       table.error("rotor_inertia", fmt::format("{} is negative", table.quoted("rotor_inertia")));

@@ -139,7 +139,7 @@ class LoopReader {
   }
 
   std::array<double, 3> axis(std::string_view key, const std::array<double, 3>& otherwise) {
-    const std::array<double, 3> result = table_.constant_vector(key, otherwise);
+    const std::array<double, 3> result = table_.direction(key, otherwise);
     const double length = std::hypot(result[0], result[1], result[2]);
     if (length == 0)
       table_.error(key, fmt::format("{} is zero", table_.quoted(key)),
@@ -153,7 +153,7 @@ class LoopReader {
     if (!table_.has("length"))
       return table_.missing("length", "m; an expression of t and parameters, or a number");
     const std::size_t mark = file_.error_count();
-    loop.length = read_time_function(file_, table_, "length", length_scope(mechanism));
+    loop.length = read_time_function(file_, table_, "length", needed::kLength, length_scope(mechanism));
     if (file_.error_count() != mark) return;
     const double start = loop.length.evaluate<double>(
         file_.values(), [](double v) { return v; }, [](const Variable&) { return 0.0; });
@@ -166,7 +166,8 @@ class LoopReader {
   void read_residual(Loop& loop, Mechanism& mechanism) {
     if (!table_.has("residual"))
       return table_.missing("residual", "an expression of t, coordinates and positions of frames");
-    loop.residual = settled(table_.function("residual", residual_scope(mechanism)), mechanism);
+    loop.residual =
+        settled(table_.function("residual", needed::kAnything, residual_scope(mechanism)), mechanism);
   }
 
   TomlFile& file_;
@@ -285,7 +286,8 @@ class OptionsReader {
 
   void read_stabilisation() {
     const std::size_t mark = file_.error_count();
-    const double rate = file_.constant(*table_.find("stabilisation"), table_.quoted("stabilisation"));
+    const double rate =
+        file_.constant(*table_.find("stabilisation"), {table_.quoted("stabilisation"), needed::kPerTime});
     if (file_.error_count() != mark) return;
     if (rate < 0)
       table_.error("stabilisation", fmt::format("{} is negative", table_.quoted("stabilisation")));

@@ -71,7 +71,7 @@ bool read_content(TomlFile& file, const TomlTable& table, Output& output, const 
     return frame.has_value();
   }
   if (!table.has("value")) table.missing("value", "an expression");
-  output.value = settled(table.function("value", scope), mechanism);
+  output.value = settled(table.function("value", needed::kAnything, scope), mechanism);
   return true;
 }
 

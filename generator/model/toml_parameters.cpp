@@ -29,20 +29,20 @@ void check_parameter_name(TomlFile& file, const Parameter& parameter) {
                "C++ reserves such names");
 }
 
-/// A number, an expression, or a number with its unit: "120 rpm". In SI units, as the parameter's unit then is.
-void read_number(TomlFile& file, const toml::node& node, const std::string& what, Parameter& parameter) {
+/// A number or an expression in the place's unit, or a number with its own: "120 rpm". In SI units, as the
+/// parameter's unit then is.
+void read_number(TomlFile& file, const toml::node& node, const Place& place, Parameter& parameter) {
   const auto* text = node.as_string();
-  const auto quantity = text ? split_quantity(text->get()) : std::nullopt;
+  const std::optional<Quantity> quantity = text ? file.quantity(*text, place.needed) : std::nullopt;
   if (!quantity) {
-    parameter.value = file.constant(node, what);
+    parameter.value = file.constant(node, place);
     return;
   }
-  const std::optional<Unit> unit = file.unit(*text, text->get().size() - quantity->second.size());
-  if (!unit) return;
+  if (!quantity->unit) return;
   if (!parameter.unit.empty())
-    file.error(file.range(node.source()), fmt::format("{} has two units", what), "one says it");
-  parameter.value = in_si(quantity->first, *unit);
-  parameter.unit = unit->si;
+    file.error(file.range(node.source()), fmt::format("{} has two units", place.what), "one says it");
+  parameter.value = in_si(quantity->value, *quantity->unit);
+  parameter.unit = quantity->unit->si;
 }
 
 void check_finite(TomlFile& file, const toml::node& node, const std::string& what,
@@ -53,9 +53,9 @@ void check_finite(TomlFile& file, const toml::node& node, const std::string& wha
 
 /// The default value must lie in the range, which has the same unit.
 void read_range(const TomlTable& table, const Unit& unit, Parameter& parameter) {
-  const std::optional<std::array<double, 2>> range = table.constant_pair("range");
+  const std::optional<std::array<double, 2>> range = table.constant_pair("range", {{parameter.unit}}, unit);
   if (!range || !table.has("value")) return;
-  const double least = in_si((*range)[0], unit), greatest = in_si((*range)[1], unit);
+  const auto [least, greatest] = *range;
   if (!(least < greatest))
     table.error("range",
                 fmt::format("{} is empty: {} is not below {}", table.quoted("range"), least, greatest),
@@ -71,7 +71,7 @@ void read_value(TomlFile& file, const toml::node& node, Parameter& parameter) {
   const std::string what = fmt::format("parameter '{}'", support::shown(parameter.name));
   const toml::table* details = node.as_table();
   if (!details) {
-    read_number(file, node, what, parameter);
+    read_number(file, node, {what, needed::kAnything}, parameter);
     check_finite(file, node, what, parameter);
     return;
   }
@@ -81,11 +81,10 @@ void read_value(TomlFile& file, const toml::node& node, Parameter& parameter) {
   if (table.has("unit") && unit) parameter.unit = *table.text("unit");
   parameter.description = table.text("description").value_or("");
   if (const toml::node* value = table.find("value"))
-    read_number(file, *value, what, parameter);
+    read_number(file, *value, {what, needed::kAnything, unit}, parameter);
   else
     table.missing("value");
   if (!unit) return;
-  parameter.value = in_si(parameter.value, *unit);
   if (unit->factor != 1) parameter.unit = unit->si;
   check_finite(file, node, what, parameter);
   read_range(table, *unit, parameter);

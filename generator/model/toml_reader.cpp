@@ -1,5 +1,8 @@
 // The TOML model file. Wherever a number stands, a string with an expression over parameters may stand
-// ("m/3*l^2", "30*deg"; see parse_expression), but for axes and parameter values, which are constant.
+// ("m/3*l^2", "30*deg"; see parse_expression), but for axes and parameter values, which are constant. So may a
+// number with its unit ("30 deg", "2.5 N*m/rad", "100mm"), or both apart: { value = 100, unit = "mm" },
+// { value = [1, 2, 3], unit = "mm" }. A bare number is in the unit below. Each must have the dimension of its place,
+// expressions where a parameter with a unit stands in them (see dimensions.hpp).
 //
 //   [model]
 //   name = "pendulum"              # required, up to 100 printable characters
@@ -168,7 +171,7 @@ class TomlReader {
     check_model_name(table, mechanism.name);
     mechanism.description = table.text("description").value_or("");
     mechanism.source = table.text("source").value_or("");
-    mechanism.gravity = table.vector("gravity", mechanism.gravity);
+    mechanism.gravity = table.vector("gravity", needed::kAcceleration, mechanism.gravity);
   }
 
   static void check_model_name(const TomlTable& table, const std::string& name) {

@@ -2,19 +2,39 @@
 #include <fmt/format.h>
 
 #include "model/scenario.hpp"
+#include "model/toml_frame.hpp"
+#include "model/toml_sections.hpp"
 #include "model/toml_table.hpp"
 
 namespace jourdain::model {
 
 namespace {
 
-const Scope kTimeScope = {{"t", {.kind = Variable::Kind::kTime}}};
-
-/// One expression per name; zero where it is left out.
-std::vector<Expression> expressions(const TomlTable& table, const std::vector<std::string>& names) {
+/// One expression of t per name; zero where it is left out. `needs`: by name.
+std::vector<Expression> expressions(const TomlTable& table, const std::vector<std::string>& names,
+                                    const std::vector<Needed>& needs) {
   std::vector<Expression> result;
-  for (const std::string& name : names) result.push_back(table.function(name, kTimeScope));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    result.push_back(table.function(names[i], needs[i], time_scope()));
   return result;
+}
+
+/// In the order of CoordinateLayout's inputs.
+std::vector<Needed> needs_of_inputs(const Mechanism& mechanism) {
+  std::vector<Needed> needs;
+  for (const Actuator& actuator : mechanism.actuators) needs.push_back(input_needs(mechanism, actuator));
+  for (const Input& input : mechanism.inputs) needs.push_back(input_needs(input));
+  return needs;
+}
+
+/// In the order of the positions of a mechanism without quaternions.
+std::vector<Needed> needs_of_positions(const Mechanism& mechanism, const CoordinateLayout& layout) {
+  std::vector<Needed> needs(layout.position_count());
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
+      if (const auto entry = layout.joints[j].position[c])
+        needs[*entry] = coordinate_needs(mechanism.joints[j], c).position;
+  return needs;
 }
 
 bool is_actuated(const Mechanism& mechanism, const CoordinateLayout& layout, std::size_t entry) {
@@ -41,7 +61,7 @@ std::vector<Expression> read_follow(const TomlTable& table, const Mechanism& mec
       table.error(name, fmt::format("coordinate '{}' has no actuator", name),
                   "inverse dynamics needs one for each");
   }
-  return expressions(table, layout.position_names);
+  return expressions(table, layout.position_names, needs_of_positions(mechanism, layout));
 }
 
 Scenario read_root(TomlFile& file, const toml::table& root, const Mechanism& mechanism) {
@@ -54,7 +74,7 @@ Scenario read_root(TomlFile& file, const toml::table& root, const Mechanism& mec
   }
   if (const toml::table* section = top.has("input") ? top.table("input") : nullptr) {
     const TomlTable table(file, *section, "[input]", top.where("input"), layout.input_names);
-    scenario.inputs = expressions(table, layout.input_names);
+    scenario.inputs = expressions(table, layout.input_names, needs_of_inputs(mechanism));
   }
   if (const toml::table* section = top.has("follow") ? top.table("follow") : nullptr) {
     const TomlTable table(file, *section, "[follow]", top.where("follow"), layout.position_names);

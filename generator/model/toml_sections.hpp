@@ -26,14 +26,23 @@ std::vector<Joint> read_joints(TomlFile& file, const toml::array& section, const
 std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
                                      const std::vector<Joint>& joints);
 
+/// Units of a scalar coordinate, of the force on it and of their ratios; the coordinate of a curve may be anything.
+struct CoordinateNeeds {
+  Needed position, rate, force, stiffness, damping;
+};
+CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate);
+
 /// What belongs to one scalar coordinate, from the table of its joint or from its own; and the keys that such a table has.
-void read_coordinate(TomlFile& file, const TomlTable& table, Coordinate& coordinate);
+void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
+                     Coordinate& coordinate);
 const std::vector<std::string>& coordinate_keys();
 
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values; zero after a
 /// diagnostic that it cannot be read or where it is missing. `scope` has t and names that it refuses.
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
-                              const Scope& scope = {{"t", {.kind = Variable::Kind::kTime}}});
+                              const Needed& needed, const Scope& scope);
+/// t alone.
+const Scope& time_scope();
 
 /// The scalar coordinate of `joint` that the table's 'coordinate' names; nothing after a diagnostic.
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint);

@@ -128,18 +128,18 @@ std::optional<std::size_t> TomlTable::choice(std::string_view key,
   return {};
 }
 
-Expression TomlTable::number(std::string_view key, const Expression& otherwise) const {
-  return has(key) ? file_.expression(*find(key), quoted(key)) : otherwise;
+Expression TomlTable::number(std::string_view key, const Needed& needed, const Expression& otherwise) const {
+  return has(key) ? file_.expression(*find(key), place(key, needed)) : otherwise;
 }
 
-Expression TomlTable::positive(std::string_view key) const {
+Expression TomlTable::positive(std::string_view key, const Needed& needed) const {
   if (!has(key)) {
     missing(key);
     file_.complete().numbers = false;
     return 1.0;
   }
   const std::size_t mark = file_.error_count();
-  const Expression result = number(key);
+  const Expression result = number(key, needed);
   if (file_.error_count() == mark && !(file_.value(result) > 0)) {
     error(key, fmt::format("{} must be positive, not {}", quoted(key), file_.value(result)));
     file_.complete().numbers = false;
@@ -148,9 +148,16 @@ Expression TomlTable::positive(std::string_view key) const {
 }
 
 /// `count`: two to four.
-const toml::array* TomlTable::numbers(std::string_view key, std::size_t count) const {
+const toml::array* TomlTable::numbers(std::string_view key, std::size_t count, Place& place) const {
   constexpr const char* kWords[] = {"two", "three", "four"};
-  const toml::array* array = find(key)->as_array();
+  const toml::node* node = find(key);
+  if (const toml::table* apart = node->as_table(); apart && apart->contains("value")) {
+    const std::size_t mark = file_.error_count();
+    if (const std::optional<Unit> unit = file_.unit_apart(*apart, place)) place.unit = *unit;
+    if (file_.error_count() != mark) return nullptr;
+    node = apart->get("value");
+  }
+  const toml::array* array = node->as_array();
   if (!array) {
     wrong_type(key, fmt::format("an array of {} numbers", kWords[count - 2]));
   } else if (array->size() != count) {
@@ -161,26 +168,28 @@ const toml::array* TomlTable::numbers(std::string_view key, std::size_t count) c
   return array;
 }
 
-Expression TomlTable::function(std::string_view key, const Scope& scope) const {
-  return has(key) ? file_.expression(*find(key), quoted(key), scope) : Expression(0.0);
+Expression TomlTable::function(std::string_view key, const Needed& needed, const Scope& scope) const {
+  return has(key) ? file_.expression(*find(key), place(key, needed), scope) : Expression(0.0);
 }
 
-Vector3 TomlTable::functions(std::string_view key, const Scope& scope) const {
+Vector3 TomlTable::functions(std::string_view key, const Needed& needed, const Scope& scope) const {
   Vector3 result;
-  const toml::array* array = has(key) ? numbers(key, 3) : nullptr;
-  for (std::size_t i = 0; array && i < 3; ++i) result[i] = file_.expression((*array)[i], quoted(key), scope);
+  Place where = place(key, needed);
+  const toml::array* array = has(key) ? numbers(key, 3, where) : nullptr;
+  for (std::size_t i = 0; array && i < 3; ++i) result[i] = file_.expression((*array)[i], where, scope);
   return result;
 }
 
 std::array<Expression, 4> TomlTable::quaternion(std::string_view key) const {
   std::array<Expression, 4> result{1.0, 0.0, 0.0, 0.0};
-  const toml::array* array = has(key) ? numbers(key, 4) : nullptr;
+  Place where = place(key, needed::kPure);
+  const toml::array* array = has(key) ? numbers(key, 4, where) : nullptr;
   if (!array) return result;
   const std::size_t mark = file_.error_count();
   double square = 0;
   bool constant = true;
   for (std::size_t i = 0; i < 4; ++i) {
-    result[i] = file_.expression((*array)[i], quoted(key));
+    result[i] = file_.expression((*array)[i], where);
     constant = constant && result[i].is_constant();
     square += file_.value(result[i]) * file_.value(result[i]);
   }
@@ -194,37 +203,41 @@ std::array<Expression, 4> TomlTable::quaternion(std::string_view key) const {
   return result;
 }
 
-Vector3 TomlTable::vector(std::string_view key, const Vector3& otherwise) const {
+Vector3 TomlTable::vector(std::string_view key, const Needed& needed, const Vector3& otherwise) const {
   if (!has(key)) return otherwise;
-  const toml::array* array = numbers(key, 3);
+  Place where = place(key, needed);
+  const toml::array* array = numbers(key, 3, where);
   if (!array) return otherwise;
   Vector3 result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = file_.expression((*array)[i], quoted(key));
+  for (std::size_t i = 0; i < 3; ++i) result[i] = file_.expression((*array)[i], where);
   return result;
 }
 
-std::array<double, 3> TomlTable::constant_vector(std::string_view key,
-                                                 const std::array<double, 3>& otherwise) const {
+std::array<double, 3> TomlTable::direction(std::string_view key,
+                                           const std::array<double, 3>& otherwise) const {
   if (!has(key)) return otherwise;
-  const toml::array* array = numbers(key, 3);
+  Place where = place(key, needed::kPure);
+  const toml::array* array = numbers(key, 3, where);
   if (!array) return otherwise;
   const std::size_t mark = file_.error_count();
   std::array<double, 3> result{};
-  for (std::size_t i = 0; i < 3; ++i) result[i] = file_.constant((*array)[i], quoted(key));
+  for (std::size_t i = 0; i < 3; ++i) result[i] = file_.constant((*array)[i], where);
   return file_.error_count() == mark ? result : otherwise;
 }
 
-std::optional<std::array<double, 2>> TomlTable::constant_pair(std::string_view key) const {
-  const toml::array* array = has(key) ? numbers(key, 2) : nullptr;
+std::optional<std::array<double, 2>> TomlTable::constant_pair(std::string_view key, const Needed& needed,
+                                                              const std::optional<Unit>& unit) const {
+  Place where{quoted(key), needed, unit};
+  const toml::array* array = has(key) ? numbers(key, 2, where) : nullptr;
   if (!array) return {};
   const std::size_t mark = file_.error_count();
   std::array<double, 2> result{};
-  for (std::size_t i = 0; i < 2; ++i) result[i] = file_.constant((*array)[i], quoted(key));
+  for (std::size_t i = 0; i < 2; ++i) result[i] = file_.constant((*array)[i], where);
   return file_.error_count() == mark ? std::optional(result) : std::nullopt;
 }
 
 Rotation TomlTable::rotation(std::string_view key) const {
-  return {vector(key), has(key) ? where(key) : SourceRange{}};
+  return {vector(key, needed::kAngle), has(key) ? where(key) : SourceRange{}};
 }
 
 const toml::table* TomlTable::table(std::string_view key) const {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/dimensions.hpp"
 #include "model/finish.hpp"
 #include "model/mechanism.hpp"
 #include "model/units.hpp"
@@ -18,6 +19,20 @@ namespace jourdain::model {
 
 /// The text of `diagnostics` as TOML; nothing after a diagnostic.
 std::optional<toml::table> parse_toml(support::Diagnostics& diagnostics);
+
+/// What stands somewhere in a file: what messages call it, and the units that it needs one of.
+struct Place {
+  std::string what;
+  Needed needed;
+  std::optional<Unit> unit = {};  ///< of bare numbers
+};
+
+/// A number and its unit; none after a diagnostic. The hint is for where it does not fit.
+struct Quantity {
+  double value = 0;
+  std::optional<Unit> unit;
+  std::string hint;
+};
 
 /// One TOML file while it is read.
 class TomlFile {
@@ -33,10 +48,16 @@ class TomlFile {
   /// How often `error` was called: lets a caller see whether a value could be read.
   std::size_t error_count() const { return error_count_; }
 
-  /// A number or an expression string; 0 after a diagnostic. Finite at the parameters' default values.
-  Expression expression(const toml::node& node, const std::string& what, const Scope& scope = {});
-  /// An expression that does not depend on parameters; 0 after a diagnostic.
-  double constant(const toml::node& node, const std::string& what);
+  /// In SI units: a number, an expression, a number with its unit ("30 deg") or a table { value, unit }; 0 after a
+  /// diagnostic. Finite at the parameters' default values.
+  Expression expression(const toml::node& node, const Place& place, const Scope& scope = {});
+  /// One that does not depend on parameters; 0 after a diagnostic.
+  double constant(const toml::node& node, const Place& place);
+  /// The string as a number with its unit; nothing where it is an expression.
+  std::optional<Quantity> quantity(const toml::value<std::string>& text, const Needed& needed,
+                                   const Scope& scope = {});
+  /// The unit of `table`'s key 'unit', after a diagnostic where it does not fit the place.
+  std::optional<Unit> unit_apart(const toml::table& table, const Place& place);
   /// The parameters' default values.
   const std::vector<double>& values() const { return values_; }
   /// At the parameters' default values.
@@ -49,13 +70,25 @@ class TomlFile {
 
  private:
   Expression number_error(SourceRange where, std::string message, std::string hint = "");
-  Expression parsed(const toml::value<std::string>& text, const Scope& scope);
+  Expression parsed(const toml::value<std::string>& text, const Place& place, const Scope& scope);
+  Expression converted(const Quantity& quantity, const toml::value<std::string>& text, const Place& place);
+  Expression value_and_unit(const toml::table& table, const Place& place, const Scope& scope);
+  /// A bare number and an expression, in the place's unit.
+  static Expression bare(double number, const Place& place);
+  Expression in_unit(const Expression& bare, const Measure& measure, SourceRange where, const Place& place);
+  /// A diagnostic that what is written does not have the dimension that the place needs.
+  Expression misfit(const toml::value<std::string>& text, const Measure& measure, const Place& place,
+                    const std::string& hint);
+  /// After a diagnostic.
+  Expression unread();
+  /// Of a parameter or a variable of `scope`.
+  std::optional<Measure> declared(std::string_view name, const Scope& scope) const;
   SourceRange inside(const toml::value<std::string>& text, std::size_t offset, std::size_t length) const;
   bool is_underflow(const toml::node& node) const;
 
   support::Diagnostics& diagnostics_;
   support::LineIndex lines_;
-  std::vector<std::string> names_;
+  std::vector<DeclaredParameter> parameters_;
   std::vector<double> values_;
   Completeness complete_;
   std::size_t error_count_ = 0;
@@ -86,18 +119,21 @@ class TomlTable {
   /// One of `allowed`, or nothing after a diagnostic; the first one where it is missing.
   std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& allowed) const;
 
-  Expression number(std::string_view key, const Expression& otherwise = 0.0) const;
+  Expression number(std::string_view key, const Needed& needed, const Expression& otherwise = 0.0) const;
   /// A required number that is positive at the parameters' default values.
-  Expression positive(std::string_view key) const;
+  Expression positive(std::string_view key, const Needed& needed) const;
   /// An expression over the names of `scope`, and three of them; zero where the key is missing.
-  Expression function(std::string_view key, const Scope& scope) const;
-  Vector3 functions(std::string_view key, const Scope& scope) const;
-  /// Three numbers; `otherwise` where the key is missing.
-  Vector3 vector(std::string_view key, const Vector3& otherwise = {}) const;
-  /// Three numbers that do not depend on parameters.
-  std::array<double, 3> constant_vector(std::string_view key, const std::array<double, 3>& otherwise) const;
-  /// Two numbers that do not depend on parameters; nothing (after a diagnostic if it is something else) where it is missing.
-  std::optional<std::array<double, 2>> constant_pair(std::string_view key) const;
+  Expression function(std::string_view key, const Needed& needed, const Scope& scope) const;
+  Vector3 functions(std::string_view key, const Needed& needed, const Scope& scope) const;
+  /// Three numbers, or a table of them and their unit; `otherwise` where the key is missing.
+  Vector3 vector(std::string_view key, const Needed& needed, const Vector3& otherwise = {}) const;
+  /// Three pure numbers that do not depend on parameters.
+  std::array<double, 3> direction(std::string_view key, const std::array<double, 3>& otherwise) const;
+  /// Two numbers that do not depend on parameters; nothing (after a diagnostic if it is something
+  /// else) where it is missing. Bare ones have the unit `unit`.
+  std::optional<std::array<double, 2>> constant_pair(std::string_view key, const Needed& needed,
+                                                     const std::optional<Unit>& unit) const;
+  /// Three angles.
   Rotation rotation(std::string_view key) const;
   /// Four numbers (w, x, y, z) of a unit quaternion; constant ones are normalised. The identity where it is missing.
   std::array<Expression, 4> quaternion(std::string_view key) const;
@@ -109,7 +145,9 @@ class TomlTable {
   std::string quoted(std::string_view key) const;
 
  private:
-  const toml::array* numbers(std::string_view key, std::size_t count) const;
+  /// Those of `key`; their unit, where it stands apart, goes to `place`.
+  const toml::array* numbers(std::string_view key, std::size_t count, Place& place) const;
+  Place place(std::string_view key, const Needed& needed) const { return {quoted(key), needed}; }
   void wrong_type(std::string_view key, std::string_view expected) const;
 
   TomlFile& file_;

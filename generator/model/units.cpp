@@ -195,15 +195,20 @@ std::variant<Unit, UnitError> parse_unit(std::string_view text) {
 }
 
 std::optional<std::pair<double, std::string>> split_quantity(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const std::size_t digit = text.starts_with('-') ? 1 : 0;
+  if (digit >= text.size() || std::string_view("0123456789.").find(text[digit]) == std::string_view::npos)
+    return {};
   double value = 0;
   const char *begin = text.data(), *end = begin + text.size();
   const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop == end || *stop != ' ') return {};
-  const std::string_view rest = text.substr(static_cast<std::size_t>(stop - begin) + 1);
-  if (rest.empty() || rest.find_first_not_of(' ') == std::string_view::npos) return {};
-  const char first = rest[rest.find_first_not_of(' ')];
-  if (std::string_view("+-*/^()").find(first) != std::string_view::npos) return {};
-  return std::pair(value, std::string(rest));
+  if (error != std::errc()) return {};
+  text.remove_prefix(static_cast<std::size_t>(stop - begin));
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (text.empty() || std::string_view("+-*/^().0123456789").find(text[0]) != std::string_view::npos)
+    return {};
+  return std::pair(value, std::string(text));
 }
 
 double in_si(double value, const Unit& unit) {

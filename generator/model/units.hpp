@@ -29,7 +29,8 @@ struct UnitError {
 /// '/': what comes after that would be read one way by some and the other by others. Empty, "1" and "-" are one.
 std::variant<Unit, UnitError> parse_unit(std::string_view text);
 
-/// A number and the text after it ("120 rpm", "-2.5e3 N/m"); nothing where the text is not one.
+/// A number and the text after it, which is no operator ("120 rpm", "-2.5e3 N/m", "30deg"); nothing where the text is
+/// not that.
 std::optional<std::pair<double, std::string>> split_quantity(std::string_view text);
 
 /// In SI units; computed in long double, infinite where that is beyond double.

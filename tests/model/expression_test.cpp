@@ -7,14 +7,14 @@
 namespace jourdain::model {
 namespace {
 
-const std::vector<std::string> kNames{"m", "l"};
+const std::vector<DeclaredParameter> kNames{{"m", Measure::open()}, {"l", Measure::open()}};
 
 Expression parsed(const std::string& text) {
   const auto result = parse_expression(text, kNames);
   if (const auto* error = std::get_if<ExpressionError>(&result))
     ADD_FAILURE() << text << ": " << error->message << " at " << error->offset;
-  const auto* expression = std::get_if<Expression>(&result);
-  return expression ? *expression : Expression();
+  const auto* parsed = std::get_if<MeasuredExpression>(&result);
+  return parsed ? parsed->expression : Expression();
 }
 
 double value(const std::string& text, double m = 2, double l = 3) {
@@ -102,7 +102,7 @@ TEST(ParseExpression, PointsToWhatIsWrong) {
 }
 
 TEST(ParseExpression, SuggestsNames) {
-  const auto result = parse_expression("mas*2", {"mass"});
+  const auto result = parse_expression("mas*2", {{"mass", Measure::open()}});
   EXPECT_EQ(std::get<ExpressionError>(result).hint, "did you mean 'mass'?");
 }
 

@@ -81,7 +81,10 @@ TEST(Units, AreRefusedAtThePlaceWhereTheyAreNone) {
 TEST(Units, AreToldFromExpressions) {
   EXPECT_EQ(split_quantity("120 rpm"), std::pair(120.0, std::string("rpm")));
   EXPECT_EQ(split_quantity("-2.5e3 N/m"), std::pair(-2500.0, std::string("N/m")));
-  for (const char* text : {"3 - 2", "3 * 2", "3*pi", "3", "pi", "3 ", "(3) m", "3 (2)", "1e999 m"})
+  EXPECT_EQ(split_quantity(" +30deg"), std::pair(30.0, std::string("deg")));
+  EXPECT_EQ(split_quantity(".5  °"), std::pair(0.5, std::string("°")));
+  for (const char* text : {"3 - 2", "3 * 2", "3*pi", "3", "pi", "3 ", "(3) m", "3 (2)", "1e999 m", "inf m",
+                           "nan", "-inf m", "- 3 m", "", "+", "3 .5"})
     EXPECT_FALSE(split_quantity(text)) << text;
 }
 
@@ -114,6 +117,20 @@ TEST(Units, OfParametersAreConverted) {
   EXPECT_DOUBLE_EQ(read_.parameters[2].value, std::numbers::pi / 6);
   EXPECT_EQ(read_.parameters[3].value, 2);
   EXPECT_EQ(read_.parameters[3].unit, "N m");
+}
+
+TEST(Units, OfRangesAreConvertedOneByOne) {
+  const Read read_ = read("a = { value = 100, unit = \"mm\", range = [\"1 cm\", 200] }\n");
+  EXPECT_EQ(read_.messages, "");
+  ASSERT_EQ(read_.parameters.size(), 1u);
+  EXPECT_EQ((*read_.parameters[0].range)[0], 0.01);
+  EXPECT_EQ((*read_.parameters[0].range)[1], 0.2);
+}
+
+TEST(Units, AreSaidOnce) {
+  EXPECT_EQ(read("a = { value = \"30*deg\", unit = \"rad\" }\n").messages, "");
+  EXPECT_NE(read("a = { value = \"30*deg\", unit = \"deg\" }\n").messages.find("has two units"),
+            std::string::npos);
 }
 
 TEST(Units, ThatAreNoneAreErrorsOfTheFile) {
