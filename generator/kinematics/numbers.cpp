@@ -42,7 +42,8 @@ std::optional<int> quarter_turns(const Ex& angle) {
   const cln::cl_F value = to_float(angle), quarter = cln::pi(value) / 2;
   const cln::cl_I count = cln::round1(value / quarter);
   const cln::cl_RA turns = cln::max(cln::cl_RA(cln::abs(count)), cln::cl_RA(1));
-  if (cln::abs(value - count * quarter) > turns * cln::rational(cln::cl_DF(model::kQuarterRounding))) return {};
+  if (cln::abs(value - count * quarter) > turns * cln::rational(cln::cl_DF(model::kQuarterRounding)))
+    return {};
   return cln::cl_I_to_int(cln::mod(count, 4));
 }
 

@@ -81,7 +81,8 @@ std::vector<model::JointIndex> negative_joints(const model::Mechanism& mechanism
   for (int number = 0; number < kStates; ++number) {
     const Terms<long double> terms = scattered_terms(mechanism, number);
     const VectorX<long double> rounding = kMasslessPivot * terms.M_scale.diagonal();
-    const std::vector<bool> below = pivots_below(terms.M, -rounding.array() - std::numeric_limits<long double>::min(), rounding);
+    const std::vector<bool> below =
+        pivots_below(terms.M, -rounding.array() - std::numeric_limits<long double>::min(), rounding);
     for (std::size_t i = 0; i < negative.size(); ++i) negative[i] = negative[i] || below[i];
   }
   return joints_of(mechanism, negative);

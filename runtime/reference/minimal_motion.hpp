@@ -75,8 +75,8 @@ typename Reference<Scalar>::FrameMotion Reference<Scalar>::child_motion(const Fr
   const model::Joint& joint = mechanism_.joints[index];
   FrameMotion child = parent;
   child.shift(parent.R * vector_value(joint.placement.position, std::span<const Scalar>(parameters_)));
-  child.R =
-      parent.R * rotation_value(joint.placement.rotation, std::span<const Scalar>(parameters_), mechanism_.snap);
+  child.R = parent.R *
+            rotation_value(joint.placement.rotation, std::span<const Scalar>(parameters_), mechanism_.snap);
   const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
   const auto turn = [&](std::size_t which, const Vector3<Scalar>& axis) {
     const Taylor<Scalar> q = coordinate(index, which, state);
@@ -184,7 +184,8 @@ typename Reference<Scalar>::FrameMotion Reference<Scalar>::placed(const std::vec
                                                                   const model::Frame& frame) const {
   FrameMotion at = frame.body ? bodies[frame.body->value] : world_motion();
   at.shift(at.R * vector_value(frame.placement.position, std::span<const Scalar>(parameters_)));
-  at.R = at.R * rotation_value(frame.placement.rotation, std::span<const Scalar>(parameters_), mechanism_.snap);
+  at.R =
+      at.R * rotation_value(frame.placement.rotation, std::span<const Scalar>(parameters_), mechanism_.snap);
   return at;
 }
 

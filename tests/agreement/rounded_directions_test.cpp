@@ -72,7 +72,8 @@ TEST(RoundedDirections, CompileAndAgreeAndFourDecimalsCostNothing) {
           operations(robot, with_directions(text, [&](double x) { return x + noise * uniform(-1, 1); }));
       ASSERT_TRUE(count);
       fmt::print(" {:g} {};", noise, *count);
-      EXPECT_LE(*count, 1.02 * static_cast<double>(*exact)) << noise;  // legs no longer share all their numbers
+      EXPECT_LE(*count, 1.02 * static_cast<double>(*exact))
+          << noise;  // legs no longer share all their numbers
     }
     fmt::print("\n");
   }
