@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
 #include "support/interruption.hpp"
+#include "support/utf8.hpp"
 
 namespace jourdain::commands {
 
@@ -23,7 +25,7 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return false;
   const std::string near = support::nearest(argv[1], names);
-  fmt::print(stderr, "error: no command '{}'; {}\n", argv[1],
+  fmt::print(stderr, "error: no command '{}'; {}\n", support::shown(argv[1]),
              near.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
                           : fmt::format("did you mean '{}'?", near));
   return true;
@@ -49,6 +51,27 @@ std::vector<std::string> reversed_arguments(int argc, char** argv) {
   return arguments;
 }
 
+/// For a terminal: arguments, which messages name, may hold anything.
+std::string printable(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const support::Utf8Character character = support::utf8_at(text, i);
+    const bool shown = character.printable || text[i] == '\n';
+    out += shown ? text.substr(i, character.bytes) : "?";
+    i += character.bytes;
+  }
+  return out;
+}
+
+/// Prints help, or what is wrong with the arguments, which may hold anything.
+int explain(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream help, wrong;
+  const int status = app.exit(error, help, wrong) == 0 ? kSuccess : kUsage;
+  fmt::print("{}", help.str());
+  fmt::print(stderr, "{}", printable(wrong.str()));
+  return status;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Jourdain compiles the description of a multibody mechanism to C++ that computes its motion.",
                "jourdain");
@@ -62,7 +85,7 @@ int run(int argc, char** argv) {
     app.parse(reversed_arguments(argc, argv));
     return status;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kSuccess : kUsage;
+    return explain(app, error);
   }
 }
 
@@ -72,7 +95,7 @@ int run_command_line(int argc, char** argv) noexcept {
   try {
     return run(argc, argv);
   } catch (const support::EnvironmentError& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    std::fprintf(stderr, "error: %s\n", printable(error.what()).c_str());
     return kEnvironment;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "internal error: %s\nPlease report this with the model that shows it.\n",

@@ -48,6 +48,7 @@ const FileText& any_model(Random& random) {
       return model;
 }
 
+/// Not all of the tests' robots may have a free root.
 std::string any_robot(Random& random) {
   return random.chance(0.05) ? one_of(robots(), random).text : random_urdf(random);
 }
@@ -68,11 +69,10 @@ Case toml_case(Random& random) {
 }
 
 Case urdf_case(Random& random) {
-  Case result = compiled(CaseKind::kUrdf, "model.urdf", any_robot(random), "random robot");
-  if (random.chance(0.3))
-    result.must_pass = true;
-  else
-    result.files[0].text = mutated_urdf(result.files[0].text, few(random), random);
+  const bool valid = random.chance(0.3);
+  std::string text = valid ? random_urdf(random) : mutated_urdf(any_robot(random), few(random), random);
+  Case result = compiled(CaseKind::kUrdf, "model.urdf", std::move(text), valid ? "valid robot" : "robot");
+  result.must_pass = valid;
   if (random.chance(0.3)) result.arguments.insert(result.arguments.end(), {"--root", "free"});
   return result;
 }
@@ -87,7 +87,8 @@ Case bytes_case(Random& random) {
                   urdf ? "random robot" : model.name);
 }
 
-/// Chains of twenty links and more take long.
+/// Chains of twenty links and more take long. In those whose sizes spread over 24 orders of magnitude some joint may move less inertia
+/// than rounding leaves of the others': they are tried, and may be refused.
 Case valid_case(Random& random) {
   const std::vector<ValidKind>& kinds = valid_kinds();
   constexpr std::size_t kQuick = 6;
@@ -95,7 +96,7 @@ Case valid_case(Random& random) {
   const std::uint64_t seed = random.below(1'000'000);
   Case result = compiled(CaseKind::kValid, "model.toml", to_toml(valid_mechanism(kind, seed)),
                          fmt::format("{} {}", kind.name, seed));
-  result.must_pass = true;
+  result.must_pass = kind.name.find("24 orders") == std::string::npos;
   return result;
 }
 

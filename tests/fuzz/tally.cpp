@@ -22,7 +22,9 @@ void FuzzTally::add(const Record& record) {
     longest_ = record.seconds;
     slowest_ = record.index;
   }
-  ++counts_[record.kind][static_cast<std::size_t>(record.outcome)];
+  Row& row = rows_[record.kind];
+  row.seconds += record.seconds;
+  ++row.counts[static_cast<std::size_t>(record.outcome)];
   if (!is_failure(record.outcome)) return;
   FailureClass& found = classes_[{record.outcome, record.why.data()}];
   found.first = std::min(found.first, record.index);
@@ -36,14 +38,16 @@ std::uint64_t FuzzTally::failures() const {
 }
 
 std::string FuzzTally::text() const {
+  constexpr std::size_t kNarrowest = 8;
+  const auto name = [](std::size_t i) { return outcome_name(static_cast<Outcome>(i)); };
+  const auto width = [&](std::size_t i) { return std::max(kNarrowest, name(i).size()); };
   std::string text = fmt::format("{:<8}", "");
-  for (std::size_t i = 0; i < kOutcomes; ++i)
-    text += fmt::format(" {:>9.13}", outcome_name(static_cast<Outcome>(i)));
-  for (const auto& [kind, counts] : counts_) {
+  for (std::size_t i = 0; i < kOutcomes; ++i) text += fmt::format(" {:>{}}", name(i), width(i));
+  text += fmt::format(" {:>9}", "s");
+  for (const auto& [kind, row] : rows_) {
     text += fmt::format("\n{:<8}", kind_name(kind));
-    for (std::size_t i = 0; i < kOutcomes; ++i)
-      text += fmt::format(" {:>{}}", counts[i],
-                          std::max<std::size_t>(9, outcome_name(static_cast<Outcome>(i)).size()));
+    for (std::size_t i = 0; i < kOutcomes; ++i) text += fmt::format(" {:>{}}", row.counts[i], width(i));
+    text += fmt::format(" {:>9.0f}", row.seconds);
   }
   text += fmt::format(
       "\n{} cases: {:.1f} % passed the reader, {:.1f} % were emitted and read back, {} of these compiled by "

@@ -38,7 +38,11 @@ class FuzzTally {
   std::string too_few() const;
 
  private:
-  std::map<CaseKind, std::array<std::uint64_t, kOutcomes>> counts_;
+  struct Row {
+    std::array<std::uint64_t, kOutcomes> counts{};
+    double seconds = 0;
+  };
+  std::map<CaseKind, Row> rows_;
   std::map<std::pair<Outcome, std::string>, FailureClass> classes_;
   std::uint64_t cases_ = 0, read_ = 0, emitted_ = 0, compiled_ = 0, slowest_ = 0;
   double seconds_ = 0, longest_ = 0;
