@@ -41,6 +41,22 @@ model::Mechanism bare(const model::Mechanism& mechanism) {
   return rest;
 }
 
+/// Of a mechanism that has no finite values even without forces and outputs: the body without whose mass and inertia it has them, else
+/// a joint that follows a curve or a motion, else the first joint.
+support::SourceRange suspect(const model::Mechanism& mechanism) {
+  for (const model::Body& body : mechanism.bodies) {
+    model::Mechanism light = bare(mechanism);
+    model::Body& lighter = light.bodies[std::size_t(&body - mechanism.bodies.data())];
+    lighter.mass = 0.0;
+    lighter.inertia = {};
+    if (starts(light)) return body.mass_where.line > 0 ? body.mass_where : body.where;
+  }
+  for (const model::Joint& joint : mechanism.joints)
+    for (const model::Coordinate& coordinate : joint.coordinates)
+      if (coordinate.motion || joint.type == model::JointType::kCurve) return joint.where;
+  return mechanism.joints.front().where;
+}
+
 /// Tries each element alone and reports those that have no value.
 template <class Element>
 void report(const model::Mechanism& mechanism, std::vector<Element> model::Mechanism::*list, const char* what,
@@ -76,8 +92,9 @@ void report_singular(const model::Mechanism& mechanism, support::Diagnostics& di
 void check_start(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   if (starts(mechanism)) return report_singular(mechanism, diagnostics);
   if (!starts(bare(mechanism))) {
-    diagnostics.error({}, "the mechanism's equations have no finite values at the initial state",
-                      "a curve or a motion may be singular there");
+    diagnostics.error(suspect(mechanism),
+                      "the mechanism's equations have no finite values at the initial state",
+                      "a curve or a motion may be singular there, or a number too large");
     return;
   }
   report(mechanism, &model::Mechanism::coordinate_forces, "force", diagnostics);

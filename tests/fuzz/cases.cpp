@@ -10,6 +10,7 @@
 #include "fuzz/hostile_values.hpp"
 #include "fuzz/random_urdf.hpp"
 #include "fuzz/toml_mutation.hpp"
+#include "properties/random_linkages.hpp"
 #include "properties/refusals.hpp"
 #include "properties/to_toml.hpp"
 
@@ -87,6 +88,13 @@ Case bytes_case(Random& random) {
                   urdf ? "random robot" : model.name);
 }
 
+/// Whether numbers are as they were drawn: what rounds lengths of a linkage that must fit leaves its velocities contradicting each other.
+bool is_exact(const ValidKind& kind, std::uint64_t seed) {
+  const std::vector<LinkageKind>& kinds = linkage_kinds();
+  return kind.name != "linkages" ||
+         random_linkage(kinds[seed % kinds.size()], seed / kinds.size()).perturbation == 0;
+}
+
 /// Chains of twenty links and more take long. In those whose sizes spread over 24 orders of magnitude some joint may move less inertia
 /// than rounding leaves of the others': they are tried, and may be refused.
 Case valid_case(Random& random) {
@@ -96,7 +104,7 @@ Case valid_case(Random& random) {
   const std::uint64_t seed = random.below(1'000'000);
   Case result = compiled(CaseKind::kValid, "model.toml", to_toml(valid_mechanism(kind, seed)),
                          fmt::format("{} {}", kind.name, seed));
-  result.must_pass = kind.name.find("24 orders") == std::string::npos;
+  result.must_pass = kind.name.find("24 orders") == std::string::npos && is_exact(kind, seed);
   return result;
 }
 
