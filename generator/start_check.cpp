@@ -19,6 +19,13 @@ bool is_finite(const std::vector<reference::OutputValue<double>>& outputs) {
   return true;
 }
 
+/// Whether no acceleration is surely beyond double: of M ż = f some |ż_j| is at least |f_i| / Σ_j |M_ij|.
+bool has_accelerations(const Eigen::MatrixXd& M, const Vector& f) {
+  for (Eigen::Index i = 0; i < f.size(); ++i)
+    if (const double row = M.row(i).cwiseAbs().sum(); row > 0 && !std::isfinite(f[i] / row)) return false;
+  return true;
+}
+
 /// Everything that the equations consist of, at the initial state.
 bool starts(const model::Mechanism& mechanism) {
   const reference::Reference<double> reference(mechanism);
@@ -28,6 +35,7 @@ bool starts(const model::Mechanism& mechanism) {
   const Vector none = Vector::Zero(Eigen::Index(reference.coordinate_count()));
   return std::isfinite(terms.kinetic_energy + terms.potential_energy) && terms.M.allFinite() &&
          terms.k_bar.allFinite() && terms.q_bar.allFinite() &&
+         has_accelerations(terms.M, terms.k_bar - terms.q_bar) &&
          is_finite(reference.outputs(state, u, none, none));
 }
 

@@ -258,11 +258,13 @@ TEST(Check, WhatHasNoFiniteValuesIsPlaced) {
                                    "\n[[joint]]\nname = \"j\"\nparent = \"world\"\nchild = \"a\"\n" + joint);
     return jourdain({"check", model});
   };
-  const std::string slide = "type = \"prismatic\"\n", moves = "motion = \"sqrt(t)\"\n";
+  const std::string slide = "type = \"prismatic\"\n",
+                    pushed = "[[force]]\nframe = \"a\"\nforce = [0, 0, 1e308]\n";
   const std::string message = ": error: the mechanism's equations have no finite values at the initial state";
   expect(place("-9.81", "1e308", slide), 1, "huge.toml:6:8" + message);
   expect(place("1.7976931348623157e308", "8", slide), 1, "huge.toml:6:8" + message);
-  expect(place("-9.81", "0", slide + moves), 1, "huge.toml:8:8" + message);
+  expect(place("0", "0.01", slide + pushed), 1, "huge.toml:13:9: error: force");
+  expect(place("0", "10", slide + pushed), 0, "ok");
 }
 
 TEST(CommandLine, MessagesShowNoControlCharacters) {
