@@ -49,8 +49,8 @@ model::Mechanism bare(const model::Mechanism& mechanism) {
   return rest;
 }
 
-/// Of a mechanism that has no finite values even without forces and outputs: the body without whose mass and inertia it has them, else
-/// a joint that follows a curve or a motion, else the first joint.
+/// Of a mechanism that has no finite values even without forces and outputs: the body without whose mass and inertia it
+/// has them, else a joint that follows a curve or a motion, else the first joint.
 support::SourceRange suspect(const model::Mechanism& mechanism) {
   for (const model::Body& body : mechanism.bodies) {
     model::Mechanism light = bare(mechanism);

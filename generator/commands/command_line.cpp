@@ -31,8 +31,8 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
-/// The arguments after the program's name, in reverse as CLI11 takes them. Options that take several values would take the model too:
-/// a second value that is a model file is moved to the front.
+/// The arguments after the program's name, in reverse as CLI11 takes them. Options that take several values would take
+/// the model too: a second value that is a model file is moved to the front.
 std::vector<std::string> reversed_arguments(int argc, char** argv) {
   const auto is_model = [](std::string_view text) {
     return text.ends_with(".toml") || text.ends_with(".urdf");

@@ -94,7 +94,8 @@ void add_option(std::vector<std::string>& arguments, const OptionText& option, R
   if (random.chance(0.97)) arguments.push_back(value);
 }
 
-/// Commands that call the C++ compiler get what makes them short, so that they end soon where the other options let them run.
+/// Commands that call the C++ compiler get what makes them short, so that they end soon where the other options let
+/// them run.
 void keep_short(const std::string& command, std::vector<std::string>& arguments) {
   const auto has = [&](const std::string& name) {
     return std::any_of(arguments.begin(), arguments.end(),

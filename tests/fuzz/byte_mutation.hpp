@@ -7,7 +7,8 @@
 
 namespace jourdain::tests {
 
-/// One change: a flipped bit, bytes that are gone, doubled, moved or come from `donor`, a truncated file, bytes that are no text.
+/// One change: a flipped bit, bytes that are gone, doubled, moved or come from `donor`, a truncated file, bytes that
+/// are no text.
 std::string mutated_bytes(std::string text, const std::string& donor, Random& random);
 
 }  // namespace jourdain::tests

@@ -88,15 +88,16 @@ Case bytes_case(Random& random) {
                   urdf ? "random robot" : model.name);
 }
 
-/// Whether numbers are as they were drawn: what rounds lengths of a linkage that must fit leaves its velocities contradicting each other.
+/// Whether numbers are as they were drawn: what rounds lengths of a linkage that must fit leaves its velocities
+/// contradicting each other.
 bool is_exact(const ValidKind& kind, std::uint64_t seed) {
   const std::vector<LinkageKind>& kinds = linkage_kinds();
   return kind.name != "linkages" ||
          random_linkage(kinds[seed % kinds.size()], seed / kinds.size()).perturbation == 0;
 }
 
-/// Chains of twenty links and more take long. In those whose sizes spread over 24 orders of magnitude some joint may move less inertia
-/// than rounding leaves of the others': they are tried, and may be refused.
+/// Chains of twenty links and more take long. In those whose sizes spread over 24 orders of magnitude some joint may
+/// move less inertia than rounding leaves of the others': they are tried, and may be refused.
 Case valid_case(Random& random) {
   const std::vector<ValidKind>& kinds = valid_kinds();
   constexpr std::size_t kQuick = 6;

@@ -1,4 +1,5 @@
-// The cases of the fuzzer: each is a command line with the files that it reads, and follows from a seed and an index alone.
+// The cases of the fuzzer: each is a command line with the files that it reads, and follows from a seed and an index
+// alone.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The command, called in a child of this process: no other program is started, and whatever goes wrong ends the child alone.
+// The command, called in a child of this process: no other program is started, and whatever goes wrong ends the child
+// alone.
 #pragma once
 
 #include <string>

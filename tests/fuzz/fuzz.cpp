@@ -1,6 +1,8 @@
-// Files and command lines that no one has thought of, by the thousand: each must end with what was asked for, or with a diagnostic.
+// Files and command lines that no one has thought of, by the thousand: each must end with what was asked for, or with a
+// diagnostic.
 //   fuzz [--cases N] [--seed S] [--jobs J] [--first I] [--only I]
-// What a case is follows from the seed and its number, not from jobs or time. --first leaves out the cases before; --only shows one.
+// What a case is follows from the seed and its number, not from jobs or time. --first leaves out the cases before;
+// --only shows one.
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/wait.h>

@@ -17,7 +17,8 @@ const T& one_of(const std::vector<T>& list, Random& random) {
 std::string hostile_number(Random& random);
 /// A number as it may stand anywhere; half of them are usual ones.
 std::string any_number(Random& random);
-/// Words of C++, of <math.h> and of the emitted code, empty ones, very long ones, ones with control characters or beyond ASCII.
+/// Words of C++, of <math.h> and of the emitted code, empty ones, very long ones, ones with control characters or
+/// beyond ASCII.
 std::string hostile_name(Random& random);
 /// By a small grammar over `names`, up to `depth` operations deep; at times with a fault in it.
 std::string any_expression(const std::vector<std::string>& names, int depth, Random& random);

@@ -34,7 +34,8 @@ class FuzzTally {
   const std::map<std::pair<Outcome, std::string>, FailureClass>& classes() const { return classes_; }
   /// The table, the shares, the slowest case and the classes of failures.
   std::string text() const;
-  /// Shares that cases must reach so that they test anything; "" where they do, or where there are too few cases to tell.
+  /// Shares that cases must reach so that they test anything; "" where they do, or where there are too few cases to
+  /// tell.
   std::string too_few() const;
 
  private:

@@ -1,4 +1,5 @@
-// Descriptions in TOML that differ from a valid one by what people and programs get wrong, and by what a reader may not expect.
+// Descriptions in TOML that differ from a valid one by what people and programs get wrong, and by what a reader may not
+// expect.
 #pragma once
 
 #include <vector>

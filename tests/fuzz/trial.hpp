@@ -14,8 +14,8 @@ struct Trial {
   std::string shown;   ///< the command line and what it printed to stderr
 };
 
-/// Writes the files of `tried` below `folder`, which is emptied before, and runs it. Of what is emitted one in fifty, by the case's
-/// number, is compiled by both compilers and stepped.
+/// Writes the files of `tried` below `folder`, which is emptied before, and runs it. Of what is emitted one in fifty,
+/// by the case's number, is compiled by both compilers and stepped.
 Trial try_case(const Case& tried, std::uint64_t index, const std::string& folder);
 
 /// The description with as many lines left out as possible while the verdict stays; some hundred trials.

@@ -55,18 +55,20 @@ bool is_printable(const std::string& text) {
   return true;
 }
 
+std::string temporary_left(const std::string& folder) {
+  for (const auto& entry : fs::directory_iterator(fs::path(folder) / "tmp"))
+    return "temporary " + entry.path().filename().string().substr(0, std::string("jourdain-").size());
+  return "";
+}
+
 /// What lies in the case's folder beside its own files, and in the temporary one; "" where nothing does.
 std::string left_behind(const Case& tried, const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(fs::path(folder) / "case")) {
     const std::string name = entry.path().filename().string();
     const auto is_it = [&](const support::FileText& file) { return file.name == name; };
-    if (std::none_of(tried.files.begin(), tried.files.end(), is_it) &&
-        !(entry.is_directory() && entry.path().empty()))
-      return name;
+    if (std::none_of(tried.files.begin(), tried.files.end(), is_it)) return name;
   }
-  for (const auto& entry : fs::directory_iterator(fs::path(folder) / "tmp"))
-    return "temporary " + entry.path().filename().string();
-  return "";
+  return temporary_left(folder);
 }
 
 /// What is wrong with what `compile` has written; "" where nothing is.
@@ -84,6 +86,8 @@ std::string written_badly(const ChildResult& result, const std::string& folder) 
 }
 
 Verdict judge_success(const Case& tried, const ChildResult& result, const std::string& folder) {
+  if (const std::string left = temporary_left(folder); !left.empty())
+    return {Outcome::kUntidy, "left behind: " + left};
   if (tried.kind == CaseKind::kOptions) return {};
   const std::string wrong = written_badly(result, folder);
   return wrong.empty() ? Verdict{} : Verdict{Outcome::kUntidy, wrong};

@@ -15,8 +15,8 @@ inline void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// A file was taken or has errors, never both nor neither; each error names a line that there is, or the file; the text for a terminal
-/// can be shown there.
+/// A file was taken or has errors, never both nor neither; each error names a line that there is, or the file; the text
+/// for a terminal can be shown there.
 inline void check_said(const support::Diagnostics& diagnostics, bool taken) {
   require(taken != diagnostics.has_errors());
   for (const support::Diagnostic& diagnostic : diagnostics.all())
