@@ -19,6 +19,13 @@ bool is_finite(const std::vector<reference::OutputValue<double>>& outputs) {
   return true;
 }
 
+/// Whether no acceleration is surely beyond double: of M ż = f some |ż_j| is at least |f_i| / Σ_j |M_ij|.
+bool has_accelerations(const Eigen::MatrixXd& M, const Vector& f) {
+  for (Eigen::Index i = 0; i < f.size(); ++i)
+    if (const double row = M.row(i).cwiseAbs().sum(); row > 0 && !std::isfinite(f[i] / row)) return false;
+  return true;
+}
+
 /// Everything that the equations consist of, at the initial state.
 bool starts(const model::Mechanism& mechanism) {
   const reference::Reference<double> reference(mechanism);
@@ -28,6 +35,7 @@ bool starts(const model::Mechanism& mechanism) {
   const Vector none = Vector::Zero(Eigen::Index(reference.coordinate_count()));
   return std::isfinite(terms.kinetic_energy + terms.potential_energy) && terms.M.allFinite() &&
          terms.k_bar.allFinite() && terms.q_bar.allFinite() &&
+         has_accelerations(terms.M, terms.k_bar - terms.q_bar) &&
          is_finite(reference.outputs(state, u, none, none));
 }
 
@@ -39,6 +47,22 @@ model::Mechanism bare(const model::Mechanism& mechanism) {
   rest.coordinate_forces.clear();
   rest.outputs.clear();
   return rest;
+}
+
+/// Of a mechanism that has no finite values even without forces and outputs: the body without whose mass and inertia it
+/// has them, else a joint that follows a curve or a motion, else the first joint.
+support::SourceRange suspect(const model::Mechanism& mechanism) {
+  for (const model::Body& body : mechanism.bodies) {
+    model::Mechanism light = bare(mechanism);
+    model::Body& lighter = light.bodies[std::size_t(&body - mechanism.bodies.data())];
+    lighter.mass = 0.0;
+    lighter.inertia = {};
+    if (starts(light)) return body.mass_where.line > 0 ? body.mass_where : body.where;
+  }
+  for (const model::Joint& joint : mechanism.joints)
+    for (const model::Coordinate& coordinate : joint.coordinates)
+      if (coordinate.motion || joint.type == model::JointType::kCurve) return joint.where;
+  return mechanism.joints.front().where;
 }
 
 /// Tries each element alone and reports those that have no value.
@@ -76,8 +100,9 @@ void report_singular(const model::Mechanism& mechanism, support::Diagnostics& di
 void check_start(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   if (starts(mechanism)) return report_singular(mechanism, diagnostics);
   if (!starts(bare(mechanism))) {
-    diagnostics.error(mechanism.where, "the mechanism's equations have no finite values at the initial state",
-                      "numbers may be too large for double, or a curve or a motion singular there");
+    diagnostics.error(suspect(mechanism),
+                      "the mechanism's equations have no finite values at the initial state",
+                      "a curve or a motion may be singular there, or a number too large");
     return;
   }
   report(mechanism, &model::Mechanism::coordinate_forces, "force", diagnostics);

@@ -19,6 +19,8 @@ namespace {
 
 /// Parts of the effort after which bounds need not be sharp any more.
 constexpr std::size_t kSharpShare = 10;
+/// Interval operations that one proof may take: a large program is looked at on fewer boxes.
+constexpr std::size_t kOperations = 500'000'000;
 
 struct Box {
   std::vector<Interval> sides;
@@ -47,6 +49,8 @@ class Proof {
     for (const auto& [at, value] : ir::differentiate(slopes, values, seeds, {}))
       slopes.output("f_y", static_cast<int>(at.first), static_cast<int>(at.second), value);
     slopes_ = passes::remove_dead_code(slopes.finish("slopes"));
+    const std::size_t each = 2 * values_.nodes.size() + slopes_.nodes.size();
+    effort_.boxes = std::min(effort_.boxes, kOperations / std::max<std::size_t>(each, 1));
   }
 
   std::variant<std::vector<double>, Counterexample> run() {

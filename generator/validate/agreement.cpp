@@ -16,6 +16,9 @@ namespace {
 /// of their own.
 constexpr long double kNothing = 1e-30L;
 
+/// Numbers at a state that are all smaller than this share of those at other states are zero, but for constants that cancel in 63 digits.
+constexpr long double kResidue = 1e-60L;
+
 /// How much more than the largest scale of the oracle's numbers rounding may count by where the program's own way to one is less
 /// stable than the oracle's: multipliers of rows that are all but redundant.
 constexpr long double kLessStable = 1e4L;
@@ -44,7 +47,7 @@ Compared& Agreement::record(const std::string& function, const std::string& orac
     return c.function == function && c.oracle == oracle;
   });
   if (known != compared_.end()) return *known;
-  compared_.push_back({function, oracle, 0, 0, 0, 0});
+  compared_.push_back({function, oracle});
   return compared_.back();
 }
 
@@ -62,7 +65,11 @@ void Agreement::same(const std::string& function, const std::string& oracle,
   c.numbers += values.size();
   std::size_t worst = 0;
   double most = 0;
-  const long double floor = kNothing * std::max(largest_scale(values), largest_scale(expected));
+  const long double scales[] = {largest_scale(values), largest_scale(expected)};
+  const long double larger = std::max(scales[0], scales[1]);
+  c.scale = std::max(c.scale, larger);
+  const long double floor =
+      kNothing * (std::min(scales[0], scales[1]) > kResidue * c.scale ? larger : c.scale);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (const double d = apart(values[i], expected[i], floor); d > most) {
       most = d;
@@ -80,10 +87,11 @@ void Agreement::rounded(const std::string& function, const std::string& oracle,
                         const std::vector<ScaledReal>& expected, std::size_t depth) {
   constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
   const double limit = kRoundingSlack * static_cast<double>(1 + depth) * kUnit;
-  const long double largest = largest_scale(expected);
+  Compared& c = record(function, oracle);
+  const long double here = largest_scale(expected);
+  const long double largest = here > kResidue * c.scale ? here : c.scale;
   // What rounding does to second order where it does nothing to first: a product of two zeros.
   const long double floor = std::max<long double>(kUnit * largest, std::numeric_limits<double>::min());
-  Compared& c = record(function, oracle);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!exact[i].is_number() && !values[i].is_number()) continue;
     const bool overflows = !std::isfinite(static_cast<double>(exact[i]));

@@ -28,11 +28,13 @@ struct Compared {
   double algebra = 0;  ///< worst difference in 77 digits over its scale
   double rounding =
       0;  ///< worst error of the program in double over its scale; 0 where no program takes part
+  long double scale = 0;  ///< the largest of all numbers at all states so far
 };
 
 class Agreement {
  public:
-  /// All numbers of `function` at one state, in 77 digits; `what` names number i in a failure.
+  /// All numbers of `function` at one state, in 77 digits. Where one of both is zero throughout, as in a mechanism that starts in
+  /// equilibrium, what is left of zero has no scale but that of the states before: such a state comes last.
   void same(const std::string& function, const std::string& oracle, const std::vector<ScaledReal>& values,
             const std::vector<ScaledReal>& expected);
   /// Errors of `values`, computed in double by a program of this depth, against the exact ones. Scales are those of `expected`: of

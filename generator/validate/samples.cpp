@@ -103,8 +103,10 @@ std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t 
   for (std::size_t k = 0; k < count; ++k) {
     Sample sample;
     sample.t = k == 0 ? 0.0 : uniform(0, 2);
-    for (const model::Parameter& parameter : mechanism.parameters)
-      sample.parameters.push_back(parameter.value * (k == 0 ? 1.0 : uniform(0.9, 1.1)));
+    for (const model::Parameter& parameter : mechanism.parameters) {
+      const double drawn = parameter.value * (k == 0 ? 1.0 : uniform(0.9, 1.1));
+      sample.parameters.push_back(std::isfinite(drawn) ? drawn : parameter.value);
+    }
     for (std::size_t i = 0; i < layout.position_count(); ++i)
       sample.y.push_back(uniform(-1, 1) * (angular[i] ? 3.14 : 1.0));
     for (std::size_t i = 0; i < layout.velocity_count(); ++i) {

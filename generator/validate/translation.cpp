@@ -58,6 +58,8 @@ class Comparison {
 
   /// Of M ż = k̄ − q̄ with the program's accelerations in double, row by row.
   void measure_backward_error(const ir::Program& program, const TreeOracle& oracle) {
+    if ((terms_.k_scale + terms_.q_scale).isZero(0))
+      return;  // ż is zero, and so is all that it might be compared with
     ir::LeafValues<double> leaves = point_.rounded;
     leaves[LeafKind::kConstant] = ir::interpret(module_.constants, leaves);
     const std::vector<double> zdot = ir::interpret(program, leaves);
@@ -111,8 +113,9 @@ Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::
   Verdict verdict;
   Agreement agreement;
   verdict.states = affordable_states(mechanism, states);
-  for (const Sample& sample : draw_samples(mechanism, verdict.states))
-    Comparison(mechanism, equations, load, module, sample, verdict, agreement).run();
+  const std::vector<Sample> samples = draw_samples(mechanism, verdict.states);
+  for (std::size_t i = samples.size(); i-- > 0;)  // the initial state last, see Agreement::same
+    Comparison(mechanism, equations, load, module, samples[i], verdict, agreement).run();
   conclude(agreement, verdict);
   return verdict;
 }

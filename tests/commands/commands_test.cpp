@@ -250,6 +250,30 @@ TEST(Compile, AJointThatMovesNoInertiaIsNamed) {
   expect(jourdain({"check", model}), 1, "joint 'idle' moves no inertia");
 }
 
+TEST(Check, WhatHasNoFiniteValuesIsPlaced) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/huge.toml";
+  const auto place = [&](const std::string& gravity, const std::string& mass, const std::string& joint) {
+    support::write_file(model, "[model]\nname = \"huge\"\ngravity = [0, 0, " + gravity +
+                                   "]\n[[body]]\nname = \"a\"\nmass = " + mass +
+                                   "\n[[joint]]\nname = \"j\"\nparent = \"world\"\nchild = \"a\"\n" + joint);
+    return jourdain({"check", model});
+  };
+  const std::string slide = "type = \"prismatic\"\n",
+                    pushed = "[[force]]\nframe = \"a\"\nforce = [0, 0, 1e308]\n";
+  const std::string message = ": error: the mechanism's equations have no finite values at the initial state";
+  expect(place("-9.81", "1e308", slide), 1, "huge.toml:6:8" + message);
+  expect(place("1.7976931348623157e308", "8", slide), 1, "huge.toml:6:8" + message);
+  expect(place("0", "0.01", slide + pushed), 1, "huge.toml:13:9: error: force");
+  expect(place("0", "10", slide + pushed), 0, "ok");
+}
+
+TEST(CommandLine, MessagesShowNoControlCharacters) {
+  expect(jourdain({"compile", "m.toml", "-o", "out", "--name", "a\x1b[31m"}), 2, "'a?[31m' is not");
+  expect(jourdain({"\x1b[31m"}), 2, "no command '?[31m'");
+  expect(jourdain({"check", "\x1b[31m.toml"}), 3, "?[31m.toml");
+}
+
 TEST(Check, SaysOkInOneLine) {
   const support::ProcessResult result = jourdain({"check", "models/panda.toml"});
   expect(result, 0, "ok: panda: ");

@@ -36,6 +36,19 @@ TEST(Agreement, OfZeroWithWhatIsNotTakesItsScale) {
   EXPECT_FALSE(agree(ScaledReal(1e-20), cancelled(0, 9.81)));
 }
 
+TEST(Agreement, OfZeroThroughoutTakesTheScaleOfTheStatesBefore) {
+  const ScaledReal left(1e-76);  // of constants that cancel
+  EXPECT_FALSE(agree(left, 0));
+  Agreement agreement;
+  agreement.same("f", "an oracle", {1.0}, {1.0});
+  agreement.same("f", "an oracle", {left}, {0});
+  agreement.rounded("f", "an oracle", {std::ldexp(1.0, -51)}, {ScaledReal().with_scale(4)}, {0}, 9);
+  agreement.rounded("f", "an oracle", {0}, {1e-65}, {left}, 9);
+  EXPECT_TRUE(agreement.failures().empty());
+  agreement.same("f", "an oracle", {1e-29}, {0});
+  EXPECT_FALSE(agreement.failures().empty());
+}
+
 TEST(Agreement, NumbersThatDoNotExistAgreeWithEachOtherAlone) {
   const ScaledReal none = ScaledReal(1) / ScaledReal(0);
   EXPECT_FALSE(none.is_number());

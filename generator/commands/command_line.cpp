@@ -1,0 +1,107 @@
+#include "commands/command_line.hpp"
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include "commands/commands.hpp"
+#include "commands/load.hpp"
+#include "support/interruption.hpp"
+#include "support/utf8.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+/// Says so when the first argument is no command; CLI11 would only say that one is missing.
+bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return false;
+  const std::string near = support::nearest(argv[1], names);
+  fmt::print(stderr, "error: no command '{}'; {}\n", support::shown(argv[1]),
+             near.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+                          : fmt::format("did you mean '{}'?", near));
+  return true;
+}
+
+/// The arguments after the program's name, in reverse as CLI11 takes them. Options that take several values would take
+/// the model too: a second value that is a model file is moved to the front.
+std::vector<std::string> reversed_arguments(int argc, char** argv) {
+  const auto is_model = [](std::string_view text) {
+    return text.ends_with(".toml") || text.ends_with(".urdf");
+  };
+  const auto is_option = [](std::string_view text) {
+    return text.starts_with("-") && text.find_first_of("0123456789.") != 1;
+  };
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (std::size_t i = 2; i < arguments.size(); ++i)
+    if (is_model(arguments[i]) && !is_option(arguments[i - 1])) {
+      std::rotate(arguments.begin() + 1, arguments.begin() + static_cast<std::ptrdiff_t>(i),
+                  arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      break;
+    }
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
+/// For a terminal: arguments, which messages name, may hold anything.
+std::string printable(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const support::Utf8Character character = support::utf8_at(text, i);
+    const bool shown = character.printable || text[i] == '\n';
+    out += shown ? text.substr(i, character.bytes) : "?";
+    i += character.bytes;
+  }
+  return out;
+}
+
+/// Prints help, or what is wrong with the arguments, which may hold anything.
+int explain(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream help, wrong;
+  const int status = app.exit(error, help, wrong) == 0 ? kSuccess : kUsage;
+  fmt::print("{}", help.str());
+  fmt::print(stderr, "{}", printable(wrong.str()));
+  return status;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Jourdain compiles the description of a multibody mechanism to C++ that computes its motion.",
+               "jourdain");
+  app.set_version_flag("--version", fmt::format("jourdain {}", emit::kVersion));
+  app.require_subcommand(1);
+  support::handle_interruptions();
+  int status = kSuccess;
+  add_all(app, status);
+  if (is_unknown_command(app, argc, argv)) return kUsage;
+  try {
+    app.parse(reversed_arguments(argc, argv));
+    return status;
+  } catch (const CLI::ParseError& error) {
+    return explain(app, error);
+  }
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) noexcept {
+  try {
+    return run(argc, argv);
+  } catch (const support::EnvironmentError& error) {
+    std::fprintf(stderr, "error: %s\n", printable(error.what()).c_str());
+    return kEnvironment;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "internal error: %s\nPlease report this with the model that shows it.\n",
+                 error.what());
+    return kInternal;
+  }
+}
+
+}  // namespace jourdain::commands
