@@ -14,10 +14,7 @@ int run(const ModelArguments& arguments) {
   const std::optional<LoadedMechanism> loaded = load(arguments);
   if (!loaded) return kModelWrong;
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
-  if (!compiled.verdict.accepted()) {
-    print_refusal(compiled.verdict);
-    return kInternal;
-  }
+  if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
   fmt::print("ok: {}: {} bodies, {}, {} inputs; backward error {:.1e}, cond(M) up to {}\n",
              loaded->options.name, loaded->mechanism.bodies.size(), freedom_text(*loaded),
              compiled.shape.inputs, compiled.verdict.backward_error,

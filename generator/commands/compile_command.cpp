@@ -55,10 +55,7 @@ int run(const Arguments& arguments) {
         fmt::print("{}", programs_text(pass, module));
     };
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
-  if (!compiled.verdict.accepted()) {
-    print_refusal(compiled.verdict);
-    return kInternal;
-  }
+  if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
   support::write_files(arguments.folder, compiled.files);
   fmt::print("{}: {}\n", loaded->options.name, freedom_text(*loaded));
   for (const emit::File& file : compiled.files)

@@ -86,10 +86,7 @@ int run(Arguments arguments) {
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
-  if (!compiled.verdict.accepted()) {
-    print_refusal(compiled.verdict);
-    return kInternal;
-  }
+  if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
   return report_on(arguments, *model, compiled, bar);
 }
 

@@ -124,9 +124,9 @@ int run(const InfoArguments& arguments) {
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   const bool accepted = compiled.verdict.accepted();
   if (!arguments.json) fmt::print("{}", info_text(*loaded, compiled));
-  if (!accepted) print_refusal(compiled.verdict);
-  if (accepted && arguments.json) fmt::print("{}", info_json(*loaded, compiled));
-  return accepted ? kSuccess : kInternal;
+  if (!accepted) return refuse(*loaded, compiled.verdict);
+  if (arguments.json) fmt::print("{}", info_json(*loaded, compiled));
+  return kSuccess;
 }
 
 }  // namespace

@@ -128,7 +128,15 @@ std::vector<std::string> loop_sentences(const LoadedMechanism& loaded) {
   return list;
 }
 
-void print_refusal(const validate::Verdict& verdict) {
+int refuse(const LoadedMechanism& loaded, const validate::Verdict& verdict) {
+  if (verdict.overflows == verdict.failures.size()) {
+    const support::SourceRange& where = loaded.mechanism.where;
+    fmt::print(stderr,
+               "{}:{}:{}: error: {}\n  Units in which masses and lengths are nearer to 1 keep the numbers in "
+               "its range.\n",
+               loaded.options.path, where.line, where.column, verdict.failures.front());
+    return kModelWrong;
+  }
   const std::size_t more = verdict.failures.size() - 1;
   fmt::print(stderr,
              "error: refused to emit: {}{}\n"
@@ -137,6 +145,7 @@ void print_refusal(const validate::Verdict& verdict) {
              "avoid it.\n"
              "  Please report it with the description, the options and jourdain --version.\n",
              verdict.failures.front(), more == 0 ? "" : fmt::format(" (and {} more)", more));
+  return kInternal;
 }
 
 }  // namespace jourdain::commands

@@ -210,10 +210,7 @@ int run(Arguments arguments) {
   options.functions = loadable_functions(arguments.methods);
   if (velocities <= kMostVelocities) options.functions.push_back("forward_dynamics_derivatives");
   const CompiledModel compiled = compile(figure.mechanism, options);
-  if (!compiled.verdict.accepted()) {
-    print_refusal(compiled.verdict);
-    return kInternal;
-  }
+  if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
   bar.show("deriving the equations of the first kind", 0);
   std::future<std::optional<FreeModel>> building = build_free_bodies(arguments, model->loaded);
   const LoadedModels models = build_models(arguments, name, compiled, bar);

@@ -222,10 +222,7 @@ int run(const Arguments& arguments) {
   if (!plot) return kUsage;
   options.functions = loadable_functions({arguments.method});
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
-  if (!compiled.verdict.accepted()) {
-    print_refusal(compiled.verdict);
-    return kInternal;
-  }
+  if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
   const Signals signals(model->loaded, compiled.outputs);
   for (const std::string& sentence : signals.renamed()) fmt::print(stderr, "note: {}\n", sentence);
   const std::optional<Selection> selection = select(signals, arguments.outputs, *plot);

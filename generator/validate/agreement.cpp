@@ -82,6 +82,12 @@ void Agreement::same(const std::string& function, const std::string& oracle,
                    static_cast<double>(expected[worst]), most));
 }
 
+void Agreement::overflow(const std::string& sentence) {
+  const std::size_t before = failures_.size();
+  fail(sentence);
+  overflows_ += failures_.size() - before;
+}
+
 void Agreement::rounded(const std::string& function, const std::string& oracle,
                         const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& exact,
                         const std::vector<ScaledReal>& expected, std::size_t depth) {
@@ -102,7 +108,10 @@ void Agreement::rounded(const std::string& function, const std::string& oracle,
     const double error =
         values[i].is_number() == exact[i].is_number() ? static_cast<double>(difference / scale) : INFINITY;
     c.rounding = std::max(c.rounding, error);
-    if (!(error <= limit))
+    if (!(error <= limit) && exact[i].is_number() && !std::isfinite(static_cast<double>(values[i])))
+      overflow(fmt::format("{} leaves the range of double on the way to number {}, which is {:.6g}", function,
+                           i + 1, static_cast<double>(exact[i])));
+    else if (!(error <= limit))
       fail(fmt::format("{} loses its digits in double: number {} is {:.6g} instead of {:.6g}", function,
                        i + 1, static_cast<double>(values[i]), static_cast<double>(exact[i])));
   }

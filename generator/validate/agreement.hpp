@@ -43,15 +43,20 @@ class Agreement {
                const std::vector<ScaledReal>& exact, const std::vector<ScaledReal>& expected,
                std::size_t depth);
   void fail(const std::string& sentence);
+  /// A failure of the number type: in more digits the program is right.
+  void overflow(const std::string& sentence);
 
   const std::vector<Compared>& compared() const { return compared_; }
   const std::vector<std::string>& failures() const { return failures_; }
+  /// How many of them are overflows.
+  std::size_t overflows() const { return overflows_; }
 
  private:
   Compared& record(const std::string& function, const std::string& oracle);
 
   std::vector<Compared> compared_;
   std::vector<std::string> failures_;
+  std::size_t overflows_ = 0;
 };
 
 /// Operations on the longest path from a leaf to an output.

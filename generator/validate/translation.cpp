@@ -104,6 +104,7 @@ std::string condition_text(const Verdict& verdict) {
 void conclude(const Agreement& agreement, Verdict& verdict) {
   verdict.compared.insert(verdict.compared.end(), agreement.compared().begin(), agreement.compared().end());
   verdict.failures.insert(verdict.failures.end(), agreement.failures().begin(), agreement.failures().end());
+  verdict.overflows += agreement.overflows();
   for (const Compared& c : agreement.compared())
     verdict.entry_error = std::max(verdict.entry_error, c.rounding);
 }

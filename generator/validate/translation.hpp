@@ -22,6 +22,7 @@ struct Verdict {
       0;  ///< of M as emitted, with loops where they are closed; 2-norm, SI units as they are; worst
   std::vector<Compared> compared;     ///< what with what, in the order of comparison
   std::vector<std::string> failures;  ///< sentences; empty: accepted
+  std::size_t overflows = 0;          ///< of the failures: numbers that double has no room for
 
   bool accepted() const { return failures.empty(); }
 };
