@@ -115,7 +115,9 @@ bool check_graph(const Mechanism& mechanism, Diagnostics& diagnostics) {
   if (!GraphCheck(mechanism, diagnostics).run()) return false;
   if (moving_joints(mechanism).empty())
     diagnostics.error(mechanism.where, "the mechanism has no degree of freedom",
-                      "every joint is fixed; --root free lets the root link of a URDF file move");
+                      diagnostics.path().ends_with(".toml")
+                          ? "every joint is fixed"
+                          : "every joint is fixed; --root free lets the root link move");
   return true;
 }
 

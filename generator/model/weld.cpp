@@ -123,7 +123,7 @@ void weld_massless_ends(Mechanism& mechanism, support::Diagnostics& diagnostics)
   diagnostics.warning(
       mechanism.joints[ends.front().value].where,
       fmt::format("no mass is beyond {} {}: held at zero", ends.size() == 1 ? "joint" : "joints", names),
-      "a mass or inertia makes them move");
+      ends.size() == 1 ? "a mass or inertia makes it move" : "a mass or inertia makes them move");
 }
 
 }  // namespace jourdain::model

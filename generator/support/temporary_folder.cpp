@@ -1,6 +1,7 @@
 #include "support/temporary_folder.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <string_view>
 
 #include "support/check.hpp"
 
@@ -17,12 +19,20 @@ namespace jourdain::support {
 
 namespace {
 
-constexpr char kPrefix[] = "jourdain-temporary-";
-constexpr std::size_t kRandomLetters = 6;  // what mkdtemp replaces
-constexpr std::time_t kSurelyLocked = 60;  // s from the making of a folder to its lock
+constexpr std::string_view kPrefix = "jourdain-temporary-";
+constexpr std::string_view kSuffix = "-XXXXXX";  // which mkdtemp replaces
+constexpr std::time_t kSurelyLocked = 60;        // s from the making of a folder to its lock
 
 int open_folder(const std::string& path) {
   return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+/// jourdain-temporary-PROCESS-RANDOM
+bool is_ours(std::string_view name) {
+  if (!name.starts_with(kPrefix) || name.size() <= kPrefix.size() + kSuffix.size()) return false;
+  name.remove_prefix(kPrefix.size());
+  return name.find_first_not_of("0123456789") == name.size() - kSuffix.size() &&
+         name[name.size() - kSuffix.size()] == '-';
 }
 
 /// Of this user, old enough to be locked if anybody uses it, and not locked.
@@ -35,8 +45,7 @@ bool is_abandoned(int folder) {
 void remove_abandoned(const std::filesystem::path& parent) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(parent, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kPrefix) || name.size() != sizeof kPrefix - 1 + kRandomLetters) continue;
+    if (!is_ours(entry.path().filename().string())) continue;
     const int folder = open_folder(entry.path().string());
     if (folder < 0) continue;
     if (is_abandoned(folder)) std::filesystem::remove_all(entry.path(), ignored);
@@ -52,7 +61,7 @@ TemporaryFolder::TemporaryFolder() {
   const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
   if (error) throw EnvironmentError("no folder for temporary files (TMPDIR): " + error.message());
   remove_abandoned(parent);
-  std::string pattern = (parent / kPrefix).string() + std::string(kRandomLetters, 'X');
+  std::string pattern = (parent / fmt::format("{}{}{}", kPrefix, getpid(), kSuffix)).string();
   if (!mkdtemp(pattern.data()))
     throw EnvironmentError("cannot make a folder like '" + pattern + "': " + std::strerror(errno));
   path_ = pattern;

@@ -64,7 +64,9 @@ TEST(RoundedDirections, CompileAndAgreeAndFourDecimalsCostNothing) {
           operations(robot, with_directions(text, [&](double x) { return rounded(x, decimals); }));
       ASSERT_TRUE(count);
       fmt::print(" {} decimals {};", decimals, *count);
-      if (decimals >= 4) EXPECT_LE(*count, *exact) << decimals;
+      if (decimals >= 4) {
+        EXPECT_LE(*count, *exact) << decimals;
+      }
     }
     for (const double noise : {1e-17, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7, 1e-6, 1e-5}) {
       support::Uniform uniform(7);

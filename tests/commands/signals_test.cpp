@@ -98,11 +98,12 @@ TEST_F(Signals, ThatAreUnknownAreNamed) {
 
 TEST_F(Signals, WithoutAFiniteValueMakeNoPlot) {
   support::write_file(in_folder("m.toml"),
-                      "[model]\nname = \"m\"\n[parameters]\na = 1\n[[body]]\nname = \"b\"\nmass = "
+                      "[model]\nname = \"m\"\n[[input]]\nname = \"u\"\n[[body]]\nname = \"b\"\nmass = "
                       "1\n[[joint]]\nname = \"s\"\n"
                       "type = \"prismatic\"\nparent = \"world\"\nchild = \"b\"\n"
-                      "[[output]]\nname = \"root\"\nkind = \"expression\"\nvalue = \"sqrt(a - s)\"\n");
-  const support::ProcessResult result = simulate("m.toml", {"--set", "a=-10", "--plot", "root", "p.svg"});
+                      "[[output]]\nname = \"root\"\nkind = \"expression\"\nvalue = \"sqrt(u)\"\n");
+  const support::ProcessResult result =
+      simulate("m.toml", {"--constant-input", "-1", "--plot", "root", "p.svg"});
   expect(result, 0, "no plot: no value");
   EXPECT_FALSE(fs::exists(in_folder("p.svg")));
 }

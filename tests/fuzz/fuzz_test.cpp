@@ -9,6 +9,7 @@
 #include "model/read.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {
 namespace {

@@ -193,7 +193,9 @@ TEST(ReadToml, BoundsTheNumberOfBodies) {
   for (int i = 0; i < 1001; ++i) text += "[[body]]\nmass = 1\n";
   const Result result = read(text);
   EXPECT_FALSE(result.mechanism.has_value());
-  EXPECT_EQ(result.messages, "model.toml: error: the file has 1001 [[body]] tables, more than 1000\n");
+  EXPECT_EQ(result.messages,
+            "model.toml:3:1: error: the file has 1001 [[body]] tables, more than 1000\n    3 | [[body]]\n    "
+            "  | ^~~~~~~~\n");
 }
 
 }  // namespace

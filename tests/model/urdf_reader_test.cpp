@@ -21,7 +21,7 @@ const std::string kArm = R"(<?xml version="1.0"?>
     </inertial>
     <visual><geometry><box size="not read"/></geometry></visual>
   </link>
-  <link name="finger"/>
+  <link name="finger"><inertial><mass value="0.1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
   <link name="sensor"/>
   <joint name="elbow" type="continuous">
     <origin xyz="1 2 3" rpy="0.1 0.2 0.3"/>

@@ -97,16 +97,17 @@ axis = [0, 0, 1]
 
 TEST(Weld, AnythingThatActsOnTheJointOrNamesItKeepsIt) {
   EXPECT_EQ(read("p.toml", pointer("")).mechanism.welded, Names{"turn"});
-  const Names joints = {"stiffness = 1\n", "position = 0.1\n", "velocity = 0.1\n", "motion = \"t\"\n"};
+  const Names joints = {"stiffness = 1\n", "initial_position = 0.1\n", "initial_velocity = 0.1\n",
+                        "motion = \"t\"\n"};
   for (const std::string& joint : joints) {
     const Read of = read("p.toml", pointer("", joint));
     EXPECT_FALSE(of.mechanism.bodies.empty()) << joint << of.diagnostics;
     EXPECT_TRUE(of.mechanism.welded.empty()) << joint;
   }
   const Names others = {"[[actuator]]\nname = \"motor\"\njoint = \"turn\"\n",
-                        "[[force]]\nname = \"f\"\njoint = \"turn\"\nforce = 1\n",
+                        "[[force]]\nname = \"f\"\njoint = \"turn\"\nvalue = 1\n",
                         "[[frame]]\nname = \"end\"\nbody = \"hand\"\n",
-                        "[[output]]\nname = \"angle\"\nvalue = \"turn\"\n",
+                        "[[output]]\nname = \"angle\"\nkind = \"expression\"\nvalue = \"turn\"\n",
                         "[[output]]\nname = \"r\"\nkind = \"reaction\"\njoint = \"turn\"\n"};
   for (const std::string& other : others) {
     const Read of = read("p.toml", pointer(other));

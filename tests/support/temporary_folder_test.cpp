@@ -58,19 +58,19 @@ TEST_F(TemporaryFolders, GoWithTheirContents) {
 }
 
 TEST_F(TemporaryFolders, WhatAKilledProgramLeftGoesWithTheNextOne) {
-  const std::string old = left("jourdain-temporary-abc123");
+  const std::string old = left("jourdain-temporary-17-abc123");
   const TemporaryFolder folder;
   EXPECT_FALSE(fs::exists(old));
   EXPECT_TRUE(fs::exists(folder.path()));
 }
 
 TEST_F(TemporaryFolders, OthersStay) {
-  const std::string young = left("jourdain-temporary-abc123", false),
-                    users = left("jourdain-temporary-output"), other = left("jourdain-abc123"),
-                    locked = left("jourdain-temporary-def456");
+  const std::string young = left("jourdain-temporary-17-abc123", false),
+                    users = left("jourdain-temporary-output"), other = left("jourdain-temporary-one-output"),
+                    locked = left("jourdain-temporary-17-def456");
   const int lock = open(locked.c_str(), O_RDONLY | O_DIRECTORY);
   ASSERT_EQ(flock(lock, LOCK_EX), 0);
-  fs::create_directory_symlink(other, parent_ + "/jourdain-temporary-ghi789");
+  fs::create_directory_symlink(other, parent_ + "/jourdain-temporary-17-ghi789");
   const TemporaryFolder folder;
   for (const std::string& path : {young, users, other, locked})
     EXPECT_TRUE(fs::exists(path + "/inner")) << path;
