@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "emit/body.hpp"
@@ -174,6 +175,11 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
         "angles that follow from time are sums of two numbers, so that the phase stays right: operation "
         "counts hold "
         "each of their operations, sines and cosines as one, it takes several (see detail::Angle)");
+  if (!mechanism.indefinite.empty())
+    list.push_back(
+        fmt::format("M need not be positive definite everywhere: indefinite, as the description has it, is "
+                    "the inertia of {}",
+                    fmt::join(mechanism.indefinite, ", ")));
   if (!mechanism.welded.empty())
     list.push_back(fmt::format("joints beyond which is no mass are held at zero: {}",
                                fmt::join(mechanism.welded, ", ")));
@@ -237,6 +243,17 @@ CompileOptions completed(const model::Mechanism& mechanism, const CompileOptions
   return chosen;
 }
 
+/// Is one of the constants beyond the range of double?
+bool overflows(const ir::Module& module) {
+  const auto has_overflow = [](const ir::Program& program) {
+    return std::any_of(program.nodes.begin(), program.nodes.end(), [](const ir::Node& node) {
+      return node.op == ir::Op::kLiteral && !std::isfinite(node.literal);
+    });
+  };
+  return has_overflow(module.constants) ||
+         std::any_of(module.functions.begin(), module.functions.end(), has_overflow);
+}
+
 ir::Module lower_tree(const model::Mechanism& mechanism, const CompileOptions& options,
                       const Equations& equations, const std::vector<emit::FunctionInfo>& functions) {
   ir::Module lowered = lower_functions(equations, functions);
@@ -293,6 +310,11 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
   passes::Optimised optimised = passes::optimise(std::move(lowered), options.passes_off, options.watch);
   result.module = std::move(optimised.module);
   result.passes = std::move(optimised.records);
+  if (overflows(result.module)) {
+    result.verdict.failures = {"a constant of the equations is beyond the range of double"};
+    result.verdict.overflows = 1;
+    return result;
+  }
   const std::vector<std::string> defects =
       module_defects(result.module, result.shape, mechanism.parameters.size());
   JD_CHECK(defects.empty(), "broken program, {}", defects.front());

@@ -1,6 +1,7 @@
 // The parts of `check_mechanism`; readers run those whose input they could read.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/mechanism.hpp"
@@ -23,9 +24,10 @@ void check_loops(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 /// Inertia about the centre of mass positive semidefinite for each body, triangle inequality of the principal
 /// moments after merging bodies joined by fixed joints, both at the parameters' default values. Lumped bodies
 /// need no more than moments of inertia about their origin that are not negative; nothing is merged with
-/// them. The joints must have passed `check_graph`.
-void check_inertias(const Mechanism& mechanism, support::Diagnostics& diagnostics,
-                    support::Severity triangle);
+/// them. The joints must have passed `check_graph`. Where `triangle` is a warning, so is an indefinite inertia; the bodies that have
+/// one are returned.
+std::vector<std::string> check_inertias(const Mechanism& mechanism, support::Diagnostics& diagnostics,
+                                        support::Severity triangle);
 
 /// The parameters' default values, in order.
 std::vector<double> default_values(const Mechanism& mechanism);

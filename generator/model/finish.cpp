@@ -45,7 +45,7 @@ std::optional<Mechanism> finish_reading(Mechanism mechanism, const Completeness&
   const bool tree = complete.structure && check_graph(mechanism, diagnostics);
   if (tree) check_loops(mechanism, diagnostics);
   if (tree && complete.numbers) weld_massless_ends(mechanism, diagnostics);
-  if (tree && complete.numbers) check_inertias(mechanism, diagnostics, triangle);
+  if (tree && complete.numbers) mechanism.indefinite = check_inertias(mechanism, diagnostics, triangle);
   if (diagnostics.has_errors()) return {};
   return mechanism;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/checks.hpp"
 #include "model/matrix3.hpp"
@@ -73,12 +74,13 @@ class InertiaCheck {
         triangle_(triangle),
         values_(default_values(mechanism)) {}
 
-  void run() {
+  std::vector<std::string> run() {
     const std::vector<Group> all = groups();
     for (std::size_t g = 0; g < all.size(); ++g)
       for (const std::size_t b : all[g].bodies) check_body(mechanism_.bodies[b], all[g], g == 0);
     for (const Group& group : all)
       if (!group.lumped) check_triangle(group);
+    return std::move(indefinite_);
   }
 
  private:
@@ -122,10 +124,15 @@ class InertiaCheck {
       diagnostics_.warning(where, message, "no joint moves it: left out");
     else if (group.bodies.size() > 1 && is_definite(group.moments))
       diagnostics_.warning(where, message, "with the bodies fixed to it it is not: used as it is");
-    else if (triangle_ == support::Severity::kWarning)
-      diagnostics_.warning(where, message, "no rigid body has it: used as it is");
     else
-      diagnostics_.error(where, message, hint_at_point(body));
+      report_indefinite(body, where, message);
+  }
+
+  void report_indefinite(const Body& body, const SourceRange& where, const std::string& message) {
+    if (triangle_ == support::Severity::kError)
+      return diagnostics_.error(where, message, hint_at_point(body));
+    indefinite_.push_back(body.name);
+    diagnostics_.warning(where, message, "no rigid body has it: used as it is");
   }
 
   static bool is_definite(const MassMoments& moments) {
@@ -195,12 +202,14 @@ class InertiaCheck {
   Diagnostics& diagnostics_;
   support::Severity triangle_;
   std::vector<double> values_;
+  std::vector<std::string> indefinite_;
 };
 
 }  // namespace
 
-void check_inertias(const Mechanism& mechanism, Diagnostics& diagnostics, support::Severity triangle) {
-  InertiaCheck(mechanism, diagnostics, triangle).run();
+std::vector<std::string> check_inertias(const Mechanism& mechanism, Diagnostics& diagnostics,
+                                        support::Severity triangle) {
+  return InertiaCheck(mechanism, diagnostics, triangle).run();
 }
 
 }  // namespace jourdain::model

@@ -328,8 +328,9 @@ struct Mechanism {
   /// Constant angles that are a multiple of a quarter turn but for rounding are that multiple: their matrices are permutations.
   bool snap = true;
   SnappedDirections snapped;
-  std::vector<std::string> welded;  ///< joints that were locked because nothing with mass is beyond them
-  SourceRange where = {};           ///< of what describes it as a whole
+  std::vector<std::string> welded;      ///< joints that were locked because nothing with mass is beyond them
+  std::vector<std::string> indefinite;  ///< bodies whose inertia no rigid body has, used as it is
+  SourceRange where = {};               ///< of what describes it as a whole
 };
 
 /// By which a double that stands for a multiple of a quarter turn may be off, times the larger of 1 and that multiple.

@@ -1,0 +1,106 @@
+// Robot files as they are found: what is read leniently, how that is said, and how it is refused.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "support/files.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+class RobotFiles : public testing::Test {
+ protected:
+  support::ProcessResult jourdain(const std::string& file, const std::string& text,
+                                  const std::vector<std::string>& options) const {
+    support::write_file(in_folder(file), text);
+    std::vector<std::string> command = {"env", "-C", folder_.path(), JOURDAIN_BINARY};
+    command.insert(command.end(), options.begin(), options.end());
+    command.push_back(file);
+    return support::run_process(command);
+  }
+  std::string in_folder(const std::string& name) const { return folder_.path() + "/" + name; }
+
+ private:
+  support::TemporaryFolder folder_;
+};
+
+void expect(const support::ProcessResult& result, int status, const std::string& part) {
+  EXPECT_EQ(result.status, status) << result.output;
+  EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
+}
+
+/// A pendulum about that axis with a moment −0.1 kg m² about x, placed with that pitch.
+std::string pendulum(const std::string& axis, const std::string& pitch = "0",
+                     const std::string& ixx = "-0.1") {
+  return fmt::format(R"(<robot name="pendulum">
+  <link name="base"/>
+  <link name="bob"><inertial><origin xyz="0.2 0 0"/><mass value="1"/>
+    <inertia ixx="{}" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
+  <joint name="hinge" type="continuous"><origin rpy="0 {} 0"/><parent link="base"/><child link="bob"/><axis xyz="{}"/></joint>
+</robot>
+)",
+                     ixx, pitch, axis);
+}
+
+TEST_F(RobotFiles, IndefiniteInertiasAreUsedAndSaidWhereTheyDoNoHarm) {
+  expect(jourdain("p.urdf", pendulum("0 0 1"), {"compile", "-o", "out"}), 0,
+         "p.urdf:4:5: warning: inertia of body 'bob'");
+  EXPECT_NE(
+      support::read_file(in_folder("out/pendulum.hpp")).find("M need not be positive definite everywhere"),
+      std::string::npos);
+  expect(jourdain("p.urdf", pendulum("1 0 0"), {"check"}), 1,
+         "error: joint 'hinge' moves a negative inertia");
+}
+
+TEST_F(RobotFiles, StrictTakesNoWarnings) {
+  expect(jourdain("p.urdf", pendulum("0 0 1"), {"check", "--strict"}), 1, "--strict takes no warnings");
+  expect(jourdain("p.urdf", pendulum("0 0 1", "0", "0.1"), {"check", "--strict"}), 0, "ok: pendulum");
+}
+
+TEST_F(RobotFiles, SnappingSaysWhatItDoes) {
+  const std::string text = pendulum("0 0 1", "1.5708", "0.1");
+  const std::string effect = "note: reading angles and axes as right changes accelerations by ";
+  expect(jourdain("p.urdf", text, {"check"}), 0, effect);
+  EXPECT_EQ(jourdain("p.urdf", text, {"check", "--no-snap"}).output.find(effect), std::string::npos);
+  EXPECT_EQ(jourdain("p.urdf", text, {"check", "--snap", "1e-6"}).output.find(effect), std::string::npos);
+  expect(jourdain("p.urdf", text, {"check", "--snap", "1"}), 2, "--snap");
+  expect(jourdain("p.urdf", text, {"check", "--snap", "1e-3", "--no-snap"}), 2, "--no-snap");
+}
+
+std::string with_parameter(const std::string& mass, const std::string& length) {
+  return fmt::format(R"([model]
+name = "bob"
+[parameters]
+m = {}
+[[body]]
+name = "bob"
+mass = "m"
+center_of_mass = [0, 0, {}]
+[[joint]]
+name = "hinge"
+type = "revolute"
+parent = "world"
+child = "bob"
+axis = [0, 1, 0]
+initial_position = 0.5
+)",
+                     mass, length);
+}
+
+TEST_F(RobotFiles, ParametersThatAreSetAreCheckedLikeThoseOfTheFile) {
+  expect(jourdain("m.toml", with_parameter("-1", "-1"), {"check"}), 1, "mass of body 'bob' is negative");
+  const auto set = [this](const char* value) {
+    return jourdain("m.toml", with_parameter("1", "-1"), {"simulate", "--duration", "0.1", "--set", value});
+  };
+  expect(set("m=-1"), 2, "mass of body 'bob' is negative");
+  expect(set("m=0"), 2, "moves no inertia");
+  expect(set("m=2"), 0, "");
+}
+
+TEST_F(RobotFiles, NumbersThatDoubleHasNoRoomForAreTheDescriptions) {
+  expect(jourdain("m.toml", with_parameter("1", "-1e-155"), {"check"}), 1, "m.toml:1:1: error: ");
+}
+
+}  // namespace
+}  // namespace jourdain::tests
