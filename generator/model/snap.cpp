@@ -57,15 +57,14 @@ std::optional<double> snapped_angle(const Expression& angle, double tolerance) {
   return static_cast<double>(turns * kQuarter);
 }
 
-/// The axis with entries that are within `tolerance` of its largest zero, where that leaves one entry.
+/// The axis with zeros for entries that are within `tolerance` of its largest, where that changes it.
 std::optional<std::array<double, 3>> snapped_axis(const std::array<double, 3>& axis, double tolerance) {
   const auto size = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const double largest = *std::max_element(axis.begin(), axis.end(), size);
   std::array<double, 3> snapped = axis;
   for (double& entry : snapped)
     if (std::abs(entry) <= tolerance * std::abs(largest)) entry = 0;
-  if (std::count(snapped.begin(), snapped.end(), 0.0) != 2 || snapped == axis) return {};
-  return snapped;
+  return snapped == axis ? std::nullopt : std::optional(snapped);
 }
 
 /// "1 angle", "3 angles", "".

@@ -12,7 +12,7 @@ inline constexpr double kDefaultSnap = 2e-5;
 inline constexpr double kMaximumSnap = 0.01;
 
 /// Each constant angle of a rotation within `tolerance` (rad) of a multiple of a quarter turn becomes that multiple, each axis within it
-/// of a coordinate axis that axis; `mechanism.snapped` keeps what stood there. One note says how many there are.
+/// of a coordinate axis or plane lies on that; `mechanism.snapped` keeps what stood there. One note says how many there are.
 void snap_directions(Mechanism& mechanism, double tolerance, support::Diagnostics& diagnostics);
 
 /// The mechanism with the directions that its description gives; no angle is read as a quarter turn.
