@@ -192,7 +192,7 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Argumen
                coordinate_text(x[static_cast<std::size_t>(i)]));
   for (int i = 0; i < nz; ++i)
     fmt::print("    {:<24} {:>12}\n", table.velocity_names[i],
-               coordinate_text(x[static_cast<std::size_t>(ny + i)]));
+               coordinate_text(x[static_cast<std::size_t>(ny) + static_cast<std::size_t>(i)]));
 }
 
 int run(const Arguments& arguments) {

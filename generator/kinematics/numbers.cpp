@@ -117,7 +117,7 @@ struct Jet {
 
 Ex square_root(const Ex& value) {
   if (!is_number(value)) return GiNaC::sqrt(value);
-  const Ex exact_root = GiNaC::sqrt(value);
+  Ex exact_root = GiNaC::sqrt(value);
   if (is_number(exact_root)) return exact_root;
   return numeric_function(value, [](const cln::cl_F& x) { return cln::sqrt(x); });
 }

@@ -11,7 +11,6 @@ namespace jourdain::loops {
 
 using ir::Interval;
 using ir::IntervalResults;
-using ir::LeafKind;
 using ir::LeafValues;
 using ir::Program;
 

@@ -48,11 +48,11 @@ const Scope& time_scope() {
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
                               const Needed& needed, const Scope& scope) {
   const std::size_t mark = file.error_count();
-  const Expression function = table.function(key, needed, scope);
+  Expression function = table.function(key, needed, scope);
   if (file.error_count() != mark) return function;
   std::vector<Taylor<double>> parameters;
   for (const double value : file.values()) parameters.push_back({value, 0, 0});
-  const Taylor<double> at_start = function.evaluate<Taylor<double>>(
+  const auto at_start = function.evaluate<Taylor<double>>(
       parameters,
       [](double v) {
         return Taylor<double>{v, 0, 0};

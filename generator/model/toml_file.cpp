@@ -111,7 +111,7 @@ Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& p
   const auto& [expression, measure] = std::get<MeasuredExpression>(result);
   if (!measure.fits(place.needed))
     return misfit(text, measure, place, measure.has_counts() ? kCountHint : "");
-  const Expression in_si_units = in_unit(expression, measure, range(text.source()), place);
+  Expression in_si_units = in_unit(expression, measure, range(text.source()), place);
   if (!expression.has_no_variable()) return in_si_units;
   const double at_defaults = value(in_si_units);
   if (!std::isfinite(at_defaults))

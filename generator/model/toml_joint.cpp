@@ -201,7 +201,7 @@ class JointReader {
     const double start = file_.value(joint.coordinates[0].initial_position);
     double speed = 0;
     for (const Expression& component : joint.curve) {
-      const Taylor<double> at = component.evaluate<Taylor<double>>(
+      const auto at = component.evaluate<Taylor<double>>(
           parameters,
           [](double v) {
             return Taylor<double>{v, 0, 0};

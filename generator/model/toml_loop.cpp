@@ -155,7 +155,7 @@ class LoopReader {
     const std::size_t mark = file_.error_count();
     loop.length = read_time_function(file_, table_, "length", needed::kLength, length_scope(mechanism));
     if (file_.error_count() != mark) return;
-    const double start = loop.length.evaluate<double>(
+    const auto start = loop.length.evaluate<double>(
         file_.values(), [](double v) { return v; }, [](const Variable&) { return 0.0; });
     if (!(start > 0))
       table_.error("length",

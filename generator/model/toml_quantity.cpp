@@ -84,7 +84,7 @@ std::optional<Unit> TomlFile::unit_apart(const toml::table& table, const Place& 
   const TomlTable apart(*this, table, place.what, range(table.source()), {"value", "unit"});
   for (const char* key : {"value", "unit"})
     if (!apart.has(key)) apart.missing(key);
-  const std::optional<Unit> unit = apart.unit("unit");
+  std::optional<Unit> unit = apart.unit("unit");
   if (!unit || error_count_ != mark) return {};
   const auto& text = *table.get("unit")->as_string();
   const Measure measure = Measure::parameter(text.get());
