@@ -139,7 +139,7 @@ Expression TomlTable::positive(std::string_view key, const Needed& needed) const
     return 1.0;
   }
   const std::size_t mark = file_.error_count();
-  const Expression result = number(key, needed);
+  Expression result = number(key, needed);
   if (file_.error_count() == mark && !(file_.value(result) > 0)) {
     error(key, fmt::format("{} must be positive, not {}", quoted(key), file_.value(result)));
     file_.complete().numbers = false;

@@ -59,7 +59,7 @@ class UrdfReader {
   /// The element's name, if no earlier element of its kind has it.
   std::optional<std::string> new_name(const XmlElement& element,
                                       std::unordered_map<std::string, SourceRange>& names) {
-    const std::optional<std::string> name = file_.name(element);
+    std::optional<std::string> name = file_.name(element);
     const SourceRange where = file_.value(element, "name");
     if (name && names.emplace(*name, where).second) return name;
     if (name)

@@ -12,8 +12,6 @@
 #include "support/check.hpp"
 #include "support/interruption.hpp"
 
-extern char** environ;
-
 namespace jourdain::support {
 
 namespace {
