@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <regex>
 #include <sstream>
 
 #include "agreement/shared_data.hpp"
@@ -18,20 +17,22 @@ namespace {
 
 using Change = std::function<double(double)>;
 
-/// The description with each number of each rpy and axis changed.
-std::string with_directions(const std::string& text, const Change& change) {
-  static const std::regex attribute(R"(rpy="([^"]*)\"|<axis\s+xyz="([^"]*)\")");
+/// The text between quotes that follows each `opening`, with each of its numbers changed.
+std::string with_numbers(const std::string& text, const std::string& opening, const Change& change) {
   std::string changed;
   std::size_t copied = 0;
-  for (std::sregex_iterator match(text.begin(), text.end(), attribute), end; match != end; ++match) {
-    const std::size_t group = (*match)[1].matched ? 1 : 2;
-    const auto begin = static_cast<std::size_t>(match->position(group));
+  for (std::size_t at = text.find(opening); at != std::string::npos; at = text.find(opening, at + 1)) {
+    const std::size_t begin = at + opening.size(), end = text.find('"', begin);
     changed += text.substr(copied, begin - copied);
-    std::istringstream numbers((*match)[group].str());
+    std::istringstream numbers(text.substr(begin, end - begin));
     for (double number = 0; numbers >> number;) changed += fmt::format("{:.17g} ", change(number));
-    copied = begin + (*match)[group].str().size();
+    copied = end;
   }
   return changed + text.substr(copied);
+}
+
+std::string with_directions(const std::string& text, const Change& change) {
+  return with_numbers(with_numbers(text, "rpy=\"", change), "<axis xyz=\"", change);
 }
 
 /// Operations of forward_dynamics; nothing where the description or the compiler refuses.

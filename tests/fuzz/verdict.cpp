@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <regex>
+#include <string_view>
 
 #include "support/files.hpp"
 #include "support/utf8.hpp"
@@ -24,17 +24,43 @@ std::string first_line_with(const std::string& text, const std::string& part) {
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-/// Without numbers and quoted names.
-std::string essence(std::string text) {
-  text = std::regex_replace(text.substr(0, 300), std::regex("'[^']*'"), "'…'");
-  text = std::regex_replace(text, std::regex("[-+]?[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?"), "#");
-  std::replace(text.begin(), text.end(), '\t', ' ');
-  return text.substr(0, 160);
+/// Without numbers and quoted names, at most 160 characters.
+std::string essence(const std::string& text) {
+  std::string found;
+  for (std::size_t i = 0; i < text.size() && found.size() < 160; ++i) {
+    const std::size_t quote = text[i] == '\'' ? text.find('\'', i + 1) : std::string::npos;
+    if (quote != std::string::npos) {
+      found += "'…'";
+      i = quote;
+    } else if (text[i] >= '0' && text[i] <= '9') {
+      if (!found.ends_with('#')) found += '#';
+    } else {
+      found += text[i] == '\t' ? ' ' : text[i];
+    }
+  }
+  return found;
+}
+
+/// "…model.toml:12:3"
+bool is_place(std::string_view text) {
+  for (int i = 0; i < 2; ++i) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string_view::npos || colon + 1 == text.size() ||
+        text.find_first_not_of("0123456789", colon + 1) != std::string_view::npos)
+      return false;
+    text = text.substr(0, colon);
+  }
+  return text.ends_with(".toml") || text.ends_with(".urdf") || text.ends_with(".csv");
 }
 
 bool is_placed(const std::string& errors) {
-  static const std::regex kPlaced("(^|\n)[^\n:]*\\.(toml|urdf|csv):[0-9]+:[0-9]+: error: ");
-  return std::regex_search(errors, kPlaced);
+  const std::string mark = ": error: ";
+  for (std::size_t at = errors.find(mark); at != std::string::npos; at = errors.find(mark, at + 1)) {
+    const std::size_t newline = errors.rfind('\n', at),
+                      begin = newline == std::string::npos ? 0 : newline + 1;
+    if (is_place(std::string_view(errors).substr(begin, at - begin))) return true;
+  }
+  return false;
 }
 
 /// The file as a whole is what is wrong.
