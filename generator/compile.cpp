@@ -247,7 +247,7 @@ CompileOptions completed(const model::Mechanism& mechanism, const CompileOptions
 bool overflows(const ir::Module& module) {
   const auto has_overflow = [](const ir::Program& program) {
     return std::any_of(program.nodes.begin(), program.nodes.end(), [](const ir::Node& node) {
-      return node.op == ir::Op::kLiteral && !std::isfinite(node.literal);
+      return node.op == ir::Op::kLiteral && std::isinf(node.literal);
     });
   };
   return has_overflow(module.constants) ||

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "model/lock.hpp"
-#include "support/diagnostics.hpp"
 
 namespace jourdain::model {
 

@@ -56,8 +56,7 @@ std::string snapping_sentence(const model::Mechanism& mechanism) {
   if (!effect) return "what reading angles and axes as right does to the accelerations was not measured";
   return fmt::format(
       "reading angles and axes as right changes accelerations by {:.1e} of what they are added up from at "
-      "most "
-      "({} sampled states)",
+      "most ({} sampled states)",
       *effect, kStates);
 }
 
