@@ -37,7 +37,7 @@ NumberText text_of(NumberType number) {
   return {};
 }
 
-std::string stepper_struct(const std::string& name, const emit::Stepper& stepper) {
+std::string stepper_struct(const std::string& name, const programs::Stepper& stepper) {
   const bool remembers = stepper.history > 0 || stepper.implicit;
   const std::string history = stepper.implicit
                                   ? fmt::format("::{}::Accelerations<Real>", name)
@@ -53,7 +53,7 @@ std::string stepper_struct(const std::string& name, const emit::Stepper& stepper
 }
 
 bool has(const CompiledModel& compiled, const std::string& function) {
-  for (const emit::FunctionInfo& info : compiled.functions)
+  for (const programs::FunctionInfo& info : compiled.functions)
     if (info.name == function) return true;
   return false;
 }
@@ -84,14 +84,14 @@ std::string loop_functions(const std::string& name, const CompiledModel& compile
 /// Arrays of length zero are no members of the emitted structs.
 std::string shim(const std::string& name, const NumberText& number, const CompiledModel& compiled) {
   const auto copy = [](std::size_t count, const char* line) { return std::string(count > 0 ? line : ""); };
-  const emit::SceneShape& shape = compiled.shape;
+  const programs::SceneShape& shape = compiled.shape;
   const long dynamics = operations_of(compiled, "forward_dynamics");
   const long rate = operations_of(compiled, "position_rate");
   std::string steppers, methods;
   int method_count = 0;
-  for (const emit::FunctionInfo& function : compiled.functions) {
+  for (const programs::FunctionInfo& function : compiled.functions) {
     if (!function.stepper) continue;
-    const emit::Stepper& s = *function.stepper;
+    const programs::Stepper& s = *function.stepper;
     steppers += stepper_struct(name, s);
     methods += fmt::format(
         "\n    {{\"{0}\", {1}, {2}, {3}, {4}, {5}L, steps<{0}_method>}},", s.name,

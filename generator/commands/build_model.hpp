@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "studies/loaded_model.hpp"
 
 namespace jourdain::commands {

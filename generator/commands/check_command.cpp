@@ -4,7 +4,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
-#include "loops/closed_system.hpp"
+#include "loops/plan/plan_text.hpp"
 
 namespace jourdain::commands {
 

@@ -152,7 +152,7 @@ std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& nam
     if (const std::optional<CodeCost> cost = find_cost(graph, signature)) costs[function] = *cost;
   };
   add("model", fmt::format("{}::Model<{}>::Model(", name, real));
-  for (const emit::FunctionInfo& function : compiled.functions)
+  for (const programs::FunctionInfo& function : compiled.functions)
     add(function.name, fmt::format("{}::{}<{}>(", name, function.name, real));
   return costs;
 }

@@ -32,7 +32,7 @@ std::string check_pass(const std::string& pass) {
 }
 
 std::string check_function(const std::string& function) {
-  const std::vector<std::string> known = emit::function_names();
+  const std::vector<std::string> known = programs::function_names();
   if (std::find(known.begin(), known.end(), function) != known.end()) return "";
   const std::string near = support::nearest(function, known);
   return near.empty() ? fmt::format("no function '{}'; there are {}", function, fmt::join(known, ", "))

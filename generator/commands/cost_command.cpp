@@ -10,7 +10,7 @@
 #include "commands/method_names.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
-#include "model/angles.hpp"
+#include "model/angular_entries.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::commands {
@@ -63,8 +63,9 @@ int report_on(const Arguments& arguments, const RunModel& model, const CompiledM
 }
 
 int run(Arguments arguments) {
-  const DerivativeTerms terms =
-      arguments.run.model.derivatives == "applied" ? DerivativeTerms::kApplied : DerivativeTerms::kAll;
+  const programs::DerivativeTerms terms = arguments.run.model.derivatives == "applied"
+                                              ? programs::DerivativeTerms::kApplied
+                                              : programs::DerivativeTerms::kAll;
   if (const std::string conflict = check_derivative_terms(arguments.methods, terms); !conflict.empty()) {
     fmt::print(stderr, "error: {}\n", conflict);
     return kUsage;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands/load.hpp"
-#include "emit/files.hpp"
+#include "emit/model_files.hpp"
 
 namespace jourdain::commands {
 

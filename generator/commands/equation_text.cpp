@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "dynamics/harmonics.hpp"
-#include "emit/names.hpp"
-#include "loops/plan.hpp"
+#include "emit/unique_names.hpp"
+#include "loops/record/loop_plan.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::commands {
@@ -205,7 +205,8 @@ std::string equations_text(const model::Mechanism& mechanism, bool latex) {
   if (equations.M.size() <= kExpandedCoordinates && has_expanded_form(mechanism))
     text += block("Expanded", expanded(equations, latex), latex);
   for (const ir::Program& program :
-       lower_functions(equations, emit::with_needed({"mass_matrix", "k_bar", "q_bar"}, shape_of(mechanism)))
+       lower_functions(equations,
+                       programs::with_needed({"mass_matrix", "k_bar", "q_bar"}, shape_of(mechanism)))
            .functions)
     text += block(fmt::format("{} with named intermediates", program.name),
                   EquationPrinter(program, mechanism, latex).print(), latex);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/model_facts.hpp"
-#include "commands/text_table.hpp"
+#include "report/text_table.hpp"
 
 namespace jourdain::commands {
 
@@ -41,7 +41,7 @@ std::string range_text(const Json& fact) {
 }
 
 std::string links_text(const Json& links) {
-  TextTable table({"links", "parent", "joint", ">mass, kg", "centre of mass, m", "depends on"});
+  report::TextTable table({"links", "parent", "joint", ">mass, kg", "centre of mass, m", "depends on"});
   for (const Json& link : links)
     table.add({cell(link, "name"), cell(link, "parent"), cell(link, "joint"), cell(link, "mass"),
                cell(link, "center_of_mass"), cell(link, "depends_on")});
@@ -49,7 +49,7 @@ std::string links_text(const Json& links) {
 }
 
 std::string frames_text(const Json& frames) {
-  TextTable table({"frames", "on", "position, m", "roll pitch yaw, rad", "depends on"});
+  report::TextTable table({"frames", "on", "position, m", "roll pitch yaw, rad", "depends on"});
   for (const Json& frame : frames)
     table.add({cell(frame, "name"), cell(frame, "body"), cell(frame, "position"), cell(frame, "rpy"),
                cell(frame, "depends_on")});
@@ -57,8 +57,8 @@ std::string frames_text(const Json& frames) {
 }
 
 std::string joints_text(const Json& joints) {
-  TextTable table({"joints", "type", "axis", "second axis", ">pitch", "position, m", "roll pitch yaw, rad",
-                   "depends on", "prescribed"});
+  report::TextTable table({"joints", "type", "axis", "second axis", ">pitch", "position, m",
+                           "roll pitch yaw, rad", "depends on", "prescribed"});
   for (const Json& joint : joints)
     table.add({cell(joint, "name"), cell(joint, "type"), cell(joint, "axis"), cell(joint, "second_axis"),
                cell(joint, "pitch"), cell(joint, "position"), cell(joint, "rpy"), cell(joint, "depends_on"),
@@ -68,7 +68,8 @@ std::string joints_text(const Json& joints) {
 
 /// Limits are facts for people, which the equations do not know.
 std::string limits_text(const Json& joints) {
-  TextTable table({"limits (not in the equations)", ">lower", ">upper", ">velocity", ">effort", "units"});
+  report::TextTable table(
+      {"limits (not in the equations)", ">lower", ">upper", ">velocity", ">effort", "units"});
   for (const Json& joint : joints) {
     const auto limits = joint.find("limits");
     if (limits != joint.end())
@@ -80,7 +81,7 @@ std::string limits_text(const Json& joints) {
 
 /// Of y or z.
 std::string entries_text(const std::string& title, const char* array, const Json& entries) {
-  TextTable table({title, "name", "joint", "unit", ">initial", "range"});
+  report::TextTable table({title, "name", "joint", "unit", ">initial", "range"});
   for (const Json& entry : entries) {
     const std::string name = cell(entry, "name"), joint = cell(entry, "joint");
     table.add({fmt::format("{}[{}]", array, cell(entry, "index")), name, joint == name ? "" : joint,
@@ -90,7 +91,7 @@ std::string entries_text(const std::string& title, const char* array, const Json
 }
 
 std::string inputs_text(const Json& inputs) {
-  TextTable table({"inputs", "name", "unit", "acts on", "description"});
+  report::TextTable table({"inputs", "name", "unit", "acts on", "description"});
   for (const Json& input : inputs)
     table.add({fmt::format("u[{}]", cell(input, "index")), cell(input, "name"), cell(input, "unit"),
                cell(input, "coordinate"), cell(input, "description")});
@@ -105,7 +106,7 @@ std::string numbers_text(const Json& numbers) {
 }
 
 std::string outputs_text(const Json& outputs) {
-  TextTable table({"outputs", "kind", "of", ">numbers", "names"});
+  report::TextTable table({"outputs", "kind", "of", ">numbers", "names"});
   for (const Json& output : outputs)
     table.add({cell(output, "name"), cell(output, "kind"), cell(output, "of"),
                fmt::format("{}", output["numbers"].size()), numbers_text(output["numbers"])});
@@ -113,7 +114,7 @@ std::string outputs_text(const Json& outputs) {
 }
 
 std::string parameters_text(const Json& parameters) {
-  TextTable table({"parameters", ">value", "unit", "range", "description"});
+  report::TextTable table({"parameters", ">value", "unit", "range", "description"});
   for (const Json& parameter : parameters)
     table.add({cell(parameter, "name"), cell(parameter, "value"), cell(parameter, "unit"),
                range_text(parameter), cell(parameter, "description")});

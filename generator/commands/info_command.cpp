@@ -10,7 +10,7 @@
 #include "commands/load.hpp"
 #include "commands/model_facts.hpp"
 #include "commands/report_text.hpp"
-#include "loops/closed_system.hpp"
+#include "loops/plan/plan_text.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::commands {

@@ -12,9 +12,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "loops/closed_system.hpp"
+#include "compile/start_check.hpp"
+#include "loops/plan/plan.hpp"
+#include "loops/plan/plan_text.hpp"
 #include "model/names.hpp"
-#include "start_check.hpp"
 #include "support/files.hpp"
 #include "validate/snapping.hpp"
 
@@ -104,7 +105,8 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   loaded.options.path = printed_path(arguments.path);
   loaded.options.sha256 = sha256(diagnostics.text());
   loaded.options.damping = read.damping;
-  if (arguments.derivatives == "applied") loaded.options.derivative_terms = DerivativeTerms::kApplied;
+  if (arguments.derivatives == "applied")
+    loaded.options.derivative_terms = programs::DerivativeTerms::kApplied;
   if (arguments.name.empty() && loaded.options.name != loaded.mechanism.name)
     fmt::print(stderr, "note: model '{}' becomes namespace '{}' (--name chooses another)\n",
                loaded.mechanism.name, loaded.options.name);

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "compile.hpp"
-#include "model/read.hpp"
-#include "model/urdf_limits.hpp"
+#include "compile/compile.hpp"
+#include "model/read/read.hpp"
+#include "model/read/urdf_limits.hpp"
 
 namespace jourdain::commands {
 

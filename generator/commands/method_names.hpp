@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "linearization.hpp"
+#include "programs/derivatives.hpp"
 
 namespace jourdain::commands {
 
@@ -12,14 +12,15 @@ namespace jourdain::commands {
 std::string check_method(const std::string& method);
 
 /// Empty where each of `functions` that is a step keeps its order with these terms (names with or without "_step").
-std::string check_derivative_terms(const std::vector<std::string>& functions, DerivativeTerms terms);
+std::string check_derivative_terms(const std::vector<std::string>& functions,
+                                   programs::DerivativeTerms terms);
 
 /// All steppers, or those that keep their order with these terms.
-std::vector<std::string> methods_for(DerivativeTerms terms);
+std::vector<std::string> methods_for(programs::DerivativeTerms terms);
 
 inline constexpr std::size_t kMostVelocities = 24;  ///< of scenes whose derivatives are compiled unasked
 
 /// Those, without linearly implicit ones where a scene is large, which a note on stderr says.
-std::vector<std::string> default_methods(DerivativeTerms terms, std::size_t velocities);
+std::vector<std::string> default_methods(programs::DerivativeTerms terms, std::size_t velocities);
 
 }  // namespace jourdain::commands

@@ -9,15 +9,16 @@
 #include <memory>
 
 #include "commands/commands.hpp"
-#include "commands/energy.hpp"
-#include "commands/figure.hpp"
 #include "commands/method_names.hpp"
-#include "commands/plot.hpp"
 #include "commands/progress.hpp"
-#include "commands/report_page.hpp"
 #include "commands/run_setup.hpp"
-#include "loops/closed_system.hpp"
+#include "loops/plan/plan.hpp"
+#include "loops/plan/plan_text.hpp"
 #include "model/coordinates.hpp"
+#include "report/conserved_energy.hpp"
+#include "report/figure.hpp"
+#include "report/plot.hpp"
+#include "report/report_page.hpp"
 #include "studies/report.hpp"
 #include "studies/study.hpp"
 
@@ -89,8 +90,9 @@ bool check_steps(const studies::StudyOptions& options) {
   return false;
 }
 
-DerivativeTerms terms_of(const Arguments& arguments) {
-  return arguments.run.model.derivatives == "applied" ? DerivativeTerms::kApplied : DerivativeTerms::kAll;
+programs::DerivativeTerms terms_of(const Arguments& arguments) {
+  return arguments.run.model.derivatives == "applied" ? programs::DerivativeTerms::kApplied
+                                                      : programs::DerivativeTerms::kAll;
 }
 
 /// Whether there is none.
@@ -162,7 +164,7 @@ studies::Study make_study(const Arguments& arguments, const RunModel& model, con
     long_flow->set_start(flow.start().x);
   }
   studies::StudyOptions options = arguments.study;
-  options.conserves_energy = inputs.what.empty() && conserves_energy(model.loaded.mechanism);
+  options.conserves_energy = inputs.what.empty() && report::conserves_energy(model.loaded.mechanism);
   std::optional<studies::EmittedFreeBodies> free_bodies;
   if (free) free_bodies.emplace(emitted(*free, *inputs.inputs, options.hold_inputs));
   return studies::run_study(model.loaded.mechanism, tangent, model.parameters, flow,
@@ -172,13 +174,14 @@ studies::Study make_study(const Arguments& arguments, const RunModel& model, con
 
 /// Writes the files and prints what they say.
 void write_report(const Arguments& arguments, const std::string& folder, const studies::ReportHead& head,
-                  const studies::Flow<double>& flow, const studies::Study& study, const Figure& figure,
-                  ProgressBar& bar) {
+                  const studies::Flow<double>& flow, const studies::Study& study,
+                  const report::Figure& figure, ProgressBar& bar) {
   std::vector<support::FileText> files = studies::report_csv(head, flow.table(), study);
   files.push_back({"report.json", studies::report_json(head, flow.table(), study)});
   if (arguments.plots) {
     bar.show("drawing", 0.5);
-    for (support::FileText& file : report_pages(head, flow, study, figure)) files.push_back(std::move(file));
+    for (support::FileText& file : report::report_pages(head, flow, study, figure))
+      files.push_back(std::move(file));
   }
   support::write_files(folder, files);
   bar.clear();
@@ -196,7 +199,7 @@ int run(Arguments arguments) {
   const std::string& name = model->loaded.options.name;
   const std::string folder = arguments.folder.empty() ? name + "_report" : arguments.folder;
   support::check_writable(folder);
-  if (arguments.plots) check_plotter();
+  if (arguments.plots) report::check_plotter();
   const std::size_t velocities = model->loaded.velocity_count();
   if (arguments.methods.empty()) arguments.methods = default_methods(terms_of(arguments), velocities);
   if (velocities == 0) {
@@ -205,7 +208,7 @@ int run(Arguments arguments) {
   }
   ProgressBar bar;
   bar.show("deriving the equations", 0);
-  const Figure figure = make_figure(model->loaded.mechanism, model->parameters);
+  const report::Figure figure = report::make_figure(model->loaded.mechanism, model->parameters);
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
   if (velocities <= kMostVelocities) options.functions.push_back("forward_dynamics_derivatives");

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "compile.hpp"
+#include "compile/compile.hpp"
 
 namespace jourdain::commands {
 

@@ -8,11 +8,12 @@
 #include <cmath>
 
 #include "commands/input_table.hpp"
-#include "loops/parameter_check.hpp"
+#include "compile/start_check.hpp"
+#include "loops/plan/parameter_check.hpp"
+#include "model/check/checks.hpp"
 #include "model/coordinates.hpp"
-#include "model/read.hpp"
-#include "model/scenario.hpp"
-#include "start_check.hpp"
+#include "model/read/read.hpp"
+#include "model/read/scenario.hpp"
 #include "studies/driven_inputs.hpp"
 #include "support/files.hpp"
 

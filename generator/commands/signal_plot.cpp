@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "commands/plot.hpp"
+#include "report/plot.hpp"
 
 namespace jourdain::commands {
 
@@ -18,8 +18,8 @@ std::string axis_title(const std::string& unit) {
   return unit.empty() ? "unit not stated" : unit;
 }
 
-Series series_of(const SampledSignal& sampled, const std::vector<double>& times, int index) {
-  Series series{sampled.signal.name, {}, {}, index, true, false, index >= kColours};
+report::Series series_of(const SampledSignal& sampled, const std::vector<double>& times, int index) {
+  report::Series series{sampled.signal.name, {}, {}, index, true, false, index >= kColours};
   const std::size_t stride = times.size() / kPlottedPoints + 1;
   for (std::size_t k = 0; k < times.size(); k += stride) {
     series.x.push_back(times[k]);
@@ -29,10 +29,10 @@ Series series_of(const SampledSignal& sampled, const std::vector<double>& times,
 }
 
 /// A plot for each unit, in the order of the signals; those that show nothing are left out.
-std::vector<Plot> plots_of(const std::string& title, const std::vector<double>& times,
-                           const std::vector<SampledSignal>& signals) {
+std::vector<report::Plot> plots_of(const std::string& title, const std::vector<double>& times,
+                                   const std::vector<SampledSignal>& signals) {
   std::vector<std::string> units;
-  std::vector<Plot> plots;
+  std::vector<report::Plot> plots;
   for (const SampledSignal& sampled : signals) {
     const auto at = std::find(units.begin(), units.end(), sampled.signal.unit);
     const auto index = static_cast<std::size_t>(at - units.begin());
@@ -44,7 +44,7 @@ std::vector<Plot> plots_of(const std::string& title, const std::vector<double>& 
     const int count = static_cast<int>(plots[index].series.size());
     plots[index].series.push_back(series_of(sampled, times, count));
   }
-  std::erase_if(plots, [](const Plot& plot) { return !shows_anything(plot); });
+  std::erase_if(plots, [](const report::Plot& plot) { return !report::shows_anything(plot); });
   if (!plots.empty()) plots.front().title = title;
   return plots;
 }
@@ -53,11 +53,11 @@ std::vector<Plot> plots_of(const std::string& title, const std::vector<double>& 
 
 std::string signal_plot(const std::string& title, const std::vector<double>& times,
                         const std::vector<SampledSignal>& signals) {
-  std::vector<Plot> plots = plots_of(title, times, signals);
+  std::vector<report::Plot> plots = plots_of(title, times, signals);
   if (plots.empty()) return "";
-  if (plots.size() == 1) return draw(plots).front();
-  for (Plot& plot : plots) plot.height = kPanelHeight;
-  return stacked(draw(plots), kPanelHeight);
+  if (plots.size() == 1) return report::draw(plots).front();
+  for (report::Plot& plot : plots) plot.height = kPanelHeight;
+  return report::stacked(report::draw(plots), kPanelHeight);
 }
 
 }  // namespace jourdain::commands

@@ -8,15 +8,15 @@
 #include <memory>
 
 #include "commands/commands.hpp"
-#include "commands/energy.hpp"
 #include "commands/loop_guard.hpp"
 #include "commands/method_names.hpp"
-#include "commands/plot.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_bounds.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/signal_choice.hpp"
 #include "commands/signal_plot.hpp"
+#include "report/conserved_energy.hpp"
+#include "report/plot.hpp"
 #include "studies/flow.hpp"
 #include "support/files.hpp"
 
@@ -172,7 +172,7 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Argumen
              arguments.method, arguments.run.real, driven);
   fmt::print("  {:.3g} us a step on average, {:.3g} times faster than real time\n", microseconds,
              arguments.step * 1e6 / microseconds);
-  if (inputs.what.empty() && conserves_energy(model.loaded.mechanism))
+  if (inputs.what.empty() && report::conserves_energy(model.loaded.mechanism))
     fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", result.first_energy, result.largest_drift);
   if (table.correct)
     fmt::print("  loops open by {:.1g} m (rate {:.1g} m/s) at most\n", result.open.position,
@@ -203,7 +203,7 @@ int run(const Arguments& arguments) {
                arguments.duration, arguments.step, exact_steps, kLongestRun);
     return kUsage;
   }
-  if (!arguments.plot.empty()) check_plotter();
+  if (!arguments.plot.empty()) report::check_plotter();
   int status = kSuccess;
   std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
@@ -236,7 +236,7 @@ int run(const Arguments& arguments) {
   if (!check_closed(*model, flow)) return kModelWrong;
   const long steps = std::lround(exact_steps);
   std::string csv;
-  const bool conserves = inputs->what.empty() && conserves_energy(model->loaded.mechanism);
+  const bool conserves = inputs->what.empty() && report::conserves_energy(model->loaded.mechanism);
   const std::optional<LoopGuard> guard =
       model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
                            : std::nullopt;

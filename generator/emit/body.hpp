@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/names.hpp"
+#include "emit/unique_names.hpp"
 #include "ir/program.hpp"
 
 namespace jourdain::emit {

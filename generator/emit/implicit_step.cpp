@@ -9,8 +9,8 @@
 
 #include "emit/body.hpp"
 #include "emit/layout.hpp"
-#include "emit/steppers.hpp"
 #include "emit/templates.hpp"
+#include "programs/steppers.hpp"
 
 namespace jourdain::emit {
 
@@ -125,7 +125,7 @@ bool has_change(const StepScene& scene) { return scene.shape.time.dynamics || sc
 
 /// Derivatives, and the residual's own change over the step.
 std::string derivatives_text(const StepScene& scene) {
-  const SceneShape& shape = scene.shape;
+  const programs::SceneShape& shape = scene.shape;
   const bool inputs = shape.inputs > 0;
   std::string text, more;
   if (inputs) {
@@ -258,14 +258,14 @@ std::string stage_text(const StepScene& scene, const Rosenbrock& method, std::si
   return text;
 }
 
-bool any_implicit(const std::vector<FunctionInfo>& functions) {
+bool any_implicit(const std::vector<programs::FunctionInfo>& functions) {
   return std::any_of(functions.begin(), functions.end(),
-                     [](const FunctionInfo& f) { return f.stepper && f.stepper->implicit; });
+                     [](const programs::FunctionInfo& f) { return f.stepper && f.stepper->implicit; });
 }
 
 }  // namespace
 
-std::string implicit_support(const StepScene& scene, const std::vector<FunctionInfo>& functions,
+std::string implicit_support(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions,
                              const ir::Program* derivatives) {
   if (!any_implicit(functions) || scene.shape.velocities == 0) return "";
   std::vector<std::size_t> first = {0}, entries;
@@ -301,7 +301,8 @@ std::string implicit_support(const StepScene& scene, const std::vector<FunctionI
                        {"ROTATE_U", rotate_text(scene, "u.y")}});
 }
 
-std::string accelerations_struct(const StepScene& scene, const std::vector<FunctionInfo>& functions) {
+std::string accelerations_struct(const StepScene& scene,
+                                 const std::vector<programs::FunctionInfo>& functions) {
   if (!any_implicit(functions)) return "";
   std::string text = wrapped_doc(
       "What linearly implicit methods remember: accelerations at the end of the last step. One trajectory "
@@ -358,7 +359,7 @@ long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, con
     pairs += static_cast<long>(list.size());
     squares += static_cast<long>(list.size() * list.size());
   }
-  constexpr long kRotate = 26, kTurn = 3 + 24 + kNormaliseOperations, kTurningRate = 26;
+  constexpr long kRotate = 26, kTurn = 3 + 24 + programs::kNormaliseOperations, kTurningRate = 26;
   const long displace = scalars + quaternions * kTurn;
   long total = 1 + (method.gamma != 1) + 4 * (n + 2 * pairs) + n + pairs + 2 * squares;
   if (scene.shape.time.dynamics) total += n;
@@ -372,14 +373,14 @@ long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, con
     const bool moves = std::any_of(method.A[i].begin(), method.A[i].end(), [](double a) { return a != 0; });
     if (moves) total += 2 * n;
     if (scene.shape.clock && i > 0 && method.nodes[i] != 0)
-      total += kClockOperations + (method.nodes[i] != 1);
+      total += programs::kClockOperations + (method.nodes[i] != 1);
     total += 6 * n + quaternions * (kTurningRate + 2 * kRotate);  // c, rate, v
     total +=
         (change ? 6 : 4) * n + 8 * pairs + 4 * pairs + n + 4 * n;  // right-hand side, solution, increments
   }
   total +=
       n * (ends_at_last_stage(method) ? 4 : 3 * combination_operations(method.m, 1, method.m.size()) + 2);
-  return total + displace + scene.shape.clock * kClockOperations;
+  return total + displace + scene.shape.clock * programs::kClockOperations;
 }
 
 }  // namespace jourdain::emit

@@ -11,11 +11,12 @@
 namespace jourdain::emit {
 
 /// What the steps share; the couplings are those of the program residual_derivatives. Empty where no step is linearly implicit.
-std::string implicit_support(const StepScene& scene, const std::vector<FunctionInfo>& functions,
+std::string implicit_support(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions,
                              const ir::Program* derivatives);
 
 /// The struct of what linearly implicit methods remember; empty where none is emitted.
-std::string accelerations_struct(const StepScene& scene, const std::vector<FunctionInfo>& functions);
+std::string accelerations_struct(const StepScene& scene,
+                                 const std::vector<programs::FunctionInfo>& functions);
 
 /// Calls of close_loops by one step beside one at its end, where positions depend on others.
 long closings_of(const StepScene& scene, const Rosenbrock& method);

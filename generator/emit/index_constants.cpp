@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "emit/layout.hpp"
-#include "emit/names.hpp"
+#include "emit/unique_names.hpp"
 
 namespace jourdain::emit {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "emit/files.hpp"
+#include "emit/model_files.hpp"
 
 namespace jourdain::emit {
 

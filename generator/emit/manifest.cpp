@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "emit/names.hpp"
+#include "emit/unique_names.hpp"
 
 namespace jourdain::emit {
 
@@ -34,7 +34,7 @@ std::string ranges_object(const std::vector<ProvenText>& ranges, const std::vect
 
 }  // namespace
 
-std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions,
+std::string manifest(const ModelText& model, const std::vector<programs::FunctionInfo>& functions,
                      const ir::Module& module, const std::vector<StepRecord>& steps) {
   std::string text = "{\n";
   const auto field = [&text](const std::string& key, const std::string& value) {
@@ -50,7 +50,7 @@ std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& fu
       ranges += fmt::format("{}{}: [{}, {}]", ranges.empty() ? "" : ", ", string(parameter.name), (*range)[0],
                             (*range)[1]);
   }
-  for (const FunctionInfo& function : functions) names.push_back(function.name);
+  for (const programs::FunctionInfo& function : functions) names.push_back(function.name);
   field("generator", string(fmt::format("Jourdain {}", kVersion)));
   field("name", string(model.name));
   field("title", string(model.title));

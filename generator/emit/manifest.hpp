@@ -3,17 +3,17 @@
 
 #include <string>
 
-#include "emit/files.hpp"
+#include "emit/model_files.hpp"
 
 namespace jourdain::emit {
 
 /// A step and the operations of one call.
 struct StepRecord {
-  const Stepper* stepper = nullptr;
+  const programs::Stepper* stepper = nullptr;
   long operations = 0;
 };
 
-std::string manifest(const ModelText& model, const std::vector<FunctionInfo>& functions,
+std::string manifest(const ModelText& model, const std::vector<programs::FunctionInfo>& functions,
                      const ir::Module& module, const std::vector<StepRecord>& steps);
 
 }  // namespace jourdain::emit

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "emit/layout.hpp"
-#include "emit/names.hpp"
+#include "emit/unique_names.hpp"
 
 namespace jourdain::emit {
 

@@ -11,9 +11,9 @@ std::string Argument::text(bool named) const {
   return named ? type + " " + name : type;
 }
 
-std::string bounds_of(const ArrayResult& array, const SceneShape& scene) {
+std::string bounds_of(const programs::ArrayResult& array, const programs::SceneShape& scene) {
   std::string bounds;
-  for (const Extent extent : array.extents) bounds += fmt::format("[{}]", scene.count(extent));
+  for (const programs::Extent extent : array.extents) bounds += fmt::format("[{}]", scene.count(extent));
   return bounds;
 }
 
@@ -38,13 +38,13 @@ std::string argument_entry(ir::LeafKind kind, std::size_t index) {
   return "";
 }
 
-std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real,
-                                const SceneShape& scene) {
+std::vector<Argument> arguments(const programs::FunctionInfo& function, const std::string& real,
+                                const programs::SceneShape& scene) {
   const std::size_t nz = scene.velocities;
   std::vector<Argument> list = {{fmt::format("const Model<{}>&", real), "model", ""}};
-  if (function.shape == Shape::kState) return list;
-  const bool step = function.shape == Shape::kStep;
-  const bool changes = step || function.shape == Shape::kCorrection;
+  if (function.shape == programs::Shape::kState) return list;
+  const bool step = function.shape == programs::Shape::kStep;
+  const bool changes = step || function.shape == programs::Shape::kCorrection;
   list.push_back({fmt::format("{}State<{}>&", changes ? "" : "const ", real), "state", ""});
   if (function.takes_input) list.push_back({fmt::format("const Input<{}>&", real), "input", ""});
   if (function.takes_acceleration) list.push_back({"const " + real, "zdot", fmt::format("[{}]", nz)});
@@ -53,25 +53,27 @@ std::vector<Argument> arguments(const FunctionInfo& function, const std::string&
     list.push_back({fmt::format("RateHistory<{}, {}>&", function.stepper->history, real), "history", ""});
   if (step && function.stepper->implicit)
     list.push_back({fmt::format("Accelerations<{}>&", real), "accelerations", ""});
-  if (function.shape == Shape::kVector) list.push_back({real, function.result, fmt::format("[{}]", nz)});
-  if (function.shape == Shape::kRate)
+  if (function.shape == programs::Shape::kVector)
+    list.push_back({real, function.result, fmt::format("[{}]", nz)});
+  if (function.shape == programs::Shape::kRate)
     list.push_back({real, function.result, fmt::format("[{}]", scene.positions)});
-  if (function.shape == Shape::kOutputs) list.push_back({fmt::format("Outputs<{}>&", real), "result", ""});
-  if (function.shape == Shape::kMatrix)
+  if (function.shape == programs::Shape::kOutputs)
+    list.push_back({fmt::format("Outputs<{}>&", real), "result", ""});
+  if (function.shape == programs::Shape::kMatrix)
     list.push_back({real, function.result, fmt::format("[{0}][{0}]", nz)});
-  if (function.shape == Shape::kLinearization)
+  if (function.shape == programs::Shape::kLinearization)
     list.push_back({fmt::format("Linearization<{}>&", real), "result", ""});
-  if (function.shape == Shape::kArrays)
-    for (const ArrayResult& array : function.arrays)
+  if (function.shape == programs::Shape::kArrays)
+    for (const programs::ArrayResult& array : function.arrays)
       if (scene.has(array)) list.push_back({real, array.name, bounds_of(array, scene)});
   return list;
 }
 
-std::string signature(const FunctionInfo& function, const std::string& real, const SceneShape& scene,
-                      const std::string* body) {
-  const std::string result = function.shape == Shape::kState    ? fmt::format("State<{}> ", real)
-                             : function.shape == Shape::kScalar ? real + " "
-                                                                : "void ";
+std::string signature(const programs::FunctionInfo& function, const std::string& real,
+                      const programs::SceneShape& scene, const std::string* body) {
+  const std::string result = function.shape == programs::Shape::kState    ? fmt::format("State<{}> ", real)
+                             : function.shape == programs::Shape::kScalar ? real + " "
+                                                                          : "void ";
   std::string text;
   for (const Argument& argument : arguments(function, real, scene))
     text += (text.empty() ? "" : ", ") + argument.text(!body || mentions(*body, argument.name));

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "emit/functions.hpp"
 #include "ir/program.hpp"
+#include "programs/functions.hpp"
 
 namespace jourdain::emit {
 
@@ -17,17 +17,17 @@ struct Argument {
 };
 
 /// Bounds of an array of a scene, as "[7][7]".
-std::string bounds_of(const ArrayResult& array, const SceneShape& scene);
+std::string bounds_of(const programs::ArrayResult& array, const programs::SceneShape& scene);
 
 /// What an entry of y, z, ż, u or t is called where those arguments are.
 std::string argument_entry(ir::LeafKind kind, std::size_t index);
 
 /// For number type `real`.
-std::vector<Argument> arguments(const FunctionInfo& function, const std::string& real,
-                                const SceneShape& scene);
+std::vector<Argument> arguments(const programs::FunctionInfo& function, const std::string& real,
+                                const programs::SceneShape& scene);
 
 /// Without the closing semicolon. Arguments that `body` does not use are left unnamed; without a body all are named.
-std::string signature(const FunctionInfo& function, const std::string& real, const SceneShape& scene,
-                      const std::string* body = nullptr);
+std::string signature(const programs::FunctionInfo& function, const std::string& real,
+                      const programs::SceneShape& scene, const std::string* body = nullptr);
 
 }  // namespace jourdain::emit

@@ -37,15 +37,15 @@ void normalise(Real* quaternion) noexcept {
 }
 )";
 
-bool any_step(const std::vector<FunctionInfo>& functions) {
+bool any_step(const std::vector<programs::FunctionInfo>& functions) {
   return std::any_of(functions.begin(), functions.end(),
-                     [](const FunctionInfo& f) { return f.shape == Shape::kStep; });
+                     [](const programs::FunctionInfo& f) { return f.shape == programs::Shape::kStep; });
 }
 
 bool moves_clock(const std::string& line) { return line.find(".t = ") != std::string::npos; }
 
 /// The text of an explicit step, without its clock where states hold no time.
-std::string explicit_body(const StepScene& scene, const FunctionInfo& function) {
+std::string explicit_body(const StepScene& scene, const programs::FunctionInfo& function) {
   std::istringstream lines{std::string(template_text(function.name + ".in"))};
   std::string text;
   for (std::string line; std::getline(lines, line);)
@@ -54,15 +54,15 @@ std::string explicit_body(const StepScene& scene, const FunctionInfo& function) 
 }
 
 /// Operations that move the clock in an explicit step, with the products that say by how much.
-long clock_operations(const Stepper& stepper) {
+long clock_operations(const programs::Stepper& stepper) {
   std::istringstream lines{std::string(template_text(stepper.name + "_step.in"))};
   long count = 0;
   for (std::string line; std::getline(lines, line);)
-    if (moves_clock(line)) count += kClockOperations + std::count(line.begin(), line.end(), '*');
+    if (moves_clock(line)) count += programs::kClockOperations + std::count(line.begin(), line.end(), '*');
   return count;
 }
 
-std::string body(const StepScene& scene, const FunctionInfo& function) {
+std::string body(const StepScene& scene, const programs::FunctionInfo& function) {
   const std::string correction = scene.shape.correction();
   const std::string corrected = correction.empty() ? "" : fmt::format("  {}(model, state);\n", correction);
   if (scene.shape.velocities == 0) {
@@ -83,7 +83,7 @@ std::string body(const StepScene& scene, const FunctionInfo& function) {
 
 }  // namespace
 
-std::string step_support(const StepScene& scene, const std::vector<FunctionInfo>& functions,
+std::string step_support(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions,
                          const ir::Module& module) {
   const bool has_input = scene.shape.inputs > 0;
   if (!any_step(functions) || scene.shape.velocities == 0) return "";
@@ -103,8 +103,8 @@ std::string step_support(const StepScene& scene, const std::vector<FunctionInfo>
   return text + implicit_support(scene, functions, find_program(module, "residual_derivatives"));
 }
 
-std::string history_struct(const StepScene& scene, const std::vector<FunctionInfo>& functions) {
-  const bool remembers = std::any_of(functions.begin(), functions.end(), [](const FunctionInfo& f) {
+std::string history_struct(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions) {
+  const bool remembers = std::any_of(functions.begin(), functions.end(), [](const programs::FunctionInfo& f) {
     return f.stepper && f.stepper->history > 0;
   });
   std::string accelerations = accelerations_struct(scene, functions);
@@ -121,7 +121,7 @@ std::string history_struct(const StepScene& scene, const std::vector<FunctionInf
   return text + "};\n\n" + accelerations;
 }
 
-std::string step_definitions(const StepScene& scene, const FunctionInfo& function) {
+std::string step_definitions(const StepScene& scene, const programs::FunctionInfo& function) {
   const std::string text = body(scene, function);
   const bool sampled = scene.shape.inputs > 0 && scene.shape.velocities > 0;
   const std::string held =
@@ -147,14 +147,14 @@ std::string step_definitions(const StepScene& scene, const FunctionInfo& functio
   return definitions;
 }
 
-long step_operations(const StepScene& scene, const Stepper& stepper, const ir::Module& module) {
+long step_operations(const StepScene& scene, const programs::Stepper& stepper, const ir::Module& module) {
   const auto count = [&module](const char* name) {
     const ir::Program* program = find_program(module, name);
     return program ? static_cast<long>(ir::count_operations(*program).arithmetic()) : 0;
   };
   const long correction = scene.shape.constraints > 0 ? count(scene.shape.correction()) : 0;
   if (scene.shape.velocities == 0)
-    return scene.shape.clock * kClockOperations + scene.shape.closings * correction;
+    return scene.shape.clock * programs::kClockOperations + scene.shape.closings * correction;
   if (const Rosenbrock* method = find_rosenbrock(stepper.name))
     return correction * (1 + closings_of(scene, *method)) + count("residual_derivatives") +
            stepper.evaluations * count("residual") +
@@ -163,7 +163,7 @@ long step_operations(const StepScene& scene, const Stepper& stepper, const ir::M
   return correction + stepper.evaluations * (count("forward_dynamics") + count("position_rate")) +
          stepper.fixed_operations + (scene.shape.clock ? clock_operations(stepper) : 0) +
          stepper.entry_operations * entries +
-         kNormaliseOperations * static_cast<long>(scene.tangent.quaternions.size());
+         programs::kNormaliseOperations * static_cast<long>(scene.tangent.quaternions.size());
 }
 
 }  // namespace jourdain::emit

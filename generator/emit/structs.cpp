@@ -6,8 +6,8 @@
 
 #include "emit/body.hpp"
 #include "emit/layout.hpp"
-#include "emit/names.hpp"
 #include "emit/signature.hpp"
+#include "emit/unique_names.hpp"
 
 namespace jourdain::emit {
 
@@ -135,14 +135,16 @@ std::string guard_functions(const ModelText& model) {
   return text + proven_function(model);
 }
 
-bool linearizes(const std::vector<FunctionInfo>& functions) {
-  return std::any_of(functions.begin(), functions.end(),
-                     [](const FunctionInfo& f) { return f.shape == Shape::kLinearization; });
+bool linearizes(const std::vector<programs::FunctionInfo>& functions) {
+  return std::any_of(functions.begin(), functions.end(), [](const programs::FunctionInfo& f) {
+    return f.shape == programs::Shape::kLinearization;
+  });
 }
 
-std::string linearization_struct(const std::vector<FunctionInfo>& functions, const SceneShape& scene) {
-  for (const FunctionInfo& function : functions)
-    if (function.shape == Shape::kLinearization) {
+std::string linearization_struct(const std::vector<programs::FunctionInfo>& functions,
+                                 const programs::SceneShape& scene) {
+  for (const programs::FunctionInfo& function : functions)
+    if (function.shape == programs::Shape::kLinearization) {
       std::string text = wrapped_doc(
           fmt::format("With x = (displacements, velocities), nz each, and o the numbers of all outputs in "
                       "their order, matrices row by row: d(dx/dt) = A dx + B du{}, do = C dx + D du{}. The "
@@ -151,7 +153,7 @@ std::string linearization_struct(const std::vector<FunctionInfo>& functions, con
                       scene.time.dynamics ? " + rate_t dt" : "", scene.time.outputs ? " + output_t dt" : ""),
           0);
       text += "template <class Real = double>\nstruct Linearization {\n";
-      for (const ArrayResult& array : function.arrays)
+      for (const programs::ArrayResult& array : function.arrays)
         if (scene.has(array)) text += fmt::format("  Real {}{};\n", array.name, bounds_of(array, scene));
       return text + "};\n\n";
     }

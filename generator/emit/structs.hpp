@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/files.hpp"
+#include "emit/model_files.hpp"
 
 namespace jourdain::emit {
 
@@ -23,9 +23,10 @@ std::string guard_limits(const ModelText& model);
 /// Functions of Model that judge a State by them, and Parameters by what is proven.
 std::string guard_functions(const ModelText& model);
 
-bool linearizes(const std::vector<FunctionInfo>& functions);
+bool linearizes(const std::vector<programs::FunctionInfo>& functions);
 
 /// Empty where no function fills one.
-std::string linearization_struct(const std::vector<FunctionInfo>& functions, const SceneShape& scene);
+std::string linearization_struct(const std::vector<programs::FunctionInfo>& functions,
+                                 const programs::SceneShape& scene);
 
 }  // namespace jourdain::emit

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/checks.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::kinematics {

@@ -55,4 +55,10 @@ std::vector<JointIndex> moving_joints(const Mechanism& mechanism) {
   return order;
 }
 
+std::vector<double> default_values(const Mechanism& mechanism) {
+  std::vector<double> values;
+  for (const Parameter& parameter : mechanism.parameters) values.push_back(parameter.value);
+  return values;
+}
+
 }  // namespace jourdain::model

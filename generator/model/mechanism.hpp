@@ -347,4 +347,7 @@ std::optional<BodyIndex> carrier(const Mechanism& mechanism, std::optional<BodyI
 /// Those of `depth_first` that are not fixed.
 std::vector<JointIndex> moving_joints(const Mechanism& mechanism);
 
+/// The parameters' default values, in order.
+std::vector<double> default_values(const Mechanism& mechanism);
+
 }  // namespace jourdain::model

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "model/angles.hpp"
+#include "model/angular_entries.hpp"
 #include "model/coordinates.hpp"
 #include "support/uniform.hpp"
 

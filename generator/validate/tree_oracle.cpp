@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "dynamics/outputs.hpp"
-#include "ir/lower.hpp"
+#include "lowering/lower.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::validate {
@@ -31,7 +31,7 @@ ExactVector rates(const SlopePrecision& moved, const std::vector<Ex>& expression
 
 dynamics::LeafValue leaves_at(const ir::LeafValues<ScaledReal>& values) {
   return [&values](kinematics::LeafKind kind, std::size_t i) {
-    const std::vector<ScaledReal>& list = values[ir::leaf_kind(kind)];
+    const std::vector<ScaledReal>& list = values[lowering::leaf_kind(kind)];
     return i < list.size() ? list[i] : ScaledReal();  // multipliers: as if loops were open
   };
 }

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "jourdain/model_table.h"
-#include "model/scenario.hpp"
+#include "model/read/scenario.hpp"
 #include "studies/inputs.hpp"
 
 namespace jourdain::studies {

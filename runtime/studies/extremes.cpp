@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "model/angles.hpp"
+#include "model/angular_entries.hpp"
 #include "model/coordinates.hpp"
 #include "studies/linearisation.hpp"
 #include "studies/loaded_model.hpp"

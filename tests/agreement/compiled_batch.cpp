@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
@@ -111,7 +111,7 @@ EmittedModel emit_model(const Derived& derived, const std::string& name) {
   options.name = name;
   options.path = name + ".toml";
   CompiledModel compiled;
-  compiled.functions = emit::with_needed(options.functions, shape_of(derived.mechanism));
+  compiled.functions = programs::with_needed(options.functions, shape_of(derived.mechanism));
   compiled.module = derived.module;
   validate_and_emit(derived.mechanism, derived.equations, options, compiled);
   if (!compiled.verdict.accepted()) throw std::runtime_error(compiled.verdict.failures.front());

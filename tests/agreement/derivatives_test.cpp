@@ -9,7 +9,7 @@
 
 #include "agreement/leaf_value.hpp"
 #include "agreement/shared_data.hpp"
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "dynamics/direction.hpp"
 #include "dynamics/outputs.hpp"
 #include "kinematics/numbers.hpp"
@@ -27,11 +27,11 @@ constexpr std::uint64_t kScenes = cases(60);
 constexpr double kRelative = 1e-11, kOverCondition = 1e-14;
 
 ir::Module derivative_module(const model::Mechanism& mechanism,
-                             DerivativeTerms terms = DerivativeTerms::kAll) {
-  const auto functions = emit::with_needed(
+                             programs::DerivativeTerms terms = programs::DerivativeTerms::kAll) {
+  const auto functions = programs::with_needed(
       {"residual_derivatives", "forward_dynamics_derivatives", "linearize"}, shape_of(mechanism));
   ir::Module module;
-  module.functions = derivative_programs(tree_sources(mechanism, {}), functions, terms);
+  module.functions = programs::derivative_programs(programs::tree_sources(mechanism, {}), functions, terms);
   return passes::optimise(module).module;
 }
 
@@ -182,7 +182,7 @@ TEST(Derivatives, OfRandomScenesAgreeWithDifferencesInSixtyDigits) {
 TEST(Derivatives, OfAppliedForcesAreThoseOfTheEquationsWithoutWeightAndInertia) {
   const model::Mechanism mechanism = read_model(model_path("flyball_governor.toml"));
   const ir::Module all = derivative_module(mechanism),
-                   applied = derivative_module(mechanism, DerivativeTerms::kApplied);
+                   applied = derivative_module(mechanism, programs::DerivativeTerms::kApplied);
   model::Mechanism weightless = mechanism;
   weightless.gravity = {0.0, 0.0, 0.0};
   const Derived derived = derive(weightless);

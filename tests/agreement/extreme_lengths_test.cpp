@@ -8,7 +8,7 @@
 #include <random>
 
 #include "agreement/shared_data.hpp"
-#include "articulation.hpp"
+#include "compile/articulation.hpp"
 
 namespace jourdain::tests {
 namespace {

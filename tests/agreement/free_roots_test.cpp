@@ -8,8 +8,8 @@
 
 #include "agreement/compiled_batch.hpp"
 #include "agreement/shared_data.hpp"
-#include "articulation.hpp"
-#include "compile.hpp"
+#include "compile/articulation.hpp"
+#include "compile/compile.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::tests {

@@ -4,8 +4,9 @@
 
 #include "agreement/leaf_value.hpp"
 #include "agreement/shared_data.hpp"
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "kinematics/numbers.hpp"
+#include "programs/functions.hpp"
 #include "properties/random.hpp"
 #include "properties/random_tree.hpp"
 
@@ -81,7 +82,7 @@ template std::vector<float> interpreted(const ir::Module&, const std::string&, c
 Derived derive(model::Mechanism mechanism, const dynamics::DerivationOptions& options) {
   Derived derived{std::move(mechanism), {}, {}};
   derived.equations = dynamics::derive_equations(derived.mechanism, options);
-  const auto functions = emit::with_needed(emit::default_functions(), shape_of(derived.mechanism));
+  const auto functions = programs::with_needed(programs::default_functions(), shape_of(derived.mechanism));
   derived.module = passes::optimise(lower_functions(derived.equations, functions)).module;
   return derived;
 }

@@ -5,14 +5,15 @@
 
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
-#include "compile.hpp"
+#include "compile/compile.hpp"
+#include "programs/functions.hpp"
 
 namespace jourdain::tests {
 namespace {
 
 bool refuses(const Derived& derived) {
   CompiledModel compiled;
-  compiled.functions = emit::with_needed(emit::default_functions(), shape_of(derived.mechanism));
+  compiled.functions = programs::with_needed(programs::default_functions(), shape_of(derived.mechanism));
   compiled.module = derived.module;
   validate_and_emit(derived.mechanism, derived.equations, {}, compiled);
   EXPECT_EQ(compiled.files.empty(), !compiled.verdict.accepted());

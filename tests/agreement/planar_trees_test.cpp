@@ -5,7 +5,7 @@
 #include <random>
 
 #include "agreement/shared_data.hpp"
-#include "articulation.hpp"
+#include "compile/articulation.hpp"
 #include "dynamics/absolute_rates.hpp"
 #include "extremes/extreme_scenes.hpp"
 #include "properties/refusals.hpp"

@@ -7,8 +7,8 @@
 
 #include "agreement/compiled_batch.hpp"
 #include "agreement/shared_data.hpp"
-#include "articulation.hpp"
-#include "compile.hpp"
+#include "compile/articulation.hpp"
+#include "compile/compile.hpp"
 #include "emit/body.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_scene.hpp"

@@ -6,7 +6,7 @@
 
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_tree.hpp"
 #include "properties/to_toml.hpp"

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "agreement/shared_data.hpp"
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "support/files.hpp"
 #include "support/uniform.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "agreement/compiled_batch.hpp"
 #include "agreement/shared_data.hpp"
-#include "articulation.hpp"
+#include "compile/articulation.hpp"
 
 namespace jourdain::tests {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/mechanism.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "reference/minimal.hpp"
 
 namespace jourdain::tests {

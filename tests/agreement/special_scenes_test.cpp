@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "agreement/compiled_batch.hpp"
-#include "compile.hpp"
-#include "model/read.hpp"
+#include "compile/compile.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::tests {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "properties/random_scene.hpp"
 #include "studies/emitted.hpp"
 #include "studies/report.hpp"

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "loops/closed_system.hpp"
-#include "model/read.hpp"
+#include "loops/plan/plan.hpp"
+#include "model/read/read.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
 

@@ -10,9 +10,9 @@
 #include "emit/body.hpp"
 #include "emit/index_constants.hpp"
 #include "emit/layout.hpp"
-#include "emit/names.hpp"
 #include "emit/structs.hpp"
 #include "emit/templates.hpp"
+#include "emit/unique_names.hpp"
 #include "ir/builder.hpp"
 #include "support/check.hpp"
 

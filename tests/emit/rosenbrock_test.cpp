@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "emit/steppers.hpp"
+#include "programs/steppers.hpp"
 
 namespace jourdain::emit {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "extremes/extreme_chains.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::tests {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "articulation.hpp"
+#include "compile/articulation.hpp"
 #include "validate/translation.hpp"
 
 namespace jourdain::tests {

@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "commands/command_line.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
 

@@ -6,7 +6,7 @@
 #include "fuzz/random_urdf.hpp"
 #include "fuzz/tally.hpp"
 #include "fuzz/toml_mutation.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "ir/lower.hpp"
+#include "lowering/lower.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "loops/closed_programs.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::tests {
 namespace {

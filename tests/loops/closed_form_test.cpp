@@ -1,4 +1,4 @@
-#include "loops/closed_form.hpp"
+#include "loops/closed_form/position_blocks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "agreement/shared_data.hpp"
-#include "model/checks.hpp"
+#include "loops/plan/plan.hpp"
+#include "programs/closed_system.hpp"
+#include "programs/loop_functions.hpp"
 
 namespace jourdain::tests {
 
@@ -25,17 +27,18 @@ loops::LoopPlan planned(const model::Mechanism& mechanism) {
 
 ClosedPrograms::ClosedPrograms(const model::Mechanism& mechanism, bool with_linearization)
     : mechanism_(mechanism), layout_(model::lay_out_coordinates(mechanism)), plan_(planned(mechanism)) {
-  const loops::ClosedSystem closed(mechanism_, {}, plan_);
+  const programs::ClosedSystem closed(mechanism_, {}, plan_);
   std::vector<std::string> functions = {"forward_dynamics", "constraint_forces", "constraint_residual",
                                         "kinetic_energy",   "potential_energy",  "position_rate"};
   functions.push_back(plan_.is_reduced() ? "close_loops" : "project");
   ir::Module module;
   for (const std::string& function : functions)
-    module.functions.push_back(loops::loop_program(closed.system(), function));
+    module.functions.push_back(programs::loop_program(closed.system(), function));
   if (with_linearization)
-    for (ir::Program& program : derivative_programs(
-             loops::derivative_sources(closed.system()),
-             emit::with_needed({"linearize"}, shape_of(mechanism, &plan_)), DerivativeTerms::kAll))
+    for (ir::Program& program :
+         programs::derivative_programs(programs::derivative_sources(closed.system()),
+                                       programs::with_needed({"linearize"}, shape_of(mechanism, &plan_)),
+                                       programs::DerivativeTerms::kAll))
       module.functions.push_back(std::move(program));
   module_ = passes::optimise(std::move(module)).module;
 }

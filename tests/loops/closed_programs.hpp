@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "compile.hpp"
-#include "loops/closed_system.hpp"
+#include "compile/compile.hpp"
+#include "loops/record/loop_plan.hpp"
 #include "properties/consistent_state.hpp"
 
 namespace jourdain::tests {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loops/closed_system.hpp"
-#include "model/checks.hpp"
-#include "model/read.hpp"
-#include "start_check.hpp"
+#include "compile/start_check.hpp"
+#include "loops/plan/plan.hpp"
+#include "model/check/checks.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::tests {
 

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "model/mechanism.hpp"
 
 namespace jourdain::tests {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "loops/closed_system.hpp"
 #include "loops/compiled_swing.hpp"
+#include "loops/plan/plan_text.hpp"
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/to_toml.hpp"

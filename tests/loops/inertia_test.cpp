@@ -1,11 +1,11 @@
 // Bodies without mass inside loops.
-#include "loops/inertia.hpp"
+#include "loops/plan/inertia.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "loops/closed_programs.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::tests {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "loops/closed_form.hpp"
-#include "loops/scalar.hpp"
+#include "loops/closed_form/position_blocks.hpp"
+#include "loops/closed_form/scalar.hpp"
 #include "properties/random.hpp"
 
 namespace jourdain::tests {

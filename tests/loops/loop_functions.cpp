@@ -1,6 +1,7 @@
 #include "loops/loop_functions.hpp"
 
-#include "model/checks.hpp"
+#include "loops/plan/plan.hpp"
+#include "programs/loop_functions.hpp"
 
 namespace jourdain::tests {
 
@@ -30,11 +31,11 @@ std::vector<double> LoopFunctions::operator()(const std::string& function, const
   leaves[LeafKind::kAcceleration] = zdot;
   leaves[LeafKind::kInput] = u;
   leaves[LeafKind::kTime] = {0};
-  return ir::interpret(loops::loop_program(closed_.system(), function), leaves);
+  return ir::interpret(programs::loop_program(closed_.system(), function), leaves);
 }
 
 std::vector<double> LoopFunctions::closed(const std::string& function, std::vector<double> y) const {
-  const ir::Program program = loops::loop_program(closed_.system(), function);
+  const ir::Program program = programs::loop_program(closed_.system(), function);
   const std::vector<double> values = (*this)(function, y, std::vector<double>(y.size()));
   for (std::size_t k = 0; k < values.size(); ++k)
     if (program.outputs[k].name == "y") y[static_cast<std::size_t>(program.outputs[k].row)] = values[k];

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "loops/closed_system.hpp"
+#include "programs/closed_system.hpp"
 
 namespace jourdain::tests {
 
@@ -28,7 +28,7 @@ class LoopFunctions {
  private:
   model::Mechanism mechanism_;
   loops::LoopPlan plan_;
-  loops::ClosedSystem closed_;
+  programs::ClosedSystem closed_;
 };
 
 }  // namespace jourdain::tests

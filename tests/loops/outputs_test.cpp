@@ -1,6 +1,6 @@
 // What joints transmit, what prescribed motions need and the Jacobians of mechanisms with loops, against the descriptor form, which
 // has every body and every constraint apart.
-#include "loops/outputs.hpp"
+#include "programs/loop_outputs.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,9 @@
 #include <algorithm>
 
 #include "agreement/shared_data.hpp"
-#include "loops/closed_system.hpp"
+#include "loops/plan/plan.hpp"
+#include "programs/closed_system.hpp"
+#include "programs/loop_functions.hpp"
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_loops.hpp"
@@ -138,8 +140,8 @@ class Outputs {
       : mechanism_(mechanism),
         plan_(plan),
         closed_(mechanism, {}, plan),
-        outputs_(loops::loop_program(closed_.system(), "outputs")),
-        accelerations_(loops::loop_program(closed_.system(), "forward_dynamics")),
+        outputs_(programs::loop_program(closed_.system(), "outputs")),
+        accelerations_(programs::loop_program(closed_.system(), "forward_dynamics")),
         form_(mechanism),
         frames_(mechanism) {}
 
@@ -233,7 +235,7 @@ class Outputs {
 
   const model::Mechanism& mechanism_;
   const loops::LoopPlan& plan_;
-  loops::ClosedSystem closed_;
+  programs::ClosedSystem closed_;
   ir::Program outputs_, accelerations_;
   reference::DescriptorReference<long double> form_;
   reference::Reference<long double> frames_;

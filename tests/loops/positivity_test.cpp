@@ -1,10 +1,10 @@
-#include "loops/positivity.hpp"
+#include "loops/intervals/positivity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "loops/scalar.hpp"
+#include "loops/closed_form/scalar.hpp"
 
 namespace jourdain::loops {
 namespace {

@@ -1,4 +1,4 @@
-#include "loops/regularity_proof.hpp"
+#include "loops/regularity/regularity_proof.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,8 +10,9 @@
 #include "agreement/shared_data.hpp"
 #include "ir/compose.hpp"
 #include "ir/jacobian.hpp"
-#include "loops/closed_system.hpp"
+#include "loops/closed_form/position_blocks.hpp"
 #include "loops/linkages.hpp"
+#include "loops/plan/plan.hpp"
 
 namespace jourdain::tests {
 namespace {

@@ -1,6 +1,6 @@
-#include "loops/sharing_rows.hpp"
+#include "loops/plan/sharing_rows.hpp"
 
-#include "loops/schur_solution.hpp"
+#include "loops/plan/schur_solution.hpp"
 
 #include <gtest/gtest.h>
 

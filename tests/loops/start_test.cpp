@@ -1,12 +1,12 @@
 // Initial values that the description gives are kept where the loops allow it.
-#include "loops/start.hpp"
+#include "loops/plan/start.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "loops/closed_system.hpp"
-#include "model/read.hpp"
+#include "loops/plan/plan.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::tests {
 namespace {

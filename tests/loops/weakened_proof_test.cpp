@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "ir/compose.hpp"
+#include "loops/closed_form/position_blocks.hpp"
+#include "loops/intervals/positivity.hpp"
 #include "loops/linkages.hpp"
-#include "loops/positivity.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::tests {

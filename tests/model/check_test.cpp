@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "model/read.hpp"
+#include "model/check/checks.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::model {
 namespace {

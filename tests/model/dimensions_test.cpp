@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "model/expression.hpp"
-#include "model/read.hpp"
-#include "model/scenario.hpp"
+#include "model/read/read.hpp"
+#include "model/read/scenario.hpp"
 
 namespace jourdain::model {
 namespace {

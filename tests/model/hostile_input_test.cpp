@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::model {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::model {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::model {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "model/coordinates.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "model/time_dependence.hpp"
 #include "support/files.hpp"
 

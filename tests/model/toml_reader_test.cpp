@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::model {
 namespace {

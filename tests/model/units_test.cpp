@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::model {
 namespace {

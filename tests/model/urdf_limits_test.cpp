@@ -1,4 +1,4 @@
-#include "model/urdf_limits.hpp"
+#include "model/read/urdf_limits.hpp"
 
 #include <gtest/gtest.h>
 

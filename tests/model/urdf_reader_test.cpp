@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "agreement/shared_data.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::model {

@@ -1,11 +1,11 @@
-#include "model/weld.hpp"
+#include "model/read/weld.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::model {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "dynamics/high_precision.hpp"
-#include "ir/lower.hpp"
+#include "lowering/lower.hpp"
 #include "mutants/equation_mutants.hpp"
 #include "mutants/exact_values.hpp"
 #include "mutants/scenes.hpp"
@@ -27,7 +27,7 @@ constexpr double kHalfUlp = 0x1p-53;
 /// Values of everything at one state, list by list.
 std::vector<std::vector<Exact>> values(const dynamics::Equations& e, const ir::LeafValues<double>& leaves) {
   const dynamics::HighPrecision exact(
-      e.statements, [&](LeafKind kind, std::size_t i) { return leaves[ir::leaf_kind(kind)].at(i); });
+      e.statements, [&](LeafKind kind, std::size_t i) { return leaves[lowering::leaf_kind(kind)].at(i); });
   std::vector<std::vector<Exact>> all;
   for (const std::vector<Ex>& list : asked_for(e)) {
     all.emplace_back();

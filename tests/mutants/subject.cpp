@@ -3,11 +3,15 @@
 #include <cmath>
 
 #include "agreement/judge.hpp"
-#include "loops/exact_state.hpp"
-#include "loops/validation.hpp"
-#include "lowering.hpp"
+#include "loops/plan/plan.hpp"
 #include "model/coordinates.hpp"
+#include "programs/closed_system.hpp"
+#include "programs/functions.hpp"
+#include "programs/loop_functions.hpp"
+#include "programs/tree_functions.hpp"
 #include "properties/random.hpp"
+#include "validate/loops/exact_state.hpp"
+#include "validate/loops/validation.hpp"
 
 namespace jourdain::tests {
 
@@ -15,24 +19,25 @@ using ir::LeafKind;
 
 namespace {
 
-std::vector<emit::FunctionInfo> every_function(const model::Mechanism& mechanism,
-                                               const std::optional<loops::LoopPlan>& plan) {
-  std::vector<emit::FunctionInfo> functions;
-  const emit::SceneShape shape = shape_of(mechanism, plan ? &*plan : nullptr);
-  for (const emit::FunctionInfo& function : emit::all_functions())
-    if (function.shape != emit::Shape::kStep && has_function(function, shape)) functions.push_back(function);
+std::vector<programs::FunctionInfo> every_function(const model::Mechanism& mechanism,
+                                                   const std::optional<loops::LoopPlan>& plan) {
+  std::vector<programs::FunctionInfo> functions;
+  const programs::SceneShape shape = shape_of(mechanism, plan ? &*plan : nullptr);
+  for (const programs::FunctionInfo& function : programs::all_functions())
+    if (function.shape != programs::Shape::kStep && has_function(function, shape))
+      functions.push_back(function);
   return functions;
 }
 
 ir::Module loop_programs(const model::Mechanism& mechanism, const loops::LoopPlan& plan,
-                         const std::vector<emit::FunctionInfo>& functions) {
-  const loops::ClosedSystem closed(mechanism, {}, plan);
+                         const std::vector<programs::FunctionInfo>& functions) {
+  const programs::ClosedSystem closed(mechanism, {}, plan);
   ir::Module module;
-  for (const emit::FunctionInfo& function : functions)
+  for (const programs::FunctionInfo& function : functions)
     if (!function.holds_derivatives)
-      module.functions.push_back(loops::loop_program(closed.system(), function.name));
-  for (ir::Program& program :
-       derivative_programs(loops::derivative_sources(closed.system()), functions, DerivativeTerms::kAll))
+      module.functions.push_back(programs::loop_program(closed.system(), function.name));
+  for (ir::Program& program : programs::derivative_programs(programs::derivative_sources(closed.system()),
+                                                            functions, programs::DerivativeTerms::kAll))
     module.functions.push_back(std::move(program));
   return module;
 }
@@ -41,14 +46,14 @@ ir::Module loop_programs(const model::Mechanism& mechanism, const loops::LoopPla
 
 ir::Module programs_of(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                        const std::optional<loops::LoopPlan>& plan) {
-  const std::vector<emit::FunctionInfo> functions = every_function(mechanism, plan);
+  const std::vector<programs::FunctionInfo> functions = every_function(mechanism, plan);
   ir::Module module;
   if (plan) {
     module = loop_programs(mechanism, *plan, functions);
   } else {
     module = lower_functions(equations, functions);
-    for (ir::Program& program :
-         derivative_programs(tree_sources(mechanism, {}), functions, DerivativeTerms::kAll))
+    for (ir::Program& program : programs::derivative_programs(programs::tree_sources(mechanism, {}),
+                                                              functions, programs::DerivativeTerms::kAll))
       module.functions.push_back(std::move(program));
   }
   return passes::optimise(std::move(module)).module;
@@ -74,7 +79,7 @@ Subject subject_of(const std::string& name, model::Mechanism mechanism) {
 
 bool refuses(const model::Mechanism& mechanism, const dynamics::Equations& equations,
              const std::optional<loops::LoopPlan>& plan, const ir::Module& module) {
-  const validate::Verdict verdict = plan ? loops::validate_closed(mechanism, equations, module, *plan)
+  const validate::Verdict verdict = plan ? validate::validate_closed(mechanism, equations, module, *plan)
                                          : validate::validate_translation(mechanism, equations, module);
   return !verdict.accepted();
 }
@@ -112,7 +117,7 @@ std::vector<ir::LeafValues<double>> lawful_states(const Subject& subject, std::s
     dynamics::DerivationOptions options;
     options.closures_only = true;
     const dynamics::Equations closures = dynamics::derive_equations(mechanism, options);
-    const loops::ExactClosure closure(mechanism, closures, *subject.plan);
+    const validate::ExactClosure closure(mechanism, closures, *subject.plan);
     ir::LeafValues<support::ScaledReal> exact;
     for (std::size_t k = 0; k < ir::kLeafKinds; ++k)
       exact.of[k].assign(state.of[k].begin(), state.of[k].end());

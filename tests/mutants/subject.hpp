@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "compile.hpp"
-#include "loops/closed_system.hpp"
+#include "compile/compile.hpp"
+#include "loops/record/loop_plan.hpp"
 
 namespace jourdain::tests {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "expected_text.hpp"
+#include "compile/expected_text.hpp"
 #include "mutants/scenes.hpp"
 #include "mutants/subject.hpp"
 #include "mutants/tally.hpp"

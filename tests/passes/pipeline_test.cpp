@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "agreement/shared_data.hpp"
-#include "compile.hpp"
+#include "compile/compile.hpp"
+#include "compile/module_check.hpp"
 #include "ir/builder.hpp"
-#include "module_check.hpp"
 #include "passes/random_program.hpp"
 
 namespace jourdain::passes {
@@ -50,7 +50,7 @@ struct History {
 History history(const model::Mechanism& mechanism) {
   History result;
   CompileOptions options;
-  options.functions = emit::function_names();
+  options.functions = programs::function_names();
   options.watch = [&](const PassRecord& record, const ir::Module& module) {
     result.modules.emplace_back(record.name, module);
   };
@@ -73,7 +73,7 @@ TEST(Passes, AreIdempotentAndKeepProgramsSoundOnEveryModel) {
 }
 
 TEST(Passes, KeepRandomProgramsSound) {
-  emit::SceneShape shape;
+  programs::SceneShape shape;
   shape.positions = 3;
   for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
     ir::Program program = random_program(seed);

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "model/checks.hpp"
 #include "properties/consistent_state.hpp"
 #include "properties/placed_scene.hpp"
 #include "properties/planar_draws.hpp"

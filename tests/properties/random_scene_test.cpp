@@ -6,7 +6,7 @@
 #include <set>
 
 #include "model/coordinates.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_tree.hpp"
 #include "properties/to_toml.hpp"

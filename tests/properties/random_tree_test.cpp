@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "reference/massless.hpp"
 #include "to_toml.hpp"
 

@@ -6,9 +6,10 @@
 #include <cmath>
 
 #include "agreement/shared_data.hpp"
-#include "compile.hpp"
+#include "compile/compile.hpp"
 #include "extremes/extreme_scenes.hpp"
-#include "loops/closed_system.hpp"
+#include "loops/plan/plan.hpp"
+#include "programs/functions.hpp"
 #include "properties/random_linkages.hpp"
 #include "properties/random_loops.hpp"
 #include "properties/random_scene.hpp"
@@ -82,7 +83,7 @@ std::string refusal(const model::Mechanism& mechanism, std::uint64_t seed) {
   options.functions.clear();
   constexpr std::size_t kSmall = 12;  // derivatives of long chains take long
   const bool small = seed % 8 == 0 && model::lay_out_coordinates(mechanism).velocity_count() <= kSmall;
-  for (const emit::FunctionInfo& function : emit::all_functions())
+  for (const programs::FunctionInfo& function : programs::all_functions())
     if (!function.stepper && (small || !function.holds_derivatives))
       options.functions.push_back(function.name);
   support::Diagnostics diagnostics("", "");

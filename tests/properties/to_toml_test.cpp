@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 namespace jourdain::tests {
 namespace {

@@ -1,6 +1,6 @@
 #include "readback/compiled_text.hpp"
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
 
@@ -29,6 +29,6 @@ CompiledText compiled_text(const std::string& model, const std::vector<std::stri
   return text;
 }
 
-std::vector<std::string> every_function() { return emit::function_names(); }
+std::vector<std::string> every_function() { return programs::function_names(); }
 
 }  // namespace jourdain::tests

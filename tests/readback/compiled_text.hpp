@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compile.hpp"
+#include "compile/compile.hpp"
 
 namespace jourdain::tests {
 

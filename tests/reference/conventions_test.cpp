@@ -8,7 +8,7 @@
 
 #include "dynamics/equations_at.hpp"
 #include "extremes/extreme_scenes.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "reference/minimal.hpp"
 
 namespace jourdain::tests {

@@ -1,5 +1,5 @@
 // The lines that show methods' orders in plots of error over run time.
-#include "commands/guide.hpp"
+#include "report/guide.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 namespace jourdain::tests {
 namespace {
 
-using commands::order_guide;
-using commands::Series;
+using report::order_guide;
+using report::Series;
 
 /// Errors (10 x)^−4 that level out at `floor`; beyond `until` in x they fall off with a slope of their own.
 Series fourth_order(double floor, double until) {

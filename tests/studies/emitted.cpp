@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "commands/build_model.hpp"
-#include "emit/steppers.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
+#include "programs/steppers.hpp"
 #include "support/check.hpp"
 #include "support/files.hpp"
 
@@ -33,7 +33,7 @@ void EmittedModel::set_parameter(const std::string& name, double value) {
 
 std::vector<std::string> all_loadable_functions() {
   std::vector<std::string> steppers;
-  for (const emit::Stepper& stepper : emit::all_steppers()) steppers.push_back(stepper.name);
+  for (const programs::Stepper& stepper : programs::all_steppers()) steppers.push_back(stepper.name);
   std::vector<std::string> functions = commands::loadable_functions(steppers);
   functions.push_back("forward_dynamics_derivatives");
   return functions;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 #include "studies/first_kind.hpp"
 #include "studies/judged.hpp"
 

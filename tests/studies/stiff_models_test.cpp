@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "agreement/shared_data.hpp"
-#include "articulation.hpp"
 #include "commands/build_model.hpp"
+#include "compile/articulation.hpp"
 #include "studies/judged.hpp"
 #include "studies/report.hpp"
 

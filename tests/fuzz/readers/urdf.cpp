@@ -1,5 +1,5 @@
 #include "fuzz/readers/said.hpp"
-#include "model/read.hpp"
+#include "model/read/read.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {  // NOLINT: its name
   jourdain::support::Diagnostics diagnostics("model.urdf", std::string(data, data + size));

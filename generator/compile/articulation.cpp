@@ -1,0 +1,222 @@
+#include "compile/articulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "dynamics/absolute_rates.hpp"
+#include "dynamics/scene.hpp"
+#include "lowering/lower.hpp"
+
+namespace jourdain {
+
+using kinematics::kGround;
+
+namespace {
+
+/// Fewer coordinates than this always go without articulated bodies.
+constexpr std::size_t kSmallScene = 5;
+/// From this many on M is not factored as a whole even to be counted.
+constexpr std::size_t kLargeScene = 64;
+/// Errors up to that many units are rounding; another way's must be that much less, and its operations at most so many times more.
+constexpr double kFewUnits = 32, kMuchLess = 16;
+constexpr std::size_t kMostMore = 2;
+/// Depths in a row without a saving that end a search.
+constexpr std::size_t kPatience = 3;
+
+class Choice {
+ public:
+  Choice(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options)
+      : mechanism_(mechanism), options_(options) {
+    const dynamics::Scene scene(mechanism, options.link_tree);
+    moves_in_planes_ = dynamics::moves_in_planes(scene);
+    velocities_ = scene.layout.velocity_count();
+    for (const kinematics::Link& link : scene.tree.links) {
+      const bool root = link.parent == kGround;
+      depth_.push_back(root ? 0 : depth_[link.parent] + 1);
+      parent_.push_back(link.parent);
+    }
+    children_.resize(parent_.size());
+    for (std::size_t i = 0; i < parent_.size(); ++i)
+      if (parent_[i] != kGround) ++children_[parent_[i]];
+  }
+
+  Articulation choose() {
+    Articulation result = choose_links();
+    if (moves_in_planes_ && velocities_ < kLargeScene) keep(result, {none(), true});
+    judge(result);
+    return result;
+  }
+
+ private:
+  struct Way {
+    std::vector<bool> links;
+    bool planar = false;
+
+    friend bool operator<(const Way& a, const Way& b) {
+      return std::tie(a.planar, a.links) < std::tie(b.planar, b.links);
+    }
+  };
+
+  std::vector<bool> none() const { return std::vector<bool>(parent_.size(), false); }
+
+  /// Takes another way where what the one of the fewest operations loses is more than rounding, and the other's much less.
+  void judge(Articulation& best) {
+    const ForwardError errors(mechanism_);
+    best.error = best.fewest_error = errors.of(program({best.links, best.planar}));
+    if (best.error.units <= kFewUnits) return;
+    std::vector<Way> ways = {{std::vector<bool>(parent_.size(), true), false}};
+    if (velocities_ < kLargeScene) ways.push_back({none(), false});
+    if (velocities_ < kLargeScene && moves_in_planes_) ways.push_back({none(), true});
+    const std::size_t fewest = best.operations;
+    for (const Way& way : ways) {
+      const ir::Program zdot = program(way);
+      const std::size_t count = ir::count_operations(zdot).arithmetic();
+      const SampledError error = errors.of(zdot);
+      if (count > kMostMore * fewest || !(error.units * kMuchLess < best.error.units)) continue;
+      best.links = way.links;
+      best.planar = way.planar;
+      best.operations = count;
+      best.error = error;
+    }
+    best.spent = best.operations - fewest;
+  }
+
+  Articulation choose_links() {
+    Articulation result;
+    result.links.assign(parent_.size(), velocities_ >= kLargeScene);
+    result.operations = operations(result.links);
+    if (velocities_ < kSmallScene) return result;
+    const std::size_t deepest = *std::max_element(depth_.begin(), depth_.end()) + 1;
+    result.articulated = operations(std::vector<bool>(parent_.size(), true));
+    if (velocities_ >= kLargeScene) {
+      search_inward(result, deepest);
+      return result;
+    }
+    result.factorised = result.operations;
+    std::size_t worse = 0;
+    for (std::size_t depth = 1; depth <= deepest && worse < kPatience; ++depth)
+      worse = keep(result, down_to(depth)) ? 0 : worse + 1;
+    // A few articulated links may cost more than none where all cost less.
+    if (keep(result, std::vector<bool>(parent_.size(), true))) search_inward(result, deepest);
+    refine(result);
+    return result;
+  }
+
+  void search_inward(Articulation& best, std::size_t deepest) {
+    std::size_t worse = 0;
+    for (std::size_t depth = deepest; depth-- > 0 && worse < kPatience;)
+      worse = keep(best, down_to(depth)) ? 0 : worse + 1;
+  }
+
+  std::vector<bool> down_to(std::size_t depth) const {
+    std::vector<bool> links;
+    for (const std::size_t d : depth_) links.push_back(d < depth);
+    return links;
+  }
+
+  bool keep(Articulation& best, const std::vector<bool>& links) { return keep(best, Way{links}); }
+
+  bool keep(Articulation& best, const Way& way) {
+    const std::size_t count = operations(way);
+    if (count >= best.operations) return false;
+    best.links = way.links;
+    best.planar = way.planar;
+    best.operations = count;
+    return true;
+  }
+
+  std::size_t operations(const std::vector<bool>& links) { return operations(Way{links}); }
+
+  std::size_t operations(const Way& way) {
+    if (const auto known = counted_.find(way); known != counted_.end()) return known->second;
+    return counted_[way] = ir::count_operations(program(way)).arithmetic();
+  }
+
+  /// Of the accelerations, before any pass.
+  ir::Program program(const Way& way) {
+    options_.articulated = way.links;
+    options_.planar = way.planar;
+    return lower_accelerations(mechanism_, options_);
+  }
+
+  /// First links of the branches: at the ground and where a link has several children.
+  std::vector<std::size_t> branches() const {
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < parent_.size(); ++i)
+      if (parent_[i] == kGround || children_[parent_[i]] > 1) first.push_back(i);
+    return first;
+  }
+
+  bool is_in(std::size_t link, std::size_t branch) const {
+    for (std::size_t i = link; i != kGround; i = parent_[i])
+      if (i == branch) return true;
+    return false;
+  }
+
+  /// One layer of links of a branch more (or less) articulated.
+  std::vector<bool> changed(const std::vector<bool>& links, std::size_t branch, bool more) const {
+    std::vector<bool> result = links;
+    std::size_t deepest = 0;
+    for (std::size_t i = 0; i < links.size(); ++i)
+      if (links[i] && is_in(i, branch)) deepest = std::max(deepest, depth_[i]);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (!is_in(i, branch)) continue;
+      const bool reachable = parent_[i] == kGround || links[parent_[i]];
+      if (more && !links[i] && reachable) result[i] = true;
+      if (!more && links[i] && depth_[i] == deepest) result[i] = false;
+    }
+    return result;
+  }
+
+  void refine(Articulation& best) {
+    for (const std::size_t branch : branches())
+      for (const bool more : {true, false})
+        while (keep(best, changed(best.links, branch, more))) continue;
+  }
+
+  const model::Mechanism& mechanism_;
+  dynamics::DerivationOptions options_;
+  bool moves_in_planes_ = false;
+  std::size_t velocities_ = 0;
+  std::vector<std::size_t> depth_, parent_, children_;
+  std::map<Way, std::size_t> counted_;
+};
+
+}  // namespace
+
+Articulation choose_articulation(const model::Mechanism& mechanism,
+                                 const dynamics::DerivationOptions& options) {
+  return Choice(mechanism, options).choose();
+}
+
+ir::Program lower_accelerations(const model::Mechanism& mechanism, dynamics::DerivationOptions options) {
+  options.accelerations_only = true;
+  const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
+  std::vector<lowering::Target> targets;
+  for (std::size_t i = 0; i < equations.zdot.size(); ++i)
+    targets.push_back({"zdot", static_cast<int>(i), -1, equations.zdot[i]});
+  return lowering::lower(equations.statements, targets, "zdot");
+}
+
+std::string accuracy_sentence(const Articulation& articulation) {
+  const auto text = [](const SampledError& error) {
+    return fmt::format("{:.1g} units{}", error.units, error.where.empty() ? "" : " at " + error.where);
+  };
+  if (articulation.fewest_error.units <= kFewUnits) return "";
+  if (articulation.error.units >= articulation.fewest_error.units)
+    return fmt::format(
+        "accelerations in double lose up to {} (of rounding of the largest; median of sampled states): no "
+        "way of "
+        "at most {} times the operations that was tried loses {} times less",
+        text(articulation.error), kMostMore, kMuchLess);
+  return fmt::format(
+      "accelerations take {} operations more than the fewest (before passes), which lose up to {} where "
+      "these lose {} "
+      "(of rounding of the largest; median of sampled states)",
+      articulation.spent, text(articulation.fewest_error), text(articulation.error));
+}
+
+}  // namespace jourdain

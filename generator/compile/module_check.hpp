@@ -1,0 +1,16 @@
+// The programs of a scene are what its functions may be: sizes of their leaves come from the scene and the arguments.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ir/module.hpp"
+#include "programs/functions.hpp"
+
+namespace jourdain {
+
+/// What is wrong with the programs of a scene with that many parameters, in sentences; see ir::defects.
+std::vector<std::string> module_defects(const ir::Module& module, const programs::SceneShape& shape,
+                                        std::size_t parameters);
+
+}  // namespace jourdain

@@ -1,0 +1,66 @@
+#include "loops/closed_form/near_states.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/rewrite.hpp"
+#include "support/uniform.hpp"
+
+namespace jourdain::loops {
+
+using ir::LeafKind;
+
+namespace {
+
+constexpr double kFarthest = 0.3;
+/// Formulas of an identity differ by rounding, others by their size.
+constexpr double kAgreement = 1e-9;
+
+}  // namespace
+
+Samples samples_near(const std::vector<double>& initial_y, const std::vector<bool>& varied,
+                     const std::vector<double>& parameters,
+                     const std::vector<std::optional<std::array<double, 2>>>& parameter_range,
+                     std::size_t count) {
+  support::Uniform uniform(1);
+  double radius = kFarthest;
+  const auto offset = [&] { return uniform(-radius, radius); };
+  Samples samples(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples[i][LeafKind::kPosition] = initial_y;
+    samples[i][LeafKind::kParameter] = parameters;
+    samples[i][LeafKind::kTime] = {0};
+    if (i == 0) continue;
+    for (std::size_t k = 0; k < initial_y.size(); ++k)
+      if (varied[k]) samples[i][LeafKind::kPosition][k] += offset();
+    samples[i][LeafKind::kTime][0] += offset();
+    for (std::size_t k = 0; k < parameter_range.size(); ++k)
+      if (const auto& range = parameter_range[k]) {
+        double& value = samples[i][LeafKind::kParameter][k];
+        value += offset() / kFarthest * ((*range)[1] - (*range)[0]) / 2;
+        value = std::clamp(value, (*range)[0], (*range)[1]);
+      }
+    radius /= 2;
+  }
+  return samples;
+}
+
+std::vector<std::vector<double>> evaluated(const std::vector<Scalar>& values, const Samples& samples) {
+  std::vector<std::vector<double>> results(samples.size());
+  if (values.empty()) return results;
+  ir::Builder builder = *values[0].builder;
+  for (const Scalar& value : values) builder.output("value", -1, -1, value.value);
+  const ir::Program program = passes::remove_dead_code(builder.finish("values"));
+  for (std::size_t i = 0; i < samples.size(); ++i) results[i] = ir::interpret(program, samples[i]);
+  return results;
+}
+
+double initial(Scalar value, const Samples& samples) { return evaluated({value}, {samples[0]})[0][0]; }
+
+bool agree(Scalar a, Scalar b, Scalar scale, const Samples& samples) {
+  for (const std::vector<double>& values : evaluated({a, b, scale}, samples))
+    if (std::fabs(values[0] - values[1]) > kAgreement * std::fabs(values[2])) return false;
+  return true;
+}
+
+}  // namespace jourdain::loops

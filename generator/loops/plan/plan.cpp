@@ -1,0 +1,349 @@
+#include "loops/plan/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "dynamics/equations.hpp"
+#include "loops/closed_form/position_request.hpp"
+#include "loops/plan/elimination_order.hpp"
+#include "loops/plan/inertia.hpp"
+#include "loops/plan/partition.hpp"
+#include "loops/plan/scales.hpp"
+#include "loops/plan/sharing_rows.hpp"
+#include "loops/plan/start.hpp"
+#include "loops/regularity/regularity_proof.hpp"
+#include "loops/rows/disagreement.hpp"
+#include "loops/rows/regular_rows.hpp"
+#include "model/loop_kinds.hpp"
+#include "model/time_dependence.hpp"
+
+namespace jourdain::loops {
+
+using model::LoopTreatment;
+using support::shown;
+
+namespace {
+
+/// Configurations at which rows, freedom and conditioning are judged.
+constexpr std::size_t kConfigurations = 48;
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+class Planner {
+ public:
+  Planner(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
+          support::Diagnostics& diagnostics)
+      : mechanism_(mechanism),
+        constraints_(constraints),
+        diagnostics_(diagnostics),
+        layout_(model::lay_out_coordinates(mechanism)),
+        closure_(mechanism, constraints, model::default_values(mechanism)),
+        names_(row_names(mechanism)) {}
+
+  std::optional<LoopPlan> plan() {
+    plan_.iterations = mechanism_.loop_options.iterations;
+    plan_.stabilisation = mechanism_.loop_options.stabilisation;
+    plan_.is_named = mechanism_.loop_options.treatment || !mechanism_.loop_options.independent.empty();
+    if (!assemble()) return {};
+    configurations_ = walk(closure_, start_, mechanism_, kConfigurations);
+    for (const Configuration& c : configurations_) jacobians_.push_back(closure_.jacobian(c));
+    if (!check_acting()) return {};
+    plan_.rows = plan_.disagreeing.empty() ? regular_rows(jacobians_) : all_but(plan_.disagreeing);
+    for (const std::size_t r : all_but(plan_.rows)) plan_.redundant.push_back(names_[r]);
+    plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
+    if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
+    massless_ = massless_in_tree(mechanism_, start_);
+    set_scales(mechanism_, start_, jacobians_.front(), massless_.empty(), plan_);
+    if (!(plan_.freedom == 0 ? treat_determined() : treat())) return {};
+    if (!check_tree_inertia(mechanism_, massless_, plan_, diagnostics_)) return {};
+    if (!plan_.is_reduced()) share();
+    set_determinant(mechanism_, configurations_, jacobians_, plan_);
+    return plan_;
+  }
+
+ private:
+  std::vector<std::size_t> named_independent() const {
+    std::vector<std::size_t> list;
+    for (const auto& name : mechanism_.loop_options.independent)
+      list.push_back(*layout_.joints[name.joint.value].velocity[name.coordinate]);
+    return list;
+  }
+
+  std::vector<std::size_t> all_but(const std::vector<std::size_t>& rows) const {
+    return loops::all_but(rows, names_.size());
+  }
+
+  bool assemble() {
+    const Disagreement found =
+        settle_disagreement(mechanism_, closure_, named_independent(), kConfigurations, diagnostics_);
+    plan_.disagreeing = found.rows;
+    plan_.disagreement = found.amount;
+    const std::optional<Start> start = find_start(mechanism_, closure_, named_independent(), diagnostics_);
+    if (!start) return false;
+    start_ = start->configuration;
+    plan_.moved = start->moved;
+    for (const long double entry : start_.y) plan_.y.push_back(static_cast<double>(entry));
+    for (const long double entry : start->z) plan_.z.push_back(static_cast<double>(entry));
+    return true;
+  }
+
+  /// Every loop must hold some coordinate back somewhere.
+  bool check_acting() {
+    std::size_t first = 0;
+    bool all_act = true;
+    for (const model::Loop& loop : mechanism_.loops) {
+      const std::size_t count = model::row_count(loop.type);
+      const bool acts = std::any_of(jacobians_.begin(), jacobians_.end(), [&](const Matrix& G) {
+        return !G.middleRows(at(first), at(count)).isZero(0);
+      });
+      if (!acts)
+        diagnostics_.error(loop.where, fmt::format("loop '{}' holds no coordinate back", shown(loop.name)),
+                           "it stays closed however the mechanism moves: leave it out");
+      all_act = all_act && acts;
+      first += count;
+    }
+    return all_act;
+  }
+
+  /// Coordinates that are driven, or that the description starts with a velocity.
+  std::vector<bool> preferred() const {
+    std::vector<bool> list(layout_.velocity_count(), false);
+    for (const model::Actuator& actuator : mechanism_.actuators)
+      list[*layout_.joints[actuator.joint.value].velocity[actuator.coordinate]] = true;
+    for (const model::CoordinateForce& force : mechanism_.coordinate_forces)
+      if (const auto entry = layout_.joints[force.joint.value].velocity[force.coordinate])
+        list[*entry] = true;
+    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
+      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
+        if (const auto entry = layout_.joints[j].velocity[c];
+            entry && !mechanism_.joints[j].coordinates[c].initial_velocity.is_zero())
+          list[*entry] = true;
+    return list;
+  }
+
+  /// Without freedom all positions follow from time; multipliers are left for what is singular on the way.
+  bool treat_determined() {
+    const model::LoopOptions& options = mechanism_.loop_options;
+    if (!model::time_dependence(mechanism_).positions)
+      diagnostics_.note(mechanism_.loops.front().where, "the loops leave no degree of freedom",
+                        "nothing depends on time either: the mechanism stands still");
+    if (options.treatment == LoopTreatment::kMultipliers) return true;
+    if (!options.independent.empty()) return report_bad({});
+    const std::optional<Partition> partition = given_partition(regular_jacobians(), open_jacobians(), {});
+    if (!partition || partition->blocks.empty()) return !options.treatment || report_bad(partition);
+    take(*partition);
+    if (options.treatment != LoopTreatment::kPartitioned && close_explicitly()) return true;
+    if (options.treatment == LoopTreatment::kExplicit) return refuse_explicit();
+    prove();
+    return true;
+  }
+
+  /// G at the configurations seen, without redundant rows.
+  std::vector<Matrix> regular_jacobians() const {
+    std::vector<Matrix> regular;
+    for (const Matrix& G : jacobians_) {
+      Matrix part(at(plan_.rows.size()), G.cols());
+      for (std::size_t k = 0; k < plan_.rows.size(); ++k) part.row(at(k)) = G.row(at(plan_.rows[k]));
+      regular.push_back(part);
+    }
+    return regular;
+  }
+
+  /// Off the loops, at other parameters: what vanishes there is no part of a row. Rods of equal lengths hide some parts where loops
+  /// are closed.
+  std::vector<Matrix> open_jacobians() const {
+    return open_rows(mechanism_, constraints_, configurations_, plan_.rows);
+  }
+
+  bool treat() {
+    const model::LoopOptions& options = mechanism_.loop_options;
+    if (options.treatment == LoopTreatment::kMultipliers) return true;
+    const std::vector<Partition> choices = partitions();
+    if (choices.empty() || (choices.front().blocks.empty() && !plan_.rows.empty())) {
+      plan_.reason = "no choice of independent coordinates is regular at the configurations seen";
+      return plan_.is_named ? report_bad(choices.empty() ? std::nullopt : std::optional(choices.front()))
+                            : true;
+    }
+    if (options.treatment != LoopTreatment::kPartitioned)
+      for (const Partition& choice : choices) {
+        take(choice);
+        if (close_explicitly()) return true;
+      }
+    if (options.treatment == LoopTreatment::kExplicit) return refuse_explicit();
+    std::string why;
+    for (const Partition& choice : choices) {
+      take(choice);
+      const std::string failure = prove();
+      if (failure.empty()) return true;
+      if (why.empty()) why = failure;
+    }
+    take(choices.front());
+    go_without_proof(why);
+    return true;
+  }
+
+  /// Those that may be closed: the one that is named; otherwise the one that is conditioned best, and the one of the coordinates with a
+  /// range, over which more can be proven.
+  std::vector<Partition> partitions() const {
+    const std::vector<Matrix> regular = regular_jacobians(), open = open_jacobians();
+    const std::vector<std::size_t> named = named_independent();
+    const auto best = named.empty()
+                          ? choose_partition(regular, open, velocity_groups(mechanism_), preferred())
+                          : given_partition(regular, open, named);
+    if (!best) return {};
+    std::vector<Partition> list = {*best};
+    const std::vector<std::size_t> ranged = with_range();
+    if (!named.empty() || ranged.size() != plan_.freedom || ranged == best->independent) return list;
+    if (const auto other = given_partition(regular, open, ranged); other && other->conditioning > 0)
+      list.push_back(*other);
+    return list;
+  }
+
+  /// Velocities of the coordinates with a range, in order.
+  std::vector<std::size_t> with_range() const {
+    std::vector<std::size_t> list;
+    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
+      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
+        if (const auto entry = layout_.joints[j].velocity[c];
+            entry && mechanism_.joints[j].coordinates[c].range)
+          list.push_back(*entry);
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  /// With these velocities independent.
+  void take(const Partition& partition) {
+    plan_.independent = partition.independent;
+    plan_.blocks = partition.blocks;
+    plan_.conditioning = partition.conditioning;
+    for (Block& block : plan_.blocks)
+      for (std::size_t& row : block.rows) row = plan_.rows[row];
+    plan_.treatment = LoopTreatment::kPartitioned;
+  }
+
+  /// Why there is no proof for the choice taken; empty where there is one.
+  std::string prove() {
+    const auto found = prove_regular(regularity_request(mechanism_, constraints_, plan_));
+    if (const auto* why = std::get_if<std::string>(&found)) return *why;
+    plan_.proof = std::get<RegularityProof>(found);
+    return "";
+  }
+
+  /// A choice that is not proven is taken only where it is asked for, or where multipliers would need M⁻¹ of a singular M.
+  void go_without_proof(const std::string& why) {
+    if (plan_.is_named || !massless_.empty())
+      return diagnostics_.warning(
+          mechanism_.loop_options.where,
+          fmt::format("it is not proven that the other coordinates follow from the independent ones: {}",
+                      why),
+          "watch 'regularity' of State, declare ranges, or use treatment = \"multipliers\"");
+    if (!plan_.reason.empty()) plan_.reason += "; ";
+    plan_.reason += "no choice of independent coordinates proven: " + why;
+    keep_all();
+  }
+
+  void share() {
+    plan_.sharing = sharing_rows(jacobians_, plan_.rows);
+    if (!plan_.sharing.empty()) set_sharing_lengths(mechanism_, configurations_, jacobians_, plan_);
+  }
+
+  void keep_all() {
+    plan_.treatment = LoopTreatment::kMultipliers;
+    plan_.independent.clear();
+    plan_.blocks.clear();
+    plan_.conditioning = 0;
+  }
+
+  /// False where there is no closed form.
+  bool close_explicitly() {
+    std::variant<ClosedForm, std::string> found = solve_positions();
+    if (ClosedForm* form = std::get_if<ClosedForm>(&found)) {
+      plan_.treatment = LoopTreatment::kExplicit;
+      take_orders(*form);
+      plan_.closed_form = std::move(*form);
+      return true;
+    }
+    if (explicit_failure_.empty()) explicit_failure_ = std::get<std::string>(found);
+    plan_.reason = "no closed form: " + explicit_failure_;
+    return false;
+  }
+
+  bool refuse_explicit() {
+    diagnostics_.error(mechanism_.loop_options.where, "the loops cannot be closed explicitly",
+                       explicit_failure_);
+    return false;
+  }
+
+  std::variant<ClosedForm, std::string> solve_positions() const {
+    auto request = position_request(mechanism_, constraints_, plan_);
+    if (auto* failure = std::get_if<std::string>(&request)) return std::move(*failure);
+    auto& positions = std::get<ClosedFormRequest>(request);
+    for (const Block& block : plan_.blocks) positions.eliminations.push_back(elimination_of(block));
+    return closed_form(positions);
+  }
+
+  /// Complete pivoting at the start, where cofactors are dearer; none where a pivot is nearly lost at a configuration seen.
+  Elimination elimination_of(const Block& block) const {
+    if (block.rows.size() < 3) return {};
+    return elimination_order(jacobians_, block.rows, block.dependents);
+  }
+
+  void take_orders(const ClosedForm& form) {
+    for (std::size_t b = 0; b < plan_.blocks.size(); ++b) {
+      const Elimination order = elimination_of(plan_.blocks[b]);
+      if (!order.rows.empty() && form.has_pivots[b]) plan_.blocks[b] = {order.rows, order.columns, true};
+    }
+  }
+
+  bool report_bad(const std::optional<Partition>& partition) {
+    const support::SourceRange where = mechanism_.loop_options.where;
+    const std::size_t named = mechanism_.loop_options.independent.size();
+    if (named != 0 && named != plan_.freedom)
+      diagnostics_.error(
+          where,
+          fmt::format("[loops] names {} independent coordinate{}, the mechanism has {} degree{} of "
+                      "freedom",
+                      named, named == 1 ? "" : "s", plan_.freedom, plan_.freedom == 1 ? "" : "s"),
+          "name as many, or leave 'independent' out");
+    else if (!partition)
+      diagnostics_.error(where, "no choice of independent coordinates stays regular",
+                         "declare the range of coordinates, or use treatment = \"multipliers\"");
+    else
+      diagnostics_.error(where, "the other coordinates do not follow from the independent ones",
+                         "name others, or leave 'independent' out");
+    return false;
+  }
+
+  const model::Mechanism& mechanism_;
+  const ConstraintPrograms& constraints_;
+  support::Diagnostics& diagnostics_;
+  model::CoordinateLayout layout_;
+  NumericClosure closure_;
+  std::vector<std::string> names_;
+  Configuration start_;
+  std::vector<Configuration> configurations_;  ///< closed ones; the first is the start
+  std::vector<Matrix> jacobians_;              ///< there
+  std::vector<model::JointIndex> massless_;    ///< where the tree's mass matrix is singular
+  std::string explicit_failure_;               ///< of the choice that is tried first
+  LoopPlan plan_;
+};
+
+}  // namespace
+
+std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
+                                   support::Diagnostics& diagnostics) {
+  return Planner(mechanism, constraints, diagnostics).plan();
+}
+
+std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
+  if (mechanism.loops.empty()) return {};
+  dynamics::DerivationOptions options;
+  options.closures_only = options.for_derivatives = true;
+  const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
+  return plan_loops(mechanism, constraint_programs(mechanism, equations).front(), diagnostics);
+}
+
+}  // namespace jourdain::loops

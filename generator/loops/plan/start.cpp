@@ -1,0 +1,287 @@
+#include "loops/plan/start.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "loops/record/loop_plan.hpp"
+#include "model/coordinates.hpp"
+#include "reference/minimal.hpp"
+
+namespace jourdain::loops {
+
+using support::shown;
+using support::SourceRange;
+
+namespace {
+
+/// Velocities that agree to this share of the largest are written with too few digits.
+constexpr long double kRounded = 1e-6L;
+/// ġ below this share of the largest velocity counts as zero.
+constexpr long double kAgrees = 1e-10L;
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// Where the description gives initial values, by velocity of the tree; line 0 where it does not.
+struct GivenValues {
+  std::vector<SourceRange> position, velocity;
+};
+
+GivenValues given_values(const model::Mechanism& mechanism, const model::CoordinateLayout& layout) {
+  GivenValues given;
+  given.position.resize(layout.velocity_count());
+  given.velocity.resize(layout.velocity_count());
+  const auto three = [&](std::size_t first, SourceRange position, SourceRange velocity) {
+    std::fill_n(given.position.begin() + static_cast<std::ptrdiff_t>(first), 3, position);
+    std::fill_n(given.velocity.begin() + static_cast<std::ptrdiff_t>(first), 3, velocity);
+  };
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
+    const model::Joint& joint = mechanism.joints[j];
+    const model::JointEntries& entries = layout.joints[j];
+    for (std::size_t c = 0; c < joint.coordinates.size(); ++c) {
+      if (!entries.velocity[c]) continue;
+      given.position[*entries.velocity[c]] = joint.coordinates[c].position_where;
+      given.velocity[*entries.velocity[c]] = joint.coordinates[c].velocity_where;
+    }
+    const bool is_free = joint.type == model::JointType::kFree;
+    if (is_free) three(entries.first_velocity, joint.origin_where, joint.origin_velocity_where);
+    if (is_free || joint.type == model::JointType::kSpherical)
+      three(entries.first_velocity + (is_free ? 3 : 0), joint.orientation_where, joint.spin_where);
+  }
+  return given;
+}
+
+using Entries = std::vector<std::size_t>;
+
+class StartSearch {
+ public:
+  StartSearch(const model::Mechanism& mechanism, const NumericClosure& closure, const Entries& independent,
+              support::Diagnostics& diagnostics)
+      : mechanism_(mechanism),
+        closure_(closure),
+        independent_(independent),
+        diagnostics_(diagnostics),
+        layout_(model::lay_out_coordinates(mechanism)),
+        given_(given_values(mechanism, layout_)),
+        initial_(reference::Reference<long double>(mechanism).initial_state()) {}
+
+  std::optional<Start> find() {
+    if (!find_positions() || !find_velocities()) return {};
+    record(initial_.y, start_.configuration.y, layout_.position_names, false);
+    record(initial_.z, start_.z, layout_.velocity_names, true);
+    return start_;
+  }
+
+ private:
+  /// All velocities but those two lists.
+  std::vector<bool> all_but(const Entries& held, const Entries& others) const {
+    std::vector<bool> list(layout_.velocity_count(), true);
+    for (const std::size_t k : held) list[k] = false;
+    for (const std::size_t k : others) list[k] = false;
+    return list;
+  }
+
+  bool is_closed(const Configuration& config) const { return closure_.open(config) <= kClosed; }
+
+  bool is_start(const Configuration& config) const {
+    return is_closed(config) && closure_.reversed(config).empty() && in_range(config, mechanism_, layout_);
+  }
+
+  bool find_positions() {
+    Entries given;
+    for (std::size_t k = 0; k < given_.position.size(); ++k)
+      if (given_.position[k].line > 0) given.push_back(k);
+    const Configuration initial{0, initial_.y},
+        kept = closure_.assembled(initial, all_but(independent_, given));
+    start_.configuration = kept;
+    if (is_start(kept)) return true;
+    start_.configuration = closure_.assembled(kept, all_but(independent_, {}));
+    if (is_start(start_.configuration)) return true;
+    start_.configuration = closure_.assembled(initial, all_but(independent_, {}));
+    return is_closed(start_.configuration) ? report_reversed() : report_open();
+  }
+
+  bool report_open() {
+    Eigen::Index worst = 0;
+    const long double residual = closure_.value(start_.configuration).cwiseAbs().maxCoeff(&worst);
+    const model::Loop& loop = loop_of(static_cast<std::size_t>(worst));
+    diagnostics_.error(loop.where,
+                       fmt::format("loop '{}' cannot be closed from the initial values", shown(loop.name)),
+                       fmt::format("the nearest configuration found leaves constraint {} open by {:.3g}{}",
+                                   row_name(worst), static_cast<double>(residual), as_given(independent_)));
+    return false;
+  }
+
+  /// Whether no axes point against each other.
+  bool report_reversed() {
+    const std::vector<std::size_t> reversed = closure_.reversed(start_.configuration);
+    for (const std::size_t loop : reversed)
+      diagnostics_.error(mechanism_.loops[loop].where,
+                         fmt::format("loop '{}' closes with its axes against each other",
+                                     shown(mechanism_.loops[loop].name)),
+                         "turn 'to_axis' round, or start nearer to the configuration that is meant");
+    return reversed.empty();
+  }
+
+  /// ġ at these velocities.
+  Vector opening(const Vector& z) const { return closure_.opening_rate(start_.configuration, z); }
+
+  bool agrees(const Vector& z) const {
+    return opening(z).lpNorm<Eigen::Infinity>() <= kAgrees * (1 + z.lpNorm<Eigen::Infinity>());
+  }
+
+  /// The velocities nearest to the initial ones that agree with the loops, `held` and `held_` as they are; where there are none, those
+  /// that open the loops least.
+  Vector nearest(const Entries& held) const {
+    return closure_.consistent(start_.configuration, initial_.z, all_but(held_, held));
+  }
+
+  /// Independent velocities that the description does not give yield to those that it gives.
+  bool find_velocities() {
+    held_ = independent_;
+    start_.z = nearest({});
+    if (!agrees(start_.z)) return report_opening();
+    Entries all, moving;
+    for (std::size_t k = 0; k < given_.velocity.size(); ++k) {
+      if (given_.velocity[k].line == 0) continue;
+      all.push_back(k);
+      if (initial_.z[at(k)] != 0) moving.push_back(k);
+    }
+    if (keeps_given(all, moving)) return true;
+    std::erase_if(held_, [&](std::size_t k) { return given_.velocity[k].line == 0; });
+    return keeps_given(all, moving) || report_conflict(moving);
+  }
+
+  bool keeps_given(const Entries& all, Entries moving) {
+    if (keeps(all) || keeps_rounded(all)) return true;
+    if (!keeps(moving)) return keeps_rounded(moving);
+    for (const std::size_t k : all) add_where_it_agrees(moving, k);
+    return keeps(moving);
+  }
+
+  bool keeps(const Entries& held) {
+    const Vector z = nearest(held);
+    if (agrees(z)) start_.z = z;
+    return agrees(z);
+  }
+
+  /// Others move first, and what they cannot do is left to all.
+  bool keeps_rounded(const Entries& held) {
+    const Vector z = closure_.consistent(start_.configuration, nearest(held), all_but(held_, {}));
+    long double change = 0;
+    for (const std::size_t k : held) change = std::max(change, std::abs(z[at(k)] - initial_.z[at(k)]));
+    const bool good = agrees(z) && change <= kRounded * z.lpNorm<Eigen::Infinity>();
+    if (good) start_.z = z;
+    return good;
+  }
+
+  void add_where_it_agrees(Entries& held, std::size_t entry) const {
+    if (std::find(held.begin(), held.end(), entry) != held.end()) return;
+    held.push_back(entry);
+    if (!agrees(nearest(held))) held.pop_back();
+  }
+
+  bool report_opening() {
+    Eigen::Index worst = 0;
+    const long double rate = opening(start_.z).cwiseAbs().maxCoeff(&worst);
+    const model::Loop& loop = loop_of(static_cast<std::size_t>(worst));
+    diagnostics_.error(
+        loop.where, fmt::format("no velocities agree with loop '{}' at the start", shown(loop.name)),
+        fmt::format("the best ones found open constraint {} at {:.3g}/s{}: start from another configuration",
+                    row_name(worst), static_cast<double>(rate), as_given(independent_)));
+    return false;
+  }
+
+  /// The first velocity in the file that does not agree with those before it.
+  bool report_conflict(Entries given) {
+    const auto place = [&](std::size_t k) {
+      return std::pair(given_.velocity[k].line, given_.velocity[k].column);
+    };
+    std::stable_sort(given.begin(), given.end(),
+                     [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+    Entries held;
+    for (const std::size_t k : given) {
+      const std::size_t before = held.size();
+      add_where_it_agrees(held, k);
+      if (held.size() == before) {
+        report_conflict(k, held);
+        return false;
+      }
+    }
+    return false;
+  }
+
+  void report_conflict(std::size_t entry, const Entries& held) {
+    const Vector z = nearest(held);
+    const bool rests = std::abs(z[at(entry)]) <= kAgrees * z.lpNorm<Eigen::Infinity>();
+    const double possible = rests ? 0 : static_cast<double>(z[at(entry)]);
+    Entries with = held_;
+    for (const std::size_t k : needed(entry, held)) with.push_back(k);
+    diagnostics_.error(given_.velocity[entry],
+                       fmt::format("'{}' cannot start with {:.10g}", shown(layout_.velocity_names[entry]),
+                                   static_cast<double>(initial_.z[at(entry)])),
+                       fmt::format("{}the loops leave it {:.10g}: write that, or leave one velocity out",
+                                   with.empty() ? "" : as_given(with).substr(1) + " ", possible));
+  }
+
+  /// Those of `held` that `entry` conflicts with.
+  Entries needed(std::size_t entry, Entries held) const {
+    for (std::size_t i = held.size(); i-- > 0;) {
+      Entries fewer = held;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+      Entries tried = fewer;
+      tried.push_back(entry);
+      if (!agrees(nearest(tried))) held = fewer;
+    }
+    return held;
+  }
+
+  const model::Loop& loop_of(std::size_t row) const {
+    std::size_t loop = 0, first = 0;
+    while (row >= first + model::row_count(mechanism_.loops[loop].type))
+      first += model::row_count(mechanism_.loops[loop++].type);
+    return mechanism_.loops[loop];
+  }
+
+  std::string row_name(Eigen::Index row) const {
+    return row_names(mechanism_)[static_cast<std::size_t>(row)];
+  }
+
+  /// What may not move, as the end of a phrase.
+  std::string as_given(const Entries& entries) const {
+    std::vector<std::string> names;
+    for (const std::size_t k : entries) names.push_back(shown(layout_.velocity_names[k]));
+    return names.empty() ? "" : fmt::format(" with {} as given", fmt::join(names, ", "));
+  }
+
+  void record(const Vector& before, const Vector& after, const std::vector<std::string>& names,
+              bool velocity) {
+    constexpr long double kNoticeable = 1e-12L;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (std::abs(after[at(i)] - before[at(i)]) > kNoticeable)
+        start_.moved.push_back(
+            {names[i], static_cast<double>(before[at(i)]), static_cast<double>(after[at(i)]), velocity});
+  }
+
+  const model::Mechanism& mechanism_;
+  const NumericClosure& closure_;
+  const Entries& independent_;
+  Entries held_;  ///< independent velocities that stay
+  support::Diagnostics& diagnostics_;
+  model::CoordinateLayout layout_;
+  GivenValues given_;
+  reference::State<long double> initial_;
+  Start start_;
+};
+
+}  // namespace
+
+std::optional<Start> find_start(const model::Mechanism& mechanism, const NumericClosure& closure,
+                                const std::vector<std::size_t>& independent,
+                                support::Diagnostics& diagnostics) {
+  return StartSearch(mechanism, closure, independent, diagnostics).find();
+}
+
+}  // namespace jourdain::loops

@@ -1,0 +1,211 @@
+#include "loops/rows/configuration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/uniform.hpp"
+
+namespace jourdain::loops {
+
+using ir::LeafKind;
+
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+Eigen::Index at(int i) { return static_cast<Eigen::Index>(i); }
+
+Matrix columns_of(const Matrix& A, const std::vector<bool>& moving) {
+  Matrix B = A;
+  for (std::size_t k = 0; k < moving.size(); ++k)
+    if (!moving[k]) B.col(at(k)).setZero();
+  return B;
+}
+
+}  // namespace
+
+NumericClosure::NumericClosure(const model::Mechanism& mechanism, const ConstraintPrograms& programs,
+                               std::vector<double> parameters)
+    : programs_(programs), parameters_(std::move(parameters)), rows_(programs.value.outputs.size()) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  tangent_ = model::tangent_of(mechanism, layout);
+  velocities_ = layout.velocity_count();
+}
+
+ir::LeafValues<long double> NumericClosure::leaves(const Configuration& config, const Vector& z) const {
+  ir::LeafValues<long double> values;
+  values[LeafKind::kParameter].assign(parameters_.begin(), parameters_.end());
+  values[LeafKind::kPosition].assign(config.y.begin(), config.y.end());
+  values[LeafKind::kVelocity].assign(z.begin(), z.end());
+  values[LeafKind::kTime] = {config.t};
+  return values;
+}
+
+void NumericClosure::disregard(const std::vector<std::size_t>& rows, long double limit) {
+  disregarded_ = rows;
+  limit_ = limit;
+}
+
+bool NumericClosure::is_closed(const Configuration& config) const {
+  const Vector g = value(config);
+  return regarded(g).lpNorm<Eigen::Infinity>() <= kClosed &&
+         std::all_of(disregarded_.begin(), disregarded_.end(),
+                     [&](std::size_t r) { return std::abs(g[at(r)]) <= limit_; });
+}
+
+Vector NumericClosure::regarded(Vector g) const {
+  for (const std::size_t r : disregarded_) g[at(r)] = 0;
+  return g;
+}
+
+Matrix NumericClosure::regarded(Matrix G) const {
+  for (const std::size_t r : disregarded_) G.row(at(r)).setZero();
+  return G;
+}
+
+Vector NumericClosure::opening_rate(const Configuration& config, const Vector& z) const {
+  return regarded(Vector(jacobian(config) * z + time_rate(config)));
+}
+
+Vector NumericClosure::value(const Configuration& config) const {
+  const std::vector<long double> g = ir::interpret(programs_.value, leaves(config, {}));
+  return Eigen::Map<const Vector>(g.data(), at(g.size()));
+}
+
+Matrix NumericClosure::jacobian(const Configuration& config) const {
+  const std::vector<long double> values = ir::interpret(programs_.jacobian, leaves(config, {}));
+  Matrix G = Matrix::Zero(at(rows_), at(velocities_));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const ir::Output& output = programs_.jacobian.outputs[k];
+    if (output.name == "G") G(at(output.row), at(output.column)) = values[k];
+  }
+  return G;
+}
+
+Vector NumericClosure::time_rate(const Configuration& config) const {
+  const std::vector<long double> values = ir::interpret(programs_.jacobian, leaves(config, {}));
+  Vector rate = Vector::Zero(at(rows_));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (programs_.jacobian.outputs[k].name == "g_t") rate[at(programs_.jacobian.outputs[k].row)] = values[k];
+  return rate;
+}
+
+Vector NumericClosure::bias(const Configuration& config, const Vector& z) const {
+  const std::vector<long double> values = ir::interpret(programs_.rates, leaves(config, z));
+  Vector gamma = Vector::Zero(at(rows_));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (programs_.rates.outputs[k].name == "gamma") gamma[at(programs_.rates.outputs[k].row)] = values[k];
+  return gamma;
+}
+
+std::vector<std::size_t> NumericClosure::reversed(const Configuration& config) const {
+  const std::vector<long double> values = ir::interpret(programs_.senses, leaves(config, {}));
+  std::vector<std::size_t> loops;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto loop = static_cast<std::size_t>(programs_.senses.outputs[k].row);
+    if (values[k] < 0 && (loops.empty() || loops.back() != loop)) loops.push_back(loop);
+  }
+  return loops;
+}
+
+Configuration NumericClosure::displaced(const Configuration& from, const Vector& d) const {
+  Configuration moved = from;
+  for (const model::Tangent::Scalar& s : tangent_.scalars) moved.y[at(s.position)] += d[at(s.velocity)];
+  for (const model::Tangent::Scalar& s : tangent_.quaternions) {
+    const Eigen::Quaternion<long double> q(from.y[at(s.position)], from.y[at(s.position + 1)],
+                                           from.y[at(s.position + 2)], from.y[at(s.position + 3)]);
+    const Eigen::Vector3<long double> turn = d.segment<3>(at(s.velocity));
+    const long double angle = turn.norm();
+    Eigen::Vector3<long double> axis = Eigen::Vector3<long double>::UnitX();
+    if (angle > 0) axis = turn / angle;
+    const Eigen::Quaternion<long double> by(Eigen::AngleAxis<long double>(angle, axis));
+    const Eigen::Quaternion<long double> product = (q * by).normalized();
+    moved.y.segment<4>(at(s.position)) << product.w(), product.x(), product.y(), product.z();
+  }
+  return moved;
+}
+
+Configuration NumericClosure::assembled(Configuration config, const std::vector<bool>& moving) const {
+  constexpr int kSteps = 200;
+  constexpr long double kLongest = 0.3L;  // of one step, rad or m: further the linearisation says little
+  Vector g = regarded(value(config));
+  for (int i = 0; i < kSteps && !(g.lpNorm<Eigen::Infinity>() <= kClosed / 1e5L); ++i) {
+    Vector step = least_norm(columns_of(regarded(jacobian(config)), moving), -g);
+    if (!step.allFinite()) break;
+    if (step.lpNorm<Eigen::Infinity>() > kLongest) step *= kLongest / step.lpNorm<Eigen::Infinity>();
+    Configuration best = displaced(config, step);
+    Vector better = regarded(value(best));
+    for (int halvings = 0; halvings < 20 && !(better.norm() < g.norm()); ++halvings) {
+      step /= 2;
+      best = displaced(config, step);
+      better = regarded(value(best));
+    }
+    if (!(better.norm() < g.norm())) break;
+    config = best;
+    g = better;
+  }
+  return config;
+}
+
+Vector NumericClosure::consistent(const Configuration& config, const Vector& z,
+                                  const std::vector<bool>& moving) const {
+  return z - least_norm(columns_of(regarded(jacobian(config)), moving), opening_rate(config, z));
+}
+
+Vector least_norm(const Matrix& A, const Vector& b) {
+  if (A.size() == 0) return Vector::Zero(A.cols());
+  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition;
+  decomposition.setThreshold(kRankTolerance);
+  decomposition.compute(A);
+  return decomposition.solve(b);
+}
+
+bool in_range(const Configuration& config, const model::Mechanism& mechanism,
+              const model::CoordinateLayout& layout) {
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c) {
+      const auto& range = mechanism.joints[j].coordinates[c].range;
+      const auto entry = layout.joints[j].position[c];
+      if (range && entry && (config.y[at(*entry)] < (*range)[0] || config.y[at(*entry)] > (*range)[1]))
+        return false;
+    }
+  return true;
+}
+
+namespace {
+
+/// A step of at most 0.7 rad or m in which nothing but time moves a mechanism without freedom.
+Configuration driven(const NumericClosure& closure, const Configuration& from, long double time) {
+  const Vector z = closure.consistent(from, Vector::Zero(at(closure.velocity_count())), {});
+  const long double fastest = z.lpNorm<Eigen::Infinity>();
+  if (fastest * time > 0.7L) time = 0.7L / fastest;
+  Configuration next = closure.displaced(from, z * time);
+  next.t += time;
+  return next;
+}
+
+}  // namespace
+
+std::vector<Configuration> walk(const NumericClosure& closure, const Configuration& start,
+                                const model::Mechanism& mechanism, std::size_t count) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  support::Uniform uniform(6007);
+  std::vector<Configuration> found = {start};
+  for (std::size_t tries = 0; tries < 10 * count && found.size() < count; ++tries) {
+    const Configuration& from = found[tries % found.size()];
+    Vector direction(at(closure.velocity_count()));
+    for (long double& entry : direction) entry = uniform(-1, 1);
+    direction = closure.consistent(from, direction, {}) -
+                closure.consistent(from, Vector::Zero(direction.size()), {});
+    const long double length = direction.lpNorm<Eigen::Infinity>();
+    if (!(length > 0)) continue;
+    const long double stride = uniform(0.1, 0.7), time = uniform(0, 1);
+    Configuration next = closure.displaced(from, direction * (stride / length));
+    next.t = start.t + time;
+    if (length < kRankTolerance) next = driven(closure, from, time);
+    next = closure.assembled(next, {});
+    if (closure.is_closed(next) && in_range(next, mechanism, layout)) found.push_back(next);
+  }
+  return found;
+}
+
+}  // namespace jourdain::loops

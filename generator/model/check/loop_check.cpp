@@ -1,0 +1,109 @@
+// Does each loop joint constrain something, and is it known what its force acts on where that is asked for?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "model/check/checks.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::Diagnostics;
+using support::shown;
+
+class LoopCheck {
+ public:
+  LoopCheck(const Mechanism& mechanism, Diagnostics& diagnostics)
+      : mechanism_(mechanism), diagnostics_(diagnostics), joint_of_(mechanism.bodies.size()) {
+    for (std::size_t j = 0; j < mechanism.joints.size(); ++j) joint_of_[mechanism.joints[j].child.value] = j;
+  }
+
+  void run() {
+    for (const Loop& loop : mechanism_.loops) {
+      loop.type == LoopType::kResidual ? residual(loop) : ends(loop);
+      if (loop.type == LoopType::kResidual) outputs_beside(loop);
+    }
+  }
+
+ private:
+  /// The joints from the body inward to `end`, which carries it.
+  std::vector<std::size_t> joints_between(std::optional<BodyIndex> body, std::optional<BodyIndex> end) const {
+    std::vector<std::size_t> joints;
+    while (body != end) {
+      joints.push_back(joint_of_[body->value]);
+      body = mechanism_.joints[joints.back()].parent;
+    }
+    return joints;
+  }
+
+  bool is_free(std::size_t j) const {
+    const Joint& joint = mechanism_.joints[j];
+    if (joint.coordinates.empty()) return joint.type != JointType::kFixed;
+    return std::any_of(joint.coordinates.begin(), joint.coordinates.end(),
+                       [](const Coordinate& coordinate) { return !coordinate.motion; });
+  }
+
+  std::string named(std::optional<BodyIndex> body) const {
+    return body ? fmt::format("body '{}'", shown(mechanism_.bodies[body->value].name)) : "the world";
+  }
+
+  void ends(const Loop& loop) {
+    const std::optional<BodyIndex> from = mechanism_.frames[loop.from.value].body,
+                                   to = mechanism_.frames[loop.to.value].body;
+    const SourceRange where = loop.to_where.line == 0 ? loop.where : loop.to_where;
+    const std::string name = fmt::format("loop '{}' joins {} with ", shown(loop.name), named(from));
+    if (from == to) return diagnostics_.error(where, name + "itself", "its ends must be on two bodies");
+    const std::optional<BodyIndex> carrying = carrier(mechanism_, from, to);
+    std::vector<std::size_t> joints = joints_between(from, carrying);
+    for (const std::size_t j : joints_between(to, carrying)) joints.push_back(j);
+    if (std::any_of(joints.begin(), joints.end(), [this](std::size_t j) { return is_free(j); })) return;
+    const bool rigid = std::all_of(joints.begin(), joints.end(), [this](std::size_t j) {
+      return mechanism_.joints[j].type == JointType::kFixed;
+    });
+    diagnostics_.error(
+        where, name + named(to) + (rigid ? ", which are one rigid body" : ", whose motion is prescribed"),
+        rigid ? "no joint between them can move" : "every coordinate between them has a motion");
+  }
+
+  void residual(const Loop& loop) {
+    for (const Expression::Node& node : loop.residual.nodes()) {
+      if (node.op != Expression::Op::kVariable) continue;
+      const Variable& variable = node.variable;
+      if (variable.kind == Variable::Kind::kPosition &&
+          !mechanism_.joints[variable.index].coordinates[variable.component].motion)
+        return;
+      if (variable.kind != Variable::Kind::kFramePosition) continue;
+      const std::vector<std::size_t> joints =
+          joints_between(mechanism_.frames[variable.index].body, std::nullopt);
+      if (std::any_of(joints.begin(), joints.end(), [this](std::size_t j) { return is_free(j); })) return;
+    }
+    diagnostics_.error(loop.where,
+                       fmt::format("the residual of loop '{}' depends on no coordinate", shown(loop.name)),
+                       "it is kept at zero by coordinates that are not prescribed");
+  }
+
+  /// A residual's force pushes coordinates; what transmits it to which bodies is not known.
+  void outputs_beside(const Loop& loop) {
+    for (const Output& output : mechanism_.outputs)
+      if (output.kind == OutputKind::kReaction || output.kind == OutputKind::kDrive)
+        diagnostics_.error(
+            output.where,
+            fmt::format("output '{}' is a {} in a mechanism with the residual '{}'", shown(output.name),
+                        output.kind == OutputKind::kReaction ? "reaction" : "drive", shown(loop.name)),
+            "a residual does not say on which bodies its force acts: use a joint as the loop");
+  }
+
+  const Mechanism& mechanism_;
+  Diagnostics& diagnostics_;
+  std::vector<std::size_t> joint_of_;  ///< whose child is that body
+};
+
+}  // namespace
+
+void check_loops(const Mechanism& mechanism, Diagnostics& diagnostics) {
+  LoopCheck(mechanism, diagnostics).run();
+}
+
+}  // namespace jourdain::model

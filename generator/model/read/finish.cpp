@@ -1,0 +1,53 @@
+#include "model/read/finish.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "model/check/checks.hpp"
+#include "model/read/lock.hpp"
+#include "model/snap.hpp"
+#include "model/read/weld.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::Diagnostics;
+using support::shown;
+
+void lock_joints(Mechanism& mechanism, const ReadOptions& options, Diagnostics& diagnostics) {
+  for (const std::string& name : options.locked_joints) {
+    const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
+                                    [&](const Joint& candidate) { return candidate.name == name; });
+    if (joint != mechanism.joints.end()) {
+      lock(mechanism, JointIndex(static_cast<std::size_t>(joint - mechanism.joints.begin())));
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const Joint& candidate : mechanism.joints) names.push_back(candidate.name);
+    const std::string close = support::nearest(name, names);
+    diagnostics.error({}, fmt::format("there is no joint '{}' to lock", shown(name)),
+                      close.empty() ? "" : fmt::format("did you mean '{}'?", shown(close)));
+  }
+}
+
+}  // namespace
+
+std::optional<Mechanism> finish_reading(Mechanism mechanism, const Completeness& complete,
+                                        const ReadOptions& options, support::Severity triangle,
+                                        Diagnostics& diagnostics) {
+  mechanism.snap = options.snap > 0;
+  if (complete.structure) lock_joints(mechanism, options, diagnostics);
+  if (mechanism.snap) snap_directions(mechanism, options.snap, diagnostics);
+  check_numbers(mechanism, diagnostics);
+  const bool tree = complete.structure && check_graph(mechanism, diagnostics);
+  if (tree) check_loops(mechanism, diagnostics);
+  if (tree && complete.numbers) weld_massless_ends(mechanism, diagnostics);
+  if (tree && complete.numbers) mechanism.indefinite = check_inertias(mechanism, diagnostics, triangle);
+  if (diagnostics.has_errors()) return {};
+  return mechanism;
+}
+
+}  // namespace jourdain::model

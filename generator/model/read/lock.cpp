@@ -1,0 +1,51 @@
+#include "model/read/lock.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace jourdain::model {
+
+namespace {
+
+/// Calls `change` with each expression that may name coordinates and inputs.
+template <class Change>
+void for_general_expressions(Mechanism& mechanism, Change&& change) {
+  for (Load& load : mechanism.loads)
+    for (std::size_t k = 0; k < 3; ++k) {
+      change(load.force[k]);
+      change(load.moment[k]);
+    }
+  for (CoordinateForce& force : mechanism.coordinate_forces) change(force.force);
+  for (Output& output : mechanism.outputs) change(output.value);
+  for (Loop& loop : mechanism.loops) change(loop.residual);
+}
+
+}  // namespace
+
+void lock(Mechanism& mechanism, JointIndex joint) {
+  mechanism.joints[joint.value].set_type(JointType::kFixed);
+  const auto on_joint = [joint](const auto& element) { return element.joint == joint; };
+  std::vector<std::optional<std::size_t>> input;  // new index of each input
+  std::size_t kept = 0;
+  for (const Actuator& actuator : mechanism.actuators)
+    input.push_back(on_joint(actuator) ? std::nullopt : std::optional(kept++));
+  for (std::size_t i = 0; i < mechanism.inputs.size(); ++i) input.emplace_back(kept++);
+  std::erase_if(mechanism.actuators, on_joint);
+  std::erase_if(mechanism.coordinate_forces, on_joint);
+  std::erase_if(mechanism.loop_options.independent, on_joint);
+  std::erase_if(mechanism.outputs, [&](const Output& output) {
+    return output.kind == OutputKind::kDrive && output.joint == joint;
+  });
+  for_general_expressions(mechanism, [&](Expression& expression) {
+    expression = expression.substituted([&](const Variable& variable) {
+      using Kind = Variable::Kind;
+      const bool coordinate = variable.kind == Kind::kPosition || variable.kind == Kind::kVelocity;
+      if (coordinate && variable.index == joint.value) return Expression(0.0);
+      if (variable.kind != Kind::kInput) return Expression::variable(variable);
+      const std::optional<std::size_t> index = input[variable.index];
+      return index ? Expression::variable({Kind::kInput, *index, 0}) : Expression(0.0);
+    });
+  });
+}
+
+}  // namespace jourdain::model

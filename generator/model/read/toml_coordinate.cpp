@@ -1,0 +1,104 @@
+// Scalar coordinates of joints: springs, dampers, friction, initial values, range, prescribed motion.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "model/read/toml_sections.hpp"
+#include "model/taylor.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+/// The initial position must lie in the range, at the parameters' default values.
+void read_range(TomlFile& file, const TomlTable& table, const Needed& position, Coordinate& coordinate) {
+  const std::size_t mark = file.error_count();
+  const std::optional<std::array<double, 2>> range = table.constant_pair("range", position, {});
+  if (coordinate.motion && table.has("range"))
+    table.error("range", fmt::format("{} has a prescribed motion and no 'range'", table.what()),
+                "the motion says where it goes");
+  if (!range || file.error_count() != mark) return;
+  const auto [least, greatest] = *range;
+  const double start = file.value(coordinate.initial_position);
+  if (!(least < greatest))
+    table.error("range",
+                fmt::format("{} is empty: {} is not below {}", table.quoted("range"), least, greatest),
+                "write the smaller number first");
+  else if (!(least <= start && start <= greatest))
+    table.error("range", fmt::format("{} starts at {}, outside its range from {} to {}", table.what(), start,
+                                     least, greatest));
+  coordinate.range = range;
+}
+
+}  // namespace
+
+CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate) {
+  if (joint.type == JointType::kCurve) return {};
+  if (joint.coordinates[coordinate].angular)
+    return {needed::kAngle, needed::kAngularRate, needed::kMoment, needed::kAngularStiffness,
+            needed::kAngularDamping};
+  return {needed::kLength, needed::kSpeed, needed::kForce, needed::kStiffness, needed::kDamping};
+}
+
+const Scope& time_scope() {
+  static const Scope scope = {{"t", {.kind = Variable::Kind::kTime}, Measure::time()}};
+  return scope;
+}
+
+Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
+                              const Needed& needed, const Scope& scope) {
+  const std::size_t mark = file.error_count();
+  Expression function = table.function(key, needed, scope);
+  if (file.error_count() != mark) return function;
+  std::vector<Taylor<double>> parameters;
+  for (const double value : file.values()) parameters.push_back({value, 0, 0});
+  const auto at_start = function.evaluate<Taylor<double>>(
+      parameters,
+      [](double v) {
+        return Taylor<double>{v, 0, 0};
+      },
+      [](const Variable&) {
+        return Taylor<double>{0, 1, 0};
+      });
+  const char* what = !std::isfinite(at_start.value)    ? "value"
+                     : !std::isfinite(at_start.first)  ? "velocity"
+                     : !std::isfinite(at_start.second) ? "acceleration"
+                                                       : nullptr;
+  if (what)
+    table.error(key, fmt::format("the {} of {} is not finite at t = 0", what, table.quoted(key)),
+                fmt::format("the {} must start smoothly", key));
+  return function;
+}
+
+void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
+                     Coordinate& coordinate) {
+  coordinate.stiffness = table.number("stiffness", needs.stiffness);
+  coordinate.rest = table.number("rest", needs.position);
+  coordinate.damping = table.number("damping", needs.damping);
+  coordinate.friction = table.number("friction", needs.force);
+  if (table.has("friction") && file.value(coordinate.friction) < 0)
+    table.error("friction", fmt::format("{} is negative", table.quoted("friction")));
+  if (table.has("friction_speed")) coordinate.friction_speed = table.positive("friction_speed", needs.rate);
+  coordinate.initial_position = table.number("initial_position", needs.position);
+  coordinate.initial_velocity = table.number("initial_velocity", needs.rate);
+  coordinate.position_where = table.where_given("initial_position");
+  coordinate.velocity_where = table.where_given("initial_velocity");
+  if (table.has("motion"))
+    coordinate.motion = read_time_function(file, table, "motion", needs.position, time_scope());
+  read_range(file, table, needs.position, coordinate);
+  if (!coordinate.motion) return;
+  coordinate.motion_where = table.where("motion");
+  for (const char* key : {"initial_position", "initial_velocity"})
+    if (table.has(key))
+      table.error(key, fmt::format("{} has a prescribed motion and no '{}'", table.what(), key),
+                  "the motion says where it starts");
+}
+
+const std::vector<std::string>& coordinate_keys() {
+  static const std::vector<std::string> keys = {
+      "stiffness",        "rest", "damping", "friction", "friction_speed", "motion", "initial_position",
+      "initial_velocity", "range"};
+  return keys;
+}
+
+}  // namespace jourdain::model

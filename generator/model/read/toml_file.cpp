@@ -1,0 +1,152 @@
+// Numbers and positions of a TOML file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/read/nesting.hpp"
+#include "model/read/toml_table.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+/// "Error while parsing array: …" of toml++ in our words.
+std::string syntax_message(std::string_view description) {
+  constexpr std::string_view kPrefix = "Error while parsing ";
+  if (description.starts_with(kPrefix)) description.remove_prefix(kPrefix.size());
+  return fmt::format("TOML syntax, {}", description);
+}
+
+constexpr const char* kCountHint = "a number that has a unit is written with a point, 2.0, or as a parameter";
+
+}  // namespace
+
+std::optional<toml::table> parse_toml(support::Diagnostics& diagnostics) {
+  const support::LineIndex lines(diagnostics.text());
+  if (const auto offset = deep_toml_nesting(diagnostics.text())) {
+    diagnostics.error(lines.range(*offset, 1), fmt::format("nested deeper than {} levels", kMaximumNesting));
+    return {};
+  }
+  try {
+    return toml::parse(std::string_view(diagnostics.text()));
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    diagnostics.error({static_cast<int>(begin.line), static_cast<int>(begin.column), 1},
+                      syntax_message(error.description()));
+    return {};
+  }
+}
+
+void TomlFile::declare(const std::vector<Parameter>& parameters) {
+  parameters_.clear();
+  values_.clear();
+  for (const Parameter& parameter : parameters) {
+    parameters_.push_back({parameter.name, Measure::parameter(parameter.unit)});
+    values_.push_back(parameter.value);
+  }
+}
+
+void TomlFile::error(SourceRange where, std::string message, std::string hint) {
+  ++error_count_;
+  diagnostics_.error(where, std::move(message), std::move(hint));
+}
+
+SourceRange TomlFile::range(const toml::source_region& region) const {
+  const int line = static_cast<int>(region.begin.line);
+  const int column = static_cast<int>(region.begin.column);
+  const std::size_t begin = lines_.offset(line, column);
+  const bool one_line = region.end.line == region.begin.line;
+  const std::size_t end =
+      one_line ? lines_.offset(line, static_cast<int>(region.end.column)) : diagnostics_.text().size();
+  return lines_.range(begin, std::max<std::size_t>(end, begin + 1) - begin);
+}
+
+Expression TomlFile::number_error(SourceRange where, std::string message, std::string hint) {
+  error(where, std::move(message), std::move(hint));
+  complete_.numbers = false;
+  return 0.0;
+}
+
+Expression TomlFile::expression(const toml::node& node, const Place& place, const Scope& scope) {
+  const SourceRange where = range(node.source());
+  if (const auto* integer = node.as_integer()) return bare(static_cast<double>(integer->get()), place);
+  if (const auto* number = node.as_floating_point()) {
+    if (!std::isfinite(number->get()))
+      return number_error(where, fmt::format("{} is not finite", place.what));
+    if (is_underflow(node)) return number_error(where, "the number is out of the range of double precision");
+    return bare(number->get(), place);
+  }
+  if (const auto* text = node.as_string()) {
+    const std::optional<Quantity> with_unit = quantity(*text, place.needed, scope);
+    return with_unit ? converted(*with_unit, *text, place) : parsed(*text, place, scope);
+  }
+  const toml::table* table = node.as_table();
+  if (table && (table->contains("value") || table->contains("unit")))
+    return value_and_unit(*table, place, scope);
+  return number_error(
+      where, fmt::format("{} must be a number or an expression, not {}", place.what, type_in_words(node)));
+}
+
+Expression TomlFile::bare(double number, const Place& place) {
+  return place.unit ? in_si(number, *place.unit) : number;
+}
+
+/// toml++ reads 1e-400 as zero.
+bool TomlFile::is_underflow(const toml::node& node) const {
+  if (node.as_floating_point()->get() != 0) return false;
+  const toml::source_region& region = node.source();
+  const std::size_t begin =
+      lines_.offset(static_cast<int>(region.begin.line), static_cast<int>(region.begin.column));
+  const std::size_t end =
+      lines_.offset(static_cast<int>(region.end.line), static_cast<int>(region.end.column));
+  const std::string_view written = std::string_view(diagnostics_.text()).substr(begin, end - begin);
+  return written.substr(0, written.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos;
+}
+
+Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& place, const Scope& scope) {
+  const auto result = parse_expression(text.get(), parameters_, scope);
+  if (const auto* wrong = std::get_if<ExpressionError>(&result))
+    return number_error(inside(text, wrong->offset, wrong->length), wrong->message, wrong->hint);
+  const auto& [expression, measure] = std::get<MeasuredExpression>(result);
+  if (!measure.fits(place.needed))
+    return misfit(text, measure, place, measure.has_counts() ? kCountHint : "");
+  Expression in_si_units = in_unit(expression, measure, range(text.source()), place);
+  if (!expression.has_no_variable()) return in_si_units;
+  const double at_defaults = value(in_si_units);
+  if (!std::isfinite(at_defaults))
+    return number_error(range(text.source()),
+                        fmt::format("the value is {} at the parameters' default values",
+                                    std::isnan(at_defaults) ? "not a number" : "infinite"));
+  return in_si_units;
+}
+
+/// A part of an expression or a unit, or all of it where the string is written with escapes.
+SourceRange TomlFile::inside(const toml::value<std::string>& text, std::size_t offset,
+                             std::size_t length) const {
+  const toml::source_position& begin = text.source().begin;
+  const std::size_t quote = lines_.offset(static_cast<int>(begin.line), static_cast<int>(begin.column));
+  const std::string_view written = std::string_view(diagnostics_.text()).substr(quote);
+  const std::size_t first = written.find_first_not_of(written.substr(0, 1));
+  const bool as_written =
+      !text.get().empty() && first != std::string_view::npos && written.substr(first).starts_with(text.get());
+  return as_written ? lines_.range(quote + first + offset, length) : range(text.source());
+}
+
+std::optional<Unit> TomlFile::unit(const toml::value<std::string>& text, std::size_t offset) {
+  const auto result = parse_unit(std::string_view(text.get()).substr(offset));
+  if (const auto* unit = std::get_if<Unit>(&result)) return *unit;
+  const auto& wrong = std::get<UnitError>(result);
+  error(inside(text, offset + wrong.offset, wrong.length), wrong.message, wrong.hint);
+  return {};
+}
+
+double TomlFile::constant(const toml::node& node, const Place& place) {
+  const Expression result = expression(node, place);
+  if (result.is_constant()) return result.constant();
+  number_error(range(node.source()),
+               fmt::format("{} must be constant, it cannot depend on parameters", place.what));
+  return 0;
+}
+
+}  // namespace jourdain::model

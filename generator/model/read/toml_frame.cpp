@@ -1,0 +1,178 @@
+#include "model/read/toml_frame.hpp"
+
+#include <fmt/format.h>
+
+#include "model/coordinates.hpp"
+#include "model/read/toml_names.hpp"
+#include "model/read/toml_sections.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::shown;
+
+/// Bodies in a scope stand behind the declared frames until an expression uses them.
+constexpr std::size_t kBodies = 1'000'000;
+
+FrameIndex frame_of(Mechanism& mechanism, std::optional<BodyIndex> body) {
+  const std::string name = body ? mechanism.bodies[body->value].name : "world";
+  for (std::size_t i = 0; i < mechanism.frames.size(); ++i)
+    if (mechanism.frames[i].name == name) return FrameIndex(i);
+  Frame frame;
+  frame.name = name;
+  frame.body = body;
+  mechanism.frames.push_back(frame);
+  return FrameIndex(mechanism.frames.size() - 1);
+}
+
+void add_frame(Scope& scope, const std::string& name, std::size_t index) {
+  using Kind = Variable::Kind;
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto add = [&](const char* letter, Kind kind, const Measure& measure) {
+      scope.push_back({fmt::format("{}.{}{}", name, letter, kAxes[k]), {kind, index, k}, measure});
+    };
+    add("", Kind::kFramePosition, Measure::variable(needed::kLength));
+    add("v", Kind::kFrameVelocity, Measure::variable(needed::kSpeed));
+    add("w", Kind::kFrameSpin, Measure::variable(needed::kAngularRate));
+  }
+}
+
+bool of_frame(const Variable& variable) {
+  return variable.kind == Variable::Kind::kFramePosition || variable.kind == Variable::Kind::kFrameVelocity ||
+         variable.kind == Variable::Kind::kFrameSpin;
+}
+
+}  // namespace
+
+std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std::string_view key,
+                                     Mechanism& mechanism) {
+  const std::optional<std::string> name = table.required_text(key);
+  if (!name) return {};
+  for (std::size_t i = 0; i < mechanism.frames.size(); ++i)
+    if (mechanism.frames[i].name == *name) return FrameIndex(i);
+  if (*name == "world") return frame_of(mechanism, {});
+  for (std::size_t i = 0; i < mechanism.bodies.size(); ++i)
+    if (mechanism.bodies[i].name == *name) return frame_of(mechanism, BodyIndex(i));
+  std::vector<std::string> names;
+  for (const Frame& frame : mechanism.frames) names.push_back(frame.name);
+  for (const Body& body : mechanism.bodies) names.push_back(body.name);
+  const std::string close = support::nearest(*name, names);
+  if (close.empty() && !file.complete().structure) return {};
+  table.error(key, fmt::format("{} names unknown frame or body '{}'", table.what(), shown(*name)),
+              close.empty() ? "declare a [[frame]]" : fmt::format("did you mean '{}'?", close));
+  return {};
+}
+
+Scope general_scope(const Mechanism& mechanism) {
+  using Kind = Variable::Kind;
+  Scope scope = time_scope();
+  // An actuator is called like its coordinate unless it has a name of its own: the coordinate comes first and wins.
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c) {
+      const std::string& name = mechanism.joints[j].coordinates[c].name;
+      const CoordinateNeeds needs = coordinate_needs(mechanism.joints[j], c);
+      scope.push_back({name, {Kind::kPosition, j, c}, Measure::variable(needs.position)});
+      scope.push_back({name + ".rate", {Kind::kVelocity, j, c}, Measure::variable(needs.rate)});
+    }
+  std::size_t input = 0;
+  for (const Actuator& actuator : mechanism.actuators)
+    scope.push_back(
+        {actuator.name, {Kind::kInput, input++, 0}, Measure::variable(input_needs(mechanism, actuator))});
+  for (const Input& own : mechanism.inputs)
+    scope.push_back({own.name, {Kind::kInput, input++, 0}, Measure::variable(input_needs(own))});
+  for (std::size_t i = 0; i < mechanism.frames.size(); ++i) add_frame(scope, mechanism.frames[i].name, i);
+  for (std::size_t i = 0; i < mechanism.bodies.size(); ++i)
+    add_frame(scope, mechanism.bodies[i].name, kBodies + i);
+  return scope;
+}
+
+Needed input_needs(const Mechanism& mechanism, const Actuator& actuator) {
+  const bool direct = actuator.gear_ratio.is_constant() && actuator.gear_ratio.constant() == 1;
+  const Joint& joint = mechanism.joints[actuator.joint.value];
+  return direct && actuator.coordinate < joint.coordinates.size()
+             ? coordinate_needs(joint, actuator.coordinate).force
+             : needed::kAnything;
+}
+
+Needed input_needs(const Input& input) { return {{input.unit}}; }
+
+Expression settled(const Expression& expression, Mechanism& mechanism) {
+  return expression.substituted([&](const Variable& variable) {
+    Variable result = variable;
+    if (of_frame(variable) && variable.index >= kBodies)
+      result.index = frame_of(mechanism, BodyIndex(variable.index - kBodies)).value;
+    return Expression::variable(result);
+  });
+}
+
+std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies) {
+  std::vector<Frame> frames;
+  for (const toml::node& node : section) {
+    const TomlTable table(file, *node.as_table(), "a frame", file.range(node.source()),
+                          {"name", "body", "position", "rpy"});
+    const std::optional<std::string> name = table.required_text("name"), body = table.required_text("body");
+    if (!name || !body) continue;
+    Frame frame;
+    frame.name = *name;
+    frame.where = table.where("name");
+    frame.placement = {table.vector("position", needed::kLength), table.rotation("rpy")};
+    check_identifier(file, frame.where, "frame", frame.name);
+    const bool taken = frame.name == "world" || std::any_of(bodies.begin(), bodies.end(), [&](const Body& b) {
+                         return b.name == frame.name;
+                       });
+    if (taken)
+      table.error("name", fmt::format("frame '{}' has the name of a body", shown(frame.name)),
+                  "a body's name stands for the frame at its origin");
+    if (*body != "world") {
+      const auto found = find_named(file, table.where("body"), "a frame names", "body", *body, bodies,
+                                    file.complete().structure);
+      if (!found) continue;
+      frame.body = BodyIndex(*found);
+    }
+    if (is_new_name(file, frame.where, "frames", frame.name, frames)) frames.push_back(frame);
+  }
+  return frames;
+}
+
+namespace {
+
+/// Where a coordinate of that name is declared.
+std::optional<SourceRange> coordinate_named(const Mechanism& mechanism, const std::string& name) {
+  for (const Joint& joint : mechanism.joints)
+    for (const Coordinate& coordinate : joint.coordinates)
+      if (coordinate.name == name) return joint.where;
+  return {};
+}
+
+}  // namespace
+
+std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism) {
+  std::vector<Input> inputs;
+  for (const toml::node& node : section) {
+    const TomlTable table(file, *node.as_table(), "an input", file.range(node.source()),
+                          {"name", "unit", "description"});
+    Input input;
+    input.name = table.required_text("name").value_or("");
+    input.where = table.where("name");
+    if (const std::optional<Unit> unit = table.unit("unit"); table.has("unit") && unit) {
+      if (unit->factor != 1)
+        table.error("unit", fmt::format("the emitted code takes input '{}' in SI units", shown(input.name)),
+                    fmt::format("'{}', with the conversion in the expressions that use it", unit->si));
+      input.unit = *table.text("unit");
+    }
+    input.description = table.text("description").value_or("");
+    if (input.name.empty()) continue;
+    check_identifier(file, input.where, "input", input.name);
+    if (const auto joint = coordinate_named(mechanism, input.name))
+      table.error("name", fmt::format("input '{}' has the name of a coordinate", shown(input.name)),
+                  fmt::format("declared at line {}", joint->line));
+    if (is_new_name(file, input.where, "actuators and inputs", input.name, mechanism.actuators) &&
+        is_new_name(file, input.where, "inputs", input.name, inputs))
+      inputs.push_back(input);
+  }
+  return inputs;
+}
+
+}  // namespace jourdain::model

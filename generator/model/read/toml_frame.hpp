@@ -1,0 +1,26 @@
+// Frames and the names that expressions may use for what moves.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "model/read/toml_table.hpp"
+
+namespace jourdain::model {
+
+/// The frame that `table[key]` names. A body or the world becomes a frame on first use. Nothing after a diagnostic.
+std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std::string_view key,
+                                     Mechanism& mechanism);
+
+/// t, inputs, coordinates and their rates, frames and bodies with position, velocity and angular velocity.
+Scope general_scope(const Mechanism& mechanism);
+
+/// The unit of an input; of an actuator's, anything where there is a gear, which may turn one kind of motion into
+/// the other.
+Needed input_needs(const Mechanism& mechanism, const Actuator& actuator);
+Needed input_needs(const Input& input);
+
+/// An expression of general_scope as it stands in the mechanism: bodies that it names become frames.
+Expression settled(const Expression& expression, Mechanism& mechanism);
+
+}  // namespace jourdain::model

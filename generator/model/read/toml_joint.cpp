@@ -1,0 +1,295 @@
+// [[joint]] and [[actuator]]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/read/toml_names.hpp"
+#include "model/read/toml_sections.hpp"
+#include "model/taylor.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::shown;
+
+const std::vector<std::string> kTypes{"fixed",     "revolute", "prismatic", "screw", "cylindrical",
+                                      "universal", "planar",   "spherical", "free",  "curve"};
+const std::vector<std::string> kCommonKeys{"name", "type", "parent", "child", "position", "rpy"};
+
+/// Keys that a joint of this type has beside the common ones.
+std::vector<std::string> keys_of(JointType type) {
+  std::vector<std::string> keys;
+  const auto add = [&keys](std::initializer_list<const char*> more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+  };
+  const std::span<const CoordinateKind> kinds = coordinate_kinds(type);
+  if (kinds.size() == 1) keys = coordinate_keys();
+  if (kinds.size() > 1)
+    for (const CoordinateKind& kind : kinds) keys.emplace_back(kind.suffix);
+  switch (type) {
+    case JointType::kFixed:
+      break;
+    case JointType::kRevolute:
+    case JointType::kPrismatic:
+    case JointType::kCylindrical:
+    case JointType::kPlanar:
+      add({"axis"});
+      break;
+    case JointType::kScrew:
+      add({"axis", "pitch"});
+      break;
+    case JointType::kUniversal:
+      add({"axis", "second_axis"});
+      break;
+    case JointType::kCurve:
+      add({"curve"});
+      break;
+    case JointType::kSpherical:
+      add({"damping", "initial_orientation", "initial_angular_velocity"});
+      break;
+    case JointType::kFree:
+      add({"initial_position", "initial_velocity", "initial_orientation", "initial_angular_velocity"});
+      break;
+  }
+  return keys;
+}
+
+std::vector<std::string> all_keys() {
+  std::vector<std::string> keys = kCommonKeys;
+  for (std::size_t type = 0; type < kTypes.size(); ++type)
+    for (const std::string& key : keys_of(static_cast<JointType>(type)))
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  return keys;
+}
+
+/// Those of a joint whose type can be read, or of a revolute one.
+std::vector<std::string> shown_keys(const toml::table& table) {
+  const auto type = std::find(kTypes.begin(), kTypes.end(), table["type"].value_or(std::string()));
+  const auto index = type == kTypes.end() ? 1 : type - kTypes.begin();
+  std::vector<std::string> keys = kCommonKeys;
+  for (const std::string& key : keys_of(static_cast<JointType>(index))) keys.push_back(key);
+  return keys;
+}
+
+class JointReader {
+ public:
+  JointReader(TomlFile& file, const toml::table& table, const std::string& name, SourceRange header,
+              const std::vector<Body>& bodies, bool bodies_complete)
+      : file_(file),
+        bodies_(bodies),
+        bodies_complete_(bodies_complete),
+        table_(file, table, name.empty() ? "a joint" : fmt::format("joint '{}'", shown(name)), header,
+               all_keys(), shown_keys(table)) {}
+
+  /// A joint whose type or one of whose ends is unknown leaves the file's structure incomplete.
+  Joint read(const std::vector<Joint>& earlier) {
+    Joint joint;
+    joint.name = table_.required_text("name").value_or("");
+    joint.where = table_.where("name");
+    bool sound = !joint.name.empty();
+    if (sound) {
+      check_identifier(file_, joint.where, "joint", joint.name);
+      sound = is_new_name(file_, joint.where, "joints", joint.name, earlier);
+    }
+    sound = read_type(joint) && sound;
+    sound = read_ends(joint) && sound;
+    joint.placement = {table_.vector("position", needed::kLength), table_.rotation("rpy")};
+    read_motion(joint);
+    if (!sound) file_.complete().structure = false;
+    return joint;
+  }
+
+ private:
+  bool read_type(Joint& joint) {
+    if (!table_.has("type")) table_.missing("type", fmt::format("one of {}", fmt::join(kTypes, ", ")));
+    const auto type = table_.choice("type", kTypes);
+    if (!type || !table_.has("type")) {
+      joint.set_type(JointType::kRevolute);
+      return false;
+    }
+    joint.set_type(static_cast<JointType>(*type));
+    return true;
+  }
+
+  bool read_ends(Joint& joint) {
+    const std::optional<std::string> parent = table_.required_text("parent");
+    const std::optional<std::string> child = table_.required_text("child");
+    joint.child_where = table_.where("child");
+    bool known = parent && child;
+    if (parent && *parent != "world") known = find(*parent, "parent", joint.parent) && known;
+    if (child == "world") {
+      table_.error("child", fmt::format("{} has the world as its child", table_.what()),
+                   "the world cannot move");
+      return false;
+    }
+    std::optional<BodyIndex> body;
+    if (child) known = find(*child, "child", body) && known;
+    if (body) joint.child = *body;
+    return known;
+  }
+
+  bool find(const std::string& name, std::string_view key, std::optional<BodyIndex>& body) {
+    const auto found = find_named(file_, table_.where(key), table_.what() + " names", "body", name, bodies_,
+                                  bodies_complete_);
+    if (found) body = BodyIndex(*found);
+    return found.has_value();
+  }
+
+  void read_motion(Joint& joint) {
+    refuse_foreign_keys(joint);
+    joint.axis = table_.direction("axis", joint.axis);
+    joint.axis_where = table_.where("axis");
+    joint.second_axis = table_.direction("second_axis", joint.second_axis);
+    if (joint.coordinates.size() == 1)
+      read_coordinate(file_, table_, coordinate_needs(joint, 0), joint.coordinates[0]);
+    if (joint.coordinates.size() > 1) read_coordinate_tables(joint);
+    if (joint.type == JointType::kScrew) {
+      if (!table_.has("pitch")) table_.missing("pitch", "m/rad");
+      joint.pitch = table_.number("pitch", needed::kPitch);
+    }
+    if (joint.type == JointType::kCurve) read_curve(joint);
+    if (joint.type == JointType::kSpherical)
+      joint.spin_damping = table_.number("damping", needed::kAngularDamping);
+    if (joint.type != JointType::kSpherical && joint.type != JointType::kFree) return;
+    joint.initial_orientation = table_.quaternion("initial_orientation");
+    joint.initial_spin = table_.vector("initial_angular_velocity", needed::kAngularRate);
+    joint.orientation_where = table_.where_given("initial_orientation");
+    joint.spin_where = table_.where_given("initial_angular_velocity");
+    if (joint.type == JointType::kSpherical) return;
+    joint.initial_origin = table_.vector("initial_position", needed::kLength);
+    joint.initial_origin_velocity = table_.vector("initial_velocity", needed::kSpeed);
+    joint.origin_where = table_.where_given("initial_position");
+    joint.origin_velocity_where = table_.where_given("initial_velocity");
+  }
+
+  void refuse_foreign_keys(const Joint& joint) {
+    const std::vector<std::string> own = keys_of(joint.type);
+    const std::string& type = kTypes[static_cast<std::size_t>(joint.type)];
+    for (const std::string& key : all_keys()) {
+      const bool common = std::find(kCommonKeys.begin(), kCommonKeys.end(), key) != kCommonKeys.end();
+      if (common || !table_.has(key) || std::find(own.begin(), own.end(), key) != own.end()) continue;
+      const bool rotates = joint.type == JointType::kSpherical || joint.type == JointType::kFree;
+      table_.error(key, fmt::format("{} is {} and has no '{}'", table_.what(), type, key),
+                   key == "motion" && rotates ? "only scalar coordinates can be prescribed" : "");
+    }
+  }
+
+  void read_coordinate_tables(Joint& joint) {
+    const std::span<const CoordinateKind> kinds = coordinate_kinds(joint.type);
+    for (std::size_t c = 0; c < kinds.size(); ++c) {
+      const toml::table* section = table_.table(kinds[c].suffix);
+      if (!section) continue;
+      const TomlTable table(file_, *section, fmt::format("'{}' of {}", kinds[c].suffix, table_.what()),
+                            table_.where(kinds[c].suffix), coordinate_keys());
+      read_coordinate(file_, table, coordinate_needs(joint, c), joint.coordinates[c]);
+    }
+  }
+
+  /// The curve must move with its coordinate where it starts.
+  void read_curve(Joint& joint) {
+    if (!table_.has("curve")) table_.missing("curve", "three expressions of s, m");
+    const std::size_t mark = file_.error_count();
+    // The coordinate may be an angle, a length or neither.
+    const Scope scope = {{"s", {.kind = Variable::Kind::kArgument}, Measure::open()}};
+    joint.curve = table_.functions("curve", needed::kLength, scope);
+    if (file_.error_count() != mark || !table_.has("curve")) return;
+    std::vector<Taylor<double>> parameters;
+    for (const double value : file_.values()) parameters.push_back({value, 0, 0});
+    const double start = file_.value(joint.coordinates[0].initial_position);
+    double speed = 0;
+    for (const Expression& component : joint.curve) {
+      const auto at = component.evaluate<Taylor<double>>(
+          parameters,
+          [](double v) {
+            return Taylor<double>{v, 0, 0};
+          },
+          [start](const Variable&) {
+            return Taylor<double>{start, 1, 0};
+          });
+      speed = std::hypot(speed, at.first);
+    }
+    if (!(speed > 0) || !std::isfinite(speed))
+      table_.error("curve",
+                   fmt::format("{} does not move with s at s = {:.6g}", table_.quoted("curve"), start),
+                   "a coordinate must change the position where it starts");
+  }
+
+  TomlFile& file_;
+  const std::vector<Body>& bodies_;
+  bool bodies_complete_;
+  TomlTable table_;
+};
+
+}  // namespace
+
+std::vector<Joint> read_joints(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies) {
+  const bool bodies_complete = file.complete().structure;
+  std::vector<Joint> joints;
+  for (const toml::node& node : section) {
+    const toml::table& table = *node.as_table();
+    const std::string name = table["name"].value_or(std::string());
+    JointReader reader(file, table, name, file.range(node.source()), bodies, bodies_complete);
+    joints.push_back(reader.read(joints));
+  }
+  return joints;
+}
+
+std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint) {
+  const std::span<const CoordinateKind> kinds = coordinate_kinds(joint.type);
+  if (kinds.empty()) {
+    const std::string reason =
+        joint.type == JointType::kFixed ? "is fixed and takes no force" : "has no scalar coordinate";
+    table.error("joint", fmt::format("joint '{}' {}", shown(joint.name), reason),
+                joint.type == JointType::kFixed ? "" : "a load on a frame of its child takes its place");
+    return {};
+  }
+  if (kinds.size() == 1) {
+    if (table.has("coordinate"))
+      table.error("coordinate", fmt::format("joint '{}' has one coordinate only", shown(joint.name)));
+    return 0;
+  }
+  std::vector<std::string> names;
+  for (const CoordinateKind& kind : kinds) names.emplace_back(kind.suffix);
+  if (table.has("coordinate")) return table.choice("coordinate", names);
+  table.missing("coordinate", fmt::format("one of {}", fmt::join(names, ", ")));
+  return {};
+}
+
+std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
+                                     const std::vector<Joint>& joints) {
+  std::vector<Actuator> actuators;
+  for (const toml::node& node : section) {
+    const TomlTable table(file, *node.as_table(), "an actuator", file.range(node.source()),
+                          {"name", "joint", "coordinate", "gear_ratio", "rotor_inertia"});
+    const std::optional<std::string> joint_name = table.required_text("joint");
+    if (!joint_name) continue;
+    const auto joint =
+        find_named(file, table.where("joint"), "an actuator names", "joint", *joint_name, joints, true);
+    if (!joint) continue;
+    const auto coordinate = find_coordinate(table, joints[*joint]);
+    Actuator actuator;
+    actuator.joint = JointIndex(*joint);
+    actuator.coordinate = coordinate.value_or(0);
+    actuator.name = coordinate ? joints[*joint].coordinates[*coordinate].name : *joint_name;
+    if (const auto name = table.text("name")) actuator.name = *name;
+    actuator.gear_ratio = table.number("gear_ratio", needed::kGearRatio, 1.0);
+    actuator.rotor_inertia = table.number("rotor_inertia", needed::kRotorInertia);
+    actuator.where = table.where(table.has("name") ? "name" : "joint");
+    if (table.has("rotor_inertia") && file.value(actuator.rotor_inertia) < 0)
+      table.error("rotor_inertia", fmt::format("{} is negative", table.quoted("rotor_inertia")));
+    if (coordinate && joints[*joint].coordinates[*coordinate].motion)
+      table.error("joint",
+                  fmt::format("coordinate '{}' is prescribed and actuated at once",
+                              shown(joints[*joint].coordinates[*coordinate].name)),
+                  "an output of kind \"drive\" tells the force that the motion needs");
+    if (table.has("name")) check_identifier(file, actuator.where, "actuator", actuator.name);
+    if (is_new_name(file, actuator.where, "actuators", actuator.name, actuators))
+      actuators.push_back(actuator);
+  }
+  return actuators;
+}
+
+}  // namespace jourdain::model

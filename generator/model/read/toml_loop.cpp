@@ -1,0 +1,318 @@
+// [[loop]] and [loops]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/loop_kinds.hpp"
+#include "model/read/toml_frame.hpp"
+#include "model/read/toml_names.hpp"
+#include "model/read/toml_sections.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::shown;
+
+const std::vector<std::string> kTreatments{"explicit", "partitioned", "multipliers"};
+const std::vector<std::string> kCommonKeys{"name", "type"};
+const std::vector<std::string> kOwnKeys{"from", "to", "axis", "to_axis", "length", "residual"};
+constexpr int kMostIterations = 20;
+
+/// Keys that a loop of this type has beside the common ones.
+std::vector<std::string> keys_of(LoopType type) {
+  switch (type) {
+    case LoopType::kBall:
+      return {"from", "to"};
+    case LoopType::kRevolute:
+    case LoopType::kUniversal:
+    case LoopType::kPrismatic:
+    case LoopType::kCylindrical:
+      return {"from", "to", "axis", "to_axis"};
+    case LoopType::kPlanarPin:
+    case LoopType::kPointInPlane:
+    case LoopType::kPointOnLine:
+      return {"from", "to", "axis"};
+    case LoopType::kRod:
+      return {"from", "to", "length"};
+    case LoopType::kResidual:
+      return {"residual"};
+  }
+  return {};
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// Those of a loop whose type can be read, or of a ball.
+std::vector<std::string> shown_keys(const toml::table& table) {
+  const auto type =
+      std::find(loop_type_names().begin(), loop_type_names().end(), table["type"].value_or(std::string()));
+  const auto index = type == loop_type_names().end() ? 0 : type - loop_type_names().begin();
+  return joined(kCommonKeys, keys_of(static_cast<LoopType>(index)));
+}
+
+/// The general scope, in which what is no position is refused.
+Scope residual_scope(const Mechanism& mechanism) {
+  using Kind = Variable::Kind;
+  Scope scope = general_scope(mechanism);
+  for (ScopeEntry& entry : scope) {
+    const Kind kind = entry.variable.kind;
+    if (kind == Kind::kInput)
+      entry.refusal = "it is an input; a residual is of t, coordinates and positions of frames";
+    if (kind == Kind::kVelocity || kind == Kind::kFrameVelocity || kind == Kind::kFrameSpin)
+      entry.refusal = "it is a velocity; a residual is of t, coordinates and positions of frames";
+  }
+  return scope;
+}
+
+/// The general scope, in which all that moves is refused.
+Scope length_scope(const Mechanism& mechanism) {
+  Scope scope = general_scope(mechanism);
+  for (ScopeEntry& entry : scope)
+    if (entry.variable.kind != Variable::Kind::kTime)
+      entry.refusal = "the length of a rod is of t and parameters";
+  return scope;
+}
+
+class LoopReader {
+ public:
+  LoopReader(TomlFile& file, const toml::table& table, std::size_t number)
+      : file_(file),
+        name_(table["name"].value_or(fmt::format("loop{}", number))),
+        table_(file, table, fmt::format("loop '{}'", shown(name_)), file.range(table.source()),
+               joined(kCommonKeys, kOwnKeys), shown_keys(table)) {}
+
+  /// Nothing after a diagnostic.
+  std::optional<Loop> read(Mechanism& mechanism) {
+    const std::size_t mark = file_.error_count();
+    Loop loop;
+    loop.name = name_;
+    loop.where = table_.where("name");
+    if (!table_.has("name") || table_.text("name")) check_identifier(file_, loop.where, "loop", loop.name);
+    is_new_name(file_, loop.where, "loops", loop.name, mechanism.loops);
+    if (!read_type(loop)) return {};
+    const bool ends = read_ends(loop, mechanism);
+    read_axes(loop);
+    if (loop.type == LoopType::kRod) read_length(loop, mechanism);
+    if (loop.type == LoopType::kResidual) read_residual(loop, mechanism);
+    if (!ends || file_.error_count() != mark) return {};
+    return loop;
+  }
+
+ private:
+  bool read_type(Loop& loop) {
+    if (!table_.has("type"))
+      table_.missing("type", fmt::format("one of {}", fmt::join(loop_type_names(), ", ")));
+    const auto type = table_.choice("type", loop_type_names());
+    if (!type || !table_.has("type")) return false;
+    loop.type = static_cast<LoopType>(*type);
+    const std::vector<std::string> own = keys_of(loop.type);
+    for (const std::string& key : kOwnKeys)
+      if (table_.has(key) && !contains(own, key))
+        table_.error(key,
+                     fmt::format("{} is a {} and has no '{}'", table_.what(), loop_type_names()[*type], key));
+    return true;
+  }
+
+  bool read_ends(Loop& loop, Mechanism& mechanism) {
+    if (loop.type == LoopType::kResidual) return true;
+    const auto from = find_frame(file_, table_, "from", mechanism),
+               to = find_frame(file_, table_, "to", mechanism);
+    if (!from || !to) return false;
+    loop.from = *from;
+    loop.to = *to;
+    loop.to_where = table_.where("to");
+    return true;
+  }
+
+  void read_axes(Loop& loop) {
+    loop.axis = axis("axis", loop.axis);
+    loop.to_axis = axis("to_axis", loop.axis);
+  }
+
+  std::array<double, 3> axis(std::string_view key, const std::array<double, 3>& otherwise) {
+    const std::array<double, 3> result = table_.direction(key, otherwise);
+    const double length = std::hypot(result[0], result[1], result[2]);
+    if (length == 0)
+      table_.error(key, fmt::format("{} is zero", table_.quoted(key)),
+                   "an axis is a direction, such as [0, 0, 1]");
+    if (!std::isfinite(length))
+      table_.error(key, fmt::format("the length of {} is infinite", table_.quoted(key)));
+    return length == 0 ? otherwise : result;
+  }
+
+  void read_length(Loop& loop, const Mechanism& mechanism) {
+    if (!table_.has("length"))
+      return table_.missing("length", "m; an expression of t and parameters, or a number");
+    const std::size_t mark = file_.error_count();
+    loop.length = read_time_function(file_, table_, "length", needed::kLength, length_scope(mechanism));
+    if (file_.error_count() != mark) return;
+    const auto start = loop.length.evaluate<double>(
+        file_.values(), [](double v) { return v; }, [](const Variable&) { return 0.0; });
+    if (!(start > 0))
+      table_.error("length",
+                   fmt::format("{} must be positive, it is {} at t = 0", table_.quoted("length"), start),
+                   "a ball joint holds two points together");
+  }
+
+  void read_residual(Loop& loop, Mechanism& mechanism) {
+    if (!table_.has("residual"))
+      return table_.missing("residual", "an expression of t, coordinates and positions of frames");
+    loop.residual =
+        settled(table_.function("residual", needed::kAnything, residual_scope(mechanism)), mechanism);
+  }
+
+  TomlFile& file_;
+  std::string name_;
+  TomlTable table_;
+};
+
+/// What to write for a name that is no coordinate's.
+std::string coordinate_hint(const Mechanism& mechanism, const std::string& name,
+                            const std::vector<std::string>& known) {
+  for (const Joint& joint : mechanism.joints) {
+    if (joint.name != name) continue;
+    std::vector<std::string> own;
+    for (const Coordinate& coordinate : joint.coordinates) own.push_back(coordinate.name);
+    return own.empty() ? fmt::format("joint '{}' has no scalar coordinate", shown(name))
+                       : fmt::format("coordinates of joint '{}' are {}", shown(name),
+                                     shown(fmt::format("{}", fmt::join(own, ", "))));
+  }
+  const std::string close = support::nearest(name, known);
+  return close.empty() ? "a joint with one coordinate gives its name to it"
+                       : fmt::format("did you mean '{}'?", shown(close));
+}
+
+/// One name in 'independent'; nothing after a diagnostic.
+std::optional<LoopOptions::CoordinateName> find_independent(TomlFile& file, const toml::node& node,
+                                                            const Mechanism& mechanism) {
+  const SourceRange where = file.range(node.source());
+  const toml::value<std::string>* text = node.as_string();
+  if (!text) {
+    file.error(where, fmt::format("'independent' of [loops] holds names of coordinates, not {}",
+                                  type_in_words(node)));
+    return {};
+  }
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c) {
+      const Coordinate& coordinate = mechanism.joints[j].coordinates[c];
+      if (!coordinate.motion) names.push_back(coordinate.name);
+      if (coordinate.name != text->get()) continue;
+      if (!coordinate.motion) return LoopOptions::CoordinateName{JointIndex(j), c};
+      file.error(where, fmt::format("coordinate '{}' is prescribed and cannot be independent",
+                                    shown(coordinate.name)));
+      return {};
+    }
+  if (file.complete().structure)
+    file.error(where, fmt::format("[loops] names unknown coordinate '{}'", shown(text->get())),
+               coordinate_hint(mechanism, text->get(), names));
+  return {};
+}
+
+class OptionsReader {
+ public:
+  OptionsReader(TomlFile& file, const toml::table& section, SourceRange where)
+      : file_(file),
+        table_(file, section, "[loops]", where, {"treatment", "independent", "iterations", "stabilisation"}) {
+  }
+
+  LoopOptions read(const Mechanism& mechanism) {
+    if (table_.has("treatment"))
+      if (const auto treatment = table_.choice("treatment", kTreatments))
+        options_.treatment = static_cast<LoopTreatment>(*treatment);
+    refuse("independent", LoopTreatment::kMultipliers, "they keep all coordinates");
+    refuse("iterations", LoopTreatment::kExplicit, "closed forms need none");
+    refuse("stabilisation", LoopTreatment::kExplicit, "it belongs to multipliers");
+    refuse("stabilisation", LoopTreatment::kPartitioned, "it belongs to multipliers");
+    if (table_.has("independent")) read_independent(mechanism);
+    if (table_.has("iterations")) read_iterations();
+    if (table_.has("stabilisation")) read_stabilisation();
+    return options_;
+  }
+
+ private:
+  void refuse(std::string_view key, LoopTreatment treatment, const char* hint) {
+    if (options_.treatment != treatment || !table_.has(key)) return;
+    const std::string& word = kTreatments[static_cast<std::size_t>(treatment)];
+    table_.error(key, fmt::format("treatment \"{}\" has no '{}'", word, key), hint);
+  }
+
+  void read_independent(const Mechanism& mechanism) {
+    const toml::array* names = table_.find("independent")->as_array();
+    if (!names)
+      return table_.error("independent",
+                          fmt::format("'independent' of [loops] must be a list of names, not {}",
+                                      type_in_words(*table_.find("independent"))));
+    for (const toml::node& node : *names) {
+      const auto found = find_independent(file_, node, mechanism);
+      if (!found) continue;
+      const bool taken =
+          std::any_of(options_.independent.begin(), options_.independent.end(), [&](const auto& name) {
+            return name.joint == found->joint && name.coordinate == found->coordinate;
+          });
+      if (taken)
+        file_.error(file_.range(node.source()),
+                    fmt::format("[loops] names coordinate '{}' twice", shown(node.as_string()->get())));
+      else
+        options_.independent.push_back(*found);
+    }
+  }
+
+  void read_iterations() {
+    const toml::node& node = *table_.find("iterations");
+    const toml::value<std::int64_t>* integer = node.as_integer();
+    const toml::value<double>* number = node.as_floating_point();
+    if (integer && integer->get() >= 1 && integer->get() <= kMostIterations) {
+      options_.iterations = static_cast<int>(integer->get());
+      return;
+    }
+    const std::string found = integer  ? fmt::format("{}", integer->get())
+                              : number ? fmt::format("{}", number->get())
+                                       : std::string(type_in_words(node));
+    table_.error("iterations",
+                 fmt::format("'iterations' of [loops] must be an integer from 1 to {}, not {}",
+                             kMostIterations, found),
+                 "their number is fixed, so that the cost of a step is known");
+  }
+
+  void read_stabilisation() {
+    const std::size_t mark = file_.error_count();
+    const double rate =
+        file_.constant(*table_.find("stabilisation"), {table_.quoted("stabilisation"), needed::kPerTime});
+    if (file_.error_count() != mark) return;
+    if (rate < 0)
+      table_.error("stabilisation", fmt::format("{} is negative", table_.quoted("stabilisation")));
+    options_.stabilisation = rate;
+  }
+
+  TomlFile& file_;
+  TomlTable table_;
+  LoopOptions options_;
+};
+
+}  // namespace
+
+void read_loops(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+  std::size_t number = 0;
+  for (const toml::node& node : section)
+    if (auto loop = LoopReader(file, *node.as_table(), ++number).read(mechanism))
+      mechanism.loops.push_back(std::move(*loop));
+}
+
+LoopOptions read_loop_options(TomlFile& file, const toml::table& section, SourceRange where,
+                              const Mechanism& mechanism) {
+  LoopOptions options = OptionsReader(file, section, where).read(mechanism);
+  options.where = where;
+  return options;
+}
+
+}  // namespace jourdain::model

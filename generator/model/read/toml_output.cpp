@@ -1,0 +1,105 @@
+// [[output]]
+#include <fmt/format.h>
+
+#include "model/names.hpp"
+#include "model/read/toml_frame.hpp"
+#include "model/read/toml_names.hpp"
+#include "model/read/toml_sections.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::shown;
+
+const std::vector<std::string> kKinds{"pose",  "velocity",       "acceleration",     "jacobian",  "reaction",
+                                      "drive", "kinetic_energy", "potential_energy", "expression"};
+
+/// Keys that an output of this kind needs beside its name and kind.
+std::vector<std::string> keys_of(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::kPose:
+    case OutputKind::kVelocity:
+    case OutputKind::kAcceleration:
+    case OutputKind::kJacobian:
+      return {"frame"};
+    case OutputKind::kReaction:
+      return {"joint"};
+    case OutputKind::kDrive:
+      return {"joint", "coordinate"};
+    case OutputKind::kExpression:
+      return {"value"};
+    case OutputKind::kKineticEnergy:
+    case OutputKind::kPotentialEnergy:
+      return {};
+  }
+  return {};
+}
+
+bool read_joint(TomlFile& file, const TomlTable& table, Output& output, const Mechanism& mechanism) {
+  const std::optional<std::string> name = table.required_text("joint");
+  if (!name) return false;
+  const auto joint = find_named(file, table.where("joint"), table.what() + " names", "joint", *name,
+                                mechanism.joints, file.complete().structure);
+  if (!joint) return false;
+  output.joint = JointIndex(*joint);
+  if (output.kind == OutputKind::kReaction) return true;
+  const auto coordinate = find_coordinate(table, mechanism.joints[*joint]);
+  if (!coordinate) return false;
+  output.coordinate = *coordinate;
+  const Coordinate& driven = mechanism.joints[*joint].coordinates[*coordinate];
+  if (!driven.motion)
+    table.error(
+        "joint",
+        fmt::format("coordinate '{}' has no prescribed motion that a drive could make", shown(driven.name)),
+        "motion = \"...\" prescribes it");
+  return true;
+}
+
+bool read_content(TomlFile& file, const TomlTable& table, Output& output, const Scope& scope,
+                  Mechanism& mechanism) {
+  const std::vector<std::string> keys = keys_of(output.kind);
+  for (const char* key : {"frame", "joint", "coordinate", "value"})
+    if (table.has(key) && std::find(keys.begin(), keys.end(), key) == keys.end())
+      table.error(key, fmt::format("an output of kind '{}' has no '{}'",
+                                   kKinds[static_cast<std::size_t>(output.kind)], key));
+  if (keys.empty()) return true;
+  if (keys[0] == "joint") return read_joint(file, table, output, mechanism);
+  if (keys[0] == "frame") {
+    const auto frame = find_frame(file, table, "frame", mechanism);
+    if (frame) output.frame = *frame;
+    return frame.has_value();
+  }
+  if (!table.has("value")) table.missing("value", "an expression");
+  output.value = settled(table.function("value", needed::kAnything, scope), mechanism);
+  return true;
+}
+
+}  // namespace
+
+void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+  const Scope scope = general_scope(mechanism);
+  for (const toml::node& node : section) {
+    Output output;
+    output.name = (*node.as_table())["name"].value_or(std::string());
+    const TomlTable table(file, *node.as_table(),
+                          output.name.empty() ? "an output" : fmt::format("output '{}'", shown(output.name)),
+                          file.range(node.source()),
+                          {"name", "kind", "frame", "joint", "coordinate", "value"});
+    table.required_text("name");
+    output.where = table.where("name");
+    if (!table.has("kind")) table.missing("kind", fmt::format("one of {}", fmt::join(kKinds, ", ")));
+    const auto kind = table.choice("kind", kKinds);
+    if (!kind || !table.has("kind") || output.name.empty()) continue;
+    output.kind = static_cast<OutputKind>(*kind);
+    check_identifier(file, output.where, "output", output.name);
+    if (is_reserved(output.name))
+      table.error("name",
+                  fmt::format("'{}' is reserved in C++ and cannot name an output", shown(output.name)));
+    const bool sound = read_content(file, table, output, scope, mechanism);
+    if (sound && is_new_name(file, output.where, "outputs", output.name, mechanism.outputs))
+      mechanism.outputs.push_back(output);
+  }
+}
+
+}  // namespace jourdain::model

@@ -1,0 +1,137 @@
+#include "model/read/urdf_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "support/utf8.hpp"
+
+namespace jourdain::model {
+
+using support::shown;
+
+const XmlElement* UrdfFile::child(const XmlElement& parent, const char* name) {
+  const XmlElement* first = parent.FirstChildElement(name);
+  const XmlElement* second = first ? first->NextSiblingElement(name) : nullptr;
+  if (second)
+    diagnostics_.error(element(*second), fmt::format("<{}> has two <{}>", parent.Name(), name),
+                       fmt::format("the first one stands at line {}", element(*first).line));
+  return first;
+}
+
+void UrdfFile::check_children(const XmlElement& parent, const std::vector<std::string>& known) {
+  for (const auto* item = parent.FirstChildElement(); item; item = item->NextSiblingElement()) {
+    const std::string name = item->Name();
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string close = support::nearest(name, known);
+    if (name.starts_with("xacro:"))
+      diagnostics_.error(element(*item), fmt::format("<{}> is a macro", shown(name)),
+                         "expand the file with xacro first");
+    else if (!close.empty())
+      diagnostics_.warning(element(*item), fmt::format("element <{}> is ignored", shown(name)),
+                           fmt::format("did you mean <{}>?", close));
+  }
+}
+
+std::optional<std::string> UrdfFile::required(const XmlElement& where, const char* attribute) {
+  if (const char* text = where.Attribute(attribute)) return text;
+  diagnostics_.error(element(where), fmt::format("<{}> needs the attribute '{}'", where.Name(), attribute));
+  return {};
+}
+
+std::optional<std::string> UrdfFile::name(const XmlElement& where) {
+  constexpr int kLongest = 100;
+  const std::optional<std::string> text = required(where, "name");
+  if (!text) return {};
+  int length = 0;
+  bool printable = true;
+  for (std::size_t i = 0; i < text->size(); ++length) {
+    const support::Utf8Character character = support::utf8_at(*text, i);
+    printable = printable && character.printable;
+    i += character.bytes;
+  }
+  if (printable && length > 0 && length <= kLongest) return text;
+  const char* const why = length == 0  ? "is empty"
+                          : !printable ? "has characters that cannot be printed"
+                                       : "is longer than 100 characters";
+  diagnostics_.error(value(where, "name"), fmt::format("the name of <{}> {}", where.Name(), why));
+  return {};
+}
+
+std::vector<UrdfFile::Word> UrdfFile::words(const std::string& text) {
+  constexpr const char* kBlanks = " \t\r\n";
+  std::vector<Word> result;
+  for (std::size_t i = text.find_first_not_of(kBlanks); i != std::string::npos;
+       i = text.find_first_not_of(kBlanks, i)) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, i), text.size());
+    result.push_back({i, text.substr(i, end - i)});
+    i = end;
+  }
+  return result;
+}
+
+double UrdfFile::parsed(const XmlElement& where, const char* attribute, const Word& word) {
+  const bool plus = word.text.size() > 1 && word.text[0] == '+' && word.text[1] != '-';
+  const char* const begin = word.text.data() + (plus ? 1 : 0);
+  const char* const end = word.text.data() + word.text.size();
+  double result = 0;
+  const auto [stop, error] = std::from_chars(begin, end, result);
+  std::string message;
+  if (error == std::errc::result_out_of_range)
+    message = fmt::format("'{}' is out of the range of double precision", shown(word.text));
+  else if (error != std::errc() || stop != end)
+    message = fmt::format("'{}' is not a number", shown(word.text));
+  else if (!std::isfinite(result))
+    message = fmt::format("'{}' is not finite", shown(word.text));
+  if (message.empty()) return result;
+  complete_.numbers = false;
+  const bool macro = word.text.find("${") != std::string::npos;
+  diagnostics_.error(positions_.part_of_value(where, attribute, word.offset, word.text.size()), message,
+                     macro ? "expand the file with xacro first" : "");
+  return 0;
+}
+
+double UrdfFile::number(const XmlElement& where, const char* attribute, double otherwise) {
+  const char* text = where.Attribute(attribute);
+  if (!text) return otherwise;
+  const std::vector<Word> found = words(text);
+  if (found.size() == 1) return parsed(where, attribute, found[0]);
+  complete_.numbers = false;
+  diagnostics_.error(value(where, attribute), fmt::format("'{}' of <{}> needs 1 number, found {}", attribute,
+                                                          where.Name(), found.size()));
+  return 0;
+}
+
+double UrdfFile::required_number(const XmlElement& where, const char* attribute) {
+  if (!required(where, attribute)) complete_.numbers = false;
+  return number(where, attribute, 0);
+}
+
+std::array<double, 3> UrdfFile::triple(const XmlElement& where, const char* attribute,
+                                       const std::array<double, 3>& otherwise) {
+  const char* text = where.Attribute(attribute);
+  if (!text) return otherwise;
+  const std::vector<Word> found = words(text);
+  if (found.size() != 3) {
+    complete_.numbers = false;
+    diagnostics_.error(value(where, attribute), fmt::format("'{}' of <{}> needs 3 numbers, found {}",
+                                                            attribute, where.Name(), found.size()));
+    return otherwise;
+  }
+  const std::size_t mark = diagnostics_.all().size();
+  const std::array<double, 3> result{parsed(where, attribute, found[0]), parsed(where, attribute, found[1]),
+                                     parsed(where, attribute, found[2])};
+  return diagnostics_.all().size() == mark ? result : otherwise;
+}
+
+Placement UrdfFile::origin(const XmlElement& parent) {
+  const XmlElement* element_found = child(parent, "origin");
+  if (!element_found) return {};
+  const auto xyz = triple(*element_found, "xyz", {});
+  const auto rpy = triple(*element_found, "rpy", {});
+  return {{xyz[0], xyz[1], xyz[2]}, {{rpy[0], rpy[1], rpy[2]}, value(*element_found, "rpy")}};
+}
+
+}  // namespace jourdain::model

@@ -1,0 +1,306 @@
+// The Unified Robot Description Format. Read are links with their inertials and joints with origin, axis and
+// damping; limits, geometry, sensors and what simulators add are not. A joint that moves gets an actuator of
+// the same name.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <unordered_map>
+
+#include "model/read/finish.hpp"
+#include "model/read/nesting.hpp"
+#include "model/read/read.hpp"
+#include "model/read/urdf_file.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::Diagnostics;
+using support::shown;
+
+constexpr double kStandardGravity = 9.81;
+
+class UrdfReader {
+ public:
+  UrdfReader(UrdfFile& file, const ReadOptions& options) : file_(file), options_(options) {}
+
+  Mechanism read(const XmlElement& robot) {
+    mechanism_.gravity = {0.0, 0.0, -kStandardGravity};
+    mechanism_.name = file_.name(robot).value_or("");
+    mechanism_.where = file_.element(robot);
+    file_.check_children(robot, {"link", "joint", "material", "transmission", "gazebo", "sensor"});
+    if (is_small(robot, "link") && is_small(robot, "joint")) {
+      for (const auto* e = robot.FirstChildElement("link"); e; e = e->NextSiblingElement("link"))
+        read_link(*e);
+      for (const auto* e = robot.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint"))
+        read_joint(*e);
+    } else {
+      file_.complete().structure = false;
+    }
+    report_friction();
+    if (file_.complete().structure) attach_roots();
+    return std::move(mechanism_);
+  }
+
+ private:
+  bool is_small(const XmlElement& robot, const char* name) {
+    std::size_t count = 0;
+    for (const auto* e = robot.FirstChildElement(name); e; e = e->NextSiblingElement(name)) ++count;
+    if (count <= kMaximumBodies) return true;
+    error({}, fmt::format("the file has {} <{}> elements, more than {}", count, name, kMaximumBodies));
+    return false;
+  }
+
+  void error(SourceRange where, std::string message, std::string hint = "") {
+    file_.diagnostics().error(where, std::move(message), std::move(hint));
+  }
+
+  /// The element's name, if no earlier element of its kind has it.
+  std::optional<std::string> new_name(const XmlElement& element,
+                                      std::unordered_map<std::string, SourceRange>& names) {
+    std::optional<std::string> name = file_.name(element);
+    const SourceRange where = file_.value(element, "name");
+    if (name && names.emplace(*name, where).second) return name;
+    if (name)
+      error(where, fmt::format("there are two {}s '{}'", element.Name(), shown(*name)),
+            fmt::format("first declared at line {}", names[*name].line));
+    file_.complete().structure = false;
+    return {};
+  }
+
+  void read_link(const XmlElement& element) {
+    const std::optional<std::string> name = new_name(element, link_names_);
+    file_.check_children(element, {"inertial", "visual", "collision"});
+    Body body;
+    body.name = name.value_or("");
+    body.where = file_.value(element, "name");
+    if (const XmlElement* inertial = file_.child(element, "inertial")) read_inertial(*inertial, body);
+    if (name) mechanism_.bodies.push_back(std::move(body));
+  }
+
+  void read_inertial(const XmlElement& inertial, Body& body) {
+    file_.check_children(inertial, {"origin", "mass", "inertia"});
+    const Placement placement = file_.origin(inertial);
+    body.center_of_mass = placement.position;
+    body.inertia_axes = placement.rotation;
+    if (const XmlElement* mass = required_child(inertial, "mass")) {
+      body.mass = file_.required_number(*mass, "value");
+      body.mass_where = file_.value(*mass, "value");
+    }
+    if (const XmlElement* inertia = required_child(inertial, "inertia")) {
+      const auto entry = [&](const char* name) { return file_.required_number(*inertia, name); };
+      body.inertia = {entry("ixx"), entry("iyy"), entry("izz"), entry("ixy"), entry("ixz"), entry("iyz")};
+      body.inertia_where = file_.element(*inertia);
+    }
+  }
+
+  const XmlElement* required_child(const XmlElement& parent, const char* name) {
+    const XmlElement* found = file_.child(parent, name);
+    if (found) return found;
+    error(file_.element(parent), fmt::format("<{}> needs <{}>", parent.Name(), name));
+    file_.complete().numbers = false;
+    return nullptr;
+  }
+
+  void read_joint(const XmlElement& element) {
+    const std::optional<std::string> name = new_name(element, joint_names_);
+    file_.check_children(element, {"origin", "parent", "child", "axis", "calibration", "dynamics", "limit",
+                                   "mimic", "safety_controller"});
+    Joint joint;
+    joint.name = name.value_or("");
+    joint.where = file_.value(element, "name");
+    const std::optional<JointType> type = joint_type(element, joint.name);
+    joint.set_type(type.value_or(JointType::kFixed));
+    joint.parent = end(element, "parent", joint);
+    const std::optional<BodyIndex> child = end(element, "child", joint);
+    joint.placement = file_.origin(element);
+    if (joint.type != JointType::kFixed) read_motion(element, joint);
+    if (!name || !type || !joint.parent || !child) {
+      file_.complete().structure = false;
+      return;
+    }
+    joint.child = *child;
+    if (joint.coordinates.size() == 1)
+      mechanism_.actuators.push_back({.name = joint.name,
+                                      .joint = JointIndex(mechanism_.joints.size()),
+                                      .rotor_inertia = 0.0,
+                                      .where = joint.where,
+                                      .implied = true});
+    mechanism_.joints.push_back(std::move(joint));
+  }
+
+  std::optional<JointType> joint_type(const XmlElement& element, const std::string& name) {
+    const std::optional<std::string> type = file_.required(element, "type");
+    if (!type) return {};
+    if (*type == "fixed") return JointType::kFixed;
+    if (*type == "revolute" || *type == "continuous") return JointType::kRevolute;
+    if (*type == "prismatic") return JointType::kPrismatic;
+    const SourceRange where = file_.value(element, "type");
+    if (*type == "planar") return JointType::kPlanar;
+    if (*type == "floating") return JointType::kFree;
+    const std::string close =
+        support::nearest(*type, {"revolute", "continuous", "prismatic", "fixed", "planar", "floating"});
+    error(where, fmt::format("joint '{}' has unknown type '{}'", shown(name), shown(*type)),
+          close.empty() ? "known are revolute, continuous, prismatic, fixed, planar, floating"
+                        : fmt::format("did you mean '{}'?", close));
+    return {};
+  }
+
+  /// The link that <parent> or <child> names.
+  std::optional<BodyIndex> end(const XmlElement& element, const char* which, Joint& joint) {
+    const XmlElement* found = file_.child(element, which);
+    if (!found) error(file_.element(element), fmt::format("joint '{}' needs <{}>", shown(joint.name), which));
+    const std::optional<std::string> name = found ? file_.required(*found, "link") : std::nullopt;
+    if (!name) return {};
+    const SourceRange where = file_.value(*found, "link");
+    if (std::string_view(which) == "child") joint.child_where = where;
+    std::vector<std::string> names;
+    for (const Body& body : mechanism_.bodies) names.push_back(body.name);
+    const auto link = std::find(names.begin(), names.end(), *name);
+    if (link != names.end()) return BodyIndex(static_cast<std::size_t>(link - names.begin()));
+    const std::string close = support::nearest(*name, names);
+    error(where, fmt::format("joint '{}' names unknown link '{}'", shown(joint.name), shown(*name)),
+          close.empty()
+              ? ""
+              : fmt::format("did you mean '{}', declared at line {}?", close, link_names_[close].line));
+    return {};
+  }
+
+  void read_motion(const XmlElement& element, Joint& joint) {
+    const bool locked = std::find(options_.locked_joints.begin(), options_.locked_joints.end(), joint.name) !=
+                        options_.locked_joints.end();
+    joint.axis = {1, 0, 0};
+    if (const XmlElement* axis = file_.child(element, "axis")) {
+      joint.axis = file_.triple(*axis, "xyz", joint.axis);
+      joint.axis_where = file_.value(*axis, "xyz");
+    }
+    if (const XmlElement* dynamics = file_.child(element, "dynamics")) {
+      const double damping = file_.number(*dynamics, "damping", 0);
+      const double friction = file_.number(*dynamics, "friction", 0);
+      if (options_.damping)
+        for (Coordinate& coordinate : joint.coordinates) coordinate.damping = damping;
+      if (friction != 0 && !locked && ++joints_with_friction_ == 1) {
+        first_friction_ = joint.name;
+        first_friction_where_ = file_.value(*dynamics, "friction");
+      }
+    }
+    const XmlElement* mimic = file_.child(element, "mimic");
+    joint.mimics = mimic != nullptr;
+    if (mimic && !locked)
+      file_.diagnostics().warning(file_.element(*mimic), "<mimic> is ignored: the joint moves freely",
+                                  fmt::format("--lock {} fixes it", shown(joint.name)));
+  }
+
+  /// One warning for all joints, at the first.
+  void report_friction() {
+    if (joints_with_friction_ == 0) return;
+    const std::string others =
+        joints_with_friction_ == 1 ? "" : fmt::format(" and of {} more", joints_with_friction_ - 1);
+    file_.diagnostics().warning(
+        first_friction_where_,
+        fmt::format("friction of joint '{}'{} is ignored", shown(first_friction_), others),
+        "a model in TOML can have it: friction, smoothed over friction_speed");
+  }
+
+  /// Joins the root link to the world. Several roots are an error; all are attached so that no check repeats
+  /// it.
+  void attach_roots() {
+    std::vector<bool> is_child(mechanism_.bodies.size(), false);
+    for (const Joint& joint : mechanism_.joints) is_child[joint.child.value] = true;
+    std::optional<std::size_t> first;
+    for (std::size_t b = 0; b < is_child.size(); ++b) {
+      if (is_child[b]) continue;
+      const Body& body = mechanism_.bodies[b];
+      if (first)
+        error(body.where,
+              fmt::format("more than one root link: '{}' and '{}'", shown(mechanism_.bodies[*first].name),
+                          shown(body.name)),
+              fmt::format("'{}' at line {} is no joint's child either", shown(mechanism_.bodies[*first].name),
+                          mechanism_.bodies[*first].where.line));
+      else
+        first = b;
+      const bool free = options_.root == RootJoint::kFree;
+      Joint joint;
+      joint.name = free ? "root" : body.name + "_to_world";
+      while (joint_names_.contains(joint.name)) joint.name += '_';
+      joint.set_type(free ? JointType::kFree : JointType::kFixed);
+      joint.child = BodyIndex(b);
+      joint.where = body.where;
+      mechanism_.joints.push_back(std::move(joint));
+      free_floating_children(b);
+    }
+  }
+
+  /// A floating joint on a root link that is fixed to the world is a free joint: its parent becomes the world.
+  void free_floating_children(std::size_t root) {
+    for (Joint& joint : mechanism_.joints) {
+      if (joint.type != JointType::kFree || joint.parent != BodyIndex(root)) continue;
+      const bool placed = std::any_of(joint.placement.position.begin(), joint.placement.position.end(),
+                                      [](const Expression& e) { return !e.is_zero(); });
+      if (options_.root == RootJoint::kFixed && !placed && !is_turned(joint.placement.rotation))
+        joint.parent = {};
+    }
+  }
+
+  static bool is_turned(const Rotation& rotation) {
+    return std::any_of(rotation.rpy.begin(), rotation.rpy.end(),
+                       [](const Expression& e) { return !e.is_zero(); });
+  }
+
+  UrdfFile& file_;
+  const ReadOptions& options_;
+  Mechanism mechanism_;
+  int joints_with_friction_ = 0;
+  std::string first_friction_;
+  SourceRange first_friction_where_;
+  std::unordered_map<std::string, SourceRange> link_names_;
+  std::unordered_map<std::string, SourceRange> joint_names_;
+};
+
+/// "XML_ERROR_MISMATCHED_ELEMENT" of tinyxml2 in words.
+std::string syntax_message(std::string name) {
+  constexpr std::string_view kPrefix = "XML_ERROR_";
+  if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
+  for (char& c : name) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return fmt::format("XML syntax error{} {}", name.starts_with("parsing ") ? " while" : ":", name);
+}
+
+SourceRange first_of_line(std::string_view text, int line) {
+  const std::string_view shown_line = support::LineIndex(text).line(line);
+  const std::size_t blanks = std::min(shown_line.find_first_not_of(" \t"), shown_line.size());
+  return {line, static_cast<int>(blanks) + 1, 1};
+}
+
+}  // namespace
+
+std::optional<Mechanism> read_urdf(Diagnostics& diagnostics, const ReadOptions& options) {
+  const std::string& text = diagnostics.text();
+  const XmlTags tags = scan_xml_tags(text);
+  if (tags.deep_nesting) {
+    diagnostics.error(support::LineIndex(text).range(*tags.deep_nesting, 1),
+                      fmt::format("nested deeper than {} levels", kMaximumNesting));
+    return {};
+  }
+  tinyxml2::XMLDocument document;
+  document.Parse(text.data(), text.size());
+  if (document.Error()) {
+    diagnostics.error(first_of_line(text, document.ErrorLineNum()), syntax_message(document.ErrorName()));
+    return {};
+  }
+  UrdfFile file(diagnostics, tags.starts, document);
+  const XmlElement* robot = document.RootElement();
+  if (!robot || std::string_view(robot->Name()) != "robot") {
+    diagnostics.error(robot ? file.element(*robot) : SourceRange{}, "a URDF file has one element <robot>",
+                      robot ? fmt::format("found <{}>", shown(robot->Name())) : "");
+    return {};
+  }
+  if (const XmlElement* second = robot->NextSiblingElement())
+    diagnostics.error(file.element(*second),
+                      fmt::format("<{}> stands behind the end of <robot>", shown(second->Name())));
+  Mechanism mechanism = UrdfReader(file, options).read(*robot);
+  return finish_reading(std::move(mechanism), file.complete(), options, support::Severity::kWarning,
+                        diagnostics);
+}
+
+}  // namespace jourdain::model

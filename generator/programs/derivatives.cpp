@@ -1,0 +1,292 @@
+#include "programs/derivatives.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "dynamics/outputs.hpp"
+#include "ir/compose.hpp"
+#include "ir/symmetric_factors.hpp"
+#include "lowering/cheapest_elimination.hpp"
+#include "lowering/lower.hpp"
+#include "model/coordinates.hpp"
+#include "passes/rewrite.hpp"
+
+namespace jourdain::programs {
+
+using dynamics::Equations;
+using ir::Builder;
+using ir::EliminationOrder;
+using ir::JacobianEntries;
+using ir::LeafKind;
+using ir::Program;
+using ir::Signed;
+
+namespace {
+
+/// What the columns of a Jacobian stand for: displacements and velocities (nz each), inputs, time.
+struct Columns {
+  std::size_t velocities = 0, inputs = 0;
+  bool time = false;  ///< something depends on it
+
+  std::size_t velocity(std::size_t i) const { return velocities + i; }
+  std::size_t input(std::size_t i) const { return 2 * velocities + i; }
+  std::size_t time_column() const { return 2 * velocities + inputs; }
+};
+
+using ir::Column;
+using Matrix = std::vector<Column>;  // by row
+
+/// One program under construction.
+class Assembly {
+ public:
+  Assembly(const DerivativeSources& sources, DerivativeTerms terms, EliminationOrder order)
+      : sources_(sources),
+        terms_(terms),
+        order_(order),
+        columns_{sources.velocities, sources.inputs, sources.time.any()} {}
+
+  /// M and the derivatives of the residual.
+  Program residual_derivatives() {
+    write_matrix("M", mass_matrix());
+    const bool all = terms_ == DerivativeTerms::kAll;
+    write_residual_derivatives(differentiated(all ? sources_.residual : sources_.load));
+    return finish("residual_derivatives");
+  }
+
+  Program forward_dynamics_derivatives() {
+    const JacobianEntries J = acceleration_derivatives();
+    write_vector("zdot", zdot_);
+    for (const auto& [at, value] : J)
+      if (at.second < columns_.input(0)) {
+        const bool by_velocity = at.second >= columns_.velocity(0);
+        write(by_velocity ? "zdot_z" : "zdot_y", at.first,
+              at.second - (by_velocity ? columns_.velocity(0) : 0), value);
+      }
+    return finish("forward_dynamics_derivatives");
+  }
+
+  Program linearize() {
+    const JacobianEntries J = acceleration_derivatives();
+    write_kinematics();
+    for (const auto& [at, value] : J) {
+      const std::size_t row = columns_.velocities + at.first;
+      if (at.second == columns_.time_column())
+        builder_.output("rate_t", static_cast<int>(row), -1, value);
+      else if (at.second >= columns_.input(0))
+        write("B", row, at.second - columns_.input(0), value);
+      else
+        write("A", row, at.second, value);
+    }
+    write_outputs(J);
+    return finish("linearize");
+  }
+
+ private:
+  void write(const char* name, std::size_t row, std::size_t column, Signed value) {
+    builder_.output(name, static_cast<int>(row), static_cast<int>(column), value);
+  }
+
+  void write_vector(const char* name, const Column& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) builder_.output(name, static_cast<int>(i), -1, values[i]);
+  }
+
+  void write_matrix(const char* name, const Matrix& M) {
+    for (std::size_t i = 0; i < M.size(); ++i)
+      for (std::size_t j = 0; j < M.size(); ++j)
+        if (!is_zero(M[i][j])) write(name, i, j, M[i][j]);
+  }
+
+  bool is_zero(Signed value) const { return builder_.is_literal(value, 0); }
+
+  /// Copies a program into this builder; accelerations are those of `zdot_` where that is not empty.
+  Column insert(const Program& program) {
+    return ir::insert(builder_, program, [this](LeafKind kind, std::size_t i) {
+      const bool given = kind == LeafKind::kAcceleration && !zdot_.empty();
+      return given ? std::optional(zdot_[i]) : std::nullopt;
+    });
+  }
+
+  Matrix mass_matrix() {
+    Matrix M;
+    for (const Program& row : sources_.mass_rows) M.push_back(insert(row));
+    return M;
+  }
+
+  /// Where the columns enter: the derivatives of the leaves.
+  std::vector<ir::Seed> seeds(Builder& builder) const {
+    std::vector<ir::Seed> list = sources_.position_seeds(builder, columns_.time_column());
+    const Signed one = builder.literal(1);
+    for (std::size_t i = 0; i < columns_.velocities; ++i)
+      list.push_back({builder.leaf(LeafKind::kVelocity, i), columns_.velocity(i), one});
+    for (std::size_t i = 0; i < columns_.inputs; ++i)
+      list.push_back({builder.leaf(LeafKind::kInput, i), columns_.input(i), one});
+    if (columns_.time) list.push_back({builder.leaf(LeafKind::kTime, 0), columns_.time_column(), one});
+    return list;
+  }
+
+  /// Derivatives of `values` at constant accelerations, as values of this builder.
+  JacobianEntries differentiated(const Program& values, bool by_acceleration = false) {
+    // In a builder of its own, where ż is a leaf: accelerations inserted before would be followed to their own leaves.
+    Builder builder;
+    const Column outputs = ir::insert(builder, values);
+    std::vector<ir::Seed> list = seeds(builder);
+    const std::size_t first = columns_.time_column() + 1;
+    for (std::size_t i = 0; by_acceleration && i < columns_.velocities; ++i)
+      list.push_back({builder.leaf(LeafKind::kAcceleration, i), first + i, builder.literal(1)});
+    const JacobianEntries entries = ir::differentiate(builder, outputs, list, order_);
+    for (const auto& [at, value] : entries)
+      builder.output("J", static_cast<int>(at.first), static_cast<int>(at.second), value);
+    const Column moved = insert(passes::remove_dead_code(builder.finish("derivatives")));
+    JacobianEntries result;
+    std::size_t k = 0;
+    for (const auto& [at, value] : entries) result[at] = moved[k++];
+    return result;
+  }
+
+  void write_residual_derivatives(const JacobianEntries& J) {
+    for (const auto& [at, value] : J) {
+      const auto [row, column] = at;
+      if (column == columns_.time_column())
+        builder_.output("r_t", static_cast<int>(row), -1, value);
+      else if (column >= columns_.input(0))
+        write("r_u", row, column - columns_.input(0), value);
+      else if (column >= columns_.velocity(0))
+        write("r_z", row, column - columns_.velocity(0), value);
+      else
+        write("r_y", row, column, value);
+    }
+  }
+
+  /// ∂ż by all columns.
+  JacobianEntries acceleration_derivatives() {
+    zdot_ = insert(sources_.zdot);
+    const JacobianEntries r = differentiated(sources_.residual);
+    const ir::SymmetricFactors M(builder_, mass_matrix());
+    JacobianEntries J;
+    for (std::size_t c = 0; c <= columns_.time_column(); ++c) {
+      Column b(columns_.velocities, builder_.literal(0));
+      for (std::size_t i = 0; i < b.size(); ++i)
+        if (const auto entry = r.find({i, c}); entry != r.end()) b[i] = -entry->second;
+      const Column x = M.solved(b);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (!is_zero(x[i])) J[{i, c}] = x[i];
+    }
+    return J;
+  }
+
+  /// The upper half of A: displacements follow velocities; those of a quaternion turn with the body, δθ̇ = δω − ω × δθ.
+  void write_kinematics() {
+    const Signed one = builder_.literal(1);
+    for (std::size_t i = 0; i < columns_.velocities; ++i) write("A", i, columns_.velocity(i), one);
+    for (const model::Tangent::Scalar& s : sources_.tangent.quaternions)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
+        write("A", s.velocity + j, s.velocity + l, builder_.leaf(LeafKind::kVelocity, s.velocity + k));
+        write("A", s.velocity + l, s.velocity + j, -builder_.leaf(LeafKind::kVelocity, s.velocity + k));
+      }
+  }
+
+  /// C, D and ∂/∂t of the outputs; those that take accelerations by the chain rule.
+  void write_outputs(const JacobianEntries& acceleration) {
+    if (sources_.outputs.outputs.empty()) return;
+    const JacobianEntries J = differentiated(sources_.outputs, true);
+    const std::size_t first = columns_.time_column() + 1;
+    JacobianEntries total;
+    const auto add = [&](std::size_t row, std::size_t column, Signed term) {
+      const auto [it, is_new] = total.try_emplace({row, column}, term);
+      if (!is_new) it->second = builder_.add(it->second, term);
+    };
+    for (const auto& [at, value] : J) {
+      if (at.second < first) {
+        add(at.first, at.second, value);
+        continue;
+      }
+      const auto row = acceleration.lower_bound({at.second - first, 0});
+      for (auto it = row; it != acceleration.end() && it->first.first == at.second - first; ++it)
+        add(at.first, it->first.second, builder_.multiply(value, it->second));
+    }
+    for (const auto& [at, value] : total) {
+      if (is_zero(value)) continue;
+      if (at.second == columns_.time_column())
+        builder_.output("output_t", static_cast<int>(at.first), -1, value);
+      else if (at.second >= columns_.input(0))
+        write("D", at.first, at.second - columns_.input(0), value);
+      else
+        write("C", at.first, at.second, value);
+    }
+  }
+
+  Program finish(const char* name) { return passes::remove_dead_code(builder_.finish(name)); }
+
+  const DerivativeSources& sources_;
+  DerivativeTerms terms_;
+  EliminationOrder order_;
+  Columns columns_;
+  Builder builder_;
+  Column zdot_;
+};
+
+std::vector<lowering::Target> targets(const char* name, const std::vector<dynamics::Ex>& values) {
+  std::vector<lowering::Target> list;
+  for (std::size_t i = 0; i < values.size(); ++i) list.push_back({name, static_cast<int>(i), -1, values[i]});
+  return list;
+}
+
+}  // namespace
+
+bool any_derivatives(const std::vector<FunctionInfo>& functions) {
+  return std::any_of(functions.begin(), functions.end(),
+                     [](const FunctionInfo& function) { return function.holds_derivatives; });
+}
+
+DerivativeSources tree_sources(const model::Mechanism& mechanism,
+                               const dynamics::DerivationOptions& options) {
+  dynamics::DerivationOptions plain = options;
+  plain.planar = false;
+  plain.articulated.clear();  // M is factorised for the derivatives anyway
+  plain.for_derivatives = true;
+  const Equations equations = dynamics::derive_equations(mechanism, plain);
+  const auto lowered = [&](const std::vector<dynamics::Ex>& values, const char* name, const char* program) {
+    return lowering::lower(equations.statements, targets(name, values), program);
+  };
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  DerivativeSources sources;
+  sources.residual = lowered(equations.residual, "r", "residual");
+  sources.load = lowered(equations.load, "v", "values");
+  sources.zdot = lowered(equations.zdot, "v", "values");
+  sources.outputs = lowered(dynamics::output_entries(equations), "v", "values");
+  for (const std::vector<dynamics::Ex>& row : equations.M)
+    sources.mass_rows.push_back(lowered(row, "v", "values"));
+  sources.tangent = model::tangent_of(mechanism, layout);
+  sources.velocities = layout.velocity_count();
+  sources.inputs = layout.input_count();
+  sources.time = model::time_dependence(mechanism);
+  sources.position_seeds = [tangent = sources.tangent](Builder& builder, std::size_t) {
+    return lowering::displacement_seeds(builder, tangent);
+  };
+  return sources;
+}
+
+std::vector<Program> derivative_programs(const DerivativeSources& sources,
+                                         const std::vector<FunctionInfo>& functions, DerivativeTerms terms) {
+  std::vector<Program> programs;
+  for (const FunctionInfo& function : functions) {
+    if (!function.holds_derivatives) continue;
+    if (function.name == "residual") {
+      programs.push_back(sources.residual);
+      continue;
+    }
+    programs.push_back(lowering::cheapest([&](EliminationOrder order) {
+      Assembly assembly(sources, terms, order);
+      if (function.name == "residual_derivatives") return assembly.residual_derivatives();
+      if (function.name == "forward_dynamics_derivatives") return assembly.forward_dynamics_derivatives();
+      JD_CHECK(function.name == "linearize", "no derivatives for '{}'", function.name);
+      return assembly.linearize();
+    }));
+  }
+  return programs;
+}
+
+}  // namespace jourdain::programs

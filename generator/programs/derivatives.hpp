@@ -1,0 +1,49 @@
+// Programs of the functions that hold derivatives: Jacobians of the equations of motion, by elimination on the program.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "dynamics/equations.hpp"
+#include "ir/program.hpp"
+#include "lowering/cheapest_elimination.hpp"
+#include "model/mechanism.hpp"
+#include "model/time_dependence.hpp"
+#include "programs/functions.hpp"
+
+namespace jourdain::programs {
+
+/// Which terms the derivatives of the residual hold. W-methods keep their order with any of them.
+enum class DerivativeTerms {
+  kAll,
+  kApplied,  ///< those of springs, dampers and other applied forces: where stiffness comes from
+};
+
+/// What is differentiated: the equations M ż = k̄ − q̄ as programs over their own coordinates.
+struct DerivativeSources {
+  ir::Program residual;                ///< r = M ż − k̄ + q̄, with ż as leaves
+  ir::Program load;                    ///< of q̄ all but gravity; kApplied
+  ir::Program zdot;                    ///< M⁻¹ (k̄ − q̄)
+  ir::Program outputs;                 ///< numbers of all outputs, with ż as leaves
+  std::vector<ir::Program> mass_rows;  ///< the entries of one row of M each
+  model::Tangent tangent;
+  std::size_t velocities = 0, inputs = 0;
+  model::TimeDependence time;
+  /// How position leaves depend on the displacements and, beyond that, on time: the column after the last velocity, input.
+  std::function<std::vector<ir::Seed>(ir::Builder&, std::size_t time_column)> position_seeds;
+};
+
+/// One program for each of `functions` that holds derivatives or is made for them; the others are passed over. Positions are
+/// differentiated by the displacements of model::Tangent. With r(y, z, a, u, t) = M a − k̄ + q̄ and a = ż,
+/// ∂ż = −M⁻¹ ∂r at a = ż: no derivative of the factorisation is taken. Of some orders of
+/// elimination the one with the fewest operations is chosen.
+std::vector<ir::Program> derivative_programs(const DerivativeSources& sources,
+                                             const std::vector<FunctionInfo>& functions,
+                                             DerivativeTerms terms);
+
+/// Those of a tree.
+DerivativeSources tree_sources(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options);
+
+bool any_derivatives(const std::vector<FunctionInfo>& functions);
+
+}  // namespace jourdain::programs

@@ -1,0 +1,96 @@
+// The functions that can be emitted. A new one is one line in the table of functions.cpp; steps come from the list of
+// steppers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/time_dependence.hpp"
+#include "programs/steppers.hpp"
+
+namespace jourdain::programs {
+
+enum class Shape {
+  kState,          ///< returns a State
+  kScalar,         ///< returns a Real
+  kVector,         ///< fills Real (&)[nz]
+  kRate,           ///< fills Real (&)[ny]
+  kMatrix,         ///< fills Real (&)[nz][nz]
+  kOutputs,        ///< fills an Outputs
+  kArrays,         ///< fills several arrays
+  kLinearization,  ///< fills a Linearization, whose members are the arrays
+  kCorrection,     ///< replaces entries of a State
+  kStep            ///< advances a State; its body is a template file, not a program
+};
+
+/// How far a subscript runs.
+enum class Extent {
+  kVelocities,  ///< nz
+  kStates,      ///< 2 nz: displacements and velocities
+  kInputs,
+  kOutputs,      ///< numbers of all outputs
+  kConstraints,  ///< rows of all loops
+};
+
+/// An array that a function fills; entries without an output of the program are zero.
+struct ArrayResult {
+  std::string name;
+  std::vector<Extent> extents;
+  bool model::TimeDependence::*only_if = nullptr;  ///< only where this depends on time
+};
+
+struct FunctionInfo {
+  std::string name;
+  Shape shape = Shape::kVector;
+  std::string result;  ///< name of the array, and of the program's outputs
+  bool takes_input = false;
+  bool takes_acceleration = false;       ///< Real (&zdot)[nz]
+  std::vector<std::string> needs;        ///< functions that its body calls
+  std::string comment;                   ///< doc comment, lines separated by '\n'
+  const Stepper* stepper = nullptr;      ///< of a step
+  bool on_request = false;               ///< not emitted unless asked for or needed
+  bool holds_derivatives = false;        ///< its program is not lowered from the equations alone
+  std::vector<ArrayResult> arrays = {};  ///< kArrays, kLinearization
+};
+
+/// What decides whether a function has anything to compute, and its arguments' bounds.
+struct SceneShape {
+  std::size_t positions = 0, velocities = 0, quaternions = 0, outputs = 0;
+  std::size_t inputs = 0, output_numbers = 0;
+  model::TimeDependence time;
+  bool clock = false;  ///< states hold the time: something depends on it, inputs may, or it was asked for
+  std::size_t constraints = 0;  ///< rows of all loops
+  bool has_dependents = false;  ///< some positions follow from others
+  int closings =
+      1;  ///< calls of close_loops where dependent positions were not integrated along: more for Newton\'s method
+
+  /// dy/dt is not z.
+  bool has_rate() const { return quaternions > 0 || has_dependents; }
+  /// The function that brings a state back to the closed loops at the end of a step; empty for trees.
+  const char* correction() const {
+    return constraints == 0 ? "" : has_dependents ? "close_loops" : "project";
+  }
+  std::size_t count(Extent extent) const;
+  /// Whether the array has entries.
+  bool has(const ArrayResult& array) const;
+};
+
+/// Whether a scene of this shape has the function: vectors and matrices of length zero are left out, the rate of the
+/// positions where it is z, outputs where there are none.
+bool has_function(const FunctionInfo& function, const SceneShape& shape);
+
+/// The function's comment, with what is different where loops are closed.
+std::string comment_of(const FunctionInfo& function, const SceneShape& shape);
+
+/// In the order of emission.
+const std::vector<FunctionInfo>& all_functions();
+
+std::vector<std::string> function_names();
+
+/// What is emitted unless the user says otherwise: all functions, and of the steps rk4_step.
+std::vector<std::string> default_functions();
+
+/// `wanted` with the functions they need, in the order of emission, as far as the scene has them.
+std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, const SceneShape& shape);
+
+}  // namespace jourdain::programs

@@ -1,0 +1,359 @@
+#include "programs/loop_functions.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "ir/compose.hpp"
+#include "loops/rows/regular_rows.hpp"
+#include "loops/treatments/dependence.hpp"
+#include "loops/treatments/multipliers.hpp"
+#include "loops/treatments/projection.hpp"
+#include "passes/rewrite.hpp"
+#include "programs/closed_system.hpp"
+#include "programs/loop_outputs.hpp"
+#include "support/check.hpp"
+
+namespace jourdain::programs {
+
+using ir::Builder;
+using ir::LeafKind;
+using ir::Program;
+using ir::Signed;
+
+namespace {
+
+std::size_t subscript(int i) { return static_cast<std::size_t>(i); }
+
+/// One program under construction.
+class LoopProgram {
+ public:
+  explicit LoopProgram(const loops::LoopSystem& system) : system_(system), dependence_(builder_, system) {}
+
+  Program finish(const std::string& name) { return passes::remove_dead_code(builder_.finish(name)); }
+
+  void write_function(const std::string& name) {
+    if (name == "position_rate")
+      return write("ydot", loops::position_rates(builder_, system_, dependence_.z()));
+    if (name == "mass_matrix") return write_mass_matrix();
+    if (name == "k_bar") return write("k", k_bar());
+    if (name == "q_bar") return write("q", dependence_.projected(vector("q_bar")));
+    if (name == "residual") return write("r", residual(acceleration_leaves()));
+    if (name == "inverse_dynamics")
+      return write("tau", dependence_.projected(
+                              vector("inverse_dynamics", dependence_.accelerations(acceleration_leaves()))));
+    if (name == "forward_dynamics") return write("zdot", zdot());
+    if (name == "outputs") return write_outputs(zdot());
+    if (name == "outputs at accelerations") return write_outputs(acceleration_leaves());
+    if (name == "initial_state") return write_initial_state();
+    if (name == "constraint_residual") return write_constraint_residual();
+    if (name == "constraint_forces") return write("lambda", constraint_forces(zdot()));
+    JD_CHECK(name == "kinetic_energy" || name == "potential_energy", "no function '{}'", name);
+    const Program tree = system_.tree(name);
+    builder_.output(tree.outputs[0].name, -1, -1, insert(tree, {})[0]);
+  }
+
+  ir::Column zdot() {
+    if (!system_.plan.is_reduced()) return constrained_motion(system_.plan.solved_rows()).zdot;
+    if (dependence_.independent_count() == 0) return {};
+    return ir::SymmetricFactors(builder_, mass_matrix()).solved(forces());
+  }
+
+ private:
+  struct Motion {
+    ir::Column zdot, lambda;
+  };
+
+  void write(const char* name, const ir::Column& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) builder_.output(name, static_cast<int>(i), -1, values[i]);
+  }
+
+  /// A program of the tree with the velocities of this state, the accelerations `a` of the tree and multipliers.
+  ir::Column insert(const Program& tree, const ir::Column& a, const ir::Column& lambda = {}) {
+    return ir::insert(builder_, tree, [&](LeafKind kind, std::size_t i) -> std::optional<Signed> {
+      if (kind == LeafKind::kVelocity) return dependence_.z()[i];
+      if (kind == LeafKind::kAcceleration && !a.empty()) return a[i];
+      if (kind == LeafKind::kMultiplier) return lambda[i];
+      return {};
+    });
+  }
+
+  ir::Column vector(const std::string& function, const ir::Column& a = {}) {
+    return insert(system_.tree(function), a);
+  }
+
+  ir::Column acceleration_leaves() {
+    ir::Column leaves;
+    for (std::size_t i = 0; i < dependence_.independent_count(); ++i)
+      leaves.push_back(builder_.leaf(LeafKind::kAcceleration, i));
+    return leaves;
+  }
+
+  ir::Column times(const std::vector<ir::Column>& M, const ir::Column& x) {
+    ir::Column y;
+    for (const ir::Column& row : M) {
+      Signed sum = builder_.literal(0);
+      for (std::size_t k = 0; k < x.size(); ++k) sum = builder_.add(sum, builder_.multiply(row[k], x[k]));
+      y.push_back(sum);
+    }
+    return y;
+  }
+
+  /// Bᵀ M B. With one degree of freedom twice the kinetic energy at z = B, where nothing else moves: that costs less than M.
+  std::vector<ir::Column> mass_matrix() {
+    const std::vector<ir::Column>& B = dependence_.B();
+    if (B.size() == 1 && !model::time_dependence(system_.mechanism).positions) {
+      const Signed T =
+          ir::insert(builder_, system_.tree("kinetic_energy"), [&](LeafKind kind, std::size_t i) {
+            return kind == LeafKind::kVelocity ? std::optional(B[0][i]) : std::nullopt;
+          })[0];
+      return {{builder_.multiply(builder_.literal(2), T)}};
+    }
+    const std::vector<ir::Column> M = loops::tree_mass_matrix(builder_, system_);
+    if (!system_.plan.is_reduced()) return M;
+    std::vector<ir::Column> reduced;
+    for (const ir::Column& column : B) reduced.push_back(dependence_.projected(times(M, column)));
+    return reduced;
+  }
+
+  /// k̄ − q̄ of the independent coordinates: minus the residual of the tree at ż = β.
+  ir::Column forces() {
+    ir::Column list = dependence_.projected(vector("residual", dependence_.beta()));
+    for (Signed& entry : list) entry = -entry;
+    return list;
+  }
+
+  ir::Column k_bar() {
+    const ir::Column tree = vector("k_bar");
+    if (!system_.plan.is_reduced()) return tree;
+    const ir::Column bias = times(loops::tree_mass_matrix(builder_, system_), dependence_.beta());
+    ir::Column rows;
+    for (std::size_t k = 0; k < tree.size(); ++k) rows.push_back(builder_.subtract(tree[k], bias[k]));
+    return dependence_.projected(rows);
+  }
+
+  ir::Column residual(const ir::Column& zdot) {
+    ir::Column r = dependence_.projected(vector("residual", dependence_.accelerations(zdot)));
+    if (system_.plan.is_reduced()) return r;
+    const std::vector<std::size_t> rows = system_.plan.solved_rows();
+    const ir::Column lambda = constrained_motion(rows).lambda;
+    const loops::ConstraintValues constraints(builder_, system_);
+    for (std::size_t k = 0; k < r.size(); ++k)
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        r[k] = builder_.add(r[k], builder_.multiply(constraints.G(rows[i], k), lambda[i]));
+    return r;
+  }
+
+  /// Rounding is divided by it where rows are redundant.
+  loops::Regularisation regularisation(const std::vector<std::size_t>& rows) const {
+    constexpr double kRedundant = 1e3;
+    const loops::LoopPlan& plan = system_.plan;
+    if (rows.size() == plan.solved_rows().size()) return {plan.regularisation, plan.corrections};
+    return {kRedundant * plan.closing_regularisation, 2};
+  }
+
+  Motion constrained_motion(const std::vector<std::size_t>& rows) {
+    const loops::ConstraintValues constraints(builder_, system_);
+    const loops::MultiplierSolver solver(builder_, system_, loops::tree_mass_matrix(builder_, system_),
+                                         constraints, rows, regularisation(rows));
+    const loops::ConstraintRates rates = loops::constraint_rates(builder_, system_, dependence_.z());
+    const ir::Column pushed = solver.lowered(forces());
+    ir::Column c = solver.constrained(pushed);
+    const double s = system_.plan.stabilisation;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const std::size_t r = rows[k];
+      c[k] = builder_.add(c[k], rates.gamma[r]);
+      c[k] = builder_.add(c[k], builder_.multiply(builder_.literal(2 * s), rates.rate[r]));
+      c[k] = builder_.add(c[k], builder_.multiply(builder_.literal(s * s), constraints.g(r)));
+    }
+    const ir::Column lambda = solver.multipliers(c);
+    return {solver.accelerations(pushed, lambda), lambda};
+  }
+
+  /// All rows that agree with each other; where some share, those that are solved for.
+  std::vector<std::size_t> rows_with_forces() const {
+    if (!system_.plan.sharing.empty()) return system_.plan.solved_rows();
+    return loops::all_but(system_.plan.disagreeing, system_.constraints.value.outputs.size());
+  }
+
+  /// λ over those rows, zero for the others.
+  ir::Column least_multipliers() {
+    const std::vector<std::size_t> rows = rows_with_forces();
+    ir::Column lambda(system_.constraints.value.outputs.size(), builder_.literal(0));
+    const ir::Column found = constrained_motion(rows).lambda;
+    for (std::size_t k = 0; k < rows.size(); ++k) lambda[rows[k]] = found[k];
+    return lambda;
+  }
+
+  /// With reduced treatments what the dependent coordinates lack at the accelerations given; otherwise those of the state, over all
+  /// rows: of redundant ones those of least norm.
+  ir::Column constraint_forces(const ir::Column& zdot) {
+    if (!system_.plan.is_reduced()) return least_multipliers();
+    ir::Column missing = vector("residual", dependence_.accelerations(zdot));
+    for (Signed& entry : missing) entry = -entry;
+    return dependence_.multipliers(missing);
+  }
+
+  void write_mass_matrix() {
+    const std::vector<ir::Column> M = mass_matrix();
+    for (std::size_t i = 0; i < M.size(); ++i)
+      for (std::size_t j = i; j < M.size(); ++j)
+        builder_.output("M", static_cast<int>(i), static_cast<int>(j), M[i][j]);
+  }
+
+  void write_constraint_residual() {
+    const loops::ConstraintValues constraints(builder_, system_);
+    const ir::Column rate = loops::constraint_rates(builder_, system_, dependence_.z()).rate;
+    for (std::size_t r = 0; r < rate.size(); ++r)
+      builder_.output("g", static_cast<int>(r), -1, constraints.g(r));
+    write("g_rate", rate);
+  }
+
+  void write_initial_state() {
+    for (std::size_t i = 0; i < system_.plan.y.size(); ++i)
+      builder_.output("y", static_cast<int>(i), -1, builder_.literal(system_.plan.y[i]));
+    if (system_.plan.is_reduced())
+      for (std::size_t j = 0; j < system_.plan.independent.size(); ++j)
+        builder_.output("z", static_cast<int>(j), -1,
+                        builder_.literal(system_.plan.z[system_.plan.independent[j]]));
+    else
+      for (std::size_t k = 0; k < system_.plan.z.size(); ++k)
+        builder_.output("z", static_cast<int>(k), -1, builder_.literal(system_.plan.z[k]));
+  }
+
+  void write_outputs(const ir::Column& zdot) {
+    const Program tree = system_.tree("outputs");
+    const ir::Column values = insert(tree, dependence_.accelerations(zdot),
+                                     takes_multipliers(tree) ? constraint_forces(zdot) : ir::Column());
+    programs::write_outputs(builder_, system_, dependence_, tree, values);
+  }
+
+  const loops::LoopSystem& system_;
+  Builder builder_;
+  loops::Dependence dependence_;
+};
+
+/// Newton iterations block by block: each block is closed before the next one starts. Beside the dependent positions "regularity", the
+/// determinants of the last iteration over LoopPlan::determinant, and "opening", the square of what the first one changed.
+Program closing_program(const loops::LoopSystem& system) {
+  Builder builder;
+  ir::Column y = loops::position_leaves(builder, system);
+  std::vector<bool> dependent(system.layout.velocity_count(), false);
+  Signed determinant = builder.literal(1 / system.plan.determinant), opening = builder.literal(0);
+  for (const loops::Block& block : system.plan.blocks) {
+    for (const std::size_t k : block.dependents) dependent[k] = true;
+    for (int i = 0; i < system.plan.iterations; ++i) {
+      const loops::ConstraintValues values(builder, system, y);
+      std::vector<ir::Column> A;
+      ir::Column open;
+      for (const std::size_t r : block.rows) {
+        A.emplace_back();
+        for (const std::size_t k : block.dependents) A.back().push_back(values.G(r, k));
+        open.push_back(-values.g(r));
+      }
+      const loops::DenseSolver solver(builder, std::move(A));
+      const ir::Column change = solver.solve(open);
+      ir::Column displacement(dependent.size(), builder.literal(0));
+      for (std::size_t k = 0; k < change.size(); ++k) displacement[block.dependents[k]] = change[k];
+      y = loops::displaced(builder, system.tangent, y, displacement);
+      for (const Signed& entry : change)
+        if (i == 0) opening = builder.add(opening, builder.multiply(entry, entry));
+      if (i + 1 == system.plan.iterations) determinant = builder.multiply(determinant, solver.determinant());
+    }
+  }
+  builder.output("regularity", -1, -1, determinant);
+  builder.output("opening", -1, -1, opening);
+  const auto write = [&](std::size_t entry) { builder.output("y", static_cast<int>(entry), -1, y[entry]); };
+  for (const model::Tangent::Scalar& s : system.tangent.scalars)
+    if (dependent[s.velocity]) write(s.position);
+  for (const model::Tangent::Scalar& s : system.tangent.quaternions)
+    for (std::size_t k = 0; dependent[s.velocity] && k < 4; ++k) write(s.position + k);
+  return passes::remove_dead_code(builder.finish("close_loops"));
+}
+
+/// Adds ("beyond", i) to `close`: (y − low) (y − high) of the position with the i-th range.
+Program with_ranges(const Program& close, const std::vector<loops::ProvenRange>& ranges) {
+  Builder builder;
+  std::map<std::size_t, Signed> found;
+  const ir::Column values = ir::insert(builder, close);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const ir::Output& output = close.outputs[i];
+    builder.output(output.name, output.row, output.column, values[i]);
+    if (output.name == "y") found[subscript(output.row)] = values[i];
+  }
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const auto moved = found.find(ranges[i].index);
+    const Signed y =
+        moved == found.end() ? builder.leaf(LeafKind::kPosition, ranges[i].index) : moved->second;
+    const Signed above = builder.subtract(y, builder.literal(ranges[i].low)),
+                 below = builder.subtract(y, builder.literal(ranges[i].high));
+    builder.output("beyond", static_cast<int>(i), -1, builder.multiply(above, below));
+  }
+  return builder.finish(close.name);
+}
+
+}  // namespace
+
+Program loop_program(const loops::LoopSystem& system, const std::string& function) {
+  if (function == "project") return loops::projection_program(system);
+  if (function == "close_loops") {
+    const Program close = system.plan.closed_form ? system.plan.closed_form->close : closing_program(system);
+    const loops::ProvenBox* box = system.plan.proven();
+    return box && !box->positions.empty() ? with_ranges(close, box->positions) : close;
+  }
+  LoopProgram program(system);
+  program.write_function(function);
+  return program.finish(function);
+}
+
+namespace {
+
+/// Row `i` of a symmetric matrix whose upper triangle is a program's outputs.
+Program row_of(const Program& M, std::size_t i, std::size_t size) {
+  Program row = M;
+  row.outputs.clear();
+  for (std::size_t j = 0; j < size; ++j)
+    for (const ir::Output& output : M.outputs)
+      if (subscript(output.row) == std::min(i, j) && subscript(output.column) == std::max(i, j))
+        row.outputs.push_back(output);
+  return row;
+}
+
+/// Displacements of the independent coordinates move the dependent ones along; so does time.
+std::vector<ir::Seed> independent_seeds(const loops::LoopSystem& system, Builder& builder,
+                                        std::size_t time_column) {
+  const loops::Dependence dependence(builder, system);
+  std::vector<ir::Seed> seeds;
+  const auto add = [&](const ir::Seed& seed, std::size_t column, Signed share) {
+    if (!builder.is_literal(share, 0))
+      seeds.push_back({seed.leaf, column, builder.multiply(seed.partial, share)});
+  };
+  for (const ir::Seed& seed : lowering::displacement_seeds(builder, system.tangent)) {
+    for (std::size_t j = 0; j < dependence.B().size(); ++j) add(seed, j, dependence.B()[j][seed.column]);
+    add(seed, time_column, dependence.b()[seed.column]);
+  }
+  return seeds;
+}
+
+}  // namespace
+
+DerivativeSources derivative_sources(const loops::LoopSystem& system) {
+  DerivativeSources sources;
+  const bool reduced = system.plan.is_reduced();
+  sources.velocities = reduced ? system.plan.independent.size() : system.layout.velocity_count();
+  sources.inputs = system.layout.input_count();
+  sources.time = model::time_dependence(system.mechanism);
+  sources.residual = loop_program(system, "residual");
+  sources.load = sources.residual;
+  sources.zdot = loop_program(system, "forward_dynamics");
+  if (!system.mechanism.outputs.empty()) sources.outputs = loop_program(system, "outputs at accelerations");
+  const Program M = loop_program(system, "mass_matrix");
+  for (std::size_t i = 0; i < sources.velocities; ++i)
+    sources.mass_rows.push_back(row_of(M, i, sources.velocities));
+  sources.tangent = reduced ? independent_tangent(system.plan, system.tangent) : system.tangent;
+  sources.position_seeds = [&system](Builder& builder, std::size_t time_column) {
+    return independent_seeds(system, builder, time_column);
+  };
+  return sources;
+}
+
+}  // namespace jourdain::programs

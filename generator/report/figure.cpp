@@ -1,0 +1,133 @@
+#include "report/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace jourdain::report {
+
+namespace {
+
+using model::JointType;
+using model::Mechanism;
+using model::Numbers3;
+
+bool turns(JointType type) {
+  return type != JointType::kFixed && type != JointType::kPrismatic && type != JointType::kCurve &&
+         type != JointType::kFree;
+}
+
+bool slides(JointType type) { return type == JointType::kPrismatic || type == JointType::kCylindrical; }
+
+bool has_axis(JointType type) {
+  return (turns(type) && type != JointType::kSpherical) || type == JointType::kPrismatic;
+}
+
+Numbers3 unit(const Numbers3& v) {
+  const double length = std::hypot(v[0], v[1], v[2]);
+  return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+class FigureMaker {
+ public:
+  FigureMaker(const Mechanism& mechanism, const std::vector<double>& parameters)
+      : mechanism_(mechanism), parameters_(parameters) {}
+
+  Figure make() {
+    figure_.mechanism = mechanism_;
+    figure_.mechanism.outputs.clear();
+    figure_.gravity = numbers(mechanism_.gravity);
+    holds_something_.resize(mechanism_.bodies.size());
+    for (std::size_t b = 0; b < mechanism_.bodies.size(); ++b) add_body(b);
+    for (const model::Joint& joint : mechanism_.joints) add_joint(joint);
+    for (const model::Loop& loop : mechanism_.loops) add_loop(loop);
+    for (const model::Spring& spring : mechanism_.springs)
+      figure_.lines.push_back({LineKind::kSpring, attached(spring.from), attached(spring.to)});
+    for (const model::Load& load : mechanism_.loads) attached(load.frame);
+    for (std::size_t b = 0; b < mechanism_.bodies.size(); ++b)
+      if (!holds_something_[b]) stick(b, figure_.bodies[b].center);
+    return std::move(figure_);
+  }
+
+ private:
+  double number(const model::Expression& e) const { return e.evaluate<double>(parameters_); }
+
+  Numbers3 numbers(const model::Vector3& v) const { return {number(v[0]), number(v[1]), number(v[2])}; }
+
+  void add_body(std::size_t index) {
+    const model::Body& body = mechanism_.bodies[index];
+    model::Frame frame;
+    frame.name = fmt::format("figure_frame_{}", index);
+    frame.body = model::BodyIndex(index);
+    figure_.mechanism.frames.push_back(frame);
+    model::Output output;
+    output.name = fmt::format("figure_pose_{}", index);
+    output.kind = model::OutputKind::kPose;
+    output.frame = model::FrameIndex(figure_.mechanism.frames.size() - 1);
+    figure_.mechanism.outputs.push_back(output);
+    figure_.bodies.push_back({body.name, number(body.mass), numbers(body.center_of_mass)});
+    if (body.shape) add_shape(index, *body.shape);
+  }
+
+  void add_shape(std::size_t index, const model::Shape& shape) {
+    const model::Matrix3 R = model::rotation_from_rpy(numbers(mechanism_.bodies[index].inertia_axes.rpy));
+    figure_.shapes.push_back({index, shape.kind, figure_.bodies[index].center, R, numbers(shape.size),
+                              number(shape.radius), number(shape.length), shape.axis});
+  }
+
+  /// A line from the body's origin.
+  void stick(std::size_t body, const Numbers3& to) {
+    if (std::hypot(to[0], to[1], to[2]) == 0) return;
+    figure_.lines.push_back({LineKind::kBody, {body, {}}, {body, to}});
+  }
+
+  FigurePoint point(std::optional<model::BodyIndex> body, const model::Placement& placement) {
+    FigurePoint result{{}, numbers(placement.position)};
+    if (!body) return result;
+    result.body = body->value;
+    holds_something_[body->value] = true;
+    stick(body->value, result.position);
+    return result;
+  }
+
+  FigurePoint attached(model::FrameIndex index) {
+    const model::Frame& frame = mechanism_.frames[index.value];
+    return point(frame.body, frame.placement);
+  }
+
+  Numbers3 axis_in(const model::Placement& placement, const std::array<double, 3>& axis) const {
+    return model::product(model::rotation_from_rpy(numbers(placement.rotation.rpy)), unit(axis));
+  }
+
+  void add_joint(const model::Joint& joint) {
+    figure_.flies |= joint.type == JointType::kFree || joint.type == JointType::kSpherical;
+    if (joint.type == JointType::kFree) return;
+    FigureJoint drawn{
+        point(joint.parent, joint.placement), {}, turns(joint.type), slides(joint.type), joint.child.value};
+    if (has_axis(joint.type)) drawn.axis = axis_in(joint.placement, joint.axis);
+    figure_.joints.push_back(drawn);
+    if (!drawn.turns || drawn.slides || joint.type == JointType::kPlanar || joint.type == JointType::kScrew)
+      figure_.lines.push_back({LineKind::kSlide, drawn.at, {joint.child.value, {}}});
+  }
+
+  void add_loop(const model::Loop& loop) {
+    if (loop.type == model::LoopType::kResidual) return;
+    const FigurePoint from = attached(loop.from), to = attached(loop.to);
+    const bool is_rod = loop.type == model::LoopType::kRod;
+    figure_.lines.push_back({is_rod ? LineKind::kBody : LineKind::kSlide, from, to});
+    for (const FigurePoint& end : {from, to}) figure_.joints.push_back({end, {}, true, false, {}});
+  }
+
+  const Mechanism& mechanism_;
+  const std::vector<double>& parameters_;
+  Figure figure_;
+  std::vector<bool> holds_something_;  // by body
+};
+
+}  // namespace
+
+Figure make_figure(const Mechanism& mechanism, const std::vector<double>& parameters) {
+  return FigureMaker(mechanism, parameters).make();
+}
+
+}  // namespace jourdain::report

@@ -1,0 +1,77 @@
+#include "validate/loops/exact_state.hpp"
+
+#include <algorithm>
+
+#include "validate/tree_oracle.hpp"
+
+namespace jourdain::validate {
+
+using ir::LeafKind;
+
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+}  // namespace
+
+ExactClosure::ExactClosure(const model::Mechanism& mechanism, const dynamics::Equations& closures,
+                           const loops::LoopPlan& plan)
+    : closures_(closures), plan_(plan) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  tangent_ = model::tangent_of(mechanism, layout);
+  velocities_ = layout.velocity_count();
+  for (std::size_t k = 0; plan.is_reduced() && k < velocities_; ++k)
+    if (std::find(plan.independent.begin(), plan.independent.end(), k) == plan.independent.end())
+      dependents_.push_back(k);
+}
+
+dynamics::ClosureJacobian ExactClosure::jacobian(const ir::LeafValues<ScaledReal>& state) const {
+  return dynamics::closure_jacobian(closures_, tangent_, velocities_, leaves_at(state));
+}
+
+dynamics::ClosureMotion ExactClosure::motion(const ir::LeafValues<ScaledReal>& state,
+                                             const std::vector<ScaledReal>& z) const {
+  return dynamics::closure_motion(closures_, tangent_, z, leaves_at(state));
+}
+
+ExactVector ExactClosure::g(const ir::LeafValues<ScaledReal>& state) const {
+  return to_exact(dynamics::closure_values(closures_, leaves_at(state)));
+}
+
+std::vector<ScaledReal> ExactClosure::displaced(std::vector<ScaledReal> y, const ExactVector& d) const {
+  for (const model::Tangent::Scalar& s : tangent_.scalars) y[s.position] += d[at(s.velocity)];
+  for (const model::Tangent::Scalar& s : tangent_.quaternions) {
+    const ExactVector half = d.segment(at(s.velocity), 3) / ScaledReal(2);
+    if (half == ExactVector::Zero(3)) continue;
+    const ScaledReal w = y[s.position], v[3] = {y[s.position + 1], y[s.position + 2], y[s.position + 3]};
+    ScaledReal p[4] = {w - v[0] * half[0] - v[1] * half[1] - v[2] * half[2]};
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Eigen::Index l = (k + 1) % 3, m = (k + 2) % 3;
+      p[1 + k] = v[k] + w * half[k] + v[l] * half[m] - v[m] * half[l];
+    }
+    ScaledReal square;
+    for (const ScaledReal& entry : p) square += entry * entry;
+    for (std::size_t k = 0; k < 4; ++k) y[s.position + k] = p[k] / sqrt(square);
+  }
+  return y;
+}
+
+ir::LeafValues<ScaledReal> ExactClosure::closed(ir::LeafValues<ScaledReal> state) const {
+  constexpr int kSteps = 12;
+  const ScaledReal enough = 1e-70;
+  for (int i = 0; i < kSteps && !dependents_.empty(); ++i) {
+    const dynamics::ClosureJacobian at_state = jacobian(state);
+    const ExactVector open = to_exact(at_state.g)(plan_.rows);
+    if (open.cwiseAbs().maxCoeff() < enough) break;
+    const ExactMatrix D = to_exact(at_state.G, velocities_)(plan_.rows, dependents_);
+    const ExactVector change = solved(D, -open);
+    ExactVector d = ExactVector::Zero(at(velocities_));
+    d(dependents_) = change;
+    state[LeafKind::kPosition] = displaced(state[LeafKind::kPosition], d);
+  }
+  // Its rounding is that of a closed state, not of the way to it.
+  for (ScaledReal& entry : state[LeafKind::kPosition]) entry = entry.forgetting();
+  return state;
+}
+
+}  // namespace jourdain::validate

@@ -1,0 +1,55 @@
+// States of a mechanism with loops in 77 digits: closing them, moving along them.
+#pragma once
+
+#include <vector>
+
+#include "dynamics/closure_motion.hpp"
+#include "loops/record/loop_plan.hpp"
+#include "model/coordinates.hpp"
+#include "reference/exact_algebra.hpp"
+#include "validate/programs.hpp"
+
+namespace jourdain::validate {
+
+using reference::determinant;
+using reference::ExactMatrix;
+using reference::ExactVector;
+using reference::solved;
+using reference::to_exact;
+using reference::to_list;
+
+using support::ScaledReal;
+
+/// The constraints of a mechanism, from their symbolic statements. It refers to what it is made from.
+class ExactClosure {
+ public:
+  ExactClosure(const model::Mechanism& mechanism, const dynamics::Equations& closures,
+               const loops::LoopPlan& plan);
+
+  const model::Tangent& tangent() const { return tangent_; }
+  std::size_t velocity_count() const { return velocities_; }
+  /// Velocities that depend on others.
+  const std::vector<std::size_t>& dependents() const { return dependents_; }
+
+  /// g, G and g_t
+  dynamics::ClosureJacobian jacobian(const ir::LeafValues<ScaledReal>& state) const;
+  /// g and its rates at a state of the tree with all velocities `z`.
+  dynamics::ClosureMotion motion(const ir::LeafValues<ScaledReal>& state,
+                                 const std::vector<ScaledReal>& z) const;
+  ExactVector g(const ir::LeafValues<ScaledReal>& state) const;
+
+  /// The positions moved by a displacement of all velocities: q ⊗ (1, d/2), brought to unit length.
+  std::vector<ScaledReal> displaced(std::vector<ScaledReal> y, const ExactVector& displacement) const;
+
+  /// The state with dependent positions that close plan.rows, by Newton's method from where they are.
+  ir::LeafValues<ScaledReal> closed(ir::LeafValues<ScaledReal> state) const;
+
+ private:
+  const dynamics::Equations& closures_;
+  const loops::LoopPlan& plan_;
+  model::Tangent tangent_;
+  std::size_t velocities_;
+  std::vector<std::size_t> dependents_;
+};
+
+}  // namespace jourdain::validate

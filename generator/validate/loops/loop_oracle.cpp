@@ -1,0 +1,248 @@
+#include "validate/loops/loop_oracle.hpp"
+
+#include <algorithm>
+
+#include "loops/plan/schur_solution.hpp"
+#include "loops/rows/regular_rows.hpp"
+#include "validate/tree_oracle.hpp"
+
+namespace jourdain::validate {
+
+using dynamics::OutputValues;
+using ir::LeafKind;
+
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// J_t, J_r, v̄, ω̄, ā, ζ̄ of the tree in terms of the independent velocities.
+void reduce(std::vector<ExactMatrix>& jacobian, const ExactMotion& e) {
+  for (std::size_t k : {0, 1}) {
+    jacobian[2 + k] += jacobian[k] * e.b;
+    jacobian[4 + k] += jacobian[k] * e.beta;
+    jacobian[k] = ExactMatrix(jacobian[k] * e.B);
+  }
+}
+
+ExactMatrix values_of(const OutputValues& member, const dynamics::HighPrecision& exact) {
+  ExactMatrix values(member.rows, member.columns);
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    for (Eigen::Index j = 0; j < values.cols(); ++j)
+      values(i, j) = exact.value(member.values[static_cast<std::size_t>(i * values.cols() + j)]);
+  return values;
+}
+
+}  // namespace
+
+LoopOracle::LoopOracle(const LoopScene& scene, const Point& point)
+    : scene_(scene), point_(point), e_(exact_motion(scene, point.exact)) {}
+
+std::vector<Expected> LoopOracle::operator()(const ir::Program& program) const {
+  const std::string& name = program.name;
+  const auto one = [](const char* oracle, std::vector<ScaledReal> values) {
+    return std::vector<Expected>{{oracle, std::move(values)}};
+  };
+  const auto rates = [](const LoopOracle& o) { return o.accelerations(); };
+  constexpr const char* kAccelerations = "the accelerations of the constrained system";
+  if (name == "initial_state") return one("the assembled start", start(program));
+  if (name == "position_rate") return one("Z z of the equations, z as the loops allow", position_rate());
+  if (name == "mass_matrix") return one("B^T M B", mass_entries(program));
+  if (name == "k_bar")
+    return one("B^T (k_bar - M beta)", to_list(e_.B.transpose() * (e_.k - e_.M * e_.beta)));
+  if (name == "q_bar") return one("B^T q_bar", to_list(e_.B.transpose() * e_.q));
+  if (name == "forward_dynamics") return one(kAccelerations, to_list(accelerations()));
+  if (name == "residual") return one("B^T (M zdot - k_bar + q_bar + G^T lambda)", to_list(residual()));
+  if (name == "inverse_dynamics")
+    return one("B^T (M zdot - k_bar + q_bar) without inputs",
+               to_list(e_.B.transpose() * (e_.M * of_tree(to_exact(point_.exact[LeafKind::kAcceleration])) -
+                                           e_.k + e_.q_without_inputs)));
+  if (name == "kinetic_energy") return one("T of the equations", {e_.kinetic_energy});
+  if (name == "potential_energy") return one("V of the equations", {e_.potential_energy});
+  if (name == "constraint_residual") {
+    std::vector<ScaledReal> rows = to_list(e_.g);
+    rows.insert(rows.end(), e_.rate.data(), e_.rate.data() + e_.rate.size());
+    return one("g and its rate, of the constraints", rows);
+  }
+  if (name == "constraint_forces")
+    return one("the multipliers of the constrained system", to_list(multipliers(of_tree(accelerations()))));
+  if (name == "outputs") return one("outputs of the constrained system", outputs());
+  if (name == "residual_derivatives")
+    return {{"B^T M B", mass_entries(program)},
+            {"differences of the residual", change([](const LoopOracle& o) { return o.residual(); }, true),
+             true}};
+  if (name == "forward_dynamics_derivatives")
+    return {{kAccelerations, to_list(accelerations())},
+            {"differences of the accelerations of the constrained system", change(rates, false), true}};
+  if (name == "linearize") {
+    std::vector<ScaledReal> rows = displacement_rate();
+    const std::vector<ScaledReal> below = change(rates, true);
+    rows.insert(rows.end(), below.begin(), below.end());
+    return {{"differences of the constrained system", rows, true},
+            {"differences of the outputs of the constrained system",
+             change([](const LoopOracle& o) { return to_exact(o.outputs()); }, true), true}};
+  }
+  JD_CHECK(false, "no oracle for '{}'", name);
+  return {};
+}
+
+LoopOracle::Constrained LoopOracle::constrained(const std::vector<std::size_t>& rows) const {
+  constexpr double kRedundant = 1e3;
+  const loops::LoopPlan& plan = scene_.plan;
+  const bool all = rows.size() != plan.solved_rows().size();
+  const double size = all ? kRedundant * plan.closing_regularisation : plan.regularisation;
+  const ExactMatrix G = e_.G(rows, Eigen::all);
+  ExactMatrix right(e_.M.rows(), G.rows() + 1);
+  right << G.transpose(), e_.k - e_.q;
+  const ExactMatrix solution = solved(e_.M, right);
+  const ExactMatrix back = solution.leftCols(G.rows());
+  const ExactVector free = solution.rightCols(1);
+  const ScaledReal s = plan.stabilisation, twice = 2 * plan.stabilisation,
+                   square = plan.stabilisation * plan.stabilisation;
+  const ExactVector c = G * free + e_.gamma(rows) + twice * e_.rate(rows) + square * e_.g(rows);
+  const loops::SchurSolution schur(plan, rows, G * back, size);
+  const ExactVector lambda = schur.corrected(c, all ? 2 : plan.corrections);
+  return {free - back * lambda, lambda};
+}
+
+ExactVector LoopOracle::accelerations() const {
+  if (!scene_.plan.is_reduced()) return constrained(scene_.plan.solved_rows()).zdot;
+  if (e_.B.cols() == 0) return ExactVector(0);
+  return solved(e_.B.transpose() * e_.M * e_.B, e_.B.transpose() * (e_.k - e_.q - e_.M * e_.beta));
+}
+
+ExactVector LoopOracle::multipliers(const ExactVector& zdot) const {
+  ExactVector lambda = ExactVector::Zero(e_.G.rows());
+  const loops::LoopPlan& plan = scene_.plan;
+  if (plan.is_reduced()) {
+    const auto& columns = scene_.closure.dependents();
+    if (columns.empty()) return lambda;
+    const ExactVector missing = e_.k - e_.q - e_.M * zdot;
+    const ExactMatrix D = e_.G(plan.rows, columns);
+    const ExactVector solution = solved(D.transpose(), ExactVector(missing(columns)));
+    lambda(plan.rows) = solution;
+    return lambda;
+  }
+  const std::vector<std::size_t> rows =
+      plan.sharing.empty() ? loops::all_but(plan.disagreeing, static_cast<std::size_t>(e_.G.rows()))
+                           : plan.solved_rows();
+  const ExactVector found = constrained(rows).lambda;
+  lambda(rows) = found;
+  return lambda;
+}
+
+ExactVector LoopOracle::residual() const {
+  const ExactVector given = to_exact(point_.exact[LeafKind::kAcceleration]);
+  const ExactVector r = e_.B.transpose() * (e_.M * of_tree(given) - e_.k + e_.q);
+  if (scene_.plan.is_reduced()) return r;
+  const std::vector<std::size_t> rows = scene_.plan.solved_rows();
+  return r + e_.G(rows, Eigen::all).transpose() * constrained(rows).lambda;
+}
+
+std::vector<ScaledReal> LoopOracle::position_rate() const {
+  const model::Tangent& tangent = scene_.closure.tangent();
+  const std::vector<ScaledReal>& y = point_.exact[LeafKind::kPosition];
+  std::vector<ScaledReal> rate(y.size());
+  for (const model::Tangent::Scalar& s : tangent.scalars) rate[s.position] = e_.z[at(s.velocity)];
+  for (const model::Tangent::Scalar& s : tangent.quaternions) {
+    const ScaledReal* q = &y[s.position];
+    const ExactVector omega = e_.z.segment(at(s.velocity), 3) / ScaledReal(2);
+    rate[s.position] = -(q[1] * omega[0] + q[2] * omega[1] + q[3] * omega[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+      rate[s.position + 1 + k] = q[0] * omega[at(k)] + q[1 + l] * omega[at(m)] - q[1 + m] * omega[at(l)];
+    }
+  }
+  return rate;
+}
+
+std::vector<ScaledReal> LoopOracle::outputs() const {
+  ir::LeafValues<ScaledReal> tree = point_.exact;
+  const ExactVector zdot = of_tree(accelerations());
+  tree[LeafKind::kVelocity] = to_list(e_.z);
+  tree[LeafKind::kAcceleration] = to_list(zdot);
+  tree[LeafKind::kMultiplier] = to_list(multipliers(zdot));
+  const dynamics::HighPrecision exact(scene_.equations.statements, leaves_at(tree));
+  std::vector<ScaledReal> numbers;
+  for (std::size_t k = 0; k < scene_.mechanism.outputs.size(); ++k) {
+    std::vector<ExactMatrix> members;
+    for (const OutputValues& member : scene_.equations.outputs[k])
+      members.push_back(values_of(member, exact));
+    if (scene_.plan.is_reduced() && scene_.mechanism.outputs[k].kind == model::OutputKind::kJacobian)
+      reduce(members, e_);
+    for (const ExactMatrix& member : members)
+      for (Eigen::Index i = 0; i < member.rows(); ++i)
+        for (Eigen::Index j = 0; j < member.cols(); ++j) numbers.push_back(member(i, j));
+  }
+  return numbers;
+}
+
+std::vector<ScaledReal> LoopOracle::mass_entries(const ir::Program& program) const {
+  const ExactMatrix M = e_.B.transpose() * e_.M * e_.B;
+  std::vector<ScaledReal> values;
+  for (const ir::Output& output : program.outputs)
+    if (output.name == "M") values.push_back(M(output.row, output.column));
+  return values;
+}
+
+std::vector<ScaledReal> LoopOracle::start(const ir::Program& program) const {
+  const loops::LoopPlan& plan = scene_.plan;
+  std::vector<ScaledReal> values;
+  for (const ir::Output& output : program.outputs) {
+    const auto i = static_cast<std::size_t>(output.row);
+    const std::size_t velocity = plan.is_reduced() && output.name == "z" ? plan.independent[i] : i;
+    values.push_back(output.name == "y" ? plan.y[i] : plan.z[velocity]);
+  }
+  return values;
+}
+
+/// Of a coordinate the velocity's change; of a rotation δθ̇ = δω − ω × δθ.
+std::vector<ScaledReal> LoopOracle::displacement_rate() const {
+  const dynamics::ExactDirection& d = point_.direction;
+  std::vector<ScaledReal> rate = d.velocity;
+  const std::vector<std::size_t>& independent = scene_.plan.independent;
+  const auto place = [&](std::size_t velocity) {
+    if (!scene_.plan.is_reduced()) return velocity;
+    return static_cast<std::size_t>(std::find(independent.begin(), independent.end(), velocity) -
+                                    independent.begin());
+  };
+  for (const model::Tangent::Scalar& s : scene_.closure.tangent().quaternions) {
+    const std::size_t first = place(s.velocity);
+    for (std::size_t k = 0; k < 3 && first < rate.size(); ++k) {
+      const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
+      rate[first + k] -= e_.z[at(s.velocity + j)] * d.displacement[first + l] -
+                         e_.z[at(s.velocity + l)] * d.displacement[first + j];
+    }
+  }
+  return rate;
+}
+
+template <class Numbers>
+std::vector<ScaledReal> LoopOracle::change(const Numbers& numbers, bool with_inputs_and_time) const {
+  const ScaledReal h(cln::expt(cln::cl_RA(2), -84));  // (2^-84)^2 and 2^-256 / 2^-84 are both far below 1e-40
+  const auto moved = [&](const ScaledReal& step) {
+    const dynamics::ExactDirection& d = point_.direction;
+    Point there = point_;
+    ExactVector displacement = ExactVector::Zero(at(scene_.closure.velocity_count()));
+    const auto entry = [&](std::size_t j) {
+      return at(scene_.plan.is_reduced() ? scene_.plan.independent[j] : j);
+    };
+    for (std::size_t j = 0; j < d.velocity.size(); ++j) {
+      displacement[entry(j)] = step * d.displacement[j];
+      there.exact[LeafKind::kVelocity][j] += step * d.velocity[j];
+    }
+    std::vector<ScaledReal>& y = there.exact[LeafKind::kPosition];
+    y = scene_.closure.displaced(y, displacement);
+    for (std::size_t j = 0; with_inputs_and_time && j < d.input.size(); ++j)
+      there.exact[LeafKind::kInput][j] += step * d.input[j];
+    if (with_inputs_and_time) there.exact[LeafKind::kTime][0] += step * d.time;
+    there.exact = scene_.closure.closed(std::move(there.exact));
+    return to_list(numbers(LoopOracle(scene_, there)));
+  };
+  const std::vector<ScaledReal> above = moved(h), below = moved(-h);
+  std::vector<ScaledReal> rates;
+  for (std::size_t i = 0; i < above.size(); ++i)
+    rates.push_back(((above[i] - below[i]) / (h + h)).forgetting().with_scale(above[i].scale()));
+  return rates;
+}
+
+}  // namespace jourdain::validate
