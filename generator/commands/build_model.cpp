@@ -15,6 +15,8 @@
 
 namespace jourdain::commands {
 
+using ir::FunctionId;
+
 namespace {
 
 struct NumberText {
@@ -52,21 +54,19 @@ std::string stepper_struct(const std::string& name, const programs::Stepper& ste
       stepper.implicit);
 }
 
-bool has(const CompiledModel& compiled, const std::string& function) {
-  for (const programs::FunctionInfo& info : compiled.functions)
-    if (info.name == function) return true;
-  return false;
+bool has(const CompiledModel& compiled, FunctionId function) {
+  return std::any_of(compiled.functions.begin(), compiled.functions.end(),
+                     [&](const programs::FunctionInfo& info) { return info.id == function; });
 }
 
-long operations_of(const CompiledModel& compiled, const std::string& function) {
-  for (const ir::Program& program : compiled.module.functions)
-    if (program.name == function) return static_cast<long>(ir::count_operations(program).arithmetic());
-  return 0;
+long operations_of(const CompiledModel& compiled, FunctionId function) {
+  const ir::Program* program = ir::find_program(compiled.module, function);
+  return program ? static_cast<long>(ir::count_operations(*program).arithmetic()) : 0;
 }
 
 /// The table's functions of a mechanism with loops; empty without.
 std::string loop_functions(const std::string& name, const CompiledModel& compiled) {
-  const char* correction = compiled.shape.correction();
+  const char* correction = programs::correction(compiled.facts);
   if (!*correction) return "";
   return fmt::format(
       "\nvoid constraint_residual(const double* t, const double* y, const double* z, double* g, double* "
@@ -84,40 +84,39 @@ std::string loop_functions(const std::string& name, const CompiledModel& compile
 /// Arrays of length zero are no members of the emitted structs.
 std::string shim(const std::string& name, const NumberText& number, const CompiledModel& compiled) {
   const auto copy = [](std::size_t count, const char* line) { return std::string(count > 0 ? line : ""); };
-  const programs::SceneShape& shape = compiled.shape;
-  const long dynamics = operations_of(compiled, "forward_dynamics");
-  const long rate = operations_of(compiled, "position_rate");
+  const programs::SceneFacts& scene = compiled.facts;
+  const long dynamics = operations_of(compiled, FunctionId::kForwardDynamics);
+  const long rate = operations_of(compiled, FunctionId::kPositionRate);
   std::string steppers, methods;
   int method_count = 0;
   for (const programs::FunctionInfo& function : compiled.functions) {
     if (!function.stepper) continue;
     const programs::Stepper& s = *function.stepper;
     steppers += stepper_struct(name, s);
-    methods += fmt::format(
-        "\n    {{\"{0}\", {1}, {2}, {3}, {4}, {5}L, steps<{0}_method>}},", s.name,
-        s.order_with(compiled.all_derivatives), s.evaluations, s.history, int(s.implicit),
-        emit::step_operations({shape, compiled.tangent, compiled.all_derivatives}, s, compiled.module));
+    methods += fmt::format("\n    {{\"{0}\", {1}, {2}, {3}, {4}, {5}L, steps<{0}_method>}},", s.name,
+                           s.order_with(scene.all_derivatives), s.evaluations, s.history, int(s.implicit),
+                           emit::step_operations(scene, s, compiled.module));
     ++method_count;
   }
   std::string parameters;
-  for (std::size_t i = 0; i < compiled.parameter_names.size(); ++i)
+  for (std::size_t i = 0; i < scene.parameters.size(); ++i)
     parameters +=
-        fmt::format("  parameters.{} = joined<Real>(values + {} * parts);\n", compiled.parameter_names[i], i);
+        fmt::format("  parameters.{} = joined<Real>(values + {} * parts);\n", scene.parameters[i].name, i);
   std::string rates, inverse, outputs;
-  if (shape.velocities > 0) {
+  if (!scene.velocities.empty()) {
     rates = "  const State state = to_state(t, y, z);\n  Real zd[Model::velocity_count];\n";
     rates += fmt::format("  ::{}::forward_dynamics(model(), state, to_input(u), zd);\n", name);
     rates += "  write(zd, zdot, Model::velocity_count);\n";
     rates += fmt::format(
         "  Real yd[Model::position_count];\n  ::{}::detail::velocities(model(), state, yd);\n", name);
     rates += "  write(yd, ydot, Model::position_count);\n";
-  } else if (has(compiled, "position_rate")) {
+  } else if (has(compiled, FunctionId::kPositionRate)) {
     rates = fmt::format(
         "  Real yd[Model::position_count];\n  ::{}::position_rate(model(), to_state(t, y, z), yd);\n", name);
     rates += "  write(yd, ydot, Model::position_count);\n";
   }
   const bool is_long = number.parts > 1;
-  const bool with_derivatives = !is_long && has(compiled, "forward_dynamics_derivatives");
+  const bool with_derivatives = !is_long && has(compiled, FunctionId::kForwardDynamicsDerivatives);
   std::string derivatives;
   if (with_derivatives)
     derivatives = fmt::format(
@@ -128,14 +127,14 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
         "  ::{}::forward_dynamics_derivatives(model(), to_state(t, y, z), to_input(u), zd, by_y, by_z);\n"
         "  write(*by_y, zdot_y, nz * nz);\n  write(*by_z, zdot_z, nz * nz);\n}}\n\n",
         name);
-  if (has(compiled, "inverse_dynamics"))
+  if (has(compiled, FunctionId::kInverseDynamics))
     inverse = fmt::format(
         "  Real zd[Model::velocity_count], forces[Model::velocity_count];\n"
         "  read(zd, zdot, Model::velocity_count);\n"
         "  ::{}::inverse_dynamics(model(), to_state(t, y, z), zd, forces);\n"
         "  write(forces, tau, Model::velocity_count);\n",
         name);
-  const bool with_outputs = has(compiled, "outputs");
+  const bool with_outputs = has(compiled, FunctionId::kOutputs);
   if (with_outputs)
     outputs = fmt::format(
         "\n// An Outputs is numbers only, one after the other.\n"
@@ -150,11 +149,11 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
        {"REAL", number.type},
        {"INCLUDE", number.include},
        {"PARTS", fmt::format("{}", number.parts)},
-       {"READ_STATE", copy(shape.positions, "  read(state.y, y, Model::position_count);\n") +
-                          copy(shape.velocities, "  read(state.z, z, Model::velocity_count);\n")},
-       {"WRITE_STATE", copy(shape.positions, "  write(state.y, y, Model::position_count);\n") +
-                           copy(shape.velocities, "  write(state.z, z, Model::velocity_count);\n")},
-       {"READ_INPUT", copy(shape.inputs, "  if (u) read(input.u, u, Model::input_count);\n")},
+       {"READ_STATE", copy(scene.positions.size(), "  read(state.y, y, Model::position_count);\n") +
+                          copy(scene.velocities.size(), "  read(state.z, z, Model::velocity_count);\n")},
+       {"WRITE_STATE", copy(scene.positions.size(), "  write(state.y, y, Model::position_count);\n") +
+                           copy(scene.velocities.size(), "  write(state.z, z, Model::velocity_count);\n")},
+       {"READ_INPUT", copy(scene.inputs.size(), "  if (u) read(input.u, u, Model::input_count);\n")},
        {"READ_PARAMETERS", parameters},
        {"STEPPERS", steppers},
        {"RATES", rates},
@@ -164,7 +163,7 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
        {"OUTPUTS", outputs},
        {"LOOPS", loop_functions(name, compiled)},
        {"LOOP_ENTRIES",
-        shape.constraints == 0
+        scene.constraints.empty()
             ? "0, nullptr, nullptr, nullptr, 0, 0, nullptr"
             : fmt::format("Model::constraint_count, ::{}::constraint_names, constraint_residual, "
                           "correct, Model::least_regularity, Model::greatest_opening, closing",
@@ -188,9 +187,12 @@ std::vector<std::string> compiler() {
 }  // namespace
 
 std::vector<std::string> loadable_functions(const std::vector<std::string>& steppers) {
-  std::vector<std::string> functions = {
-      "initial_state",    "position_rate", "forward_dynamics", "inverse_dynamics", "kinetic_energy",
-      "potential_energy", "outputs",       "close_loops",      "project",          "constraint_residual"};
+  std::vector<std::string> functions;
+  for (const FunctionId function :
+       {FunctionId::kInitialState, FunctionId::kPositionRate, FunctionId::kForwardDynamics,
+        FunctionId::kInverseDynamics, FunctionId::kKineticEnergy, FunctionId::kPotentialEnergy,
+        FunctionId::kOutputs, FunctionId::kCloseLoops, FunctionId::kProject, FunctionId::kConstraintResidual})
+    functions.push_back(ir::name_of(function));
   for (const std::string& stepper : steppers) functions.push_back(stepper + "_step");
   return functions;
 }
@@ -211,7 +213,7 @@ constexpr long kLongestOptimised = 2000;
 long largest_function(const CompiledModel& compiled) {
   std::size_t largest = 0;
   for (const ir::Program& program : compiled.module.functions)
-    if (program.name != "forward_dynamics_derivatives")
+    if (program.name != ir::name_of(FunctionId::kForwardDynamicsDerivatives))
       largest = std::max(largest, ir::count_operations(program).arithmetic());
   return static_cast<long>(largest);
 }

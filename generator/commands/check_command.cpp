@@ -17,7 +17,7 @@ int run(const ModelArguments& arguments) {
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
   fmt::print("ok: {}: {} bodies, {}, {} inputs; backward error {:.1e}, cond(M) up to {}\n",
              loaded->options.name, loaded->mechanism.bodies.size(), freedom_text(*loaded),
-             compiled.shape.inputs, compiled.verdict.backward_error,
+             compiled.facts.inputs.size(), compiled.verdict.backward_error,
              validate::condition_text(compiled.verdict));
   if (const loops::LoopPlan* plan = loaded->plan())
     for (const std::string& sentence : loops::sentences(loaded->mechanism, *plan))

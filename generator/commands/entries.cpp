@@ -10,17 +10,11 @@ namespace {
 
 using model::JointType;
 
-std::vector<double> default_values(const model::Mechanism& mechanism) {
-  std::vector<double> values;
-  for (const model::Parameter& parameter : mechanism.parameters) values.push_back(parameter.value);
-  return values;
-}
-
 /// Entries of the tree's joints, in order; names are those of the layout.
 class TreeEntries {
  public:
   explicit TreeEntries(const model::Mechanism& mechanism)
-      : layout_(model::lay_out_coordinates(mechanism)), values_(default_values(mechanism)) {
+      : layout_(model::lay_out_coordinates(mechanism)), values_(model::default_values(mechanism)) {
     for (const model::JointIndex index : model::depth_first(mechanism)) {
       const model::Joint& joint = mechanism.joints[index.value];
       joint_ = index;
@@ -125,10 +119,10 @@ const char* velocity_unit(const model::Coordinate& coordinate) {
 const char* force_unit(const model::Coordinate& coordinate) { return coordinate.angular ? "N m" : "N"; }
 
 std::vector<OutputNumber> output_numbers(const model::Mechanism& mechanism,
-                                         const std::vector<emit::OutputDeclaration>& declared) {
+                                         const std::vector<programs::OutputFacts>& declared) {
   std::vector<OutputNumber> numbers;
   for (std::size_t k = 0; k < declared.size(); ++k)
-    for (const emit::OutputMember& member : declared[k].members)
+    for (const programs::OutputMember& member : declared[k].members)
       for (const std::string& name : emit::number_names(declared[k], member))
         numbers.push_back(
             {name, declared[k].name, output_unit(mechanism, mechanism.outputs[k], member.name)});

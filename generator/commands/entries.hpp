@@ -38,6 +38,6 @@ struct OutputNumber {
   std::string unit;    ///< "1" of rotation matrices; empty: the description does not say
 };
 std::vector<OutputNumber> output_numbers(const model::Mechanism& mechanism,
-                                         const std::vector<emit::OutputDeclaration>& declared);
+                                         const std::vector<programs::OutputFacts>& declared);
 
 }  // namespace jourdain::commands

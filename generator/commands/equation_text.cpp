@@ -7,6 +7,7 @@
 #include "emit/unique_names.hpp"
 #include "loops/record/loop_plan.hpp"
 #include "model/coordinates.hpp"
+#include "programs/tree_functions.hpp"
 
 namespace jourdain::commands {
 
@@ -205,8 +206,8 @@ std::string equations_text(const model::Mechanism& mechanism, bool latex) {
   if (equations.M.size() <= kExpandedCoordinates && has_expanded_form(mechanism))
     text += block("Expanded", expanded(equations, latex), latex);
   for (const ir::Program& program :
-       lower_functions(equations,
-                       programs::with_needed({"mass_matrix", "k_bar", "q_bar"}, shape_of(mechanism)))
+       programs::lower_functions(equations, programs::with_needed({"mass_matrix", "k_bar", "q_bar"},
+                                                                  programs::scene_facts(mechanism)))
            .functions)
     text += block(fmt::format("{} with named intermediates", program.name),
                   EquationPrinter(program, mechanism, latex).print(), latex);

@@ -36,7 +36,7 @@ struct LoadedMechanism {
 
   std::size_t freedom() const;  ///< degrees of freedom
   /// Generalized velocities of the emitted State: the independent ones, with multipliers all.
-  std::size_t velocity_count() const { return shape_of(mechanism, plan()).velocities; }
+  std::size_t velocity_count() const { return programs::scene_facts(mechanism, plan()).velocities.size(); }
   const loops::LoopPlan* plan() const { return options.loops ? &*options.loops : nullptr; }
 };
 

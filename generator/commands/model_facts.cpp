@@ -189,7 +189,7 @@ class Facts {
   }
 
   Json outputs() const {
-    const std::vector<OutputNumber> numbers = output_numbers(mechanism_, compiled_.outputs);
+    const std::vector<OutputNumber> numbers = output_numbers(mechanism_, compiled_.facts.outputs);
     Json list = Json::array();
     for (const model::Output& output : mechanism_.outputs) {
       Json rows = Json::array();

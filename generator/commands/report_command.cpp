@@ -229,7 +229,7 @@ int run(Arguments arguments) {
   flow.set_start(inputs->start);
   if (!check_closed(*model, flow)) return kModelWrong;
   const studies::Study study =
-      make_study(arguments, *model, *inputs, compiled.tangent, flow, long_table, free, bar);
+      make_study(arguments, *model, *inputs, compiled.facts.tangent, flow, long_table, free, bar);
   write_report(arguments, folder, head_of(arguments, model->loaded, inputs->what), flow, study, figure, bar);
   return kSuccess;
 }

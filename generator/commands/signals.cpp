@@ -31,7 +31,7 @@ bool matches(std::string_view pattern, std::string_view text) {
 
 }  // namespace
 
-Signals::Signals(const LoadedMechanism& loaded, const std::vector<emit::OutputDeclaration>& outputs) {
+Signals::Signals(const LoadedMechanism& loaded, const std::vector<programs::OutputFacts>& outputs) {
   const Entries entries = entries_of(loaded);
   positions_ = entries.positions.size();
   state_ = positions_ + entries.velocities.size();

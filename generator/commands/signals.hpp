@@ -20,7 +20,7 @@ struct Signal {
 /// time or an energy gets its kind appended, and a number where that is a name, too.
 class Signals {
  public:
-  Signals(const LoadedMechanism& loaded, const std::vector<emit::OutputDeclaration>& outputs);
+  Signals(const LoadedMechanism& loaded, const std::vector<programs::OutputFacts>& outputs);
 
   const std::vector<Signal>& list() const { return list_; }
   /// Which names are not what one would expect, a sentence each.

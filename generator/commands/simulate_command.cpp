@@ -223,7 +223,7 @@ int run(const Arguments& arguments) {
   options.functions = loadable_functions({arguments.method});
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
-  const Signals signals(model->loaded, compiled.outputs);
+  const Signals signals(model->loaded, compiled.facts.outputs);
   for (const std::string& sentence : signals.renamed()) fmt::print(stderr, "note: {}\n", sentence);
   const std::optional<Selection> selection = select(signals, arguments.outputs, *plot);
   if (!selection) return kUsage;
@@ -244,7 +244,7 @@ int run(const Arguments& arguments) {
       Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(steps, csv);
   if (result.breach) {
     fmt::print(stderr, "{}",
-               breach_text(flow, compiled.tangent, *result.breach, arguments.method, arguments.step));
+               breach_text(flow, compiled.facts.tangent, *result.breach, arguments.method, arguments.step));
     return kModelWrong;
   }
   const std::string picture =

@@ -30,6 +30,10 @@ struct CompileOptions {
   std::optional<loops::LoopPlan> loops;  ///< of a mechanism with loops; none: planned by `compile`
   bool clock = false;                    ///< states hold the time though nothing depends on it
   bool damping = true;  ///< printed as an assumption when joint damping was switched off on reading
+
+  programs::SceneWishes wishes() const {
+    return {clock, derivative_terms == programs::DerivativeTerms::kAll};
+  }
 };
 
 /// What one simplification saved, counted by switching it off.
@@ -40,12 +44,7 @@ struct Omission {
 };
 
 struct CompiledModel {
-  programs::SceneShape shape;
-  model::Tangent tangent;               ///< of the independent coordinates
-  std::vector<std::size_t> dependents;  ///< entries of y that close_loops sets
-  bool all_derivatives = true;
-  std::vector<std::string> parameter_names;      ///< as in the emitted Parameters
-  std::vector<emit::OutputDeclaration> outputs;  ///< as in the emitted Outputs; filled in with `files`
+  programs::SceneFacts facts;
   Articulation articulation;
   std::vector<programs::FunctionInfo> functions;
   ir::Module module;
@@ -70,11 +69,5 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& o
 /// `model.verdict` says why.
 void validate_and_emit(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                        const CompileOptions& options, CompiledModel& model);
-
-programs::SceneShape shape_of(const model::Mechanism& mechanism, const loops::LoopPlan* plan = nullptr);
-
-/// Equations lowered to one program per function that holds no derivatives, before any pass.
-ir::Module lower_functions(const dynamics::Equations& equations,
-                           const std::vector<programs::FunctionInfo>& functions);
 
 }  // namespace jourdain

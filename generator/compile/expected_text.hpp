@@ -1,4 +1,4 @@
-// What the finished files must say, taken from the mechanism and its plan; not from what was handed to the emitter.
+// What the finished files must say, taken from the facts of the scene and the plan; not from what was handed to the emitter.
 #pragma once
 
 #include "compile/compile.hpp"
@@ -8,6 +8,6 @@ namespace jourdain {
 
 /// Without the module.
 readback::Expected expected_text(const model::Mechanism& mechanism, const CompileOptions& options,
-                                 const dynamics::Equations& equations, const CompiledModel& compiled);
+                                 const CompiledModel& compiled);
 
 }  // namespace jourdain

@@ -1,5 +1,7 @@
 #include "compile/module_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "ir/verify.hpp"
@@ -11,31 +13,41 @@ using ir::LeafKind;
 namespace {
 
 /// Leaves that the arguments of a function are.
-ir::LeafCounts leaves_of(const std::string& name, const programs::SceneShape& shape) {
+ir::LeafCounts leaves_of(const std::string& name, const programs::SceneFacts& scene) {
   const std::vector<programs::FunctionInfo>& all = programs::all_functions();
   const auto function =
       std::find_if(all.begin(), all.end(), [&](const programs::FunctionInfo& f) { return f.name == name; });
   ir::LeafCounts leaves;
   if (function == all.end() || function->shape == programs::Shape::kState) return leaves;
-  leaves[LeafKind::kPosition] = shape.positions;
-  leaves[LeafKind::kVelocity] = shape.velocities;
+  leaves[LeafKind::kPosition] = scene.positions.size();
+  leaves[LeafKind::kVelocity] = scene.velocities.size();
   leaves[LeafKind::kTime] = 1;
-  if (function->takes_input) leaves[LeafKind::kInput] = shape.inputs;
-  if (function->takes_acceleration) leaves[LeafKind::kAcceleration] = shape.velocities;
+  if (function->takes_input) leaves[LeafKind::kInput] = scene.inputs.size();
+  if (function->takes_acceleration) leaves[LeafKind::kAcceleration] = scene.velocities.size();
   return leaves;
+}
+
+/// Numbers of outputs are declared by their kinds, and derived.
+void compare_outputs(const ir::Module& module, const programs::SceneFacts& scene,
+                     std::vector<std::string>& list) {
+  const ir::Program* outputs = ir::find_program(module, ir::FunctionId::kOutputs);
+  if (outputs && outputs->outputs.size() != scene.output_numbers())
+    list.push_back(fmt::format("{} numbers of outputs are derived, {} declared", outputs->outputs.size(),
+                               scene.output_numbers()));
 }
 
 }  // namespace
 
-std::vector<std::string> module_defects(const ir::Module& module, const programs::SceneShape& shape,
-                                        std::size_t parameters) {
+std::vector<std::string> module_defects(const ir::Module& module, const programs::SceneFacts& scene) {
   ir::LeafCounts of_constants;
-  of_constants[LeafKind::kParameter] = parameters;
+  of_constants[LeafKind::kParameter] = scene.parameters.size();
   std::vector<std::string> list = ir::defects(module.constants, of_constants);
+  compare_outputs(module, scene, list);
   for (const ir::Program& program : module.functions) {
-    ir::LeafCounts leaves = leaves_of(program.name, shape);
+    ir::LeafCounts leaves = leaves_of(program.name, scene);
     leaves[LeafKind::kConstant] = module.constants.outputs.size();
-    if (module.constants.outputs.empty()) leaves[LeafKind::kParameter] = parameters;  // not hoisted yet
+    if (module.constants.outputs.empty())
+      leaves[LeafKind::kParameter] = scene.parameters.size();  // not hoisted yet
     for (std::string& sentence : ir::defects(program, leaves)) list.push_back(std::move(sentence));
   }
   return list;

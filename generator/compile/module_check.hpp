@@ -9,8 +9,7 @@
 
 namespace jourdain {
 
-/// What is wrong with the programs of a scene with that many parameters, in sentences; see ir::defects.
-std::vector<std::string> module_defects(const ir::Module& module, const programs::SceneShape& shape,
-                                        std::size_t parameters);
+/// What is wrong with the programs of a scene, in sentences; see ir::defects.
+std::vector<std::string> module_defects(const ir::Module& module, const programs::SceneFacts& scene);
 
 }  // namespace jourdain

@@ -6,8 +6,8 @@
 #include <functional>
 #include <utility>
 
-#include "model/coordinates.hpp"
 #include "model/snap.hpp"
+#include "programs/tree_functions.hpp"
 
 namespace jourdain {
 
@@ -41,14 +41,14 @@ const std::vector<Switch>& switches() {
 }
 
 std::size_t forward_operations(const ir::Module& module) {
-  for (const ir::Program& program : module.functions)
-    if (program.name == "forward_dynamics") return ir::count_operations(program).arithmetic();
-  return 0;
+  const ir::Program* program = ir::find_program(module, ir::FunctionId::kForwardDynamics);
+  return program ? ir::count_operations(*program).arithmetic() : 0;
 }
 
 /// forward_dynamics on its own, before any pass.
-ir::Module forward_module(const dynamics::Equations& equations, const programs::SceneShape& shape) {
-  return lower_functions(equations, programs::with_needed({"forward_dynamics"}, shape));
+ir::Module forward_module(const dynamics::Equations& equations, const programs::SceneFacts& scene) {
+  return programs::lower_functions(
+      equations, programs::with_needed({ir::name_of(ir::FunctionId::kForwardDynamics)}, scene));
 }
 
 std::size_t optimised_operations(const ir::Module& module, const CompileOptions& options) {
@@ -68,30 +68,28 @@ bool is_zero(const model::Vector3& v) { return v[0].is_zero() && v[1].is_zero() 
 
 /// What the mass matrix does not need.
 void describe_mass_matrix(const CompiledModel& compiled, std::vector<Omission>& list) {
-  for (const ir::Program& program : compiled.module.functions) {
-    if (program.name != "mass_matrix") continue;
-    bool constant = true, diagonal = true;
-    for (const ir::Output& output : program.outputs) {
-      const ir::Node& node = program[output.value];
-      const bool literal = node.op == ir::Op::kLiteral;
-      constant =
-          constant && (literal || node.leaf == ir::LeafKind::kConstant) && ir::operand_count(node.op) == 0;
-      diagonal = diagonal && (output.row == output.column || (literal && node.literal == 0));
-    }
-    if (diagonal) list.push_back({"coupling", "M is diagonal, nothing is factored", 0});
-    if (constant)
-      list.push_back({"factorisation", "M is constant, its factors are computed with the model", 0});
+  const ir::Program* program = ir::find_program(compiled.module, ir::FunctionId::kMassMatrix);
+  if (!program) return;
+  bool constant = true, diagonal = true;
+  for (const ir::Output& output : program->outputs) {
+    const ir::Node& node = (*program)[output.value];
+    const bool literal = node.op == ir::Op::kLiteral;
+    constant =
+        constant && (literal || node.leaf == ir::LeafKind::kConstant) && ir::operand_count(node.op) == 0;
+    diagonal = diagonal && (output.row == output.column || (literal && node.literal == 0));
   }
+  if (diagonal) list.push_back({"coupling", "M is diagonal, nothing is factored", 0});
+  if (constant)
+    list.push_back({"factorisation", "M is constant, its factors are computed with the model", 0});
 }
 
 /// Elements that the scene does not have: nothing to count, they never came in.
 std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledModel& compiled) {
   std::vector<Omission> list;
-  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  if (!compiled.shape.has_rate()) list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
-  if (!compiled.shape.time.any())
+  if (!compiled.facts.has_rate()) list.push_back({"Z", "dy/dt = z, so there is no position_rate", 0});
+  if (!compiled.facts.time.any())
     list.push_back({"t",
-                    compiled.shape.clock ? "nothing depends on time but what the caller gives"
+                    compiled.facts.clock ? "nothing depends on time but what the caller gives"
                                          : "nothing depends on time, states hold none",
                     0});
   const auto none = [&](auto member) {
@@ -102,7 +100,7 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
   };
   if (none(&model::Coordinate::stiffness)) list.push_back({"joint springs", "none", 0});
   if (none(&model::Coordinate::damping)) list.push_back({"joint dampers", "none", 0});
-  if (layout.input_count() == 0) list.push_back({"inputs", "none", 0});
+  if (compiled.facts.inputs.empty()) list.push_back({"inputs", "none", 0});
   if (mechanism.springs.empty() && mechanism.loads.empty() && mechanism.coordinate_forces.empty())
     list.push_back({"frame forces", "none", 0});
   if (mechanism.outputs.empty()) list.push_back({"outputs", "none asked for", 0});
@@ -113,7 +111,7 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
     const bool emitted =
         std::any_of(compiled.functions.begin(), compiled.functions.end(),
                     [&](const programs::FunctionInfo& f) { return f.name == function.name; });
-    if (!emitted && programs::has_function(function, compiled.shape))
+    if (!emitted && programs::has_function(function, compiled.facts))
       missing += (missing.empty() ? "" : ", ") + function.name;
   }
   if (!missing.empty()) list.push_back({"functions not asked for", missing, 0});
@@ -125,7 +123,7 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
 std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const CompileOptions& options,
                                      const dynamics::Equations& equations, const CompiledModel& compiled) {
   if (options.loops) return absent(mechanism, compiled);
-  const ir::Module lowered = forward_module(equations, compiled.shape);
+  const ir::Module lowered = forward_module(equations, compiled.facts);
   const long with = static_cast<long>(optimised_operations(lowered, options));
   std::vector<Omission> list;
   std::vector<Switch> all = switches();
@@ -137,7 +135,7 @@ std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const Co
     s.off(other, changed);
     const ir::Module module =
         s.only_pass ? lowered
-                    : forward_module(dynamics::derive_equations(other, changed.derivation), compiled.shape);
+                    : forward_module(dynamics::derive_equations(other, changed.derivation), compiled.facts);
     const long without = static_cast<long>(optimised_operations(module, changed));
     if (without != with) list.push_back({s.name, s.what, without - with});
   }

@@ -46,6 +46,7 @@ SlopePrecision moved_along(const ExactDirection& direction, const kinematics::St
         return {value, direction.input[i]};
       case LeafKind::kTime:
         return {value, direction.time};
+      case LeafKind::kConstant:
       case LeafKind::kParameter:
       case LeafKind::kAcceleration:
       case LeafKind::kMultiplier:

@@ -18,8 +18,9 @@ namespace {
 
 /// For each velocity those before it that W couples it with: where M or a derivative of the residual has an entry, where
 /// rotations mix columns, and what fills in when rows are eliminated from the last on.
-std::vector<std::vector<std::size_t>> couplings(const StepScene& scene, const ir::Program& derivatives) {
-  const std::size_t n = scene.shape.velocities;
+std::vector<std::vector<std::size_t>> couplings(const programs::SceneFacts& scene,
+                                                const ir::Program& derivatives) {
+  const std::size_t n = scene.velocities.size();
   std::vector<std::set<std::size_t>> before(n);
   const auto couple = [&before](std::size_t i, std::size_t j) {
     if (i != j) before[std::max(i, j)].insert(std::min(i, j));
@@ -70,8 +71,8 @@ std::string displace_text(const model::Tangent& tangent) {
 }
 
 /// Rates of local displacements: of a rotation those of twice the Gibbs vector.
-std::string rotation_text(const StepScene& scene) {
-  const std::string n = fmt::format("{}", scene.shape.velocities);
+std::string rotation_text(const programs::SceneFacts& scene) {
+  const std::string n = fmt::format("{}", scene.velocities.size());
   std::string text;
   const bool turns = !scene.tangent.quaternions.empty();
   if (turns)
@@ -121,30 +122,29 @@ void turning_rate(const Real* theta, const Real* omega, Real* rate) noexcept {
 }
 )";
 
-bool has_change(const StepScene& scene) { return scene.shape.time.dynamics || scene.shape.inputs > 0; }
+bool has_change(const programs::SceneFacts& scene) { return scene.time.dynamics || !scene.inputs.empty(); }
 
 /// Derivatives, and the residual's own change over the step.
-std::string derivatives_text(const StepScene& scene) {
-  const programs::SceneShape& shape = scene.shape;
-  const bool inputs = shape.inputs > 0;
+std::string derivatives_text(const programs::SceneFacts& scene) {
+  const bool inputs = !scene.inputs.empty();
   std::string text, more;
   if (inputs) {
-    text += fmt::format("  Real r_u[{}][{}];\n", shape.velocities, shape.inputs);
+    text += fmt::format("  Real r_u[{}][{}];\n", scene.velocities.size(), scene.inputs.size());
     more += ", r_u";
   }
-  if (shape.time.dynamics) more += ", step.change";
+  if (scene.time.dynamics) more += ", step.change";
   text += fmt::format(
       "  residual_derivatives(model, state, {}, accelerations.zdot, step.W, step.r_y, step.r_z{});\n",
       inputs ? "input_at(input, state)" : "input", more);
   if (has_change(scene))
-    text += fmt::format("  for (int i = 0; i < {}; ++i) step.change[i] = {};\n", shape.velocities,
-                        shape.time.dynamics ? "h * step.change[i]" : "Real(0.0)");
+    text += fmt::format("  for (int i = 0; i < {}; ++i) step.change[i] = {};\n", scene.velocities.size(),
+                        scene.time.dynamics ? "h * step.change[i]" : "Real(0.0)");
   if (inputs) text += "  add_input_change(input, state, h, r_u, step.change);\n";
   return text;
 }
 
-std::string input_change_text(const StepScene& scene) {
-  if (scene.shape.inputs == 0) return "";
+std::string input_change_text(const programs::SceneFacts& scene) {
+  if (scene.inputs.empty()) return "";
   return fmt::format(R"(
 // Change of the residual over the step by that of the inputs, from the slope of a cubic through four samples.
 template <class Real>
@@ -165,17 +165,17 @@ void add_input_change(const InputAt& sampled, const State<Real>& state, const Re
   }}
 }}
 )",
-                     scene.shape.velocities, scene.shape.inputs);
+                     scene.velocities.size(), scene.inputs.size());
 }
 
-std::string spin_text(const StepScene& scene) {
+std::string spin_text(const programs::SceneFacts& scene) {
   const auto& quaternions = scene.tangent.quaternions;
   if (quaternions.empty()) return "";
   std::string text = fmt::format(
       "  Real turned[{0}][{0}];  // r_y E\n  for (int i = 0; i < {0}; ++i)\n    for (int j = 0; j < {0}; "
       "++j) turned[i][j] = "
       "step.r_y[i][j];\n  const Real half = Real(0.5) * s;\n",
-      scene.shape.velocities);
+      scene.velocities.size());
   for (std::size_t k = 0; k < quaternions.size(); ++k)
     text += fmt::format(
         "  {{\n    Real(&e)[4] = step.spin[{0}];\n    for (int i = 0; i < 3; ++i) e[i] = half * state.z[i + "
@@ -183,11 +183,11 @@ std::string spin_text(const StepScene& scene) {
         "    e[3] = Real(1.0) / (Real(1.0) + (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]));\n"
         "    const Real back[4] = {{-e[0], -e[1], -e[2], e[3]}};\n"
         "    for (int i = 0; i < {2}; ++i) rotate(back, turned[i] + {1});\n  }}\n",
-        k, quaternions[k].velocity, scene.shape.velocities);
+        k, quaternions[k].velocity, scene.velocities.size());
   return text;
 }
 
-std::string rotate_text(const StepScene& scene, const std::string& what) {
+std::string rotate_text(const programs::SceneFacts& scene, const std::string& what) {
   std::string text;
   for (std::size_t k = 0; k < scene.tangent.quaternions.size(); ++k)
     text +=
@@ -230,13 +230,13 @@ std::string plus(const std::string& base, const std::string& terms) {
 
 std::string or_zero(const std::string& terms) { return terms.empty() ? "Real(0.0)" : terms; }
 
-std::string stage_text(const StepScene& scene, const Rosenbrock& method, std::size_t i) {
+std::string stage_text(const programs::SceneFacts& scene, const Rosenbrock& method, std::size_t i) {
   const std::vector<double>&A = method.A[i], &C = method.C[i];
   const auto line = [](const std::string& target, const std::string& value) {
     return wrapped(target + " = " + value + ";", 4);
   };
   const auto at = [&](const char* member) { return combination(A, 1, i, member); };
-  std::string text = fmt::format("  for (int i = 0; i < {}; ++i) {{\n", scene.shape.velocities);
+  std::string text = fmt::format("  for (int i = 0; i < {}; ++i) {{\n", scene.velocities.size());
   text += line("stage.y[i]", or_zero(at("y")));
   const std::string moved = at("z");
   if (!moved.empty()) text += line("stage.z[i]", moved);
@@ -246,11 +246,11 @@ std::string stage_text(const StepScene& scene, const Rosenbrock& method, std::si
   text += line("stage.sum_z[i]", or_zero(combination(C, method.gamma, i, "z")));
   text += "  }\n";
   if (i > 0) {
-    if (scene.shape.clock && method.nodes[i] != 0)
+    if (scene.clock && method.nodes[i] != 0)
       text += fmt::format("  stage.state.t = state.t + {}h;\n",
                           method.nodes[i] == 1 ? "" : literal_text(method.nodes[i]) + " * ");
     text += "  detail::displace(state, stage.y, stage.state);\n";
-    for (int k = 0; k < scene.shape.closings && scene.shape.has_dependents; ++k)
+    for (int k = 0; k < scene.closings && scene.is_reduced; ++k)
       text += "  close_loops(model, stage.state);\n";
   }
   text += fmt::format("  detail::solve_stage(model, step, stage, input, {}u{});\n",
@@ -265,17 +265,18 @@ bool any_implicit(const std::vector<programs::FunctionInfo>& functions) {
 
 }  // namespace
 
-std::string implicit_support(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions,
+std::string implicit_support(const programs::SceneFacts& scene,
+                             const std::vector<programs::FunctionInfo>& functions,
                              const ir::Program* derivatives) {
-  if (!any_implicit(functions) || scene.shape.velocities == 0) return "";
+  if (!any_implicit(functions) || scene.velocities.empty()) return "";
   std::vector<std::size_t> first = {0}, entries;
   for (const std::vector<std::size_t>& list : couplings(scene, *derivatives)) {
     entries.insert(entries.end(), list.begin(), list.end());
     first.push_back(entries.size());
   }
   if (entries.empty()) entries.push_back(0);  // an array has an entry
-  const bool inputs = scene.shape.inputs > 0, change = has_change(scene);
-  const std::size_t n = scene.shape.velocities, quaternions = scene.tangent.quaternions.size();
+  const bool inputs = !scene.inputs.empty(), change = has_change(scene);
+  const std::size_t n = scene.velocities.size(), quaternions = scene.tangent.quaternions.size();
   const std::string turns = quaternions == 0 ? "" : kTurns;
   return turns + fill(template_text("implicit_step.in"),
                       {{"NZ", fmt::format("{}", n)},
@@ -301,7 +302,7 @@ std::string implicit_support(const StepScene& scene, const std::vector<programs:
                        {"ROTATE_U", rotate_text(scene, "u.y")}});
 }
 
-std::string accelerations_struct(const StepScene& scene,
+std::string accelerations_struct(const programs::SceneFacts& scene,
                                  const std::vector<programs::FunctionInfo>& functions) {
   if (!any_implicit(functions)) return "";
   std::string text = wrapped_doc(
@@ -310,11 +311,11 @@ std::string accelerations_struct(const StepScene& scene,
       "one starts from forward_dynamics.",
       0);
   text += "template <class Real = double>\nstruct Accelerations {\n  int count = 0;  ///< 0: fresh\n";
-  if (scene.shape.velocities > 0) text += fmt::format("  Real zdot[{}] = {{}};\n", scene.shape.velocities);
+  if (!scene.velocities.empty()) text += fmt::format("  Real zdot[{}] = {{}};\n", scene.velocities.size());
   return text + "};\n\n";
 }
 
-std::string rosenbrock_body(const StepScene& scene, const Rosenbrock& method) {
+std::string rosenbrock_body(const programs::SceneFacts& scene, const Rosenbrock& method) {
   std::string text = fmt::format(
       "  detail::ImplicitStep<Real> step;\n  detail::begin_step(model, state, input, {}{}h, accelerations, "
       "step);\n",
@@ -329,7 +330,7 @@ std::string rosenbrock_body(const StepScene& scene, const Rosenbrock& method) {
                                           : combination(method.m, 1, method.m.size(), member);
     return wrapped(target + " = " + (base.empty() ? increment : plus(base, increment)) + ";", 4);
   };
-  text += fmt::format("  for (int i = 0; i < {}; ++i) {{\n", scene.shape.velocities);
+  text += fmt::format("  for (int i = 0; i < {}; ++i) {{\n", scene.velocities.size());
   text += line("stage.y[i]", at_last ? "stage.y[i]" : "", "y");
   if (at_last)
     text += wrapped(fmt::format("state.z[i] = state.z[i] + (stage.z[i] + u{}.z[i]);", method.m.size()), 4);
@@ -342,15 +343,16 @@ std::string rosenbrock_body(const StepScene& scene, const Rosenbrock& method) {
     text += fmt::format("  state.y[{0}] = stage.state.y[{0}];\n", entry);
   if (turns) text += "  stage.state = state;\n";
   text += fmt::format("  detail::displace({}, stage.y, state);\n", turns ? "stage.state" : "state");
-  return scene.shape.clock ? text + "  state.t = state.t + h;\n" : text;
+  return scene.clock ? text + "  state.t = state.t + h;\n" : text;
 }
 
-long closings_of(const StepScene& scene, const Rosenbrock& method) {
-  return scene.shape.has_dependents ? scene.shape.closings * static_cast<long>(method.m.size()) - 1 : 0;
+long closings_of(const programs::SceneFacts& scene, const Rosenbrock& method) {
+  return scene.is_reduced ? scene.closings * static_cast<long>(method.m.size()) - 1 : 0;
 }
 
-long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, const ir::Program& derivatives) {
-  const long n = static_cast<long>(scene.shape.velocities),
+long rosenbrock_operations(const programs::SceneFacts& scene, const Rosenbrock& method,
+                           const ir::Program& derivatives) {
+  const long n = static_cast<long>(scene.velocities.size()),
              quaternions = static_cast<long>(scene.tangent.quaternions.size());
   const long scalars = static_cast<long>(scene.tangent.scalars.size());
   const bool change = has_change(scene);
@@ -362,7 +364,7 @@ long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, con
   constexpr long kRotate = 26, kTurn = 3 + 24 + programs::kNormaliseOperations, kTurningRate = 26;
   const long displace = scalars + quaternions * kTurn;
   long total = 1 + (method.gamma != 1) + 4 * (n + 2 * pairs) + n + pairs + 2 * squares;
-  if (scene.shape.time.dynamics) total += n;
+  if (scene.time.dynamics) total += n;
   if (quaternions > 0) total += 1 + quaternions * (3 + 5 + 2 + n * kRotate);
   for (std::size_t i = 0; i < method.m.size(); ++i) {
     const auto own = [&](const std::vector<double>& factors, double scale) {
@@ -372,7 +374,7 @@ long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, con
     if (i > 0) total += displace;
     const bool moves = std::any_of(method.A[i].begin(), method.A[i].end(), [](double a) { return a != 0; });
     if (moves) total += 2 * n;
-    if (scene.shape.clock && i > 0 && method.nodes[i] != 0)
+    if (scene.clock && i > 0 && method.nodes[i] != 0)
       total += programs::kClockOperations + (method.nodes[i] != 1);
     total += 6 * n + quaternions * (kTurningRate + 2 * kRotate);  // c, rate, v
     total +=
@@ -380,7 +382,7 @@ long rosenbrock_operations(const StepScene& scene, const Rosenbrock& method, con
   }
   total +=
       n * (ends_at_last_stage(method) ? 4 : 3 * combination_operations(method.m, 1, method.m.size()) + 2);
-  return total + displace + scene.shape.clock * programs::kClockOperations;
+  return total + displace + scene.clock * programs::kClockOperations;
 }
 
 }  // namespace jourdain::emit

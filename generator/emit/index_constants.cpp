@@ -29,9 +29,9 @@ std::string index_constants(const ModelText& model) {
       lines += fmt::format("inline constexpr int {} = {};\n", constants[i], i);
     if (!constants.empty()) examples.push_back(fmt::format("{}[index::{}]", array, constants[0]));
   };
-  add("state.y", "y_", model.positions);
-  add("state.z", "z_", model.velocities);
-  add("input.u", "u_", model.inputs);
+  add("state.y", "y_", model.facts.positions);
+  add("state.z", "z_", model.facts.velocities);
+  add("input.u", "u_", model.facts.inputs);
   if (lines.empty()) return "";
   return "\n" + wrapped_comment(fmt::format("Entries by name: {}.", fmt::join(examples, ", "))) +
          "namespace index {\n" + lines + "}  // namespace index\n";

@@ -24,9 +24,10 @@ std::string operations_object(const ir::Operations& count) {
       count.sin, count.cos, count.atan2 == 0 ? "" : fmt::format(R"(, "atan2": {})", count.atan2));
 }
 
-std::string ranges_object(const std::vector<ProvenText>& ranges, const std::vector<std::string>& names) {
+std::string ranges_object(const std::vector<loops::ProvenRange>& ranges,
+                          const std::vector<std::string>& names) {
   std::string text;
-  for (const ProvenText& range : ranges)
+  for (const loops::ProvenRange& range : ranges)
     text += fmt::format("{}\"{}\": [{}, {}]", text.empty() ? "" : ", ", quoted_text(names[range.index]),
                         range.low, range.high);
   return "{" + text + "}";
@@ -43,7 +44,7 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   const auto string = [](const std::string& value) { return "\"" + quoted_text(value) + "\""; };
   std::vector<std::string> parameters, names;
   std::string values, ranges;
-  for (const ParameterText& parameter : model.parameters) {
+  for (const model::Parameter& parameter : model.facts.parameters) {
     parameters.push_back(parameter.name);
     values += fmt::format("{}{}", values.empty() ? "" : ", ", parameter.value);
     if (const auto& range = parameter.range)
@@ -56,28 +57,28 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   field("title", string(model.title));
   field("model", string(model.path));
   field("sha256", string(model.sha256));
-  field("position_count", fmt::format("{}", model.positions.size()));
-  field("velocity_count", fmt::format("{}", model.velocities.size()));
-  field("input_count", fmt::format("{}", model.inputs.size()));
-  field("output_count", fmt::format("{}", model.outputs.size()));
-  field("parameter_count", fmt::format("{}", model.parameters.size()));
-  field("positions", string_array(model.positions));
-  field("velocities", string_array(model.velocities));
-  if (!model.constraints.empty()) {
+  field("position_count", fmt::format("{}", model.facts.positions.size()));
+  field("velocity_count", fmt::format("{}", model.facts.velocities.size()));
+  field("input_count", fmt::format("{}", model.facts.inputs.size()));
+  field("output_count", fmt::format("{}", model.facts.outputs.size()));
+  field("parameter_count", fmt::format("{}", model.facts.parameters.size()));
+  field("positions", string_array(model.facts.positions));
+  field("velocities", string_array(model.facts.velocities));
+  if (!model.facts.constraints.empty()) {
     std::vector<std::string> dependents;
-    for (const std::size_t entry : model.dependents) dependents.push_back(model.positions[entry]);
-    field("constraints", string_array(model.constraints));
+    for (const std::size_t entry : model.facts.dependents) dependents.push_back(model.facts.positions[entry]);
+    field("constraints", string_array(model.facts.constraints));
     field("dependent_positions", string_array(dependents));
     field("least_regularity", fmt::format("{}", model.least_regularity));
     field("greatest_opening", fmt::format("{}", model.greatest_opening));
-    if (!model.proven_positions.empty())
-      field("proven_ranges", ranges_object(model.proven_positions, model.positions));
-    if (!model.proven_parameters.empty())
-      field("proven_parameters", ranges_object(model.proven_parameters, parameters));
+    if (!model.proven.positions.empty())
+      field("proven_ranges", ranges_object(model.proven.positions, model.facts.positions));
+    if (!model.proven.parameters.empty())
+      field("proven_parameters", ranges_object(model.proven.parameters, parameters));
   }
-  field("inputs", string_array(model.inputs));
+  field("inputs", string_array(model.facts.inputs));
   std::vector<std::string> outputs;
-  for (const OutputDeclaration& output : model.outputs) outputs.push_back(output.name);
+  for (const programs::OutputFacts& output : model.facts.outputs) outputs.push_back(output.name);
   field("outputs", string_array(outputs));
   field("parameters", string_array(parameters));
   field("parameter_values", "[" + values + "]");
@@ -92,7 +93,7 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   const char* separator = "\n";
   for (const StepRecord& step : steps) {
     text += fmt::format(R"({}    "{}_step": {{"order": {}, "evaluations": {}, "operations": {}}})", separator,
-                        step.stepper->name, step.stepper->order_with(model.all_derivatives),
+                        step.stepper->name, step.stepper->order_with(model.facts.all_derivatives),
                         step.stepper->evaluations, step.operations);
     separator = ",\n";
   }

@@ -15,8 +15,8 @@ std::string provenance(const ModelText& model, bool has_rate) {
   if (!model.numbers_from.empty()) line("Numbers from: " + comment_text(model.numbers_from));
   line("This file belongs to whoever ran the compiler; no licence of the generator applies to it.");
   text += "//\n";
-  const char* t = model.time.dynamics ? ", t" : "";
-  const bool has_multipliers = !model.constraints.empty() && model.dependents.empty();
+  const char* t = model.facts.time.dynamics ? ", t" : "";
+  const bool has_multipliers = !model.facts.constraints.empty() && model.facts.dependents.empty();
   line(fmt::format("Equations of motion: M(y{0}) zdot = k_bar(y, z{0}) - q_bar(y, z{0}, u){2}, dy/dt = {1}.",
                    t, has_rate ? "Z(y) z" : "z", has_multipliers ? " - G(y)^T lambda" : ""));
   if (!model.loops.empty()) text += "//\n// Loops\n";
@@ -34,11 +34,11 @@ std::string provenance(const ModelText& model, bool has_rate) {
 std::string state_doc(const ModelText& model) {
   const std::string members =
       fmt::format("{} coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).",
-                  model.clock ? "Time t (s), generalized" : "Generalized");
-  if (model.dependents.empty()) return wrapped_doc(members, 0);
+                  model.facts.clock ? "Time t (s), generalized" : "Generalized");
+  if (model.facts.dependents.empty()) return wrapped_doc(members, 0);
   std::string names;
-  for (const std::size_t entry : model.dependents)
-    names += (names.empty() ? "" : ", ") + model.positions[entry];
+  for (const std::size_t entry : model.facts.dependents)
+    names += (names.empty() ? "" : ", ") + model.facts.positions[entry];
   return wrapped_doc(members, 0) +
          wrapped_doc("The independent positions and z are the state proper. The others (" + names +
                          ") follow from them: they are where close_loops starts its search and what it "

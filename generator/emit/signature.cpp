@@ -11,9 +11,10 @@ std::string Argument::text(bool named) const {
   return named ? type + " " + name : type;
 }
 
-std::string bounds_of(const programs::ArrayResult& array, const programs::SceneShape& scene) {
+std::string bounds_of(const programs::ArrayResult& array, const programs::SceneFacts& scene) {
   std::string bounds;
-  for (const programs::Extent extent : array.extents) bounds += fmt::format("[{}]", scene.count(extent));
+  for (const programs::Extent extent : array.extents)
+    bounds += fmt::format("[{}]", programs::count(scene, extent));
   return bounds;
 }
 
@@ -39,8 +40,8 @@ std::string argument_entry(ir::LeafKind kind, std::size_t index) {
 }
 
 std::vector<Argument> arguments(const programs::FunctionInfo& function, const std::string& real,
-                                const programs::SceneShape& scene) {
-  const std::size_t nz = scene.velocities;
+                                const programs::SceneFacts& scene) {
+  const std::size_t nz = scene.velocities.size();
   std::vector<Argument> list = {{fmt::format("const Model<{}>&", real), "model", ""}};
   if (function.shape == programs::Shape::kState) return list;
   const bool step = function.shape == programs::Shape::kStep;
@@ -56,7 +57,7 @@ std::vector<Argument> arguments(const programs::FunctionInfo& function, const st
   if (function.shape == programs::Shape::kVector)
     list.push_back({real, function.result, fmt::format("[{}]", nz)});
   if (function.shape == programs::Shape::kRate)
-    list.push_back({real, function.result, fmt::format("[{}]", scene.positions)});
+    list.push_back({real, function.result, fmt::format("[{}]", scene.positions.size())});
   if (function.shape == programs::Shape::kOutputs)
     list.push_back({fmt::format("Outputs<{}>&", real), "result", ""});
   if (function.shape == programs::Shape::kMatrix)
@@ -65,12 +66,12 @@ std::vector<Argument> arguments(const programs::FunctionInfo& function, const st
     list.push_back({fmt::format("Linearization<{}>&", real), "result", ""});
   if (function.shape == programs::Shape::kArrays)
     for (const programs::ArrayResult& array : function.arrays)
-      if (scene.has(array)) list.push_back({real, array.name, bounds_of(array, scene)});
+      if (programs::has_entries(scene, array)) list.push_back({real, array.name, bounds_of(array, scene)});
   return list;
 }
 
 std::string signature(const programs::FunctionInfo& function, const std::string& real,
-                      const programs::SceneShape& scene, const std::string* body) {
+                      const programs::SceneFacts& scene, const std::string* body) {
   const std::string result = function.shape == programs::Shape::kState    ? fmt::format("State<{}> ", real)
                              : function.shape == programs::Shape::kScalar ? real + " "
                                                                           : "void ";

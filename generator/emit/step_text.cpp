@@ -45,11 +45,11 @@ bool any_step(const std::vector<programs::FunctionInfo>& functions) {
 bool moves_clock(const std::string& line) { return line.find(".t = ") != std::string::npos; }
 
 /// The text of an explicit step, without its clock where states hold no time.
-std::string explicit_body(const StepScene& scene, const programs::FunctionInfo& function) {
+std::string explicit_body(const programs::SceneFacts& scene, const programs::FunctionInfo& function) {
   std::istringstream lines{std::string(template_text(function.name + ".in"))};
   std::string text;
   for (std::string line; std::getline(lines, line);)
-    if (scene.shape.clock || !moves_clock(line)) text += line + "\n";
+    if (scene.clock || !moves_clock(line)) text += line + "\n";
   return text;
 }
 
@@ -62,17 +62,17 @@ long clock_operations(const programs::Stepper& stepper) {
   return count;
 }
 
-std::string body(const StepScene& scene, const programs::FunctionInfo& function) {
-  const std::string correction = scene.shape.correction();
+std::string body(const programs::SceneFacts& scene, const programs::FunctionInfo& function) {
+  const std::string correction = programs::correction(scene);
   const std::string corrected = correction.empty() ? "" : fmt::format("  {}(model, state);\n", correction);
-  if (scene.shape.velocities == 0) {
-    std::string text = scene.shape.clock ? "  state.t = state.t + h;\n" : "";
-    for (int k = 0; k < scene.shape.closings; ++k) text += corrected;
+  if (scene.velocities.empty()) {
+    std::string text = scene.clock ? "  state.t = state.t + h;\n" : "";
+    for (int k = 0; k < scene.closings; ++k) text += corrected;
     return text;
   }
   if (const Rosenbrock* method = find_rosenbrock(function.stepper->name)) {
     std::string text = rosenbrock_body(scene, *method) + corrected;
-    for (int k = 1; k < scene.shape.closings && scene.shape.has_dependents; ++k) text += corrected;
+    for (int k = 1; k < scene.closings && scene.is_reduced; ++k) text += corrected;
     return text;
   }
   std::string text = explicit_body(scene, function);
@@ -83,27 +83,29 @@ std::string body(const StepScene& scene, const programs::FunctionInfo& function)
 
 }  // namespace
 
-std::string step_support(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions,
-                         const ir::Module& module) {
-  const bool has_input = scene.shape.inputs > 0;
-  if (!any_step(functions) || scene.shape.velocities == 0) return "";
+std::string step_support(const programs::SceneFacts& scene,
+                         const std::vector<programs::FunctionInfo>& functions, const ir::Module& module) {
+  const bool has_input = !scene.inputs.empty();
+  if (!any_step(functions) || scene.velocities.empty()) return "";
   std::map<std::string, std::string> holes = {
-      {"NY", fmt::format("{}", scene.shape.positions)},
-      {"NZ", fmt::format("{}", scene.shape.velocities)},
-      {"VELOCITIES", scene.shape.has_rate()
+      {"NY", fmt::format("{}", scene.positions.size())},
+      {"NZ", fmt::format("{}", scene.velocities.size())},
+      {"VELOCITIES", scene.has_rate()
                          ? "  position_rate(model, stage, ydot);\n"
                          : "  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];\n"},
       {"TEMPLATE", has_input ? "template <class Real, class Inputs>" : "template <class Real>"},
       {"INPUTS", has_input ? "const Inputs&" : "const Input<Real>&"},
       {"INPUT", has_input ? "input_at(input, stage)" : "input"},
-      {"VELOCITIES_MODEL", scene.shape.has_rate() ? " model" : ""}};
+      {"VELOCITIES_MODEL", scene.has_rate() ? " model" : ""}};
   std::string text = has_input ? kInputAt : "";
   text += fill(template_text("rates.in"), holes);
   if (!scene.tangent.quaternions.empty()) text += kNormalise;
-  return text + implicit_support(scene, functions, find_program(module, "residual_derivatives"));
+  return text +
+         implicit_support(scene, functions, find_program(module, ir::FunctionId::kResidualDerivatives));
 }
 
-std::string history_struct(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions) {
+std::string history_struct(const programs::SceneFacts& scene,
+                           const std::vector<programs::FunctionInfo>& functions) {
   const bool remembers = std::any_of(functions.begin(), functions.end(), [](const programs::FunctionInfo& f) {
     return f.stepper && f.stepper->history > 0;
   });
@@ -115,21 +117,20 @@ std::string history_struct(const StepScene& scene, const std::vector<programs::F
       "trajectory and one step length have one; a fresh one starts anew.",
       0);
   text += "template <int depth, class Real = double>\nstruct RateHistory {\n  int count = 0;\n";
-  if (scene.shape.velocities > 0)
+  if (!scene.velocities.empty())
     text += fmt::format("  Real ydot[depth][{}] = {{}};\n  Real zdot[depth][{}] = {{}};\n",
-                        scene.shape.positions, scene.shape.velocities);
+                        scene.positions.size(), scene.velocities.size());
   return text + "};\n\n" + accelerations;
 }
 
-std::string step_definitions(const StepScene& scene, const programs::FunctionInfo& function) {
+std::string step_definitions(const programs::SceneFacts& scene, const programs::FunctionInfo& function) {
   const std::string text = body(scene, function);
-  const bool sampled = scene.shape.inputs > 0 && scene.shape.velocities > 0;
-  const std::string held =
-      wrapped(signature(function, "Real", scene.shape, sampled ? nullptr : &text) + " {", 0);
+  const bool sampled = !scene.inputs.empty() && !scene.velocities.empty();
+  const std::string held = wrapped(signature(function, "Real", scene, sampled ? nullptr : &text) + " {", 0);
   if (!sampled) return "\ntemplate <class Real>\n" + held + text + "}\n";
 
   std::string general, call;
-  for (Argument argument : arguments(function, "Real", scene.shape)) {
+  for (Argument argument : arguments(function, "Real", scene)) {
     if (argument.name == "input") argument.type = "const InputAt&";
     general += (general.empty() ? "" : ", ") + argument.text(true);
     call += (call.empty() ? "" : ", ") + argument.name;
@@ -139,7 +140,7 @@ std::string step_definitions(const StepScene& scene, const programs::FunctionInf
       "template <class Real, class InputAt>\n{}{}}}\n",
       wrapped(fmt::format("void {}({}) noexcept {{", function.name, general), 0), text);
   std::string named;
-  for (const Argument& argument : arguments(function, "Real", scene.shape))
+  for (const Argument& argument : arguments(function, "Real", scene))
     named += (named.empty() ? "" : ", ") + argument.text(true);
   definitions += "\ntemplate <class Real>\n" +
                  wrapped(fmt::format("void {}({}) noexcept {{", function.name, named), 0) +
@@ -147,21 +148,23 @@ std::string step_definitions(const StepScene& scene, const programs::FunctionInf
   return definitions;
 }
 
-long step_operations(const StepScene& scene, const programs::Stepper& stepper, const ir::Module& module) {
-  const auto count = [&module](const char* name) {
+long step_operations(const programs::SceneFacts& scene, const programs::Stepper& stepper,
+                     const ir::Module& module) {
+  const auto count = [&module](const auto& name) {
     const ir::Program* program = find_program(module, name);
     return program ? static_cast<long>(ir::count_operations(*program).arithmetic()) : 0;
   };
-  const long correction = scene.shape.constraints > 0 ? count(scene.shape.correction()) : 0;
-  if (scene.shape.velocities == 0)
-    return scene.shape.clock * programs::kClockOperations + scene.shape.closings * correction;
+  const long correction = !scene.constraints.empty() ? count(programs::correction(scene)) : 0;
+  if (scene.velocities.empty()) return scene.clock * programs::kClockOperations + scene.closings * correction;
   if (const Rosenbrock* method = find_rosenbrock(stepper.name))
-    return correction * (1 + closings_of(scene, *method)) + count("residual_derivatives") +
-           stepper.evaluations * count("residual") +
-           rosenbrock_operations(scene, *method, *find_program(module, "residual_derivatives"));
-  const long entries = static_cast<long>(scene.shape.positions + scene.shape.velocities);
-  return correction + stepper.evaluations * (count("forward_dynamics") + count("position_rate")) +
-         stepper.fixed_operations + (scene.shape.clock ? clock_operations(stepper) : 0) +
+    return correction * (1 + closings_of(scene, *method)) + count(ir::FunctionId::kResidualDerivatives) +
+           stepper.evaluations * count(ir::FunctionId::kResidual) +
+           rosenbrock_operations(scene, *method, *find_program(module, ir::FunctionId::kResidualDerivatives));
+  const long entries = static_cast<long>(scene.positions.size() + scene.velocities.size());
+  return correction +
+         stepper.evaluations *
+             (count(ir::FunctionId::kForwardDynamics) + count(ir::FunctionId::kPositionRate)) +
+         stepper.fixed_operations + (scene.clock ? clock_operations(stepper) : 0) +
          stepper.entry_operations * entries +
          programs::kNormaliseOperations * static_cast<long>(scene.tangent.quaternions.size());
 }

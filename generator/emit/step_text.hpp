@@ -10,25 +10,19 @@
 
 namespace jourdain::emit {
 
-/// Scene facts that decide what steps need.
-struct StepScene {
-  programs::SceneShape shape;
-  model::Tangent tangent;
-  bool all_derivatives = true;
-  std::vector<std::size_t> dependents = {};  ///< entries of y that close_loops sets
-};
-
 /// What steps of kernels call: inputs at a stage, rates, unit length. Empty without steps.
-std::string step_support(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions,
-                         const ir::Module& module);
+std::string step_support(const programs::SceneFacts& scene,
+                         const std::vector<programs::FunctionInfo>& functions, const ir::Module& module);
 
 /// The structs of what methods remember; empty where none is emitted.
-std::string history_struct(const StepScene& scene, const std::vector<programs::FunctionInfo>& functions);
+std::string history_struct(const programs::SceneFacts& scene,
+                           const std::vector<programs::FunctionInfo>& functions);
 
 /// Definitions of the step: with inputs also the one that takes a function of the state instead of them.
-std::string step_definitions(const StepScene& scene, const programs::FunctionInfo& function);
+std::string step_definitions(const programs::SceneFacts& scene, const programs::FunctionInfo& function);
 
 /// Operations of one step, with the functions that it calls.
-long step_operations(const StepScene& scene, const programs::Stepper& stepper, const ir::Module& module);
+long step_operations(const programs::SceneFacts& scene, const programs::Stepper& stepper,
+                     const ir::Module& module);
 
 }  // namespace jourdain::emit

@@ -14,13 +14,14 @@ namespace jourdain::emit {
 namespace {
 
 /// "[a][b]" with those of the two that the member's array has; a scalar has none.
-std::string subscripts(const OutputMember& member, int a, int b) {
+std::string subscripts(const programs::OutputMember& member, int a, int b) {
   return (member.rows > 1 ? fmt::format("[{}]", a) : "") + (member.is_matrix ? fmt::format("[{}]", b) : "");
 }
 
 }  // namespace
 
-std::vector<std::string> number_names(const OutputDeclaration& output, const OutputMember& member) {
+std::vector<std::string> number_names(const programs::OutputFacts& output,
+                                      const programs::OutputMember& member) {
   const std::string prefix = output.name + (member.name.empty() ? "" : "." + member.name);
   std::vector<std::string> names;
   for (int row = 0; row < member.rows; ++row)
@@ -30,14 +31,14 @@ std::vector<std::string> number_names(const OutputDeclaration& output, const Out
 }
 
 std::string output_struct(const ModelText& model) {
-  if (model.outputs.empty()) return "";
+  if (model.facts.outputs.empty()) return "";
   std::string text =
       "/// What the model description asks for; lengths in m, angles in rad, forces in N, moments in N "
       "m.\n";
   text += "template <class Real = double>\nstruct Outputs {\n";
-  for (const OutputDeclaration& output : model.outputs) {
+  for (const programs::OutputFacts& output : model.facts.outputs) {
     std::string members;
-    for (const OutputMember& member : output.members) {
+    for (const programs::OutputMember& member : output.members) {
       const std::string bounds = subscripts(member, member.rows, member.columns);
       if (member.name.empty())
         text += fmt::format("  Real {}{};  ///< {}\n", output.name, bounds, comment_text(output.comment));
@@ -65,49 +66,49 @@ const char* opening_comment(const ModelText& model) {
 }  // namespace
 
 std::string guard_members(const ModelText& model) {
-  if (model.constraints.empty()) return "";
+  if (model.facts.constraints.empty()) return "";
   std::string text =
       "  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, "
       "negative beyond.\n"
       "  /// Below Model::least_regularity, or not a number, do not trust what follows.\n"
       "  Real regularity = Real(1.0);\n" +
       wrapped_doc(opening_comment(model), 2) + "  Real opening = Real(0.0);\n";
-  if (model.proven_positions.empty()) return text;
+  if (model.proven.positions.empty()) return text;
   std::string ranges;
-  for (const ProvenText& range : model.proven_positions)
-    ranges += fmt::format("{}{} from {} to {}", ranges.empty() ? "" : ", ", model.positions[range.index],
-                          range.low, range.high);
+  for (const loops::ProvenRange& range : model.proven.positions)
+    ranges += fmt::format("{}{} from {} to {}", ranges.empty() ? "" : ", ",
+                          model.facts.positions[range.index], range.low, range.high);
   return text +
          wrapped_doc(fmt::format("(y - low) (y - high) after the last closing: positive where a position is "
                                  "outside the range for which how loops are closed is proven. {}.",
                                  comment_text(ranges)),
                      2) +
-         fmt::format("  Real beyond[{}] = {{}};\n", model.proven_positions.size());
+         fmt::format("  Real beyond[{}] = {{}};\n", model.proven.positions.size());
 }
 
 std::string guard_limits(const ModelText& model) {
-  if (model.constraints.empty()) return "";
+  if (model.facts.constraints.empty()) return "";
   const std::string ranges =
-      model.proven_positions.empty()
+      model.proven.positions.empty()
           ? ""
-          : fmt::format("  static constexpr int range_count = {};\n", model.proven_positions.size());
+          : fmt::format("  static constexpr int range_count = {};\n", model.proven.positions.size());
   return fmt::format(
       "  static constexpr int constraint_count = {};\n"
       "  static constexpr double least_regularity = {};  ///< see State; chosen\n"
       "  static constexpr double greatest_opening = {};  ///< see State; {}\n{}",
-      model.constraints.size(), model.least_regularity, model.greatest_opening,
+      model.facts.constraints.size(), model.least_regularity, model.greatest_opening,
       model.opening_is_proven ? "proven" : "chosen", ranges);
 }
 
 namespace {
 
 std::string proven_function(const ModelText& model) {
-  if (model.proven_parameters.empty()) return "";
+  if (model.proven.parameters.empty()) return "";
   std::string conditions;
-  for (const ProvenText& range : model.proven_parameters)
-    conditions +=
-        fmt::format("{0}parameters.{1} >= {2} && parameters.{1} <= {3}", conditions.empty() ? "" : " && ",
-                    model.parameters[range.index].name, literal_text(range.low), literal_text(range.high));
+  for (const loops::ProvenRange& range : model.proven.parameters)
+    conditions += fmt::format("{0}parameters.{1} >= {2} && parameters.{1} <= {3}",
+                              conditions.empty() ? "" : " && ", model.facts.parameters[range.index].name,
+                              literal_text(range.low), literal_text(range.high));
   return wrapped_doc(
              "Does what is proven of the loops (see above) hold at these parameters? Those that the "
              "constraints depend on must be in their declared ranges; without one a parameter must have its "
@@ -120,14 +121,14 @@ std::string proven_function(const ModelText& model) {
 }  // namespace
 
 std::string guard_functions(const ModelText& model) {
-  if (model.constraints.empty()) return "";
+  if (model.facts.constraints.empty()) return "";
   std::string text = "\n" +
                      wrapped_doc(
                          "Did the last closing of the loops go well, by all that State says of it? No where "
                          "something is not finite.",
                          2) +
                      "  static bool loops_closed(const State& state) noexcept {\n";
-  if (!model.proven_positions.empty())
+  if (!model.proven.positions.empty())
     text += "    for (const Real& excess : state.beyond)\n      if (!(excess <= Real(0.0))) return false;\n";
   text +=
       "    return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);\n"
@@ -142,7 +143,7 @@ bool linearizes(const std::vector<programs::FunctionInfo>& functions) {
 }
 
 std::string linearization_struct(const std::vector<programs::FunctionInfo>& functions,
-                                 const programs::SceneShape& scene) {
+                                 const programs::SceneFacts& scene) {
   for (const programs::FunctionInfo& function : functions)
     if (function.shape == programs::Shape::kLinearization) {
       std::string text = wrapped_doc(
@@ -154,7 +155,8 @@ std::string linearization_struct(const std::vector<programs::FunctionInfo>& func
           0);
       text += "template <class Real = double>\nstruct Linearization {\n";
       for (const programs::ArrayResult& array : function.arrays)
-        if (scene.has(array)) text += fmt::format("  Real {}{};\n", array.name, bounds_of(array, scene));
+        if (programs::has_entries(scene, array))
+          text += fmt::format("  Real {}{};\n", array.name, bounds_of(array, scene));
       return text + "};\n\n";
     }
   return "";

@@ -12,7 +12,8 @@ namespace jourdain::emit {
 std::string output_struct(const ModelText& model);
 
 /// How the numbers of a member are called in C++, row by row: "tracer.position[0]", …
-std::vector<std::string> number_names(const OutputDeclaration& output, const OutputMember& member);
+std::vector<std::string> number_names(const programs::OutputFacts& output,
+                                      const programs::OutputMember& member);
 
 /// Members of State that tell how its loops were closed; none without loops.
 std::string guard_members(const ModelText& model);
@@ -27,6 +28,6 @@ bool linearizes(const std::vector<programs::FunctionInfo>& functions);
 
 /// Empty where no function fills one.
 std::string linearization_struct(const std::vector<programs::FunctionInfo>& functions,
-                                 const programs::SceneShape& scene);
+                                 const programs::SceneFacts& scene);
 
 }  // namespace jourdain::emit

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ir/function_id.hpp"
 #include "ir/program.hpp"
 
 namespace jourdain::ir {
@@ -18,6 +19,10 @@ inline const Program* find_program(const Module& module, const std::string& name
   for (const Program& program : module.functions)
     if (program.name == name) return &program;
   return nullptr;
+}
+
+inline const Program* find_program(const Module& module, FunctionId function) {
+  return find_program(module, name_of(function));
 }
 
 /// Has any of the module's programs an arctangent?

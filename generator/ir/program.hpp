@@ -8,6 +8,7 @@
 
 #include "support/check.hpp"
 #include "support/index.hpp"
+#include "support/leaf_kind.hpp"
 #include "support/scaled_real.hpp"
 
 namespace jourdain::ir {
@@ -28,19 +29,8 @@ enum class Op : std::uint8_t {
   kAtan2  ///< atan2(a, b): the angle of (b, a), in (−π, π]
 };
 
-/// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed once.
-/// kMultiplier: of a loop's row; none is left in an emitted function.
-enum class LeafKind : std::uint8_t {
-  kParameter,
-  kConstant,
-  kPosition,
-  kVelocity,
-  kAcceleration,
-  kMultiplier,
-  kInput,
-  kTime
-};
-inline constexpr std::size_t kLeafKinds = 8;
+using support::kLeafKinds;
+using support::LeafKind;
 
 struct Node {
   Op op = Op::kLiteral;

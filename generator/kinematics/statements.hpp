@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "kinematics/spatial.hpp"
+#include "support/leaf_kind.hpp"
 
 namespace jourdain::kinematics {
 
-/// What a free symbol of the statements stands for.
-enum class LeafKind { kParameter, kPosition, kVelocity, kAcceleration, kMultiplier, kInput, kTime };
+using support::LeafKind;
 
+/// A free symbol of the statements.
 struct Leaf {
   LeafKind kind = LeafKind::kParameter;
   std::size_t index = 0;  ///< entry of the parameter list, y, z, ż, λ or u; 0 for t

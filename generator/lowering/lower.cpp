@@ -15,30 +15,9 @@
 namespace jourdain::lowering {
 
 using ir::Builder;
-using ir::LeafKind;
 using ir::Op;
 using ir::Program;
 using ir::Signed;
-
-LeafKind leaf_kind(kinematics::LeafKind kind) {
-  switch (kind) {
-    case kinematics::LeafKind::kParameter:
-      return LeafKind::kParameter;
-    case kinematics::LeafKind::kPosition:
-      return LeafKind::kPosition;
-    case kinematics::LeafKind::kVelocity:
-      return LeafKind::kVelocity;
-    case kinematics::LeafKind::kAcceleration:
-      return LeafKind::kAcceleration;
-    case kinematics::LeafKind::kMultiplier:
-      return LeafKind::kMultiplier;
-    case kinematics::LeafKind::kInput:
-      return LeafKind::kInput;
-    case kinematics::LeafKind::kTime:
-      return LeafKind::kTime;
-  }
-  return LeafKind::kParameter;
-}
 
 namespace {
 
@@ -115,7 +94,7 @@ class Lowering {
     if (const auto it = lowered_.find(s); it != lowered_.end()) return it->second;
     const auto it = leaves_.find(s);
     JD_CHECK(it != leaves_.end(), "unbound symbol {}", s.get_name());
-    return builder_.leaf(leaf_kind(it->second->kind), it->second->index);
+    return builder_.leaf(it->second->kind, it->second->index);
   }
 
   Key key(const Ex& e) {

@@ -17,9 +17,6 @@ struct Target {
   kinematics::Ex value;
 };
 
-/// What a leaf of the statements is in a program.
-ir::LeafKind leaf_kind(kinematics::LeafKind kind);
-
 /// Program that computes the targets, from those statements that they need. GiNaC orders terms by hashes that change
 /// from run to run; here operands are sorted by a key that depends on the order of declaration alone, and the sign of
 /// a sum's first term is pulled out. Numbers are rounded to double once.

@@ -71,6 +71,25 @@ std::array<std::array<double, 3>, 2> slide_directions(const std::array<double, 3
   return plane_axes({normal[0] / length, normal[1] / length, normal[2] / length});
 }
 
+namespace {
+
+Tangent tangent_of(const Mechanism& mechanism, const std::vector<JointEntries>& joints) {
+  Tangent tangent;
+  for (const JointIndex index : depth_first(mechanism)) {
+    const JointEntries& entries = joints[index.value];
+    const JointType type = mechanism.joints[index.value].type;
+    const bool turns = type == JointType::kFree || type == JointType::kSpherical;
+    const std::size_t scalars = entries.velocity_count - (turns ? 3 : 0);
+    for (std::size_t k = 0; k < scalars; ++k)
+      tangent.scalars.push_back({entries.first_position + k, entries.first_velocity + k});
+    if (turns)
+      tangent.quaternions.push_back({entries.first_position + scalars, entries.first_velocity + scalars});
+  }
+  return tangent;
+}
+
+}  // namespace
+
 CoordinateLayout lay_out_coordinates(const Mechanism& mechanism) {
   CoordinateLayout layout;
   layout.joints.resize(mechanism.joints.size());
@@ -102,22 +121,8 @@ CoordinateLayout lay_out_coordinates(const Mechanism& mechanism) {
   }
   for (const Actuator& actuator : mechanism.actuators) layout.input_names.push_back(actuator.name);
   for (const Input& input : mechanism.inputs) layout.input_names.push_back(input.name);
+  layout.tangent = tangent_of(mechanism, layout.joints);
   return layout;
-}
-
-Tangent tangent_of(const Mechanism& mechanism, const CoordinateLayout& layout) {
-  Tangent tangent;
-  for (const JointIndex index : depth_first(mechanism)) {
-    const JointEntries& entries = layout.joints[index.value];
-    const JointType type = mechanism.joints[index.value].type;
-    const bool turns = type == JointType::kFree || type == JointType::kSpherical;
-    const std::size_t scalars = entries.velocity_count - (turns ? 3 : 0);
-    for (std::size_t k = 0; k < scalars; ++k)
-      tangent.scalars.push_back({entries.first_position + k, entries.first_velocity + k});
-    if (turns)
-      tangent.quaternions.push_back({entries.first_position + scalars, entries.first_velocity + scalars});
-  }
-  return tangent;
 }
 
 }  // namespace jourdain::model

@@ -17,21 +17,6 @@ struct JointEntries {
   std::vector<std::optional<std::size_t>> position, velocity;
 };
 
-/// Coordinates joint by joint in the order of `depth_first`, each joint's in its own order: scalar coordinates that are
-/// not prescribed; spherical: quaternion w x y z, and ω; free: position and quaternion, v and ω.
-/// Inputs: those of the actuators, then `Mechanism::inputs`.
-struct CoordinateLayout {
-  std::vector<JointEntries> joints;  ///< by JointIndex
-  std::vector<std::string> position_names, velocity_names, input_names;
-  std::vector<std::size_t> quaternions;  ///< entry in y of each quaternion's w
-
-  std::size_t position_count() const { return position_names.size(); }
-  std::size_t velocity_count() const { return velocity_names.size(); }
-  std::size_t input_count() const { return input_names.size(); }
-};
-
-CoordinateLayout lay_out_coordinates(const Mechanism& mechanism);
-
 /// Small displacements, one per velocity: of a scalar coordinate or a position its change, of a quaternion a small rotation δθ in
 /// body axes, δquat = ½ quat ⊗ (0, δθ).
 struct Tangent {
@@ -42,6 +27,20 @@ struct Tangent {
   std::vector<Scalar> quaternions;  ///< entry in y of w, and in z of ω_x
 };
 
-Tangent tangent_of(const Mechanism& mechanism, const CoordinateLayout& layout);
+/// Coordinates joint by joint in the order of `depth_first`, each joint's in its own order: scalar coordinates that are
+/// not prescribed; spherical: quaternion w x y z, and ω; free: position and quaternion, v and ω.
+/// Inputs: those of the actuators, then `Mechanism::inputs`.
+struct CoordinateLayout {
+  std::vector<JointEntries> joints;  ///< by JointIndex
+  std::vector<std::string> position_names, velocity_names, input_names;
+  std::vector<std::size_t> quaternions;  ///< entry in y of each quaternion's w
+  Tangent tangent;
+
+  std::size_t position_count() const { return position_names.size(); }
+  std::size_t velocity_count() const { return velocity_names.size(); }
+  std::size_t input_count() const { return input_names.size(); }
+};
+
+CoordinateLayout lay_out_coordinates(const Mechanism& mechanism);
 
 }  // namespace jourdain::model

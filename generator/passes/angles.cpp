@@ -1,6 +1,7 @@
 #include "passes/angles.hpp"
 
 #include <map>
+#include <optional>
 
 #include "passes/rewrite.hpp"
 
@@ -18,23 +19,16 @@ namespace {
 class Splitting {
  public:
   explicit Splitting(const Program& program)
-      : program_(program), fixed_(program.nodes.size()), copy_(program.nodes.size()) {}
+      : program_(program), fixed_(program.nodes.size()), copy_(program) {}
 
   Program run() {
-    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
-      const Node& node = program_.nodes[i];
-      fixed_[i] = is_fixed(node);
-      if ((node.op == Op::kSin || node.op == Op::kCos) && is_sum(node.a)) {
-        const Pair pair = pair_of(node.a);
-        copy_[i] = node.op == Op::kSin ? pair.sine : pair.cosine;
-      } else {
-        copy_[i] = builder_.apply(node, copy_[node.a.value], copy_[node.b.value]);
-      }
-      if (!program_.labels[i].empty()) builder_.label(copy_[i].value, program_.labels[i]);
-    }
-    for (const ir::Output& output : program_.outputs)
-      builder_.output(output.name, output.row, output.column, copy_[output.value.value]);
-    return remove_dead_code(builder_.finish(program_.name));
+    return remove_dead_code(copy_.run([this](ValueId id) -> std::optional<Signed> {
+      const Node& node = program_[id];
+      fixed_[id.value] = is_fixed(node);
+      if ((node.op != Op::kSin && node.op != Op::kCos) || !is_sum(node.a)) return {};
+      const Pair pair = pair_of(node.a);
+      return node.op == Op::kSin ? pair.sine : pair.cosine;
+    }));
   }
 
  private:
@@ -61,24 +55,23 @@ class Splitting {
   Pair pair_of(ValueId id) {
     if (const auto known = pairs_.find(id); known != pairs_.end()) return known->second;
     const Node& node = program_[id];
+    Builder& builder = copy_.builder();
     Pair pair;
     if (is_sum(id)) {
       const Pair a = pair_of(node.a);
       Pair b = pair_of(node.b);
       if (node.op == Op::kSubtract) b.sine = -b.sine;
-      pair.sine = builder_.add(builder_.multiply(a.sine, b.cosine), builder_.multiply(a.cosine, b.sine));
-      pair.cosine =
-          builder_.subtract(builder_.multiply(a.cosine, b.cosine), builder_.multiply(a.sine, b.sine));
+      pair.sine = builder.add(builder.multiply(a.sine, b.cosine), builder.multiply(a.cosine, b.sine));
+      pair.cosine = builder.subtract(builder.multiply(a.cosine, b.cosine), builder.multiply(a.sine, b.sine));
     } else {
-      pair = {builder_.unary(Op::kSin, copy_[id.value]), builder_.unary(Op::kCos, copy_[id.value])};
+      pair = {builder.unary(Op::kSin, copy_[id]), builder.unary(Op::kCos, copy_[id])};
     }
     return pairs_[id] = pair;
   }
 
   const Program& program_;
   std::vector<bool> fixed_;
-  Builder builder_;
-  std::vector<Signed> copy_;
+  Copy copy_;
   std::map<ValueId, Pair> pairs_;
 };
 

@@ -6,7 +6,6 @@
 
 namespace jourdain::passes {
 
-using ir::Builder;
 using ir::Node;
 using ir::Op;
 using ir::Program;
@@ -23,24 +22,20 @@ struct Product {
 class Grouping {
  public:
   explicit Grouping(const Program& program)
-      : program_(program), uses_(ir::use_counts(program)), constant_(program.nodes.size()) {
+      : program_(program),
+        uses_(ir::use_counts(program)),
+        constant_(program.nodes.size()),
+        copy_(program),
+        products_(program.nodes.size()) {
     for (std::size_t i = 0; i < program.nodes.size(); ++i) constant_[i] = is_constant(program.nodes[i]);
   }
 
   Program run() {
-    copy_.resize(program_.nodes.size());
-    products_.resize(program_.nodes.size());
-    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
-      const Node& node = program_.nodes[i];
-      if (constant_[i] || (node.op != Op::kMultiply && node.op != Op::kDivide))
-        copy_[i] = builder_.apply(node, copy_[node.a.value], copy_[node.b.value]);
-      else
-        copy_[i] = joined(products_[i] = product(node));
-      if (!program_.labels[i].empty()) builder_.label(copy_[i].value, program_.labels[i]);
-    }
-    for (const ir::Output& output : program_.outputs)
-      builder_.output(output.name, output.row, output.column, copy_[output.value.value]);
-    return remove_dead_code(builder_.finish(program_.name));
+    return remove_dead_code(copy_.run([this](ValueId id) -> std::optional<Signed> {
+      const Node& node = program_[id];
+      if (constant_[id.value] || (node.op != Op::kMultiply && node.op != Op::kDivide)) return {};
+      return joined(products_[id.value] = product(node));
+    }));
   }
 
  private:
@@ -57,38 +52,36 @@ class Grouping {
     if (node.op == Op::kMultiply) {
       multiply_in(result, node.b);
     } else if (constant_[node.b.value]) {
-      const Signed divisor = copy_[node.b.value];
-      result.constant = result.constant ? builder_.divide(*result.constant, divisor)
-                                        : builder_.divide(builder_.literal(1), divisor);
+      const Signed divisor = copy_[node.b];
+      result.constant = result.constant ? copy_.builder().divide(*result.constant, divisor)
+                                        : copy_.builder().divide(copy_.builder().literal(1), divisor);
     } else {
-      const Signed divisor = copy_[node.b.value];
-      result.rest = builder_.divide(result.rest ? *result.rest : builder_.literal(1), divisor);
+      const Signed divisor = copy_[node.b];
+      result.rest = copy_.builder().divide(result.rest ? *result.rest : copy_.builder().literal(1), divisor);
     }
     return result;
   }
 
   void multiply_in(Product& product, ValueId factor) {
     const auto times = [this](std::optional<Signed>& side, Signed value) {
-      side = side ? builder_.multiply(*side, value) : value;
+      side = side ? copy_.builder().multiply(*side, value) : value;
     };
     const Product& inner = products_[factor.value];
-    if (constant_[factor.value]) return times(product.constant, copy_[factor.value]);
-    if (!inner.constant || !inner.rest || uses_[factor.value] > 1)
-      return times(product.rest, copy_[factor.value]);
+    if (constant_[factor.value]) return times(product.constant, copy_[factor]);
+    if (!inner.constant || !inner.rest || uses_[factor.value] > 1) return times(product.rest, copy_[factor]);
     times(product.constant, *inner.constant);
     times(product.rest, *inner.rest);
   }
 
   Signed joined(const Product& product) {
     if (!product.constant) return *product.rest;
-    return product.rest ? builder_.multiply(*product.constant, *product.rest) : *product.constant;
+    return product.rest ? copy_.builder().multiply(*product.constant, *product.rest) : *product.constant;
   }
 
   const Program& program_;
   std::vector<std::size_t> uses_;
   std::vector<bool> constant_;
-  Builder builder_;
-  std::vector<Signed> copy_;
+  Copy copy_;
   std::vector<Product> products_;
 };
 

@@ -8,7 +8,6 @@
 
 namespace jourdain::passes {
 
-using ir::Builder;
 using ir::Node;
 using ir::Op;
 using ir::Program;
@@ -25,23 +24,15 @@ struct Term {
 class Factoring {
  public:
   explicit Factoring(const Program& program)
-      : program_(program), uses_(ir::use_counts(program)), copy_(program.nodes.size()) {}
+      : program_(program), uses_(ir::use_counts(program)), copy_(program) {}
 
   Program run() {
     find_sums();
-    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
-      if (rebuilt_with_another_[i]) continue;
-      const Node& node = program_.nodes[i];
-      if (const auto sum = sums_.find(i); sum != sums_.end()) {
-        copy_[i] = rebuild(sum->second);
-      } else {
-        copy_[i] = builder_.apply(node, copy_[node.a.value], copy_[node.b.value]);
-      }
-      if (!program_.labels[i].empty()) builder_.label(copy_[i].value, program_.labels[i]);
-    }
-    for (const ir::Output& output : program_.outputs)
-      builder_.output(output.name, output.row, output.column, copy_[output.value.value]);
-    return without_unused(builder_.finish(program_.name));
+    const auto rewritten = [this](ValueId id) -> std::optional<Signed> {
+      const auto sum = sums_.find(id.value);
+      return sum == sums_.end() ? std::nullopt : std::optional(rebuild(sum->second));
+    };
+    return without_unused(copy_.run(rewritten, rebuilt_with_another_));
   }
 
  private:
@@ -95,9 +86,7 @@ class Factoring {
     return best->first;
   }
 
-  Signed signed_copy(ValueId value, bool negative) const {
-    return negative ? -copy_[value.value] : copy_[value.value];
-  }
+  Signed signed_copy(ValueId value, bool negative) const { return negative ? -copy_[value] : copy_[value]; }
 
   Signed rebuild(const std::vector<Term>& terms) {
     const std::optional<ValueId> factor = common_factor(terms);
@@ -110,24 +99,23 @@ class Factoring {
         continue;
       }
       const Signed other = signed_copy(product.a == *factor ? product.b : product.a, term.negative);
-      cofactor = cofactor ? builder_.add(*cofactor, other) : other;
+      cofactor = cofactor ? copy_.builder().add(*cofactor, other) : other;
     }
     if (!factor) return plain_sum(terms);
-    const Signed grouped = builder_.multiply(copy_[factor->value], *cofactor);
-    return rest.empty() ? grouped : builder_.add(rebuild(rest), grouped);
+    const Signed grouped = copy_.builder().multiply(copy_[*factor], *cofactor);
+    return rest.empty() ? grouped : copy_.builder().add(rebuild(rest), grouped);
   }
 
   Signed plain_sum(const std::vector<Term>& terms) {
     Signed sum = signed_copy(terms[0].value, terms[0].negative);
     for (std::size_t i = 1; i < terms.size(); ++i)
-      sum = builder_.add(sum, signed_copy(terms[i].value, terms[i].negative));
+      sum = copy_.builder().add(sum, signed_copy(terms[i].value, terms[i].negative));
     return sum;
   }
 
   const Program& program_;
   std::vector<std::size_t> uses_;
-  Builder builder_;
-  std::vector<Signed> copy_;
+  Copy copy_;
   std::map<std::size_t, std::vector<Term>> sums_;
   std::vector<bool> rebuilt_with_another_;
 };

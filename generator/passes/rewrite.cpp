@@ -4,10 +4,23 @@
 
 namespace jourdain::passes {
 
-using ir::Builder;
 using ir::Node;
 using ir::Program;
 using ir::Signed;
+using ir::ValueId;
+
+Program Copy::run(const Rewritten& rewritten, const std::vector<bool>& left_out) {
+  for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
+    if (!left_out.empty() && left_out[i]) continue;
+    const Node& node = program_.nodes[i];
+    const std::optional<Signed> given = rewritten(ValueId(i));
+    values_[i] = given ? *given : builder_.apply(node, (*this)[node.a], (*this)[node.b]);
+    if (!program_.labels[i].empty()) builder_.label(values_[i].value, program_.labels[i]);
+  }
+  for (const ir::Output& output : program_.outputs)
+    builder_.output(output.name, output.row, output.column, (*this)[output.value]);
+  return builder_.finish(program_.name);
+}
 
 std::vector<bool> needed_values(const Program& program) {
   std::vector<bool> needed(program.nodes.size(), false);
@@ -43,18 +56,9 @@ Program without_unused(const Program& program) {
 namespace {
 
 Program swept(const Program& program) {
-  const std::vector<bool> needed = needed_values(program);
-  Builder builder;
-  std::vector<Signed> copy(program.nodes.size());
-  for (std::size_t i = 0; i < program.nodes.size(); ++i) {
-    if (!needed[i]) continue;
-    const Node& node = program.nodes[i];
-    copy[i] = builder.apply(node, copy[node.a.value], copy[node.b.value]);
-    if (!program.labels[i].empty()) builder.label(copy[i].value, program.labels[i]);
-  }
-  for (const ir::Output& output : program.outputs)
-    builder.output(output.name, output.row, output.column, copy[output.value.value]);
-  return without_unused(builder.finish(program.name));
+  std::vector<bool> unused = needed_values(program);
+  unused.flip();
+  return without_unused(Copy(program).run([](ValueId) { return std::optional<Signed>(); }, unused));
 }
 
 bool same_outputs(const Program& a, const Program& b) {

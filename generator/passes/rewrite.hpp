@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "ir/builder.hpp"
@@ -17,6 +18,26 @@ ir::Program without_unused(const ir::Program& program);
 
 /// Have the two the same values in the same order, and the same outputs? Names apart.
 bool same_operations(const ir::Program& a, const ir::Program& b);
+
+/// A copy of a program under construction.
+class Copy {
+ public:
+  explicit Copy(const ir::Program& program) : program_(program), values_(program.nodes.size()) {}
+
+  /// What stands for a value of the program; nothing: the same operation on the copies of its operands.
+  using Rewritten = std::function<std::optional<ir::Signed>(ir::ValueId)>;
+
+  /// Values in their order, with their labels; then the outputs. Values that `left_out` has are not copied.
+  ir::Program run(const Rewritten& rewritten, const std::vector<bool>& left_out = {});
+
+  const ir::Signed& operator[](ir::ValueId id) const { return values_[id.value]; }
+  ir::Builder& builder() { return builder_; }
+
+ private:
+  const ir::Program& program_;
+  ir::Builder builder_;
+  std::vector<ir::Signed> values_;
+};
 
 using Rewriting = std::function<ir::Program(const ir::Program&)>;
 

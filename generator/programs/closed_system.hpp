@@ -2,39 +2,35 @@
 #pragma once
 
 #include <map>
-#include <memory>
-#include <optional>
 
 #include "dynamics/equations.hpp"
 #include "programs/loop_functions.hpp"
+#include "programs/scene_programs.hpp"
 
 namespace jourdain::programs {
 
 /// Owns what a LoopSystem refers to. It refers to the mechanism and the plan, which must outlive it.
-class ClosedSystem {
+class ClosedSystem : public ScenePrograms {
  public:
   ClosedSystem(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options,
                const loops::LoopPlan& plan);
   ClosedSystem(const ClosedSystem&) = delete;
+
+  ir::Program program(ir::FunctionId function) const override;
+  DerivativeSources derivative_sources() const override;
 
   const dynamics::Equations& equations() const { return equations_; }  ///< of the tree, for derivatives
   const loops::ConstraintPrograms& constraints() const { return constraints_; }
   const loops::LoopSystem& system() const { return system_; }
 
  private:
-  const ir::Program& tree(const std::string& function);
+  const ir::Program& tree(ir::FunctionId function);
   void choose(const std::vector<loops::ConstraintPrograms>& list);
 
   dynamics::Equations equations_;
   loops::ConstraintPrograms constraints_;
-  std::map<std::string, ir::Program> lowered_;
+  std::map<ir::FunctionId, ir::Program> lowered_;
   loops::LoopSystem system_;
 };
-
-/// Small displacements of the independent coordinates: entries of y, and of the velocities of the plan.
-model::Tangent independent_tangent(const loops::LoopPlan& plan, const model::Tangent& tree);
-
-/// Entries of y that close_loops sets; none with multipliers.
-std::vector<std::size_t> dependent_positions(const loops::LoopPlan& plan, const model::Tangent& tree);
 
 }  // namespace jourdain::programs

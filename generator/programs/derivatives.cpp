@@ -10,7 +10,6 @@
 #include "ir/symmetric_factors.hpp"
 #include "lowering/cheapest_elimination.hpp"
 #include "lowering/lower.hpp"
-#include "model/coordinates.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::programs {
@@ -18,8 +17,10 @@ namespace jourdain::programs {
 using dynamics::Equations;
 using ir::Builder;
 using ir::EliminationOrder;
+using ir::FunctionId;
 using ir::JacobianEntries;
 using ir::LeafKind;
+using ir::name_of;
 using ir::Program;
 using ir::Signed;
 
@@ -45,14 +46,14 @@ class Assembly {
       : sources_(sources),
         terms_(terms),
         order_(order),
-        columns_{sources.velocities, sources.inputs, sources.time.any()} {}
+        columns_{sources.facts.velocities.size(), sources.facts.inputs.size(), sources.facts.time.any()} {}
 
   /// M and the derivatives of the residual.
   Program residual_derivatives() {
     write_matrix("M", mass_matrix());
     const bool all = terms_ == DerivativeTerms::kAll;
     write_residual_derivatives(differentiated(all ? sources_.residual : sources_.load));
-    return finish("residual_derivatives");
+    return finish(FunctionId::kResidualDerivatives);
   }
 
   Program forward_dynamics_derivatives() {
@@ -64,7 +65,7 @@ class Assembly {
         write(by_velocity ? "zdot_z" : "zdot_y", at.first,
               at.second - (by_velocity ? columns_.velocity(0) : 0), value);
       }
-    return finish("forward_dynamics_derivatives");
+    return finish(FunctionId::kForwardDynamicsDerivatives);
   }
 
   Program linearize() {
@@ -80,7 +81,7 @@ class Assembly {
         write("A", row, at.second, value);
     }
     write_outputs(J);
-    return finish("linearize");
+    return finish(FunctionId::kLinearize);
   }
 
  private:
@@ -180,7 +181,7 @@ class Assembly {
   void write_kinematics() {
     const Signed one = builder_.literal(1);
     for (std::size_t i = 0; i < columns_.velocities; ++i) write("A", i, columns_.velocity(i), one);
-    for (const model::Tangent::Scalar& s : sources_.tangent.quaternions)
+    for (const model::Tangent::Scalar& s : sources_.facts.tangent.quaternions)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
         write("A", s.velocity + j, s.velocity + l, builder_.leaf(LeafKind::kVelocity, s.velocity + k));
@@ -218,7 +219,7 @@ class Assembly {
     }
   }
 
-  Program finish(const char* name) { return passes::remove_dead_code(builder_.finish(name)); }
+  Program finish(FunctionId function) { return passes::remove_dead_code(builder_.finish(name_of(function))); }
 
   const DerivativeSources& sources_;
   DerivativeTerms terms_;
@@ -251,7 +252,6 @@ DerivativeSources tree_sources(const model::Mechanism& mechanism,
   const auto lowered = [&](const std::vector<dynamics::Ex>& values, const char* name, const char* program) {
     return lowering::lower(equations.statements, targets(name, values), program);
   };
-  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   DerivativeSources sources;
   sources.residual = lowered(equations.residual, "r", "residual");
   sources.load = lowered(equations.load, "v", "values");
@@ -259,32 +259,36 @@ DerivativeSources tree_sources(const model::Mechanism& mechanism,
   sources.outputs = lowered(dynamics::output_entries(equations), "v", "values");
   for (const std::vector<dynamics::Ex>& row : equations.M)
     sources.mass_rows.push_back(lowered(row, "v", "values"));
-  sources.tangent = model::tangent_of(mechanism, layout);
-  sources.velocities = layout.velocity_count();
-  sources.inputs = layout.input_count();
-  sources.time = model::time_dependence(mechanism);
-  sources.position_seeds = [tangent = sources.tangent](Builder& builder, std::size_t) {
+  sources.facts = scene_facts(mechanism);
+  sources.position_seeds = [tangent = sources.facts.tangent](Builder& builder, std::size_t) {
     return lowering::displacement_seeds(builder, tangent);
   };
   return sources;
 }
 
+namespace {
+
+Program derivative_program(const DerivativeSources& sources, FunctionId function, DerivativeTerms terms,
+                           EliminationOrder order) {
+  Assembly assembly(sources, terms, order);
+  if (function == FunctionId::kResidualDerivatives) return assembly.residual_derivatives();
+  if (function == FunctionId::kForwardDynamicsDerivatives) return assembly.forward_dynamics_derivatives();
+  JD_CHECK(function == FunctionId::kLinearize, "no derivatives for '{}'", name_of(function));
+  return assembly.linearize();
+}
+
+}  // namespace
+
 std::vector<Program> derivative_programs(const DerivativeSources& sources,
                                          const std::vector<FunctionInfo>& functions, DerivativeTerms terms) {
   std::vector<Program> programs;
   for (const FunctionInfo& function : functions) {
-    if (!function.holds_derivatives) continue;
-    if (function.name == "residual") {
+    if (!function.id || !function.holds_derivatives) continue;
+    if (*function.id == FunctionId::kResidual)
       programs.push_back(sources.residual);
-      continue;
-    }
-    programs.push_back(lowering::cheapest([&](EliminationOrder order) {
-      Assembly assembly(sources, terms, order);
-      if (function.name == "residual_derivatives") return assembly.residual_derivatives();
-      if (function.name == "forward_dynamics_derivatives") return assembly.forward_dynamics_derivatives();
-      JD_CHECK(function.name == "linearize", "no derivatives for '{}'", function.name);
-      return assembly.linearize();
-    }));
+    else
+      programs.push_back(lowering::cheapest(
+          [&](EliminationOrder order) { return derivative_program(sources, *function.id, terms, order); }));
   }
   return programs;
 }

@@ -8,7 +8,6 @@
 #include "ir/program.hpp"
 #include "lowering/cheapest_elimination.hpp"
 #include "model/mechanism.hpp"
-#include "model/time_dependence.hpp"
 #include "programs/functions.hpp"
 
 namespace jourdain::programs {
@@ -26,9 +25,7 @@ struct DerivativeSources {
   ir::Program zdot;                    ///< M⁻¹ (k̄ − q̄)
   ir::Program outputs;                 ///< numbers of all outputs, with ż as leaves
   std::vector<ir::Program> mass_rows;  ///< the entries of one row of M each
-  model::Tangent tangent;
-  std::size_t velocities = 0, inputs = 0;
-  model::TimeDependence time;
+  SceneFacts facts;
   /// How position leaves depend on the displacements and, beyond that, on time: the column after the last velocity, input.
   std::function<std::vector<ir::Seed>(ir::Builder&, std::size_t time_column)> position_seeds;
 };

@@ -1,11 +1,12 @@
-// The functions that can be emitted. A new one is one line in the table of functions.cpp; steps come from the list of
-// steppers.
+// The functions that can be emitted, a row each in the table of functions.cpp; steps come from the list of steppers.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "model/time_dependence.hpp"
+#include "ir/function_id.hpp"
+#include "programs/scene_facts.hpp"
 #include "programs/steppers.hpp"
 
 namespace jourdain::programs {
@@ -40,47 +41,36 @@ struct ArrayResult {
 };
 
 struct FunctionInfo {
-  std::string name;
+  std::optional<ir::FunctionId> id = {};  ///< none: a step
+  std::string name = {};
   Shape shape = Shape::kVector;
-  std::string result;  ///< name of the array, and of the program's outputs
+  std::string result = {};  ///< name of the array, and of the program's outputs
   bool takes_input = false;
   bool takes_acceleration = false;       ///< Real (&zdot)[nz]
-  std::vector<std::string> needs;        ///< functions that its body calls
-  std::string comment;                   ///< doc comment, lines separated by '\n'
+  std::vector<std::string> needs = {};   ///< functions that its body calls
+  std::string comment = {};              ///< doc comment, lines separated by '\n'
+  std::string comment_reduced = {};      ///< a line more where coordinates depend on others
+  std::string comment_multipliers = {};  ///< a line more where loops are held by multipliers
   const Stepper* stepper = nullptr;      ///< of a step
   bool on_request = false;               ///< not emitted unless asked for or needed
   bool holds_derivatives = false;        ///< its program is not lowered from the equations alone
   std::vector<ArrayResult> arrays = {};  ///< kArrays, kLinearization
 };
 
-/// What decides whether a function has anything to compute, and its arguments' bounds.
-struct SceneShape {
-  std::size_t positions = 0, velocities = 0, quaternions = 0, outputs = 0;
-  std::size_t inputs = 0, output_numbers = 0;
-  model::TimeDependence time;
-  bool clock = false;  ///< states hold the time: something depends on it, inputs may, or it was asked for
-  std::size_t constraints = 0;  ///< rows of all loops
-  bool has_dependents = false;  ///< some positions follow from others
-  int closings =
-      1;  ///< calls of close_loops where dependent positions were not integrated along: more for Newton\'s method
+std::size_t count(const SceneFacts& scene, Extent extent);
 
-  /// dy/dt is not z.
-  bool has_rate() const { return quaternions > 0 || has_dependents; }
-  /// The function that brings a state back to the closed loops at the end of a step; empty for trees.
-  const char* correction() const {
-    return constraints == 0 ? "" : has_dependents ? "close_loops" : "project";
-  }
-  std::size_t count(Extent extent) const;
-  /// Whether the array has entries.
-  bool has(const ArrayResult& array) const;
-};
+/// Whether the array has entries.
+bool has_entries(const SceneFacts& scene, const ArrayResult& array);
 
-/// Whether a scene of this shape has the function: vectors and matrices of length zero are left out, the rate of the
+/// The function that brings a state back to the closed loops at the end of a step; empty for trees.
+const char* correction(const SceneFacts& scene);
+
+/// Whether the scene has the function: vectors and matrices of length zero are left out, the rate of the
 /// positions where it is z, outputs where there are none.
-bool has_function(const FunctionInfo& function, const SceneShape& shape);
+bool has_function(const FunctionInfo& function, const SceneFacts& scene);
 
 /// The function's comment, with what is different where loops are closed.
-std::string comment_of(const FunctionInfo& function, const SceneShape& shape);
+std::string comment_of(const FunctionInfo& function, const SceneFacts& scene);
 
 /// In the order of emission.
 const std::vector<FunctionInfo>& all_functions();
@@ -91,6 +81,6 @@ std::vector<std::string> function_names();
 std::vector<std::string> default_functions();
 
 /// `wanted` with the functions they need, in the order of emission, as far as the scene has them.
-std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, const SceneShape& shape);
+std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, const SceneFacts& scene);
 
 }  // namespace jourdain::programs

@@ -16,7 +16,9 @@
 namespace jourdain::programs {
 
 using ir::Builder;
+using ir::FunctionId;
 using ir::LeafKind;
+using ir::name_of;
 using ir::Program;
 using ir::Signed;
 
@@ -31,26 +33,46 @@ class LoopProgram {
 
   Program finish(const std::string& name) { return passes::remove_dead_code(builder_.finish(name)); }
 
-  void write_function(const std::string& name) {
-    if (name == "position_rate")
-      return write("ydot", loops::position_rates(builder_, system_, dependence_.z()));
-    if (name == "mass_matrix") return write_mass_matrix();
-    if (name == "k_bar") return write("k", k_bar());
-    if (name == "q_bar") return write("q", dependence_.projected(vector("q_bar")));
-    if (name == "residual") return write("r", residual(acceleration_leaves()));
-    if (name == "inverse_dynamics")
-      return write("tau", dependence_.projected(
-                              vector("inverse_dynamics", dependence_.accelerations(acceleration_leaves()))));
-    if (name == "forward_dynamics") return write("zdot", zdot());
-    if (name == "outputs") return write_outputs(zdot());
-    if (name == "outputs at accelerations") return write_outputs(acceleration_leaves());
-    if (name == "initial_state") return write_initial_state();
-    if (name == "constraint_residual") return write_constraint_residual();
-    if (name == "constraint_forces") return write("lambda", constraint_forces(zdot()));
-    JD_CHECK(name == "kinetic_energy" || name == "potential_energy", "no function '{}'", name);
-    const Program tree = system_.tree(name);
-    builder_.output(tree.outputs[0].name, -1, -1, insert(tree, {})[0]);
+  void write_function(FunctionId function) {
+    switch (function) {
+      case FunctionId::kInitialState:
+        return write_initial_state();
+      case FunctionId::kPositionRate:
+        return write("ydot", loops::position_rates(builder_, system_, dependence_.z()));
+      case FunctionId::kMassMatrix:
+        return write_mass_matrix();
+      case FunctionId::kKBar:
+        return write("k", k_bar());
+      case FunctionId::kQBar:
+        return write("q", dependence_.projected(vector(FunctionId::kQBar)));
+      case FunctionId::kForwardDynamics:
+        return write("zdot", zdot());
+      case FunctionId::kInverseDynamics:
+        return write("tau", dependence_.projected(vector(FunctionId::kInverseDynamics,
+                                                         dependence_.accelerations(acceleration_leaves()))));
+      case FunctionId::kKineticEnergy:
+      case FunctionId::kPotentialEnergy:
+        return write_energy(function);
+      case FunctionId::kOutputs:
+        return write_outputs(zdot());
+      case FunctionId::kConstraintResidual:
+        return write_constraint_residual();
+      case FunctionId::kConstraintForces:
+        return write("lambda", constraint_forces(zdot()));
+      case FunctionId::kResidual:
+        return write("r", residual(acceleration_leaves()));
+      case FunctionId::kCloseLoops:
+      case FunctionId::kProject:
+      case FunctionId::kResidualDerivatives:
+      case FunctionId::kForwardDynamicsDerivatives:
+      case FunctionId::kLinearize:
+        break;
+    }
+    JD_CHECK(false, "'{}' is no function of velocities and forces", name_of(function));
   }
+
+  /// With the accelerations as leaves.
+  void write_outputs_at_accelerations() { write_outputs(acceleration_leaves()); }
 
   ir::Column zdot() {
     if (!system_.plan.is_reduced()) return constrained_motion(system_.plan.solved_rows()).zdot;
@@ -77,7 +99,7 @@ class LoopProgram {
     });
   }
 
-  ir::Column vector(const std::string& function, const ir::Column& a = {}) {
+  ir::Column vector(FunctionId function, const ir::Column& a = {}) {
     return insert(system_.tree(function), a);
   }
 
@@ -103,7 +125,7 @@ class LoopProgram {
     const std::vector<ir::Column>& B = dependence_.B();
     if (B.size() == 1 && !model::time_dependence(system_.mechanism).positions) {
       const Signed T =
-          ir::insert(builder_, system_.tree("kinetic_energy"), [&](LeafKind kind, std::size_t i) {
+          ir::insert(builder_, system_.tree(FunctionId::kKineticEnergy), [&](LeafKind kind, std::size_t i) {
             return kind == LeafKind::kVelocity ? std::optional(B[0][i]) : std::nullopt;
           })[0];
       return {{builder_.multiply(builder_.literal(2), T)}};
@@ -117,13 +139,13 @@ class LoopProgram {
 
   /// k̄ − q̄ of the independent coordinates: minus the residual of the tree at ż = β.
   ir::Column forces() {
-    ir::Column list = dependence_.projected(vector("residual", dependence_.beta()));
+    ir::Column list = dependence_.projected(vector(FunctionId::kResidual, dependence_.beta()));
     for (Signed& entry : list) entry = -entry;
     return list;
   }
 
   ir::Column k_bar() {
-    const ir::Column tree = vector("k_bar");
+    const ir::Column tree = vector(FunctionId::kKBar);
     if (!system_.plan.is_reduced()) return tree;
     const ir::Column bias = times(loops::tree_mass_matrix(builder_, system_), dependence_.beta());
     ir::Column rows;
@@ -132,7 +154,7 @@ class LoopProgram {
   }
 
   ir::Column residual(const ir::Column& zdot) {
-    ir::Column r = dependence_.projected(vector("residual", dependence_.accelerations(zdot)));
+    ir::Column r = dependence_.projected(vector(FunctionId::kResidual, dependence_.accelerations(zdot)));
     if (system_.plan.is_reduced()) return r;
     const std::vector<std::size_t> rows = system_.plan.solved_rows();
     const ir::Column lambda = constrained_motion(rows).lambda;
@@ -188,9 +210,14 @@ class LoopProgram {
   /// rows: of redundant ones those of least norm.
   ir::Column constraint_forces(const ir::Column& zdot) {
     if (!system_.plan.is_reduced()) return least_multipliers();
-    ir::Column missing = vector("residual", dependence_.accelerations(zdot));
+    ir::Column missing = vector(FunctionId::kResidual, dependence_.accelerations(zdot));
     for (Signed& entry : missing) entry = -entry;
     return dependence_.multipliers(missing);
+  }
+
+  void write_energy(FunctionId function) {
+    const Program tree = system_.tree(function);
+    builder_.output(tree.outputs[0].name, -1, -1, insert(tree, {})[0]);
   }
 
   void write_mass_matrix() {
@@ -221,7 +248,7 @@ class LoopProgram {
   }
 
   void write_outputs(const ir::Column& zdot) {
-    const Program tree = system_.tree("outputs");
+    const Program tree = system_.tree(FunctionId::kOutputs);
     const ir::Column values = insert(tree, dependence_.accelerations(zdot),
                                      takes_multipliers(tree) ? constraint_forces(zdot) : ir::Column());
     programs::write_outputs(builder_, system_, dependence_, tree, values);
@@ -254,7 +281,7 @@ Program closing_program(const loops::LoopSystem& system) {
       const ir::Column change = solver.solve(open);
       ir::Column displacement(dependent.size(), builder.literal(0));
       for (std::size_t k = 0; k < change.size(); ++k) displacement[block.dependents[k]] = change[k];
-      y = loops::displaced(builder, system.tangent, y, displacement);
+      y = loops::displaced(builder, system.layout.tangent, y, displacement);
       for (const Signed& entry : change)
         if (i == 0) opening = builder.add(opening, builder.multiply(entry, entry));
       if (i + 1 == system.plan.iterations) determinant = builder.multiply(determinant, solver.determinant());
@@ -263,9 +290,9 @@ Program closing_program(const loops::LoopSystem& system) {
   builder.output("regularity", -1, -1, determinant);
   builder.output("opening", -1, -1, opening);
   const auto write = [&](std::size_t entry) { builder.output("y", static_cast<int>(entry), -1, y[entry]); };
-  for (const model::Tangent::Scalar& s : system.tangent.scalars)
+  for (const model::Tangent::Scalar& s : system.layout.tangent.scalars)
     if (dependent[s.velocity]) write(s.position);
-  for (const model::Tangent::Scalar& s : system.tangent.quaternions)
+  for (const model::Tangent::Scalar& s : system.layout.tangent.quaternions)
     for (std::size_t k = 0; dependent[s.velocity] && k < 4; ++k) write(s.position + k);
   return passes::remove_dead_code(builder.finish("close_loops"));
 }
@@ -293,16 +320,16 @@ Program with_ranges(const Program& close, const std::vector<loops::ProvenRange>&
 
 }  // namespace
 
-Program loop_program(const loops::LoopSystem& system, const std::string& function) {
-  if (function == "project") return loops::projection_program(system);
-  if (function == "close_loops") {
+Program loop_program(const loops::LoopSystem& system, FunctionId function) {
+  if (function == FunctionId::kProject) return loops::projection_program(system);
+  if (function == FunctionId::kCloseLoops) {
     const Program close = system.plan.closed_form ? system.plan.closed_form->close : closing_program(system);
     const loops::ProvenBox* box = system.plan.proven();
     return box && !box->positions.empty() ? with_ranges(close, box->positions) : close;
   }
   LoopProgram program(system);
   program.write_function(function);
-  return program.finish(function);
+  return program.finish(name_of(function));
 }
 
 namespace {
@@ -318,6 +345,12 @@ Program row_of(const Program& M, std::size_t i, std::size_t size) {
   return row;
 }
 
+Program outputs_at_accelerations(const loops::LoopSystem& system) {
+  LoopProgram program(system);
+  program.write_outputs_at_accelerations();
+  return program.finish("outputs at accelerations");
+}
+
 /// Displacements of the independent coordinates move the dependent ones along; so does time.
 std::vector<ir::Seed> independent_seeds(const loops::LoopSystem& system, Builder& builder,
                                         std::size_t time_column) {
@@ -327,7 +360,7 @@ std::vector<ir::Seed> independent_seeds(const loops::LoopSystem& system, Builder
     if (!builder.is_literal(share, 0))
       seeds.push_back({seed.leaf, column, builder.multiply(seed.partial, share)});
   };
-  for (const ir::Seed& seed : lowering::displacement_seeds(builder, system.tangent)) {
+  for (const ir::Seed& seed : lowering::displacement_seeds(builder, system.layout.tangent)) {
     for (std::size_t j = 0; j < dependence.B().size(); ++j) add(seed, j, dependence.B()[j][seed.column]);
     add(seed, time_column, dependence.b()[seed.column]);
   }
@@ -338,18 +371,14 @@ std::vector<ir::Seed> independent_seeds(const loops::LoopSystem& system, Builder
 
 DerivativeSources derivative_sources(const loops::LoopSystem& system) {
   DerivativeSources sources;
-  const bool reduced = system.plan.is_reduced();
-  sources.velocities = reduced ? system.plan.independent.size() : system.layout.velocity_count();
-  sources.inputs = system.layout.input_count();
-  sources.time = model::time_dependence(system.mechanism);
-  sources.residual = loop_program(system, "residual");
+  sources.facts = scene_facts(system.mechanism, &system.plan);
+  const std::size_t velocities = sources.facts.velocities.size();
+  sources.residual = loop_program(system, FunctionId::kResidual);
   sources.load = sources.residual;
-  sources.zdot = loop_program(system, "forward_dynamics");
-  if (!system.mechanism.outputs.empty()) sources.outputs = loop_program(system, "outputs at accelerations");
-  const Program M = loop_program(system, "mass_matrix");
-  for (std::size_t i = 0; i < sources.velocities; ++i)
-    sources.mass_rows.push_back(row_of(M, i, sources.velocities));
-  sources.tangent = reduced ? independent_tangent(system.plan, system.tangent) : system.tangent;
+  sources.zdot = loop_program(system, FunctionId::kForwardDynamics);
+  if (!system.mechanism.outputs.empty()) sources.outputs = outputs_at_accelerations(system);
+  const Program M = loop_program(system, FunctionId::kMassMatrix);
+  for (std::size_t i = 0; i < velocities; ++i) sources.mass_rows.push_back(row_of(M, i, velocities));
   sources.position_seeds = [&system](Builder& builder, std::size_t time_column) {
     return independent_seeds(system, builder, time_column);
   };

@@ -1,14 +1,13 @@
 // The programs of the emitted functions of a mechanism with loops.
 #pragma once
 
-#include <string>
-
+#include "ir/function_id.hpp"
 #include "loops/rows/loop_system.hpp"
 #include "programs/derivatives.hpp"
 
 namespace jourdain::programs {
 
-/// The program of a function: those of a tree ("mass_matrix", "forward_dynamics", …; "residual" is M ż − k̄ + q̄, with
+/// The program of a function that holds no derivatives: those of a tree (the residual is M ż − k̄ + q̄, with
 /// multipliers + Gᵀ λ), and
 ///
 ///   close_loops             ("y", entry): dependent positions from independent ones by Newton iterations, or in closed form;
@@ -19,7 +18,7 @@ namespace jourdain::programs {
 ///
 /// Velocities, M, k̄ and q̄ are those of the independent coordinates, with multipliers of all. Leaves of velocities, accelerations
 /// count accordingly; leaves of positions are those of the tree.
-ir::Program loop_program(const loops::LoopSystem& system, const std::string& function);
+ir::Program loop_program(const loops::LoopSystem& system, ir::FunctionId function);
 
 /// The same equations to be differentiated; positions that depend on others follow them.
 DerivativeSources derivative_sources(const loops::LoopSystem& system);

@@ -72,27 +72,4 @@ void write_outputs(Builder& builder, const loops::LoopSystem& system, const loop
   }
 }
 
-std::vector<std::vector<dynamics::OutputValues>> resized_outputs(
-    const model::Mechanism& mechanism, const loops::LoopPlan& plan,
-    std::vector<std::vector<dynamics::OutputValues>> outputs) {
-  if (!plan.is_reduced()) return outputs;
-  for (std::size_t k = 0; k < outputs.size(); ++k) {
-    if (mechanism.outputs[k].kind != model::OutputKind::kJacobian) continue;
-    if (plan.independent.empty())
-      std::erase_if(outputs[k], [](const dynamics::OutputValues& member) { return member.is_matrix; });
-    for (dynamics::OutputValues& member : outputs[k])
-      if (member.is_matrix) member.columns = static_cast<int>(plan.independent.size());
-  }
-  return outputs;
-}
-
-std::size_t output_numbers(const model::Mechanism& mechanism, const loops::LoopPlan& plan,
-                           const dynamics::Equations& equations) {
-  std::size_t count = 0;
-  for (const auto& members : resized_outputs(mechanism, plan, equations.outputs))
-    for (const dynamics::OutputValues& member : members)
-      count += static_cast<std::size_t>(member.rows) * static_cast<std::size_t>(member.columns);
-  return count;
-}
-
 }  // namespace jourdain::programs

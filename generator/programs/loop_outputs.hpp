@@ -1,7 +1,6 @@
 // The outputs of a mechanism with loops: those of its tree, in terms of the independent velocities.
 #pragma once
 
-#include "dynamics/equations.hpp"
 #include "loops/treatments/dependence.hpp"
 
 namespace jourdain::programs {
@@ -13,14 +12,5 @@ bool takes_multipliers(const ir::Program& tree);
 /// v̄ + J b, ā + J β stand for their v̄, ā; ω̄ and ζ̄ alike.
 void write_outputs(ir::Builder& builder, const loops::LoopSystem& system, const loops::Dependence& dependence,
                    const ir::Program& tree, const ir::Column& values);
-
-/// `outputs` of the tree with the sizes that they have then; their values stay the tree's.
-std::vector<std::vector<dynamics::OutputValues>> resized_outputs(
-    const model::Mechanism& mechanism, const loops::LoopPlan& plan,
-    std::vector<std::vector<dynamics::OutputValues>> outputs);
-
-/// Of the resized outputs, all together.
-std::size_t output_numbers(const model::Mechanism& mechanism, const loops::LoopPlan& plan,
-                           const dynamics::Equations& equations);
 
 }  // namespace jourdain::programs

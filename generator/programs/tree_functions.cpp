@@ -5,6 +5,8 @@
 namespace jourdain::programs {
 
 using dynamics::Equations;
+using ir::FunctionId;
+using ir::name_of;
 using kinematics::Ex;
 
 namespace {
@@ -39,29 +41,64 @@ std::vector<lowering::Target> output_targets(const Equations& equations) {
   return targets;
 }
 
-/// What each emitted function computes.
-std::vector<lowering::Target> targets_of(const std::string& function, const Equations& equations) {
-  if (function == "position_rate") return vector_targets("ydot", equations.ydot);
-  if (function == "outputs") return output_targets(equations);
-  if (function == "mass_matrix") return matrix_targets(equations.M);
-  if (function == "k_bar") return vector_targets("k", equations.k_bar);
-  if (function == "q_bar") return vector_targets("q", equations.q_bar);
-  if (function == "forward_dynamics") return vector_targets("zdot", equations.zdot);
-  if (function == "inverse_dynamics") return vector_targets("tau", equations.tau);
-  if (function == "residual") return vector_targets("r", equations.residual);
-  if (function == "kinetic_energy") return {{"T", -1, -1, equations.kinetic_energy}};
-  if (function == "potential_energy") return {{"V", -1, -1, equations.potential_energy}};
-  JD_CHECK(function == "initial_state", "no targets for '{}'", function);
-  std::vector<lowering::Target> targets = vector_targets("y", equations.initial_position);
-  for (const lowering::Target& target : vector_targets("z", equations.initial_velocity))
-    targets.push_back(target);
-  return targets;
+/// What each emitted function computes; of those with derivatives the residual alone.
+std::vector<lowering::Target> targets_of(FunctionId function, const Equations& equations) {
+  switch (function) {
+    case FunctionId::kInitialState: {
+      std::vector<lowering::Target> targets = vector_targets("y", equations.initial_position);
+      for (const lowering::Target& target : vector_targets("z", equations.initial_velocity))
+        targets.push_back(target);
+      return targets;
+    }
+    case FunctionId::kPositionRate:
+      return vector_targets("ydot", equations.ydot);
+    case FunctionId::kMassMatrix:
+      return matrix_targets(equations.M);
+    case FunctionId::kKBar:
+      return vector_targets("k", equations.k_bar);
+    case FunctionId::kQBar:
+      return vector_targets("q", equations.q_bar);
+    case FunctionId::kForwardDynamics:
+      return vector_targets("zdot", equations.zdot);
+    case FunctionId::kInverseDynamics:
+      return vector_targets("tau", equations.tau);
+    case FunctionId::kKineticEnergy:
+      return {{"T", -1, -1, equations.kinetic_energy}};
+    case FunctionId::kPotentialEnergy:
+      return {{"V", -1, -1, equations.potential_energy}};
+    case FunctionId::kOutputs:
+      return output_targets(equations);
+    case FunctionId::kResidual:
+      return vector_targets("r", equations.residual);
+    case FunctionId::kCloseLoops:
+    case FunctionId::kProject:
+    case FunctionId::kConstraintResidual:
+    case FunctionId::kConstraintForces:
+    case FunctionId::kResidualDerivatives:
+    case FunctionId::kForwardDynamicsDerivatives:
+    case FunctionId::kLinearize:
+      break;
+  }
+  JD_CHECK(false, "no targets for '{}'", name_of(function));
+  return {};
 }
 
 }  // namespace
 
-ir::Program lower_function(const Equations& equations, const std::string& function) {
-  return lowering::lower(equations.statements, targets_of(function, equations), function);
+ir::Program lower_function(const Equations& equations, FunctionId function) {
+  return lowering::lower(equations.statements, targets_of(function, equations), name_of(function));
 }
+
+ir::Module lower_functions(const Equations& equations, const std::vector<FunctionInfo>& functions) {
+  ir::Module module;
+  for (const FunctionInfo& function : functions)
+    if (function.id && !function.holds_derivatives)
+      module.functions.push_back(lower_function(equations, *function.id));
+  return module;
+}
+
+ir::Program TreePrograms::program(FunctionId function) const { return lower_function(equations_, function); }
+
+DerivativeSources TreePrograms::derivative_sources() const { return tree_sources(mechanism_, options_); }
 
 }  // namespace jourdain::programs

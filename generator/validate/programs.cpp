@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+
+#include "ir/function_id.hpp"
 
 namespace jourdain::validate {
 
 using dynamics::ExactDirection;
+using ir::FunctionId;
 
 namespace {
 
@@ -60,11 +64,12 @@ std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledR
                            const ExactDirection& direction, std::size_t output_numbers) {
   const Contraction c(program, values, direction);
   const std::size_t n = direction.velocity.size();
-  if (program.name == "residual_derivatives")
+  const std::optional<FunctionId> function = ir::function_named(program.name);
+  if (function == FunctionId::kResidualDerivatives)
     return {c.entries("M"), c.along("derivatives", {"r_y", "r_z", "r_u", "r_t"}, n)};
-  if (program.name == "forward_dynamics_derivatives")
+  if (function == FunctionId::kForwardDynamicsDerivatives)
     return {c.entries("zdot"), c.along("derivatives", {"zdot_y", "zdot_z"}, n)};
-  if (program.name == "linearize")
+  if (function == FunctionId::kLinearize)
     return {c.along("state", {"A", "B", "rate_t"}, 2 * n),
             c.along("outputs", {"C", "D", "output_t"}, output_numbers)};
   return {{program.name, values}};

@@ -46,7 +46,7 @@ class Comparison {
     compare_programs(module_, point_, std::cref(oracle), agreement_);
     verdict_.condition =
         std::max(verdict_.condition, static_cast<double>(reference::condition<long double>(terms_.M)));
-    if (const ir::Program* forward = ir::find_program(module_, "forward_dynamics"))
+    if (const ir::Program* forward = ir::find_program(module_, ir::FunctionId::kForwardDynamics))
       measure_backward_error(*forward, oracle);
   }
 

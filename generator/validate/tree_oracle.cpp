@@ -1,12 +1,15 @@
 #include "validate/tree_oracle.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "dynamics/outputs.hpp"
-#include "lowering/lower.hpp"
+#include "ir/function_id.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::validate {
+
+using ir::FunctionId;
 
 using dynamics::ExactDirection;
 using dynamics::SlopePrecision;
@@ -31,7 +34,7 @@ ExactVector rates(const SlopePrecision& moved, const std::vector<Ex>& expression
 
 dynamics::LeafValue leaves_at(const ir::LeafValues<ScaledReal>& values) {
   return [&values](kinematics::LeafKind kind, std::size_t i) {
-    const std::vector<ScaledReal>& list = values[lowering::leaf_kind(kind)];
+    const std::vector<ScaledReal>& list = values[kind];
     return i < list.size() ? list[i] : ScaledReal();  // multipliers: as if loops were open
   };
 }
@@ -41,7 +44,7 @@ TreeOracle::TreeOracle(const model::Mechanism& mechanism, const dynamics::Equati
     : equations_(equations),
       load_(load),
       point_(point),
-      tangent_(model::tangent_of(mechanism, model::lay_out_coordinates(mechanism))),
+      tangent_(model::lay_out_coordinates(mechanism).tangent),
       leaf_(leaves_at(point.exact)),
       exact_(equations.statements, leaf_),
       M_(at(equations.M.size()), at(equations.M.size())),
@@ -53,44 +56,66 @@ TreeOracle::TreeOracle(const model::Mechanism& mechanism, const dynamics::Equati
 }
 
 std::vector<Expected> TreeOracle::operator()(const ir::Program& program) const {
-  const std::string& name = program.name;
   const auto one = [](const char* oracle, std::vector<ScaledReal> values) {
     return std::vector<Expected>{{oracle, std::move(values)}};
   };
-  if (name == "initial_state") return {state(program)};
-  if (name == "position_rate") return one("Z z of the equations", exact_.values(equations_.ydot));
-  if (name == "mass_matrix") return one("M of the equations", mass_entries(program, "M"));
-  if (name == "k_bar") return one("k_bar of the equations", to_list(k_));
-  if (name == "q_bar") return one("q_bar of the equations", to_list(q_));
-  if (name == "forward_dynamics") return one("M^-1 (k_bar - q_bar)", to_list(zdot_));
-  if (name == "residual") return one("M zdot - k_bar + q_bar", to_list(M_ * given_accelerations() - k_ + q_));
-  if (name == "inverse_dynamics")
-    return one("M zdot - k_bar + q_bar without inputs",
-               to_list(M_ * given_accelerations() - k_ + forces_without_inputs()));
-  if (name == "kinetic_energy") return one("T of the equations", {exact_.value(equations_.kinetic_energy)});
-  if (name == "potential_energy")
-    return one("V of the equations", {exact_.value(equations_.potential_energy)});
-  if (name == "outputs")
-    return one("outputs of the equations", exact_.values(dynamics::output_entries(equations_)));
-  if (name == "residual_derivatives")
-    return {{"M of the equations", mass_entries(program, "M")},
-            {"the residual's derivative along a direction", to_list(residual_rate())}};
-  if (name == "forward_dynamics_derivatives") {
-    ExactDirection still = point_.direction;  // it has no columns of inputs and time
-    std::fill(still.input.begin(), still.input.end(), ScaledReal());
-    still.time = 0;
-    return {{"M^-1 (k_bar - q_bar)", to_list(zdot_)},
-            {"the accelerations' derivative along a direction", to_list(acceleration_rate(still))}};
+  const std::optional<FunctionId> function = ir::function_named(program.name);
+  JD_CHECK(function, "no oracle for '{}'", program.name);
+  switch (*function) {
+    case FunctionId::kInitialState:
+      return {state(program)};
+    case FunctionId::kPositionRate:
+      return one("Z z of the equations", exact_.values(equations_.ydot));
+    case FunctionId::kMassMatrix:
+      return one("M of the equations", mass_entries(program, "M"));
+    case FunctionId::kKBar:
+      return one("k_bar of the equations", to_list(k_));
+    case FunctionId::kQBar:
+      return one("q_bar of the equations", to_list(q_));
+    case FunctionId::kForwardDynamics:
+      return one("M^-1 (k_bar - q_bar)", to_list(zdot_));
+    case FunctionId::kResidual:
+      return one("M zdot - k_bar + q_bar", to_list(M_ * given_accelerations() - k_ + q_));
+    case FunctionId::kInverseDynamics:
+      return one("M zdot - k_bar + q_bar without inputs",
+                 to_list(M_ * given_accelerations() - k_ + forces_without_inputs()));
+    case FunctionId::kKineticEnergy:
+      return one("T of the equations", {exact_.value(equations_.kinetic_energy)});
+    case FunctionId::kPotentialEnergy:
+      return one("V of the equations", {exact_.value(equations_.potential_energy)});
+    case FunctionId::kOutputs:
+      return one("outputs of the equations", exact_.values(dynamics::output_entries(equations_)));
+    case FunctionId::kResidualDerivatives:
+      return {{"M of the equations", mass_entries(program, "M")},
+              {"the residual's derivative along a direction", to_list(residual_rate())}};
+    case FunctionId::kForwardDynamicsDerivatives:
+      return acceleration_derivatives();
+    case FunctionId::kLinearize:
+      return linearization();
+    case FunctionId::kCloseLoops:
+    case FunctionId::kProject:
+    case FunctionId::kConstraintResidual:
+    case FunctionId::kConstraintForces:
+      break;
   }
-  if (name == "linearize") {
-    std::vector<ScaledReal> rows = displacement_rate();
-    const ExactVector change = acceleration_rate(point_.direction);
-    rows.insert(rows.end(), change.data(), change.data() + change.size());
-    return {{"the state's rate differentiated along a direction", rows},
-            {"outputs differentiated along a direction", output_rate()}};
-  }
-  JD_CHECK(false, "no oracle for '{}'", name);
+  JD_CHECK(false, "'{}' is of loops", program.name);
   return {};
+}
+
+std::vector<Expected> TreeOracle::acceleration_derivatives() const {
+  ExactDirection still = point_.direction;  // it has no columns of inputs and time
+  std::fill(still.input.begin(), still.input.end(), ScaledReal());
+  still.time = 0;
+  return {{"M^-1 (k_bar - q_bar)", to_list(zdot_)},
+          {"the accelerations' derivative along a direction", to_list(acceleration_rate(still))}};
+}
+
+std::vector<Expected> TreeOracle::linearization() const {
+  std::vector<ScaledReal> rows = displacement_rate();
+  const ExactVector change = acceleration_rate(point_.direction);
+  rows.insert(rows.end(), change.data(), change.data() + change.size());
+  return {{"the state's rate differentiated along a direction", rows},
+          {"outputs differentiated along a direction", output_rate()}};
 }
 
 ExactVector TreeOracle::given_accelerations() const {

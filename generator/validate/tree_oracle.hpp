@@ -37,6 +37,8 @@ class TreeOracle {
   }
 
  private:
+  std::vector<Expected> acceleration_derivatives() const;
+  std::vector<Expected> linearization() const;
   ExactVector given_accelerations() const;
   ExactVector forces_without_inputs() const;
   Expected state(const ir::Program& program) const;

@@ -28,9 +28,7 @@ VectorXd to_vector(const std::vector<double>& values) {
 class TreeStates {
  public:
   TreeStates(const model::Mechanism& mechanism, const Flow<double>& flow)
-      : flow_(flow),
-        layout_(model::lay_out_coordinates(mechanism)),
-        tangent_(model::tangent_of(mechanism, layout_)) {}
+      : flow_(flow), layout_(model::lay_out_coordinates(mechanism)), tangent_(layout_.tangent) {}
 
   VectorXd positions(const Point<double>& point) const {
     return Eigen::Map<const VectorXd>(point.x.data(), Eigen::Index(flow_.position_count()));

@@ -111,7 +111,8 @@ EmittedModel emit_model(const Derived& derived, const std::string& name) {
   options.name = name;
   options.path = name + ".toml";
   CompiledModel compiled;
-  compiled.functions = programs::with_needed(options.functions, shape_of(derived.mechanism));
+  compiled.facts = programs::scene_facts(derived.mechanism, nullptr, options.wishes());
+  compiled.functions = programs::with_needed(options.functions, compiled.facts);
   compiled.module = derived.module;
   validate_and_emit(derived.mechanism, derived.equations, options, compiled);
   if (!compiled.verdict.accepted()) throw std::runtime_error(compiled.verdict.failures.front());

@@ -28,8 +28,9 @@ constexpr double kRelative = 1e-11, kOverCondition = 1e-14;
 
 ir::Module derivative_module(const model::Mechanism& mechanism,
                              programs::DerivativeTerms terms = programs::DerivativeTerms::kAll) {
-  const auto functions = programs::with_needed(
-      {"residual_derivatives", "forward_dynamics_derivatives", "linearize"}, shape_of(mechanism));
+  const auto functions =
+      programs::with_needed({"residual_derivatives", "forward_dynamics_derivatives", "linearize"},
+                            programs::scene_facts(mechanism));
   ir::Module module;
   module.functions = programs::derivative_programs(programs::tree_sources(mechanism, {}), functions, terms);
   return passes::optimise(module).module;
@@ -51,7 +52,7 @@ Exact exact_derivatives(const Derived& derived, const Sample& sample) {
      : c < 2 * nz + nu ? d.input[c - 2 * nz]
                        : d.time) = 1;
     const dynamics::SlopePrecision along = dynamics::moved_along(
-        dynamics::exact(d), derived.equations.statements, model::tangent_of(derived.mechanism, layout),
+        dynamics::exact(d), derived.equations.statements, layout.tangent,
         [&](kinematics::LeafKind kind, std::size_t i) { return leaf_value(sample, kind, i); });
     const auto rates = [&](const std::vector<kinematics::Ex>& expressions) {
       std::vector<double> list;

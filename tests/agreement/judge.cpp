@@ -7,6 +7,7 @@
 #include "compile/compile.hpp"
 #include "kinematics/numbers.hpp"
 #include "programs/functions.hpp"
+#include "programs/tree_functions.hpp"
 #include "properties/random.hpp"
 #include "properties/random_tree.hpp"
 
@@ -82,8 +83,9 @@ template std::vector<float> interpreted(const ir::Module&, const std::string&, c
 Derived derive(model::Mechanism mechanism, const dynamics::DerivationOptions& options) {
   Derived derived{std::move(mechanism), {}, {}};
   derived.equations = dynamics::derive_equations(derived.mechanism, options);
-  const auto functions = programs::with_needed(programs::default_functions(), shape_of(derived.mechanism));
-  derived.module = passes::optimise(lower_functions(derived.equations, functions)).module;
+  const auto functions =
+      programs::with_needed(programs::default_functions(), programs::scene_facts(derived.mechanism));
+  derived.module = passes::optimise(programs::lower_functions(derived.equations, functions)).module;
   return derived;
 }
 

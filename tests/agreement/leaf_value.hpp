@@ -7,6 +7,7 @@ namespace jourdain::tests {
 
 inline double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::size_t i) {
   switch (kind) {
+    case kinematics::LeafKind::kConstant:
     case kinematics::LeafKind::kParameter:
       return sample.parameters[i];
     case kinematics::LeafKind::kPosition:

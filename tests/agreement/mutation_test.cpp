@@ -13,7 +13,8 @@ namespace {
 
 bool refuses(const Derived& derived) {
   CompiledModel compiled;
-  compiled.functions = programs::with_needed(programs::default_functions(), shape_of(derived.mechanism));
+  compiled.facts = programs::scene_facts(derived.mechanism);
+  compiled.functions = programs::with_needed(programs::default_functions(), compiled.facts);
   compiled.module = derived.module;
   validate_and_emit(derived.mechanism, derived.equations, {}, compiled);
   EXPECT_EQ(compiled.files.empty(), !compiled.verdict.accepted());

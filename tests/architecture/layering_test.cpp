@@ -71,7 +71,7 @@ const std::map<std::string, std::set<std::string>>& rooms() {
       rooms[room] = below;
       below.insert(room);
     }
-    rooms["emit"] = {"programs", "passes", "ir", "model", "support"};
+    rooms["emit"] = {"programs", "loops/record", "passes", "ir", "model", "support"};
     below.insert({"emit", "readback"});
     rooms["compile"] = below;
     rooms["report"] = {"studies", "emit", "model", "support"};

@@ -13,6 +13,7 @@ namespace {
 
 double leaf(const model::Mechanism& mechanism, const StateNumbers& state, LeafKind kind, std::size_t i) {
   switch (kind) {
+    case LeafKind::kConstant:
     case LeafKind::kParameter:
       return mechanism.parameters[i].value;
     case LeafKind::kPosition:

@@ -35,8 +35,8 @@ TEST(Names, AreIdentifiersThatDiffer) {
 TEST(IndexConstants, HaveNamesThatDiffer) {
   ModelText model;
   EXPECT_EQ(index_constants(model), "");
-  model.positions = {"a.b", "a b", "x"};
-  model.inputs = {"int"};
+  model.facts.positions = {"a.b", "a b", "x"};
+  model.facts.inputs = {"int"};
   EXPECT_EQ(index_constants(model),
             "\n// Entries by name: state.y[index::y_a_b], input.u[index::u_int].\n"
             "namespace index {\n"
@@ -49,11 +49,11 @@ TEST(IndexConstants, HaveNamesThatDiffer) {
 
 TEST(Outputs, HaveNumbersWithTheNamesOfTheirMembers) {
   ModelText model;
-  model.outputs = {{"a", "", {{"", 1, 1, false}}},
-                   {"b", "", {{"v", 3, 1, false}, {"R", 2, 2, true}, {"row", 1, 2, true}}}};
+  model.facts.outputs = {{"a", "", {{"", 1, 1, false}}},
+                         {"b", "", {{"v", 3, 1, false}, {"R", 2, 2, true}, {"row", 1, 2, true}}}};
   std::vector<std::string> names;
-  for (const OutputDeclaration& output : model.outputs)
-    for (const OutputMember& member : output.members)
+  for (const programs::OutputFacts& output : model.facts.outputs)
+    for (const programs::OutputMember& member : output.members)
       for (const std::string& name : number_names(output, member)) names.push_back(name);
   EXPECT_THAT(names, testing::ElementsAre("a", "b.v[0]", "b.v[1]", "b.v[2]", "b.R[0][0]", "b.R[0][1]",
                                           "b.R[1][0]", "b.R[1][1]", "b.row[0]", "b.row[1]"));

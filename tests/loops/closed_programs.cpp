@@ -33,12 +33,12 @@ ClosedPrograms::ClosedPrograms(const model::Mechanism& mechanism, bool with_line
   functions.push_back(plan_.is_reduced() ? "close_loops" : "project");
   ir::Module module;
   for (const std::string& function : functions)
-    module.functions.push_back(programs::loop_program(closed.system(), function));
+    module.functions.push_back(closed.program(*ir::function_named(function)));
   if (with_linearization)
-    for (ir::Program& program :
-         programs::derivative_programs(programs::derivative_sources(closed.system()),
-                                       programs::with_needed({"linearize"}, shape_of(mechanism, &plan_)),
-                                       programs::DerivativeTerms::kAll))
+    for (ir::Program& program : programs::derivative_programs(
+             closed.derivative_sources(),
+             programs::with_needed({"linearize"}, programs::scene_facts(mechanism, &plan_)),
+             programs::DerivativeTerms::kAll))
       module.functions.push_back(std::move(program));
   module_ = passes::optimise(std::move(module)).module;
 }

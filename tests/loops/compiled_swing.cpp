@@ -31,7 +31,7 @@ CompiledSwing::CompiledSwing(const model::Mechanism& mechanism, const CompiledMo
     : compiled_(compiled),
       position_rate_(find("position_rate")),
       forward_dynamics_(find("forward_dynamics")),
-      closing_(find(compiled.shape.correction())) {
+      closing_(find(programs::correction(compiled.facts))) {
   leaves_[LeafKind::kParameter] = model::default_values(mechanism);
   leaves_[LeafKind::kConstant] = ir::interpret(compiled.module.constants, leaves_);
   leaves_[LeafKind::kTime] = {0.0};
@@ -74,8 +74,8 @@ std::vector<double> moved(const std::vector<double>& x, double h, const std::vec
 }  // namespace
 
 SwingState CompiledSwing::start() const {
-  SwingState state{0, std::vector<double>(compiled_.shape.positions),
-                   std::vector<double>(compiled_.shape.velocities)};
+  SwingState state{0, std::vector<double>(compiled_.facts.positions.size()),
+                   std::vector<double>(compiled_.facts.velocities.size())};
   const ir::Program& program = *find("initial_state");
   const std::vector<double> numbers = values(program, state);
   take(program, numbers, "y", state.y);
@@ -104,7 +104,7 @@ ClosingReport CompiledSwing::step(SwingState& state, double h) const {
   advance(state.y, k1.y, k2.y, k3.y, k4.y);
   advance(state.z, k1.z, k2.z, k3.z, k4.z);
   state.t += h;
-  for (const model::Tangent::Scalar& turn : compiled_.tangent.quaternions) {
+  for (const model::Tangent::Scalar& turn : compiled_.facts.tangent.quaternions) {
     const auto q = state.y.begin() + static_cast<std::ptrdiff_t>(turn.position);
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     for (std::ptrdiff_t i = 0; i < 4; ++i) q[i] /= length;

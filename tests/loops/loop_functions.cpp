@@ -31,11 +31,11 @@ std::vector<double> LoopFunctions::operator()(const std::string& function, const
   leaves[LeafKind::kAcceleration] = zdot;
   leaves[LeafKind::kInput] = u;
   leaves[LeafKind::kTime] = {0};
-  return ir::interpret(programs::loop_program(closed_.system(), function), leaves);
+  return ir::interpret(closed_.program(*ir::function_named(function)), leaves);
 }
 
 std::vector<double> LoopFunctions::closed(const std::string& function, std::vector<double> y) const {
-  const ir::Program program = programs::loop_program(closed_.system(), function);
+  const ir::Program program = closed_.program(*ir::function_named(function));
   const std::vector<double> values = (*this)(function, y, std::vector<double>(y.size()));
   for (std::size_t k = 0; k < values.size(); ++k)
     if (program.outputs[k].name == "y") y[static_cast<std::size_t>(program.outputs[k].row)] = values[k];

@@ -140,8 +140,8 @@ class Outputs {
       : mechanism_(mechanism),
         plan_(plan),
         closed_(mechanism, {}, plan),
-        outputs_(programs::loop_program(closed_.system(), "outputs")),
-        accelerations_(programs::loop_program(closed_.system(), "forward_dynamics")),
+        outputs_(programs::loop_program(closed_.system(), ir::FunctionId::kOutputs)),
+        accelerations_(programs::loop_program(closed_.system(), ir::FunctionId::kForwardDynamics)),
         form_(mechanism),
         frames_(mechanism) {}
 

@@ -22,24 +22,11 @@ namespace {
 std::vector<programs::FunctionInfo> every_function(const model::Mechanism& mechanism,
                                                    const std::optional<loops::LoopPlan>& plan) {
   std::vector<programs::FunctionInfo> functions;
-  const programs::SceneShape shape = shape_of(mechanism, plan ? &*plan : nullptr);
+  const programs::SceneFacts scene = programs::scene_facts(mechanism, plan ? &*plan : nullptr);
   for (const programs::FunctionInfo& function : programs::all_functions())
-    if (function.shape != programs::Shape::kStep && has_function(function, shape))
+    if (function.shape != programs::Shape::kStep && has_function(function, scene))
       functions.push_back(function);
   return functions;
-}
-
-ir::Module loop_programs(const model::Mechanism& mechanism, const loops::LoopPlan& plan,
-                         const std::vector<programs::FunctionInfo>& functions) {
-  const programs::ClosedSystem closed(mechanism, {}, plan);
-  ir::Module module;
-  for (const programs::FunctionInfo& function : functions)
-    if (!function.holds_derivatives)
-      module.functions.push_back(programs::loop_program(closed.system(), function.name));
-  for (ir::Program& program : programs::derivative_programs(programs::derivative_sources(closed.system()),
-                                                            functions, programs::DerivativeTerms::kAll))
-    module.functions.push_back(std::move(program));
-  return module;
 }
 
 }  // namespace
@@ -49,12 +36,11 @@ ir::Module programs_of(const model::Mechanism& mechanism, const dynamics::Equati
   const std::vector<programs::FunctionInfo> functions = every_function(mechanism, plan);
   ir::Module module;
   if (plan) {
-    module = loop_programs(mechanism, *plan, functions);
+    const programs::ClosedSystem closed(mechanism, {}, *plan);
+    module = programs::lower_scene(closed, functions, programs::DerivativeTerms::kAll);
   } else {
-    module = lower_functions(equations, functions);
-    for (ir::Program& program : programs::derivative_programs(programs::tree_sources(mechanism, {}),
-                                                              functions, programs::DerivativeTerms::kAll))
-      module.functions.push_back(std::move(program));
+    module = programs::lower_scene(programs::TreePrograms(mechanism, equations, {}), functions,
+                                   programs::DerivativeTerms::kAll);
   }
   return passes::optimise(std::move(module)).module;
 }

@@ -66,21 +66,20 @@ TEST(Passes, AreIdempotentAndKeepProgramsSoundOnEveryModel) {
     ASSERT_GT(passed.modules.size(), pipeline().size()) << entry.path();
     expect_idempotent(passed.modules[0].second, entry.path().stem());
     for (std::size_t k = 1; k < passed.modules.size(); ++k)
-      EXPECT_EQ(module_defects(passed.modules[k].second, passed.compiled.shape, mechanism.parameters.size()),
-                std::vector<std::string>())
+      EXPECT_EQ(module_defects(passed.modules[k].second, passed.compiled.facts), std::vector<std::string>())
           << passed.modules[k].first << " of " << entry.path();
   }
 }
 
 TEST(Passes, KeepRandomProgramsSound) {
-  programs::SceneShape shape;
-  shape.positions = 3;
+  programs::SceneFacts scene;
+  scene.positions = {"a", "b", "c"};
+  scene.parameters.resize(3);
   for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
     ir::Program program = random_program(seed);
     program.name = "k_bar";  // whose arguments it takes
     optimise({{}, {program}}, {}, [&](const PassRecord& record, const ir::Module& module) {
-      EXPECT_EQ(module_defects(module, shape, 3), std::vector<std::string>())
-          << record.name << " of " << seed;
+      EXPECT_EQ(module_defects(module, scene), std::vector<std::string>()) << record.name << " of " << seed;
     });
   }
 }

@@ -80,7 +80,7 @@ LoopFreedom loop_freedom(const LoopConstraints<Long>& constraints) {
 }
 
 Vector displaced(const model::Mechanism& mechanism, const Vector& y, const Vector& change) {
-  const model::Tangent tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
+  const model::Tangent tangent = model::lay_out_coordinates(mechanism).tangent;
   Vector moved = y;
   for (const auto& scalar : tangent.scalars)
     moved[Eigen::Index(scalar.position)] += change[Eigen::Index(scalar.velocity)];

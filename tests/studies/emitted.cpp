@@ -46,7 +46,7 @@ EmittedModel emitted_from(const model::Mechanism& mechanism, const std::vector<s
   options.functions = functions;
   const CompiledModel compiled = compile(mechanism, options);
   JD_CHECK(compiled.verdict.accepted(), "refused: {}", compiled.verdict.failures.front());
-  EmittedModel result{mechanism, compiled.tangent,
+  EmittedModel result{mechanism, compiled.facts.tangent,
                       commands::build_model(options.name, compiled, commands::NumberType::kDouble)};
   studies::set_parameters(result.table(), parameter_values(mechanism));
   return result;

@@ -112,8 +112,7 @@ TEST(Linearisation, ByDifferencesIsThatOfTheEmittedDerivatives) {
     const Flow<double> flow(with.table(), none);
     Point<double> point = flow.start();
     for (std::size_t i = flow.position_count(); i < point.x.size(); ++i) point.x[i] = 0.3 + 0.1 * double(i);
-    const model::Tangent tangent =
-        model::tangent_of(with.mechanism, model::lay_out_coordinates(with.mechanism));
+    const model::Tangent tangent = model::lay_out_coordinates(with.mechanism).tangent;
     const Eigen::MatrixXd exact = linearisation(flow, point, tangent),
                           differences = linearisation(Flow<double>(without.table(), none), point, tangent);
     EXPECT_LE((differences - exact).norm(), 1e-8 * exact.norm())

@@ -19,7 +19,7 @@ std::variant<ClosedFormRequest, std::string> position_request(const model::Mecha
                                                               const ConstraintPrograms& constraints,
                                                               const LoopPlan& plan) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  const model::Tangent tangent = model::tangent_of(mechanism, layout);
+  const model::Tangent tangent = layout.tangent;
   ClosedFormRequest request;
   request.g = constraints.value;
   request.spans = constraints.spans;

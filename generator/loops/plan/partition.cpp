@@ -126,7 +126,7 @@ class Components {
 }  // namespace
 
 Groups velocity_groups(const model::Mechanism& mechanism) {
-  const model::Tangent tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
+  const model::Tangent tangent = model::lay_out_coordinates(mechanism).tangent;
   Groups groups;
   for (const model::Tangent::Scalar& s : tangent.scalars) groups.push_back({s.velocity});
   for (const model::Tangent::Scalar& s : tangent.quaternions)

@@ -364,7 +364,7 @@ RegularityRequest regularity_request(const model::Mechanism& mechanism, const Co
   RegularityRequest request;
   request.g = constraints.value;
   request.blocks = plan.blocks;
-  request.tangent = model::tangent_of(mechanism, layout);
+  request.tangent = layout.tangent;
   request.initial_y = plan.y;
   request.angular = model::angular_positions(mechanism);
   request.range = position_ranges(mechanism);

@@ -27,7 +27,7 @@ NumericClosure::NumericClosure(const model::Mechanism& mechanism, const Constrai
                                std::vector<double> parameters)
     : programs_(programs), parameters_(std::move(parameters)), rows_(programs.value.outputs.size()) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  tangent_ = model::tangent_of(mechanism, layout);
+  tangent_ = layout.tangent;
   velocities_ = layout.velocity_count();
 }
 

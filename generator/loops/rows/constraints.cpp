@@ -221,7 +221,7 @@ std::vector<Program> in_order(Program one, std::optional<Program> other) {
 
 std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mechanism,
                                                     const dynamics::Equations& equations) {
-  const model::Tangent tangent = model::tangent_of(mechanism, model::lay_out_coordinates(mechanism));
+  const model::Tangent tangent = model::lay_out_coordinates(mechanism).tangent;
   const Lowered lowered(mechanism, equations);
   ConstraintPrograms programs;
   programs.value = lowered.values();

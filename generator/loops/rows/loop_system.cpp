@@ -47,7 +47,7 @@ ConstraintRates constraint_rates(Builder& builder, const LoopSystem& system, con
 std::vector<Column> tree_mass_matrix(Builder& builder, const LoopSystem& system) {
   const std::size_t n = system.layout.velocity_count();
   std::vector<Column> M(n, Column(n, builder.literal(0)));
-  const ir::Program tree = system.tree("mass_matrix");
+  const ir::Program tree = system.tree(ir::FunctionId::kMassMatrix);
   const Column values = ir::insert(builder, tree);
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::size_t i = subscript(tree.outputs[k].row), j = subscript(tree.outputs[k].column);
@@ -65,7 +65,7 @@ Column position_leaves(Builder& builder, const LoopSystem& system) {
 
 Column position_rates(Builder& builder, const LoopSystem& system, const Column& z) {
   Column ydot(system.layout.position_count(), builder.literal(0));
-  for (const ir::Seed& seed : lowering::displacement_seeds(builder, system.tangent)) {
+  for (const ir::Seed& seed : lowering::displacement_seeds(builder, system.layout.tangent)) {
     const std::size_t i = builder.program()[seed.leaf.value].index;
     ydot[i] = builder.add(ydot[i], builder.multiply(seed.partial, z[seed.column]));
   }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
+#include "ir/function_id.hpp"
 #include "loops/record/loop_plan.hpp"
 #include "loops/rows/constraints.hpp"
 #include "loops/rows/dense_solver.hpp"
@@ -19,8 +19,7 @@ struct LoopSystem {
   const LoopPlan& plan;
   const model::Mechanism& mechanism;
   model::CoordinateLayout layout;
-  model::Tangent tangent;
-  std::function<ir::Program(const std::string& function)> tree;
+  std::function<ir::Program(ir::FunctionId function)> tree;
 };
 
 /// Values of one program under construction, as far as all treatments share them: constraints at the leaves y, t.

@@ -39,7 +39,7 @@ ir::Program projection_program(const LoopSystem& system) {
   Column g;
   for (const std::size_t r : rows) g.push_back(here.g(r));
   const Column d = correction(g);
-  const Column y = displaced(builder, system.tangent, position_leaves(builder, system), d);
+  const Column y = displaced(builder, system.layout.tangent, position_leaves(builder, system), d);
   for (std::size_t i = 0; i < y.size(); ++i) builder.output("y", static_cast<int>(i), -1, y[i]);
   const Column change = correction(opening_rate(builder, system, y));
   Signed opening = builder.literal(0);

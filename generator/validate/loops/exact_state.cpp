@@ -18,7 +18,7 @@ ExactClosure::ExactClosure(const model::Mechanism& mechanism, const dynamics::Eq
                            const loops::LoopPlan& plan)
     : closures_(closures), plan_(plan) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  tangent_ = model::tangent_of(mechanism, layout);
+  tangent_ = layout.tangent;
   velocities_ = layout.velocity_count();
   for (std::size_t k = 0; plan.is_reduced() && k < velocities_; ++k)
     if (std::find(plan.independent.begin(), plan.independent.end(), k) == plan.independent.end())

@@ -1,17 +1,23 @@
 #include "validate/loops/loop_oracle.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "ir/function_id.hpp"
 #include "loops/plan/schur_solution.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "validate/tree_oracle.hpp"
 
 namespace jourdain::validate {
 
+using ir::FunctionId;
+
 using dynamics::OutputValues;
 using ir::LeafKind;
 
 namespace {
+
+constexpr const char* kAccelerations = "the accelerations of the constrained system";
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -38,51 +44,72 @@ LoopOracle::LoopOracle(const LoopScene& scene, const Point& point)
     : scene_(scene), point_(point), e_(exact_motion(scene, point.exact)) {}
 
 std::vector<Expected> LoopOracle::operator()(const ir::Program& program) const {
-  const std::string& name = program.name;
   const auto one = [](const char* oracle, std::vector<ScaledReal> values) {
     return std::vector<Expected>{{oracle, std::move(values)}};
   };
-  const auto rates = [](const LoopOracle& o) { return o.accelerations(); };
-  constexpr const char* kAccelerations = "the accelerations of the constrained system";
-  if (name == "initial_state") return one("the assembled start", start(program));
-  if (name == "position_rate") return one("Z z of the equations, z as the loops allow", position_rate());
-  if (name == "mass_matrix") return one("B^T M B", mass_entries(program));
-  if (name == "k_bar")
-    return one("B^T (k_bar - M beta)", to_list(e_.B.transpose() * (e_.k - e_.M * e_.beta)));
-  if (name == "q_bar") return one("B^T q_bar", to_list(e_.B.transpose() * e_.q));
-  if (name == "forward_dynamics") return one(kAccelerations, to_list(accelerations()));
-  if (name == "residual") return one("B^T (M zdot - k_bar + q_bar + G^T lambda)", to_list(residual()));
-  if (name == "inverse_dynamics")
-    return one("B^T (M zdot - k_bar + q_bar) without inputs",
-               to_list(e_.B.transpose() * (e_.M * of_tree(to_exact(point_.exact[LeafKind::kAcceleration])) -
-                                           e_.k + e_.q_without_inputs)));
-  if (name == "kinetic_energy") return one("T of the equations", {e_.kinetic_energy});
-  if (name == "potential_energy") return one("V of the equations", {e_.potential_energy});
-  if (name == "constraint_residual") {
-    std::vector<ScaledReal> rows = to_list(e_.g);
-    rows.insert(rows.end(), e_.rate.data(), e_.rate.data() + e_.rate.size());
-    return one("g and its rate, of the constraints", rows);
+  const std::optional<FunctionId> function = ir::function_named(program.name);
+  JD_CHECK(function, "no oracle for '{}'", program.name);
+  switch (*function) {
+    case FunctionId::kInitialState:
+      return one("the assembled start", start(program));
+    case FunctionId::kPositionRate:
+      return one("Z z of the equations, z as the loops allow", position_rate());
+    case FunctionId::kMassMatrix:
+      return one("B^T M B", mass_entries(program));
+    case FunctionId::kKBar:
+      return one("B^T (k_bar - M beta)", to_list(e_.B.transpose() * (e_.k - e_.M * e_.beta)));
+    case FunctionId::kQBar:
+      return one("B^T q_bar", to_list(e_.B.transpose() * e_.q));
+    case FunctionId::kForwardDynamics:
+      return one(kAccelerations, to_list(accelerations()));
+    case FunctionId::kResidual:
+      return one("B^T (M zdot - k_bar + q_bar + G^T lambda)", to_list(residual()));
+    case FunctionId::kInverseDynamics:
+      return one("B^T (M zdot - k_bar + q_bar) without inputs",
+                 to_list(e_.B.transpose() * (e_.M * of_tree(to_exact(point_.exact[LeafKind::kAcceleration])) -
+                                             e_.k + e_.q_without_inputs)));
+    case FunctionId::kKineticEnergy:
+      return one("T of the equations", {e_.kinetic_energy});
+    case FunctionId::kPotentialEnergy:
+      return one("V of the equations", {e_.potential_energy});
+    case FunctionId::kConstraintResidual: {
+      std::vector<ScaledReal> rows = to_list(e_.g);
+      rows.insert(rows.end(), e_.rate.data(), e_.rate.data() + e_.rate.size());
+      return one("g and its rate, of the constraints", rows);
+    }
+    case FunctionId::kConstraintForces:
+      return one("the multipliers of the constrained system", to_list(multipliers(of_tree(accelerations()))));
+    case FunctionId::kOutputs:
+      return one("outputs of the constrained system", outputs());
+    case FunctionId::kResidualDerivatives:
+      return {{"B^T M B", mass_entries(program)},
+              {"differences of the residual", change([](const LoopOracle& o) { return o.residual(); }, true),
+               true}};
+    case FunctionId::kForwardDynamicsDerivatives:
+      return {
+          {kAccelerations, to_list(accelerations())},
+          {"differences of the accelerations of the constrained system", acceleration_change(false), true}};
+    case FunctionId::kLinearize:
+      return linearization();
+    case FunctionId::kCloseLoops:
+    case FunctionId::kProject:
+      break;
   }
-  if (name == "constraint_forces")
-    return one("the multipliers of the constrained system", to_list(multipliers(of_tree(accelerations()))));
-  if (name == "outputs") return one("outputs of the constrained system", outputs());
-  if (name == "residual_derivatives")
-    return {{"B^T M B", mass_entries(program)},
-            {"differences of the residual", change([](const LoopOracle& o) { return o.residual(); }, true),
-             true}};
-  if (name == "forward_dynamics_derivatives")
-    return {{kAccelerations, to_list(accelerations())},
-            {"differences of the accelerations of the constrained system", change(rates, false), true}};
-  if (name == "linearize") {
-    std::vector<ScaledReal> rows = displacement_rate();
-    const std::vector<ScaledReal> below = change(rates, true);
-    rows.insert(rows.end(), below.begin(), below.end());
-    return {{"differences of the constrained system", rows, true},
-            {"differences of the outputs of the constrained system",
-             change([](const LoopOracle& o) { return to_exact(o.outputs()); }, true), true}};
-  }
-  JD_CHECK(false, "no oracle for '{}'", name);
+  JD_CHECK(false, "'{}' closes loops: see closing_expected", program.name);
   return {};
+}
+
+std::vector<ScaledReal> LoopOracle::acceleration_change(bool with_inputs_and_time) const {
+  return change([](const LoopOracle& o) { return o.accelerations(); }, with_inputs_and_time);
+}
+
+std::vector<Expected> LoopOracle::linearization() const {
+  std::vector<ScaledReal> rows = displacement_rate();
+  const std::vector<ScaledReal> below = acceleration_change(true);
+  rows.insert(rows.end(), below.begin(), below.end());
+  return {{"differences of the constrained system", rows, true},
+          {"differences of the outputs of the constrained system",
+           change([](const LoopOracle& o) { return to_exact(o.outputs()); }, true), true}};
 }
 
 LoopOracle::Constrained LoopOracle::constrained(const std::vector<std::size_t>& rows) const {

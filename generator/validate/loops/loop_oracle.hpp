@@ -48,6 +48,8 @@ class LoopOracle {
   ExactVector multipliers(const ExactVector& zdot) const;
   ExactVector of_tree(const ExactVector& zdot) const { return e_.B * zdot + e_.beta; }
   ExactVector residual() const;
+  std::vector<ScaledReal> acceleration_change(bool with_inputs_and_time) const;
+  std::vector<Expected> linearization() const;
   std::vector<ScaledReal> position_rate() const;
   std::vector<ScaledReal> outputs() const;
   std::vector<ScaledReal> mass_entries(const ir::Program& program) const;

@@ -4,15 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "dynamics/outputs.hpp"
-#include "programs/loop_outputs.hpp"
+#include "ir/function_id.hpp"
+#include "programs/scene_facts.hpp"
 #include "reference/minimal.hpp"
 #include "support/uniform.hpp"
 #include "validate/loops/closing_oracle.hpp"
 #include "validate/loops/rays.hpp"
 
 namespace jourdain::validate {
+
+using ir::FunctionId;
 
 using ir::LeafKind;
 
@@ -23,10 +27,15 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 constexpr std::size_t kStates = 8, kLarge = 24;  ///< velocities from which on two states must do
 constexpr std::size_t kOpened = 2;               ///< states beside which open ones are compared
 
-bool closes(const ir::Program& program) { return program.name == "close_loops" || program.name == "project"; }
+bool closes(const ir::Program& program) {
+  const std::optional<FunctionId> function = ir::function_named(program.name);
+  return function == FunctionId::kCloseLoops || function == FunctionId::kProject;
+}
 
 bool is_derivative(const ir::Program& program) {
-  return program.name == "linearize" || program.name.ends_with("_derivatives");
+  const std::optional<FunctionId> function = ir::function_named(program.name);
+  return function == FunctionId::kLinearize || function == FunctionId::kResidualDerivatives ||
+         function == FunctionId::kForwardDynamicsDerivatives;
 }
 
 /// The functions but those that close loops, or these alone.
@@ -135,7 +144,7 @@ class Comparison {
     const ExactMatrix M = e.B.transpose() * e.M * e.B;
     verdict_.condition = std::max(
         verdict_.condition, static_cast<double>(reference::condition<long double>(M.cast<long double>())));
-    if (const ir::Program* forward = ir::find_program(functions_, "forward_dynamics"))
+    if (const ir::Program* forward = ir::find_program(functions_, FunctionId::kForwardDynamics))
       measure_backward_error(*forward, point, M, oracle.accelerations());
   }
 
@@ -182,13 +191,14 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   const LoopScene scene{mechanism, equations, plan, closure};
   Agreement agreement;
   Comparison comparison(scene, module, agreement, verdict);
+  const std::size_t output_numbers = programs::scene_facts(mechanism, &plan).output_numbers();
   const std::vector<Ray> rays = draw_rays(numeric, plan, mechanism, states);
   support::Uniform uniform(23);
   for (const Ray& ray : rays) {
     Point point = point_of(ray, &ray == &rays[0] ? parameters : varied(mechanism, plan, uniform), closure);
     if (plan.is_reduced() && !(opening(scene, point.exact) < ScaledReal(1e-50)))
       point = point_of(ray, parameters, closure);  // out of reach
-    point.output_numbers = programs::output_numbers(mechanism, plan, equations);
+    point.output_numbers = output_numbers;
     comparison.compare(point, std::size_t(&ray - &rays[0]) < kOpened);
   }
   verdict.states = rays.size();

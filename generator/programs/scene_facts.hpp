@@ -1,0 +1,62 @@
+// The facts of a scene: made once from the mechanism and the plan of its loops, and only read from then on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "loops/record/loop_plan.hpp"
+#include "model/coordinates.hpp"
+#include "model/mechanism.hpp"
+#include "model/time_dependence.hpp"
+
+namespace jourdain::programs {
+
+/// Members of an output; a scalar has one without a name.
+struct OutputMember {
+  std::string name;
+  int rows = 1, columns = 1;
+  bool is_matrix = false;
+
+  std::size_t numbers() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
+};
+
+struct OutputFacts {
+  std::string name;
+  std::string comment;  ///< what it is, a sentence
+  std::vector<OutputMember> members;
+};
+
+struct SceneFacts {
+  std::vector<std::string> positions, inputs;  ///< names by entry
+  std::vector<std::string> velocities;         ///< of the independent coordinates
+  std::vector<model::Parameter> parameters;
+  std::vector<OutputFacts> outputs;
+  model::Tangent tangent;  ///< of the independent coordinates
+  model::TimeDependence time;
+  bool clock = false;  ///< states hold the time: something depends on it, inputs may, or it was asked for
+
+  bool all_derivatives = true;  ///< those of the residual hold all terms
+
+  std::vector<std::string> constraints;  ///< names of the rows of all loops
+  bool is_reduced = false;               ///< some coordinates follow from others
+  std::vector<std::size_t> dependents;   ///< entries of y that close_loops sets
+  int closings =
+      1;  ///< calls of close_loops where dependent positions were not integrated along: more for Newton's method
+
+  /// dy/dt is not z.
+  bool has_rate() const { return !tangent.quaternions.empty() || is_reduced; }
+  /// Numbers of all outputs.
+  std::size_t output_numbers() const;
+};
+
+/// What is asked for beyond what the scene needs.
+struct SceneWishes {
+  bool clock = false;  ///< see SceneFacts
+  bool all_derivatives = true;
+};
+
+/// Of a tree, or with loops as `plan` closes them.
+SceneFacts scene_facts(const model::Mechanism& mechanism, const loops::LoopPlan* plan = nullptr,
+                       const SceneWishes& wishes = {});
+
+}  // namespace jourdain::programs
