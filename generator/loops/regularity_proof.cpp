@@ -14,6 +14,7 @@
 #include "loops/timeless.hpp"
 #include "model/angles.hpp"
 #include "model/checks.hpp"
+#include "reference/decompositions.hpp"
 
 namespace jourdain::loops {
 
@@ -213,7 +214,8 @@ class Proof {
   Eigen::MatrixXd slope_at(const Anchor& known) const {
     if (known.p.size() == 0) return {known.x.size(), 0};
     const Eigen::MatrixXd slopes = layout_.equations->slopes(known.x, known.p);
-    return -slopes.leftCols(known.x.size()).partialPivLu().solve(slopes.rightCols(known.p.size()));
+    return -reference::solved_by_lu<double>(slopes.leftCols(known.x.size()),
+                                            Eigen::MatrixXd(slopes.rightCols(known.p.size())));
   }
 
   /// The side along which the dependents change most, an angle's own change included.
