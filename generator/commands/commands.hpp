@@ -1,7 +1,9 @@
 // The commands of the command line. A new one is one line in the list of commands.cpp.
 #pragma once
 
-#include <CLI/App.hpp>
+namespace CLI {
+class App;
+}
 
 namespace jourdain::commands {
 

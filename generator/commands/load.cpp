@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <nettle/sha2.h>
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>

@@ -1,8 +1,6 @@
 // What all commands share: the arguments that say which model to read and how, and reading it.
 #pragma once
 
-#include <CLI/App.hpp>
-
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +8,10 @@
 #include "compile/compile.hpp"
 #include "model/read/read.hpp"
 #include "model/read/urdf_limits.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace jourdain::commands {
 

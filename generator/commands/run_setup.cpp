@@ -1,6 +1,7 @@
 #include "commands/run_setup.hpp"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 

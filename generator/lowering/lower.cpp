@@ -130,7 +130,7 @@ class Lowering {
 
   Key product_key(const Ex& e) {
     Key product;
-    std::string separator;
+    const char* separator = "";
     for (const Operand& factor : sorted_operands(e)) {
       product.negative = product.negative != factor.key.negative;
       if (factor.key.text == "#0x1p+0") continue;  // a mere sign

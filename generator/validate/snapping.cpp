@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "model/snap.hpp"
+#include "reference/decompositions.hpp"
 #include "reference/minimal.hpp"
 #include "validate/samples.hpp"
 
@@ -31,7 +32,8 @@ std::optional<double> change(const Terms& from, const Terms& to) {
   if (!(reference::condition<long double>(to.M) <= kSolvable)) return {};
   const Vector before = reference::forward_dynamics<long double>(from);
   const Vector after = reference::forward_dynamics<long double>(to);
-  const Vector sizes = before.cwiseAbs() + from.M.inverse().cwiseAbs() * Vector(from.k_scale + from.q_scale);
+  const Vector sizes = before.cwiseAbs() + reference::inverse<long double>(from.M).cwiseAbs() *
+                                               Vector(from.k_scale + from.q_scale);
   const long double norm = sizes.norm();
   return norm > 0 ? static_cast<double>((after - before).norm() / norm) : 0;
 }

@@ -186,7 +186,6 @@ void DescriptorReference<Scalar>::add_inertia(System& system) const {
     }
 }
 
-template class DescriptorReference<double>;
-template class DescriptorReference<long double>;
+template class DescriptorReference<JOURDAIN_SCALAR>;
 
 }  // namespace jourdain::reference

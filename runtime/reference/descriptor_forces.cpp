@@ -222,8 +222,7 @@ std::vector<Eigen::VectorX<Scalar>> rotor_inertias(const model::Mechanism& mecha
                                          const std::vector<AbsoluteBody<S>>&);                         \
   template std::vector<Eigen::VectorX<S>> coordinate_forces(const model::Mechanism&, const Scene<S>&); \
   template std::vector<Eigen::VectorX<S>> rotor_inertias(const model::Mechanism&, std::span<const S>);
-JOURDAIN_INSTANTIATE(double)
-JOURDAIN_INSTANTIATE(long double)
+JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
 
 }  // namespace jourdain::reference::descriptor

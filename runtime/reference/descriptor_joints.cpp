@@ -292,8 +292,7 @@ Measurement<Scalar> measure(const Joint<Scalar>& joint, const Pose<TimeJet<Scala
                                        std::span<const TimeJet<S>>);                                 \
   template Measurement<S> measure(const Joint<S>&, const Pose<TimeJet<S>>&, const Pose<TimeJet<S>>&, \
                                   std::span<const S>, ParallelAxes);
-JOURDAIN_INSTANTIATE(double)
-JOURDAIN_INSTANTIATE(long double)
+JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
 
 }  // namespace jourdain::reference::descriptor

@@ -1,5 +1,6 @@
 #include "reference/descriptor_loops.hpp"
 
+#include "reference/decompositions.hpp"
 #include "reference/descriptor_rows.hpp"
 #include "support/check.hpp"
 
@@ -205,17 +206,14 @@ Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& jo
   using Matrix = Eigen::MatrixX<Scalar>;
   const Eigen::Index freedom = joint_rows.cols() - joint_rows.rows();
   Matrix motions = Matrix::Identity(joint_rows.cols(), joint_rows.cols());
-  if (joint_rows.rows() > 0)
-    motions = Eigen::HouseholderQR<Matrix>(joint_rows.transpose()).householderQ() * motions;
+  if (joint_rows.rows() > 0) motions = orthogonal_factor<Scalar>(joint_rows.transpose());
   Eigen::VectorX<Scalar> scales = loop_rows.rowwise().norm();
   for (Scalar& scale : scales) scale = scale > 0 ? 1 / scale : Scalar(1);
   const Matrix seen = scales.asDiagonal() * loop_rows * motions.rightCols(freedom);
   if (seen.size() == 0) return Matrix(0, loop_rows.rows());
   // A state that has run away has no rank: its accelerations are no numbers either way.
   if (!seen.allFinite()) return Matrix::Identity(loop_rows.rows(), loop_rows.rows());
-  Eigen::JacobiSVD<Matrix> svd(seen, Eigen::ComputeThinU);
-  svd.setThreshold(Scalar(dependent));
-  return svd.matrixU().leftCols(svd.rank()).transpose() * scales.asDiagonal();
+  return range<Scalar>(seen, Scalar(dependent)).transpose() * scales.asDiagonal();
 }
 
 #define JOURDAIN_INSTANTIATE(S)                                                                           \
@@ -224,8 +222,7 @@ Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& jo
                                  const std::vector<std::vector<S>>&);                                     \
   template Eigen::MatrixX<S> independent_combinations(const Eigen::MatrixX<S>&, const Eigen::MatrixX<S>&, \
                                                       double);
-JOURDAIN_INSTANTIATE(double)
-JOURDAIN_INSTANTIATE(long double)
+JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
 
 }  // namespace jourdain::reference::descriptor

@@ -103,8 +103,7 @@ JointRows<Scalar> joint_rows(const Joint<Scalar>& joint, const std::vector<Body<
   template Pose<TimeJet<S>> coasting(const Body<S>&, const AbsoluteBody<S>&, const Velocity<S>&); \
   template JointRows<S> joint_rows(const Joint<S>&, const std::vector<Body<S>>&,                  \
                                    const std::vector<AbsoluteBody<S>>&, std::span<const S>, ParallelAxes);
-JOURDAIN_INSTANTIATE(double)
-JOURDAIN_INSTANTIATE(long double)
+JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
 
 }  // namespace jourdain::reference::descriptor

@@ -2,6 +2,7 @@
 // descriptor.cpp only.
 #pragma once
 
+#include "reference/decompositions.hpp"
 #include "reference/descriptor_system.hpp"
 
 namespace jourdain::reference {
@@ -94,12 +95,11 @@ Eigen::VectorX<Scalar> DescriptorReference<Scalar>::with_least_loop_forces(
   const Eigen::Index joints = system.joint_row_count(), loops = system.loop_row_count;
   const Eigen::Index rank = system.solved->rows() - joints;
   const Matrix of_joints = system.G.topRows(joints), of_loops = system.G.bottomRows(loops);
-  const Eigen::JacobiSVD<Matrix> svd(of_loops * X, Eigen::ComputeThinU);
-  const Matrix kept = svd.matrixU().leftCols(rank);
+  const Matrix kept = left_singular_vectors<Scalar>(of_loops * X).leftCols(rank);
   Eigen::VectorX<Scalar> least = lambda;
   least.tail(loops) = kept * (kept.transpose() * lambda.tail(loops));
   const Eigen::VectorX<Scalar> moved = of_loops.transpose() * (lambda.tail(loops) - least.tail(loops));
-  least.head(joints) += Eigen::ColPivHouseholderQR<Matrix>(of_joints.transpose()).solve(moved);
+  least.head(joints) += least_squares<Scalar>(of_joints.transpose(), moved);
   return least;
 }
 
@@ -127,10 +127,9 @@ DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& s
   const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
   Eigen::VectorX<Scalar> right(matrix.rows());
   right << system.forces, -system.as_solved(system.gamma);
-  const Eigen::FullPivLU<Eigen::MatrixX<Scalar>> factors(matrix);
-  const Eigen::VectorX<Scalar> unknowns = factors.solve(right);
-  const Eigen::VectorX<Scalar> xdot = unknowns.head(nx);
-  Eigen::VectorX<Scalar> lambda = unknowns.tail(matrix.rows() - nx);
+  const PivotedSolution<Scalar> unknowns = solved_by_full_lu<Scalar>(matrix, right);
+  const Eigen::VectorX<Scalar> xdot = unknowns.x.head(nx);
+  Eigen::VectorX<Scalar> lambda = unknowns.x.tail(matrix.rows() - nx);
   if (system.solved) lambda = with_least_loop_forces(system, X, system.solved->transpose() * lambda);
 
   DescriptorSolution<Scalar> result;
@@ -138,8 +137,8 @@ DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& s
   result.g = system.g.head(system.joint_row_count());
   result.g_rate = system.g_rate.head(system.joint_row_count());
   result.size = nx + system.G.rows();
-  result.rank = factors.rank();
-  result.reciprocal_condition = factors.rcond();
+  result.rank = unknowns.rank;
+  result.reciprocal_condition = unknowns.reciprocal_condition;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Vector3<Scalar> a_C = xdot.template segment<3>(6 * Eigen::Index(b));
     const Vector3<Scalar> omega_dot = xdot.template segment<3>(6 * Eigen::Index(b) + 3);
@@ -186,7 +185,7 @@ AbsoluteRates<Scalar> DescriptorReference<Scalar>::rates(const AbsoluteState<Sca
   const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
   Eigen::VectorX<Scalar> right(matrix.rows());
   right << system.forces, -system.as_solved(system.gamma);
-  const Eigen::VectorX<Scalar> unknowns = matrix.partialPivLu().solve(right);
+  const Eigen::VectorX<Scalar> unknowns = solved_by_lu<Scalar>(matrix, right);
   return {unknowns.head(system.M.rows()), system.g, system.g_rate, scene.position, matrix.rows()};
 }
 
@@ -197,7 +196,7 @@ Eigen::VectorX<Scalar> DescriptorReference<Scalar>::correction(
   const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
   Eigen::VectorX<Scalar> right = Eigen::VectorX<Scalar>::Zero(matrix.rows());
   right.tail(matrix.rows() - system.M.rows()) = -system.as_solved(violation);
-  return matrix.partialPivLu().solve(right).head(system.M.rows());
+  return solved_by_lu<Scalar>(matrix, right).head(system.M.rows());
 }
 
 template <class Scalar>

@@ -186,8 +186,7 @@ Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::tree_velocities(Scalar t, co
                                                                      const Eigen::VectorX<S>&) const; \
   template std::vector<AbsoluteBody<S>> DescriptorReference<S>::absolute_state(                       \
       S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;
-JOURDAIN_INSTANTIATE(double)
-JOURDAIN_INSTANTIATE(long double)
+JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
 
 }  // namespace jourdain::reference

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "reference/plain_products.hpp"
 #include "reference/scaled_scalar.hpp"
 
 namespace jourdain::reference {

@@ -1,7 +1,6 @@
 #include "reference/minimal.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 
 #include "reference/minimal_forces.hpp"
@@ -201,62 +200,6 @@ Terms<Scalar> Reference<Scalar>::evaluate(const State<Scalar>& state, const Vect
   return terms;
 }
 
-template <class Scalar>
-void widen_scales(Terms<Scalar>& terms) {
-  const auto share = Scalar(kNaturalShare);
-  if (terms.M.size() == 0) return;
-  const VectorX<Scalar> size = terms.M_scale.diagonal().cwiseSqrt();
-  for (VectorX<Scalar>* scale : {&terms.k_scale, &terms.q_scale}) {
-    const Scalar relative = (scale->array() / size.array()).maxCoeff();
-    *scale += share * relative * size;
-  }
-  terms.M_scale += share * size * size.transpose();
-}
-
-template <class Scalar>
-VectorX<Scalar> forward_dynamics(const Terms<Scalar>& terms) {
-  return terms.M.ldlt().solve(terms.k_bar - terms.q_bar);
-}
-
-template <class Scalar>
-Scalar backward_error(const Terms<Scalar>& terms, const VectorX<Scalar>& zdot) {
-  const VectorX<Scalar> residual = (terms.M * zdot - terms.k_bar + terms.q_bar).cwiseAbs();
-  const VectorX<Scalar> scale = terms.M_scale * zdot.cwiseAbs() + terms.k_scale + terms.q_scale;
-  Scalar worst = 0;
-  for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    if (residual[i] == 0) continue;
-    const Scalar ratio = residual[i] / scale[i];
-    if (!(ratio <= worst)) worst = ratio;
-  }
-  return worst;
-}
-
-template <class Scalar>
-Scalar condition(const MatrixX<Scalar>& M) {
-  if (M.size() == 0) return 1;
-  // The smallest eigenvalue is the largest one of the inverse: where sizes differ by many orders, rounding of the largest entries
-  // would hide it. Entries of the inverse are as exact as those of M scaled to a unit diagonal allow.
-  const VectorX<Scalar> d = M.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<MatrixX<Scalar>> factors(d.asDiagonal() * M * d.asDiagonal());
-  if (!d.allFinite() || factors.info() != Eigen::Success) return std::numeric_limits<Scalar>::infinity();
-  const MatrixX<Scalar> inverse =
-      d.asDiagonal() * factors.solve(MatrixX<Scalar>::Identity(M.rows(), M.cols())) * d.asDiagonal();
-  const auto largest = [](const MatrixX<Scalar>& A) {
-    return Eigen::SelfAdjointEigenSolver<MatrixX<Scalar>>(A, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-  };
-  return largest(M) * largest(inverse);
-}
-
-template class Reference<double>;
-template class Reference<long double>;
-template class Reference<support::ScaledReal>;
-template VectorX<double> forward_dynamics(const Terms<double>&);
-template VectorX<long double> forward_dynamics(const Terms<long double>&);
-template void widen_scales(Terms<double>&);
-template void widen_scales(Terms<long double>&);
-template double backward_error(const Terms<double>&, const VectorX<double>&);
-template long double backward_error(const Terms<long double>&, const VectorX<long double>&);
-template double condition(const MatrixX<double>&);
-template long double condition(const MatrixX<long double>&);
+template class Reference<JOURDAIN_SCALAR>;
 
 }  // namespace jourdain::reference

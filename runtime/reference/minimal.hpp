@@ -24,6 +24,7 @@
 #include "model/mechanism.hpp"
 #include "model/taylor.hpp"
 #include "reference/bounded.hpp"
+#include "reference/decompositions.hpp"
 #include "reference/rotation.hpp"
 #include "reference/scaled_scalar.hpp"
 
@@ -31,10 +32,6 @@ namespace jourdain::reference {
 
 using model::Taylor;
 
-template <class Scalar>
-using VectorX = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-template <class Scalar>
-using MatrixX = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 template <class Scalar>
 using Jacobian = Eigen::Matrix<Scalar, 3, Eigen::Dynamic>;
 

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "model/mechanism.hpp"
+#include "reference/plain_products.hpp"
 
 namespace jourdain::reference {
 

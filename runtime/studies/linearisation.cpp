@@ -1,11 +1,10 @@
 #include "studies/linearisation.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 
 #include "studies/sensitivity.hpp"
+#include "studies/spectra.hpp"
 #include "studies/tangent_space.hpp"
 
 namespace jourdain::studies {
@@ -133,14 +132,12 @@ Modes modes_of(const MatrixXd& A) {
   Modes modes;
   modes.scales = balancing_scales(A);
   const MatrixXd balanced = modes.scales.cwiseInverse().asDiagonal() * A * modes.scales.asDiagonal();
-  const Eigen::EigenSolver<MatrixXd> solver(balanced);
-  modes.values = solver.eigenvalues();
-  const Eigen::MatrixXcd right = solver.eigenvectors();
-  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(right);
-  const auto& singular = svd.singularValues();
+  const auto [values, right] = spectrum(balanced);
+  modes.values = values;
+  const VectorXd singular = singular_values(right);
   modes.defective = singular[singular.size() - 1] * kDependent < singular[0];
   modes.right = modes.scales.asDiagonal() * right;
-  const Eigen::MatrixXcd left = right.fullPivLu().inverse();
+  const Eigen::MatrixXcd left = inverse(right);
   const Index nz = A.rows() / 2;
   const MatrixXd shares = right.cwiseAbs().cwiseProduct(left.transpose().cwiseAbs());
   modes.participations = shares.topRows(nz) + shares.bottomRows(nz);

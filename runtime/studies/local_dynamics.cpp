@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/decompositions.hpp"
+
 namespace jourdain::studies {
 
 namespace {
@@ -45,7 +47,7 @@ double log_inertia(const Flow<double>& flow, const Point<double>& point,
   const MatrixXd B = coordinates.embedding.bottomRightCorner(coordinates.embedding.rows() / 2, n);
   MatrixXd MB(B.rows(), n);
   for (Index i = 0; i < n; ++i) MB.col(i) = mass_times(flow, point, B.col(i));
-  return std::log(std::fabs((B.transpose() * MB).determinant()));
+  return std::log(std::fabs(reference::determinant<double>(B.transpose() * MB)));
 }
 
 /// Rate (1/s) at which volumes in phase space shrink, of coordinates and momenta: in (y, z) a volume changes with det Bᵀ M B too,

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "studies/cvode.hpp"
+#include "studies/spectra.hpp"
 #include "studies/tangent_space.hpp"
 
 namespace jourdain::studies {
@@ -73,7 +73,7 @@ MatrixXd stiff_transition(const Flow<double>& flow, const Point<double>& start, 
     const double share = (i + 0.5) / kSubsteps;
     Point<double> middle = displaced(start, share * way);
     middle.t = start.t + share * interval;
-    X = MatrixXd(interval / kSubsteps * jacobian(flow, middle)).exp() * X;
+    X = exponential(interval / kSubsteps * jacobian(flow, middle)) * X;
   }
   return X;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "studies/spectra.hpp"
+
 namespace jourdain::studies {
 
 namespace {
@@ -57,7 +59,7 @@ double transient_growth(const StabilityFunction& function, const Local& local, d
   Eigen::VectorXcd kept = Eigen::VectorXcd::Ones(right.cols());
   for (Index i = 0; i < kept.size(); ++i)
     if (negligible(local.modes.values[i], local.modes, scene)) kept[i] = 0;
-  MatrixXd power = (right * kept.asDiagonal() * right.fullPivLu().inverse()).real();
+  MatrixXd power = (right * kept.asDiagonal() * inverse(right)).real();
   const double none = std::max(1.0, power.norm()), radius = std::max(1.0, spectral_radius(step));
   double peak = 1;
   for (int k = 1; k <= kSteps; ++k) {

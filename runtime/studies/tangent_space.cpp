@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "reference/decompositions.hpp"
+
 namespace jourdain::studies {
 
 namespace {
@@ -97,14 +99,14 @@ LocalCoordinates local_coordinates(const Flow<double>& flow, const Point<double>
   const auto freedom = static_cast<Index>(std::lround(P.topLeftCorner(nz, nz).trace()));
   result.embedding = MatrixXd::Zero(2 * nz, 0);
   if (!P.allFinite() || freedom < 1) return result;
-  const Eigen::ColPivHouseholderQR<MatrixXd> order(P.topLeftCorner(nz, nz).transpose());
+  const std::vector<Index> order = reference::pivoted_columns<double>(P.topLeftCorner(nz, nz).transpose());
   MatrixXd kept = MatrixXd::Zero(2 * nz, 2 * freedom);
   for (Index i = 0; i < freedom; ++i) {
-    const Index entry = order.colsPermutation().indices()[i];
+    const Index entry = order[static_cast<std::size_t>(i)];
     result.velocities.push_back(static_cast<std::size_t>(entry));
     kept(entry, i) = kept(nz + entry, freedom + i) = 1;
   }
-  result.embedding = P * kept * (kept.transpose() * P * kept).inverse();
+  result.embedding = P * kept * reference::inverse<double>(kept.transpose() * P * kept);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "reference/decompositions.hpp"
 #include "studies/work.hpp"
 
 namespace jourdain::studies {
@@ -262,7 +263,7 @@ std::optional<double> measured_order(const std::vector<double>& h, const std::ve
     A.row(row) << std::log(h[count - kFitted + i]), 1;
     b[row] = std::log(errors[count - kFitted + i]);
   }
-  const Eigen::VectorXd line = A.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd line = reference::least_squares<double>(A, b);
   const double scatter = (A * line - b).norm() / std::sqrt(kFitted - 2.0);
   const double range = (A.col(0).array() - A.col(0).mean()).matrix().norm();
   return scatter / range < kStandardError ? std::optional(line[0]) : std::nullopt;

@@ -6,6 +6,7 @@
 #include "ir/compose.hpp"
 #include "ir/jacobian.hpp"
 #include "passes/rewrite.hpp"
+#include "reference/decompositions.hpp"
 
 namespace jourdain::loops {
 
@@ -176,7 +177,7 @@ std::optional<VectorXd> BranchEquations::solution(VectorXd x, const VectorXd& p)
     if (!g) return {};
     VectorXd middle(x.size());
     for (std::size_t k = 0; k < size(); ++k) middle[at(k)] = (*g)[k].middle();
-    const VectorXd step = slopes(x, p).leftCols(x.size()).partialPivLu().solve(middle);
+    const VectorXd step = reference::solved_by_lu<double>(slopes(x, p).leftCols(x.size()), middle);
     if (!step.allFinite()) return {};
     x -= step;
     if (step.cwiseAbs().maxCoeff() <= kConverged) return x;
@@ -286,7 +287,7 @@ std::optional<Branch> enclose_branch(const BranchEquations& equations, const Int
   if (!x) return {};
   const auto g = equations.value(*x, centre);
   const MatrixXd slopes = equations.slopes(*x, centre);
-  const MatrixXd C = slopes.leftCols(x->size()).inverse();
+  const MatrixXd C = reference::inverse<double>(slopes.leftCols(x->size()));
   if (!g || !C.allFinite()) return {};
   const MatrixXd S = -C * slopes.rightCols(centre.size());
   Branch branch{P, centre, *x, C, S, {}};

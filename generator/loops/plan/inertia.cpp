@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reference/decompositions.hpp"
 #include "reference/massless.hpp"
 
 namespace jourdain::loops {
@@ -20,11 +21,7 @@ constexpr long double kRounding = 1e-13L, kSmallest = 1e-18L;
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// Motions that keep the loops closed, orthonormal columns.
-Matrix free_motions(const Matrix& G) {
-  Eigen::JacobiSVD<Matrix> svd(G, Eigen::ComputeFullV);
-  svd.setThreshold(kRankTolerance);
-  return svd.matrixV().rightCols(G.cols() - svd.rank());
-}
+Matrix free_motions(const Matrix& G) { return reference::null_space<long double>(G, kRankTolerance); }
 
 /// The joint that moves most in a motion without inertia; none where all motions have inertia.
 std::optional<model::JointIndex> idle_joint(const model::Mechanism& mechanism, const Configuration& config,
@@ -35,10 +32,10 @@ std::optional<model::JointIndex> idle_joint(const model::Mechanism& mechanism, c
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   const auto terms = reference.evaluate({config.t, config.y, Vector::Zero(G.cols())},
                                         Vector::Zero(at(layout.input_count())));
-  const Eigen::SelfAdjointEigenSolver<Matrix> inertia(N.transpose() * terms.M * N);
-  const Vector motion = N * inertia.eigenvectors().col(0), size = motion.cwiseAbs();
-  const long double sum = size.dot(terms.M_scale * size), largest = inertia.eigenvalues().tail(1)[0];
-  if (inertia.eigenvalues()[0] > std::max(kRounding * sum, kSmallest * largest)) return {};
+  const auto inertia = reference::symmetric_eigenpairs<long double>(N.transpose() * terms.M * N);
+  const Vector motion = N * inertia.vectors.col(0), size = motion.cwiseAbs();
+  const long double sum = size.dot(terms.M_scale * size), largest = inertia.values.tail(1)[0];
+  if (inertia.values[0] > std::max(kRounding * sum, kSmallest * largest)) return {};
   Eigen::Index most = 0;
   size.maxCoeff(&most);
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {

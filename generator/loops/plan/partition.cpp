@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "loops/rows/regular_rows.hpp"
+#include "reference/decompositions.hpp"
 #include "support/check.hpp"
 #include "support/uniform.hpp"
 
@@ -39,7 +40,7 @@ class Conditioning {
   explicit Conditioning(const std::vector<Matrix>& jacobians) {
     for (const Matrix& G : equilibrated(jacobians)) {
       jacobians_.push_back(G.cast<double>());
-      largest_.push_back(G.size() == 0 ? 0 : Singular(jacobians_.back()).singularValues()[0]);
+      largest_.push_back(G.size() == 0 ? 0 : reference::singular_values<double>(jacobians_.back())[0]);
     }
   }
 
@@ -53,10 +54,10 @@ class Conditioning {
       const Dense block = jacobians_[k](Eigen::all, dependents);
       if (block.size() == 0) continue;
       work_ += std::pow(static_cast<double>(block.rows()), 3);
-      const bool positive = block.partialPivLu().determinant() > 0;
+      const bool positive = reference::determinant<double>(block) > 0;
       if (!sign) sign = positive;
       if (*sign != positive) return 0;
-      const double smallest = Singular(block).singularValues().tail(1)[0];
+      const double smallest = reference::singular_values<double>(block).tail(1)[0];
       worst = std::min(worst, largest_[k] > 0 ? smallest / largest_[k] : 0);
       if (worst < enough) return worst;
     }
@@ -68,7 +69,6 @@ class Conditioning {
 
  private:
   using Dense = Eigen::MatrixXd;
-  using Singular = Eigen::JacobiSVD<Dense>;
   static constexpr double kMostWork = 2e8;
 
   std::vector<Dense> jacobians_;
@@ -79,10 +79,8 @@ class Conditioning {
 /// The columns that pivoting takes at the first configuration: where there are many choices one that is not bad.
 std::vector<std::size_t> pivots(const Matrix& G) {
   if (G.rows() == 0) return {};
-  const Eigen::ColPivHouseholderQR<Matrix> qr(G);
-  std::vector<std::size_t> columns;
-  for (Eigen::Index k = 0; k < G.rows(); ++k)
-    columns.push_back(static_cast<std::size_t>(qr.colsPermutation().indices()[k]));
+  const std::vector<Eigen::Index> order = reference::pivoted_columns<long double>(G);
+  std::vector<std::size_t> columns(order.begin(), order.begin() + G.rows());
   std::sort(columns.begin(), columns.end());
   return columns;
 }

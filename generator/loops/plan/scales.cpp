@@ -6,6 +6,7 @@
 #include "loops/plan/schur_solution.hpp"
 #include "loops/rows/dense_solver.hpp"
 #include "model/loop_kinds.hpp"
+#include "reference/decompositions.hpp"
 #include "reference/minimal.hpp"
 
 namespace jourdain::loops {
@@ -56,7 +57,7 @@ Matrix schur_matrix(const model::Mechanism& mechanism, const Configuration& at_s
   reference::State<long double> state{at_state.t, at_state.y, Vector::Zero(at(layout.velocity_count()))};
   const auto terms =
       reference::Reference<long double>(mechanism).evaluate(state, Vector::Zero(at(layout.input_count())));
-  return G * terms.M.ldlt().solve(G.transpose());
+  return G * reference::solved_by_ldlt<long double>(terms.M, Matrix(G.transpose()));
 }
 
 void set_scales(const model::Mechanism& mechanism, const Configuration& start, const Matrix& G,
@@ -107,7 +108,7 @@ long double block_determinant(const LoopPlan& plan, const Matrix& G) {
   long double product = 1;
   for (const Block& block : plan.blocks) {
     const Matrix D = rows_of(G, block.rows)(Eigen::all, block.dependents);
-    const long double determinant = D.determinant();
+    const long double determinant = reference::determinant<long double>(D);
     product *=
         block.rows.size() <= DenseSolver::kLargestByCofactors ? determinant : determinant * determinant;
   }

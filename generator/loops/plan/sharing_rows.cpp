@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "loops/rows/regular_rows.hpp"
+#include "reference/decompositions.hpp"
 
 namespace jourdain::loops {
 
@@ -25,7 +26,7 @@ Rows without(Rows rows, std::size_t row) {
 }
 
 /// det(A Aᵀ)
-long double volume(const Matrix& A) { return A.rows() == 0 ? 1 : (A * A.transpose()).determinant(); }
+long double volume(const Matrix& A) { return reference::determinant<long double>(A * A.transpose()); }
 
 /// How much of what all rows hold some of them hold, at configurations where that is as much as anywhere.
 class Shares {
@@ -37,7 +38,7 @@ class Shares {
       if (largest[at(r)] > kRowTolerance * largest.maxCoeff()) acting_.push_back(r);
     for (Matrix G : jacobians) {
       for (const std::size_t r : acting_) G.row(at(r)) /= largest[at(r)];
-      const Vector sigma = Eigen::JacobiSVD<Matrix>(G(acting_, Eigen::all)).singularValues();
+      const Vector sigma = reference::singular_values<long double>(G(acting_, Eigen::all));
       if (at(rank) > sigma.size() || !(sigma[at(rank) - 1] > kRowTolerance * sigma[0])) continue;
       if (at(rank) < sigma.size() && !(kClear * sigma[at(rank) - 1] > sigma[at(rank)])) continue;
       jacobians_.push_back(G);

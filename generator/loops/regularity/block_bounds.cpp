@@ -7,6 +7,7 @@
 #include "ir/jacobian.hpp"
 #include "loops/rows/loop_system.hpp"
 #include "passes/rewrite.hpp"
+#include "reference/decompositions.hpp"
 
 namespace jourdain::loops {
 
@@ -183,7 +184,7 @@ bool BlockBounds::add_block(const Block& block, const MatrixXd& middle, const Te
       else if (!own && entry > kCancelled * row_scale_[block.rows[i]])
         return false;  // a later block moves this one
     }
-  const MatrixXd C = J.inverse();
+  const MatrixXd C = reference::inverse<double>(J);
   if (!C.allFinite()) return false;
   const IntervalMatrix E = rest(C, G), CH = product(C, H), drift = product(C, earlier);
   double contraction = 0, omega = 0, moved = 0;
@@ -251,7 +252,7 @@ double BlockBounds::margin_near(const VectorXd& x, const VectorXd& p) const {
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       for (std::size_t j = 0; j < block.rows.size(); ++j)
         A(at(i), at(j)) = G(at(block.rows[i]), at(block.dependents[j])) / column_norm_[block.dependents[j]];
-    determinants.push_back(std::fabs(A.determinant()));
+    determinants.push_back(std::fabs(reference::determinant<double>(A)));
     for (std::size_t i = 0; i < block.rows.size(); ++i) norms[block.rows[i]] = A.row(at(i)).norm();
   }
   return margin(determinants, norms);

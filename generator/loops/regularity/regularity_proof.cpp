@@ -13,6 +13,7 @@
 #include "loops/regularity/regularity_layout.hpp"
 #include "loops/rows/timeless.hpp"
 #include "model/angular_entries.hpp"
+#include "reference/decompositions.hpp"
 
 namespace jourdain::loops {
 
@@ -212,7 +213,8 @@ class Proof {
   Eigen::MatrixXd slope_at(const Anchor& known) const {
     if (known.p.size() == 0) return {known.x.size(), 0};
     const Eigen::MatrixXd slopes = layout_.equations->slopes(known.x, known.p);
-    return -slopes.leftCols(known.x.size()).partialPivLu().solve(slopes.rightCols(known.p.size()));
+    return -reference::solved_by_lu<double>(slopes.leftCols(known.x.size()),
+                                            Eigen::MatrixXd(slopes.rightCols(known.p.size())));
   }
 
   /// The side along which the dependents change most, an angle's own change included.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/decompositions.hpp"
 #include "support/uniform.hpp"
 
 namespace jourdain::loops {
@@ -153,10 +154,7 @@ Vector NumericClosure::consistent(const Configuration& config, const Vector& z,
 
 Vector least_norm(const Matrix& A, const Vector& b) {
   if (A.size() == 0) return Vector::Zero(A.cols());
-  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition;
-  decomposition.setThreshold(kRankTolerance);
-  decomposition.compute(A);
-  return decomposition.solve(b);
+  return reference::least_norm<long double>(A, b, kRankTolerance);
 }
 
 bool in_range(const Configuration& config, const model::Mechanism& mechanism,
