@@ -7,6 +7,7 @@
 
 #include "emit/body.hpp"
 #include "loops/plan/plan_text.hpp"
+#include "model/coordinates.hpp"
 #include "model/names.hpp"
 #include "validate/snapping.hpp"
 
@@ -27,7 +28,7 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
   if (options.derivative_terms == programs::DerivativeTerms::kApplied)
     list.push_back(
         "derivatives of the residual hold those of applied forces but gravity alone (--derivatives applied)");
-  if (!compiled.facts.tangent.quaternions.empty())
+  if (!model::lay_out_coordinates(mechanism).quaternions.empty())
     list.push_back("quaternions are near unit length; a step ends with unit length");
   if (const std::string sentence = accuracy_sentence(compiled.articulation); !sentence.empty())
     list.push_back(sentence);

@@ -7,8 +7,8 @@
 
 #include "model/check/checks.hpp"
 #include "model/read/lock.hpp"
-#include "model/snap.hpp"
 #include "model/read/weld.hpp"
+#include "model/snap.hpp"
 
 namespace jourdain::model {
 

@@ -1,6 +1,7 @@
 // [[body]]
 #include <fmt/format.h>
 
+#include "model/read/keys.hpp"
 #include "model/read/shapes.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
@@ -16,8 +17,7 @@ class BodyReader {
   BodyReader(TomlFile& file, const toml::table& table, const std::string& name, SourceRange header)
       : file_(file),
         table_(file, table, name.empty() ? "a body" : fmt::format("body '{}'", shown(name)), header,
-               {"name", "mass", "center_of_mass", "inertia", "inertia_at", "inertia_rpy", "inertia_kind",
-                "shape"}) {}
+               keys_of("body")) {}
 
   Body read() {
     Body body;

@@ -94,11 +94,4 @@ void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNee
                   "the motion says where it starts");
 }
 
-const std::vector<std::string>& coordinate_keys() {
-  static const std::vector<std::string> keys = {
-      "stiffness",        "rest", "damping", "friction", "friction_speed", "motion", "initial_position",
-      "initial_velocity", "range"};
-  return keys;
-}
-
 }  // namespace jourdain::model

@@ -1,6 +1,7 @@
 // [[force]] and [[spring]]
 #include <fmt/format.h>
 
+#include "model/read/keys.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
@@ -78,8 +79,7 @@ void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanis
   for (const toml::node& node : section) {
     const std::string name = name_or_number(*node.as_table(), "force", ++number);
     const TomlTable table(file, *node.as_table(), fmt::format("force '{}'", shown(name)),
-                          file.range(node.source()),
-                          {"name", "frame", "joint", "coordinate", "force", "moment", "axes", "value"});
+                          file.range(node.source()), keys_of("force"));
     if (table.has("frame") == table.has("joint"))
       file.error(file.range(node.source()),
                  fmt::format("force '{}' needs either 'frame' or 'joint'", shown(name)));
@@ -96,8 +96,7 @@ void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechani
     Spring spring;
     spring.name = name_or_number(*node.as_table(), "spring", ++number);
     const TomlTable table(file, *node.as_table(), fmt::format("spring '{}'", shown(spring.name)),
-                          file.range(node.source()),
-                          {"name", "from", "to", "stiffness", "damping", "free_length", "law", "potential"});
+                          file.range(node.source()), keys_of("spring"));
     const auto from = find_frame(file, table, "from", mechanism),
                to = find_frame(file, table, "to", mechanism);
     spring.where = table.where("from");

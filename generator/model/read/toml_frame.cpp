@@ -1,4 +1,5 @@
 #include "model/read/toml_frame.hpp"
+#include "model/read/keys.hpp"
 
 #include <fmt/format.h>
 
@@ -110,8 +111,7 @@ Expression settled(const Expression& expression, Mechanism& mechanism) {
 std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies) {
   std::vector<Frame> frames;
   for (const toml::node& node : section) {
-    const TomlTable table(file, *node.as_table(), "a frame", file.range(node.source()),
-                          {"name", "body", "position", "rpy"});
+    const TomlTable table(file, *node.as_table(), "a frame", file.range(node.source()), keys_of("frame"));
     const std::optional<std::string> name = table.required_text("name"), body = table.required_text("body");
     if (!name || !body) continue;
     Frame frame;
@@ -151,8 +151,7 @@ std::optional<SourceRange> coordinate_named(const Mechanism& mechanism, const st
 std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism) {
   std::vector<Input> inputs;
   for (const toml::node& node : section) {
-    const TomlTable table(file, *node.as_table(), "an input", file.range(node.source()),
-                          {"name", "unit", "description"});
+    const TomlTable table(file, *node.as_table(), "an input", file.range(node.source()), keys_of("input"));
     Input input;
     input.name = table.required_text("name").value_or("");
     input.where = table.where("name");

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/read/keys.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
 #include "model/taylor.hpp"
@@ -26,7 +27,7 @@ std::vector<std::string> keys_of(JointType type) {
     keys.insert(keys.end(), more.begin(), more.end());
   };
   const std::span<const CoordinateKind> kinds = coordinate_kinds(type);
-  if (kinds.size() == 1) keys = coordinate_keys();
+  if (kinds.size() == 1) keys = model::keys_of("coordinate");
   if (kinds.size() > 1)
     for (const CoordinateKind& kind : kinds) keys.emplace_back(kind.suffix);
   switch (type) {
@@ -183,7 +184,7 @@ class JointReader {
       const toml::table* section = table_.table(kinds[c].suffix);
       if (!section) continue;
       const TomlTable table(file_, *section, fmt::format("'{}' of {}", kinds[c].suffix, table_.what()),
-                            table_.where(kinds[c].suffix), coordinate_keys());
+                            table_.where(kinds[c].suffix), model::keys_of("coordinate"));
       read_coordinate(file_, table, coordinate_needs(joint, c), joint.coordinates[c]);
     }
   }
@@ -263,7 +264,7 @@ std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
   std::vector<Actuator> actuators;
   for (const toml::node& node : section) {
     const TomlTable table(file, *node.as_table(), "an actuator", file.range(node.source()),
-                          {"name", "joint", "coordinate", "gear_ratio", "rotor_inertia"});
+                          model::keys_of("actuator"));
     const std::optional<std::string> joint_name = table.required_text("joint");
     if (!joint_name) continue;
     const auto joint =

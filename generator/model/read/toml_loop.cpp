@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/loop_kinds.hpp"
+#include "model/read/keys.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
@@ -221,9 +222,7 @@ std::optional<LoopOptions::CoordinateName> find_independent(TomlFile& file, cons
 class OptionsReader {
  public:
   OptionsReader(TomlFile& file, const toml::table& section, SourceRange where)
-      : file_(file),
-        table_(file, section, "[loops]", where, {"treatment", "independent", "iterations", "stabilisation"}) {
-  }
+      : file_(file), table_(file, section, "[loops]", where, model::keys_of("loops")) {}
 
   LoopOptions read(const Mechanism& mechanism) {
     if (table_.has("treatment"))

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "model/names.hpp"
+#include "model/read/keys.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
@@ -84,8 +85,7 @@ void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechani
     output.name = (*node.as_table())["name"].value_or(std::string());
     const TomlTable table(file, *node.as_table(),
                           output.name.empty() ? "an output" : fmt::format("output '{}'", shown(output.name)),
-                          file.range(node.source()),
-                          {"name", "kind", "frame", "joint", "coordinate", "value"});
+                          file.range(node.source()), keys_of("output"));
     table.required_text("name");
     output.where = table.where("name");
     if (!table.has("kind")) table.missing("kind", fmt::format("one of {}", fmt::join(kKinds, ", ")));

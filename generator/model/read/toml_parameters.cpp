@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/read/keys.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
 
@@ -75,8 +76,7 @@ void read_value(TomlFile& file, const toml::node& node, Parameter& parameter) {
     check_finite(file, node, what, parameter);
     return;
   }
-  const TomlTable table(file, *details, what, file.range(node.source()),
-                        {"value", "unit", "description", "range"});
+  const TomlTable table(file, *details, what, file.range(node.source()), keys_of("parameter"));
   const std::optional<Unit> unit = table.unit("unit");
   if (table.has("unit") && unit) parameter.unit = *table.text("unit");
   parameter.description = table.text("description").value_or("");

@@ -35,7 +35,6 @@ CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate);
 /// What belongs to one scalar coordinate, from the table of its joint or from its own; and the keys that such a table has.
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
                      Coordinate& coordinate);
-const std::vector<std::string>& coordinate_keys();
 
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values; zero after a
 /// diagnostic that it cannot be read or where it is missing. `scope` has t and names that it refuses.
