@@ -13,7 +13,7 @@ namespace jourdain::commands {
 
 namespace {
 
-std::string code(const char* text) { return *text ? fmt::format("`{}`", text) : ""; }
+const char* left_out(const model::Key& key) { return *key.standard ? key.standard : "required"; }
 
 /// A page of all sections: models/README.md.
 std::string page() {
@@ -31,7 +31,7 @@ std::string page() {
                         section.heading, section.meaning);
     for (const model::Key& key : section.keys)
       text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.type, key.unit,
-                          *key.standard ? code(key.standard) : "required", key.meaning);
+                          left_out(key), key.meaning);
     if (*section.example) text += fmt::format("\n```toml\n{}```\n", section.example);
   }
   return text;
@@ -43,7 +43,7 @@ std::string tables(const std::string& only) {
     if (!only.empty() && only != section.name) continue;
     report::TextTable table({"key", "type", "unit", "where left out", "meaning"});
     for (const model::Key& key : section.keys)
-      table.add({key.name, key.type, key.unit, *key.standard ? key.standard : "required", key.meaning});
+      table.add({key.name, key.type, key.unit, left_out(key), key.meaning});
     text +=
         fmt::format("{}{}\n{}\n{}", text.empty() ? "" : "\n", section.heading, section.meaning, table.text());
   }

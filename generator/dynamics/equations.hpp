@@ -31,7 +31,7 @@ struct OutputValues {
   std::vector<Ex> values;
 };
 
-/// The symbolic equations of motion M ż = k̄ − q̄ (design section 1; printed signs) and what belongs to them. Entries
+/// The symbolic equations of motion M ż = k̄ − q̄ (signs as printed; generator/README.md) and what belongs to them. Entries
 /// are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout.
 struct Equations {
   kinematics::Statements statements;

@@ -1,4 +1,4 @@
-// Declarations of the emitted functions; the argument order is the binding API (design section 4).
+// Declarations of the emitted functions; the argument order is the binding API.
 #pragma once
 
 #include <string>

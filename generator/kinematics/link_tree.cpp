@@ -228,7 +228,7 @@ class Builder {
     target = bind_moments(statements_, body.name, target + tree_.body_moments.back());
   }
 
-  /// Moves to the parent what the joint's motion does not feel (design section 2, base inertial parameters): of a turn
+  /// Moves to the parent what the joint's motion does not feel (base inertial parameters): of a turn
   /// about z what is symmetric about z (mass, h_z and S_zz); of a ball the mass at its centre; of a slide or curve, which
   /// turn nothing, the whole second moment; of a screw S_zz.
   void regroup(Link& link) {
