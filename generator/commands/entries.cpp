@@ -10,17 +10,11 @@ namespace {
 
 using model::JointType;
 
-std::vector<double> default_values(const model::Mechanism& mechanism) {
-  std::vector<double> values;
-  for (const model::Parameter& parameter : mechanism.parameters) values.push_back(parameter.value);
-  return values;
-}
-
 /// Entries of the tree's joints, in order; names are those of the layout.
 class TreeEntries {
  public:
   explicit TreeEntries(const model::Mechanism& mechanism)
-      : layout_(model::lay_out_coordinates(mechanism)), values_(default_values(mechanism)) {
+      : layout_(model::lay_out_coordinates(mechanism)), values_(model::default_values(mechanism)) {
     for (const model::JointIndex index : model::depth_first(mechanism)) {
       const model::Joint& joint = mechanism.joints[index.value];
       joint_ = index;
