@@ -45,9 +45,11 @@ void add_forces(const model::Actuator& actuator, ForceSum& sum);
 void add_forces(const model::CoordinateForce& force, ForceSum& sum);
 void add_forces(const model::Spring& spring, ForceSum& sum);
 void add_forces(const model::Load& load, ForceSum& sum);
+void add_forces(const model::Bushing& bushing, ForceSum& sum);
 
 /// J; of a kind without potential zero.
 Ex potential(const model::Spring& spring, Scene& scene);
+Ex potential(const model::Bushing& bushing, Scene& scene);
 inline Ex potential(const model::Actuator&, Scene&) { return 0; }
 inline Ex potential(const model::CoordinateForce&, Scene&) { return 0; }
 inline Ex potential(const model::Load&, Scene&) { return 0; }

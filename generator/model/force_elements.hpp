@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "model/actuator.hpp"
+#include "model/bushing.hpp"
 #include "model/coordinate_force.hpp"
 #include "model/frame_load.hpp"
 #include "model/spring.hpp"
@@ -32,6 +33,7 @@ struct ForceElements {
   std::vector<CoordinateForce> coordinate_forces;
   std::vector<Spring> springs;
   std::vector<Load> loads;
+  std::vector<Bushing> bushings;
 };
 
 /// Calls `visit` with the list of each kind, in the order of ForceElements, const lists of const elements.
@@ -39,9 +41,9 @@ template <class Elements, class Visit>
 requires std::is_base_of_v<ForceElements, std::remove_const_t<Elements>>
 void for_each_force_list(Elements& all, Visit&& visit) {
   using Lists = std::conditional_t<std::is_const_v<Elements>, const ForceElements, ForceElements>;
-  auto& [actuators, coordinate_forces, springs, loads] = static_cast<Lists&>(all);
+  auto& [actuators, coordinate_forces, springs, loads, bushings] = static_cast<Lists&>(all);
   const auto each = [&visit](auto&... lists) { (visit(lists), ...); };
-  each(actuators, coordinate_forces, springs, loads);
+  each(actuators, coordinate_forces, springs, loads, bushings);
 }
 
 /// Calls `visit` with each element.

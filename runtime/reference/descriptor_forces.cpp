@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "reference/descriptor_bushing.hpp"
 #include "reference/descriptor_elements.hpp"
 
 namespace jourdain::reference::descriptor {

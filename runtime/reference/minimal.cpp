@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "reference/minimal_bushing.hpp"
 #include "reference/minimal_elements.hpp"
 #include "reference/minimal_forces.hpp"
 #include "reference/minimal_motion.hpp"

@@ -152,6 +152,7 @@ class Reference {
   Effect effect(const model::CoordinateForce& force, const Forces& at) const;
   Effect effect(const model::Spring& spring, const Forces& at) const;
   Effect effect(const model::Load& load, const Forces& at) const;
+  Effect effect(const model::Bushing& bushing, const Forces& at) const;
 
   /// Second derivatives of all scalar velocities, with their scales.
   struct Accelerations {

@@ -76,6 +76,7 @@ bool can_stay(const model::Actuator& actuator, const Mechanism& mechanism) {
 bool can_stay(const model::CoordinateForce&, const Mechanism&) { return false; }
 bool can_stay(const model::Load&, const Mechanism&) { return false; }
 bool can_stay(const model::Spring&, const Mechanism&) { return true; }
+bool can_stay(const model::Bushing&, const Mechanism&) { return true; }
 
 bool can_be_rewritten(const Mechanism& m) {
   return m.loops.empty() &&

@@ -27,16 +27,17 @@ Element with(Element element, Value Element::*member, const Value& value) {
 
 TEST(ForceElements, AreVisitedByKindAsDeclared) {
   ForceElements all;
+  all.bushings = {named<Bushing>("e")};
   all.loads = {named<Load>("d")};
   all.springs = {named<Spring>("b"), named<Spring>("c")};
   all.actuators = {named<Actuator>("a")};
   std::string order;
   for_each_force_element(all, [&order](const auto& element) { order += element.name; });
-  EXPECT_EQ(order, "abcd");
+  EXPECT_EQ(order, "abcde");
   EXPECT_FALSE(has_inputs_alone(all));
   list_of<Spring>(all).clear();
   for_each_force_element(all, [&order](const auto& element) { order += element.name; });
-  EXPECT_EQ(order, "abcdad");
+  EXPECT_EQ(order, "abcdeade");
 }
 
 TEST(ForceElements, OfActuatorsAloneAreInputs) {
@@ -66,6 +67,7 @@ TEST(ForceElements, GiveAllTheirExpressions) {
   expect_all_seen(Load(), 6);
   expect_all_seen(Spring(), 4);
   expect_all_seen(with(Spring(), &Spring::potential, std::optional(Expression(1.0))), 5);
+  expect_all_seen(Bushing(), 12);
 }
 
 TEST(ForceElements, ConserveEnergyUnlessTheyDampOrHaveNoPotential) {
@@ -74,6 +76,11 @@ TEST(ForceElements, ConserveEnergyUnlessTheyDampOrHaveNoPotential) {
   const Spring lawful = with(Spring(), &Spring::law, Expression(3.0));
   EXPECT_FALSE(lawful.conserves_energy());
   EXPECT_TRUE(with(lawful, &Spring::potential, std::optional(Expression(1.0))).conserves_energy());
+  const Vector3 one = {0.0, 0.0, 3.0};
+  EXPECT_TRUE(with(Bushing(), &Bushing::stiffness, one).conserves_energy());
+  EXPECT_TRUE(with(Bushing(), &Bushing::torsional_stiffness, one).conserves_energy());
+  EXPECT_FALSE(with(Bushing(), &Bushing::damping, one).conserves_energy());
+  EXPECT_FALSE(with(Bushing(), &Bushing::torsional_damping, one).conserves_energy());
   EXPECT_FALSE(Load().conserves_energy());
   EXPECT_FALSE(CoordinateForce().conserves_energy());
 }

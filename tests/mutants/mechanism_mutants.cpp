@@ -116,6 +116,9 @@ void change_ends(const Mechanism& mechanism, std::vector<MechanismMutant>& mutan
   for (std::size_t i = 0; i < mechanism.springs.size(); ++i)
     add("another frame", mechanism.springs[i].name,
         [&](Mechanism& m) { m.springs[i].to = next(m.springs[i].to); });
+  for (std::size_t i = 0; i < mechanism.bushings.size(); ++i)
+    add("ends of a bushing swapped", mechanism.bushings[i].name,
+        [&](Mechanism& m) { std::swap(m.bushings[i].from, m.bushings[i].to); });
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
     add("another frame", mechanism.loads[i].name,
         [&](Mechanism& m) { m.loads[i].frame = next(m.loads[i].frame); });

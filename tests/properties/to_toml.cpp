@@ -238,6 +238,14 @@ class Writer {
     if (spring.potential) text_ += fmt::format("potential = {}\n", with({"length"}, *spring.potential));
   }
 
+  void add(const model::Bushing& bushing) {
+    text_ += fmt::format(
+        "\n[[bushing]]\nname = \"{}\"\nfrom = \"{}\"\nto = \"{}\"\nstiffness = {}\ndamping = {}\n"
+        "torsional_stiffness = {}\ntorsional_damping = {}\n",
+        bushing.name, frame(bushing.from), frame(bushing.to), vector(bushing.stiffness),
+        vector(bushing.damping), vector(bushing.torsional_stiffness), vector(bushing.torsional_damping));
+  }
+
   void add(const model::Loop& loop) {
     using Type = model::LoopType;
     static constexpr const char* kTypes[] = {"ball",        "revolute",   "universal",      "prismatic",

@@ -84,6 +84,13 @@
 //   law = "100*(length - 1)^3"     # N, added; of length and rate
 //   potential = "25*(length - 1)^4"         # J, of the law
 //
+//   [[bushing]]                    # holds the origins and axes of two frames together (see model/bushing.hpp)
+//   from = "chassis_eye"           # in whose axes the numbers are
+//   to = "arm_eye"
+//   stiffness = [kx, ky, kz]       # N/m; default zero
+//   damping = [cx, cy, cz]         # N s/m
+//   torsional_stiffness, torsional_damping  # N m/rad, N m s/rad, about the axes
+//
 //   [[loop]]                       # closes a kinematic loop between two frames; the joints make the tree
 //   name = "closure"
 //   type = "ball"                  # revolute, universal, prismatic, cylindrical, planar_pin, point_in_plane,
@@ -127,8 +134,9 @@ class TomlReader {
   TomlReader(Diagnostics& diagnostics, const toml::table& root) : file_(diagnostics), root_(root) {}
 
   Mechanism read() {
-    const std::vector<std::string> known{"model", "parameters", "body",   "joint", "frame", "actuator",
-                                         "input", "force",      "spring", "loop",  "loops", "output"};
+    const std::vector<std::string> known{"model",    "parameters", "body",  "joint",  "frame",
+                                         "actuator", "input",      "force", "spring", "bushing",
+                                         "loop",     "loops",      "output"};
     const TomlTable top(file_, root_, "the file", {}, known);
     Mechanism mechanism;
     if (const toml::table* section = top.table("parameters"))
@@ -146,6 +154,7 @@ class TomlReader {
       mechanism.inputs = read_inputs(file_, *section, mechanism);
     if (const auto* section = tables(top, "force")) read_forces(file_, *section, mechanism);
     if (const auto* section = tables(top, "spring")) read_springs(file_, *section, mechanism);
+    if (const auto* section = tables(top, "bushing")) read_bushings(file_, *section, mechanism);
     if (const auto* section = tables(top, "output")) read_outputs(file_, *section, mechanism);
     if (const auto* section = tables(top, "loop")) read_loops(file_, *section, mechanism);
     if (const auto* section = top.table("loops"))
