@@ -188,8 +188,7 @@ bool has_expanded_form(const model::Mechanism& mechanism) {
     for (const model::Coordinate& c : joint.coordinates)
       if (c.motion || !c.friction.is_zero()) return false;
   }
-  return model::lay_out_coordinates(mechanism).quaternions.empty() && mechanism.springs.empty() &&
-         mechanism.loads.empty() && mechanism.coordinate_forces.empty();
+  return model::lay_out_coordinates(mechanism).quaternions.empty() && model::has_inputs_alone(mechanism);
 }
 
 }  // namespace

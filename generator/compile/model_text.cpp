@@ -17,10 +17,10 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
                                      const CompiledModel& compiled) {
   std::vector<std::string> list = {"bodies are rigid; joints are ideal and without limits"};
   if (!options.damping) list.push_back("joint damping of the description is left out (--no-damping)");
-  if (!mechanism.springs.empty())
-    list.push_back(fmt::format(
-        "a spring's length is sqrt(|dr|^2 + ({:g} m)^2), so that its direction is defined at zero length",
-        model::kLengthSmoothing));
+  for_each_force_list(mechanism, [&list]<class Element>(const std::vector<Element>& elements) {
+    const std::string sentence = Element::assumption();
+    if (!elements.empty() && !sentence.empty()) list.push_back(sentence);
+  });
   const bool rotors = std::any_of(mechanism.actuators.begin(), mechanism.actuators.end(),
                                   [](const model::Actuator& a) { return !a.rotor_inertia.is_zero(); });
   if (rotors)

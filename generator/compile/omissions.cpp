@@ -101,8 +101,7 @@ std::vector<Omission> absent(const model::Mechanism& mechanism, const CompiledMo
   if (none(&model::Coordinate::stiffness)) list.push_back({"joint springs", "none", 0});
   if (none(&model::Coordinate::damping)) list.push_back({"joint dampers", "none", 0});
   if (compiled.facts.inputs.empty()) list.push_back({"inputs", "none", 0});
-  if (mechanism.springs.empty() && mechanism.loads.empty() && mechanism.coordinate_forces.empty())
-    list.push_back({"frame forces", "none", 0});
+  if (model::has_inputs_alone(mechanism)) list.push_back({"frame forces", "none", 0});
   if (mechanism.outputs.empty()) list.push_back({"outputs", "none asked for", 0});
   describe_mass_matrix(compiled, list);
   if (mechanism.parameters.empty()) list.push_back({"parameters", "all numbers are baked in", 0});

@@ -39,12 +39,11 @@ bool starts(const model::Mechanism& mechanism) {
          is_finite(reference.outputs(state, u, none, none));
 }
 
-/// The mechanism without forces and outputs.
+/// The mechanism without forces and outputs; actuators stay, inputs are numbered by them and zero.
 model::Mechanism bare(const model::Mechanism& mechanism) {
   model::Mechanism rest = mechanism;
-  rest.loads.clear();
-  rest.springs.clear();
-  rest.coordinate_forces.clear();
+  for_each_force_list(rest, [](auto& list) { list.clear(); });
+  rest.actuators = mechanism.actuators;
   rest.outputs.clear();
   return rest;
 }
@@ -65,19 +64,17 @@ support::SourceRange suspect(const model::Mechanism& mechanism) {
   return mechanism.joints.front().where;
 }
 
-/// Tries each element alone and reports those that have no value.
-template <class Element>
-void report(const model::Mechanism& mechanism, std::vector<Element> model::Mechanism::*list, const char* what,
-            support::Diagnostics& diagnostics) {
-  for (const Element& element : mechanism.*list) {
-    model::Mechanism alone = bare(mechanism);
-    alone.*list = {element};
-    if (!starts(alone))
-      diagnostics.error(
-          element.where,
-          fmt::format("{} '{}' has no finite value at the initial state", what, support::shown(element.name)),
-          "at t = 0, with inputs zero");
-  }
+/// Tries an element alone, put into the `list` of its kind, and reports it if it has no value.
+template <class Element, class List>
+void report(const model::Mechanism& mechanism, const Element& element, const List& list,
+            std::string_view kind, support::Diagnostics& diagnostics) {
+  model::Mechanism alone = bare(mechanism);
+  list(alone) = {element};
+  if (starts(alone)) return;
+  diagnostics.error(
+      element.where,
+      fmt::format("{} '{}' has no finite value at the initial state", kind, support::shown(element.name)),
+      "at t = 0, with inputs zero");
 }
 
 void report_singular(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
@@ -105,10 +102,13 @@ void check_start(const model::Mechanism& mechanism, support::Diagnostics& diagno
                       "a curve or a motion may be singular there, or a number too large");
     return;
   }
-  report(mechanism, &model::Mechanism::coordinate_forces, "force", diagnostics);
-  report(mechanism, &model::Mechanism::loads, "force", diagnostics);
-  report(mechanism, &model::Mechanism::springs, "spring", diagnostics);
-  report(mechanism, &model::Mechanism::outputs, "output", diagnostics);
+  for_each_force_element(mechanism, [&]<class Element>(const Element& element) {
+    report(mechanism, element, model::list_of<Element>, Element::kKind, diagnostics);
+  });
+  for (const model::Output& output : mechanism.outputs)
+    report(
+        mechanism, output, [](model::Mechanism & alone) -> auto& { return alone.outputs; }, "output",
+        diagnostics);
 }
 
 }  // namespace jourdain

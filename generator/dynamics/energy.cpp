@@ -71,8 +71,8 @@ Ex derive_potential_energy(Scene& scene) {
     first = scene.statements.bind(fmt::format("hg{}", i), first + (scene.frames.rotation(i) * moments.first +
                                                                    moments.mass * scene.frames.offset(i)));
   }
-  const Ex springs = derive_spring_energy(scene);
-  return scene.statements.bind("V", springs - kinematics::dot(scene.tree.gravity, first));
+  const Ex elastic = derive_elastic_energy(scene);
+  return scene.statements.bind("V", elastic - kinematics::dot(scene.tree.gravity, first));
 }
 
 Ex reflected_inertia(Scene& scene, const model::Actuator& actuator) {

@@ -9,7 +9,7 @@ namespace jourdain::dynamics {
 /// its product with the velocity of the parent. Rotors count with ½ (gear rate)² inertia.
 Ex derive_kinetic_energy(Scene& scene);
 
-/// Of gravity (zero at the inertial origin) and of springs, J.
+/// Of gravity (zero at the inertial origin), joint springs and force elements, J.
 Ex derive_potential_energy(Scene& scene);
 
 /// gear_ratio² rotor_inertia

@@ -45,7 +45,7 @@ struct Equations {
   std::vector<Ex> load;            ///< of q̄ all but gravity; only for derivatives
   std::vector<LoopClosure> closures;  ///< by loop
   Ex kinetic_energy;                  ///< J
-  Ex potential_energy;                ///< J; gravity (zero at the inertial origin), joint springs and springs
+  Ex potential_energy;                ///< J; gravity (zero at the inertial origin), springs, force elements
   std::vector<Ex> initial_position;
   std::vector<Ex> initial_velocity;
   std::vector<std::string> output_names;

@@ -1,6 +1,8 @@
 // Arithmetic over literals and named parameters, as it stands in a model file ("m/3*l^2", "30*deg").
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -202,6 +204,16 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal, Variabl
     }
   }
   return values.back();
+}
+
+using Vector3 = std::array<Expression, 3>;
+
+/// Whether `holds` says so of a variable of the expression.
+template <class Holds>
+bool any_variable(const Expression& expression, const Holds& holds) {
+  return std::any_of(expression.nodes().begin(), expression.nodes().end(), [&](const Expression::Node& node) {
+    return node.op == Expression::Op::kVariable && holds(node.variable);
+  });
 }
 
 }  // namespace jourdain::model

@@ -10,16 +10,13 @@
 #include <vector>
 
 #include "model/expression.hpp"
+#include "model/force_elements.hpp"
+#include "model/indices.hpp"
 #include "support/diagnostics.hpp"
-#include "support/index.hpp"
 
 namespace jourdain::model {
 
 using support::SourceRange;
-using BodyIndex = support::Index<struct BodyTag>;
-using JointIndex = support::Index<struct JointTag>;
-
-using Vector3 = std::array<Expression, 3>;
 
 /// Orientation by roll, pitch, yaw (rad): R = Rz(yaw) Ry(pitch) Rx(roll), columns are the rotated axes.
 struct Rotation {
@@ -155,9 +152,7 @@ std::array<std::array<double, 3>, 2> plane_axes(const std::array<double, 3>& uni
 /// Those of a normal of any length, in doubles: what a planar joint slides along by definition.
 std::array<std::array<double, 3>, 2> slide_directions(const std::array<double, 3>& normal);
 
-using FrameIndex = support::Index<struct FrameTag>;
-
-/// A named frame fixed to a body or to the world; springs, loads and outputs refer to it.
+/// A named frame fixed to a body or to the world; force elements and outputs refer to it.
 struct Frame {
   std::string name;
   std::optional<BodyIndex> body;  ///< none: the world
@@ -165,61 +160,11 @@ struct Frame {
   SourceRange where = {};
 };
 
-/// A generalized force on one scalar coordinate, given at run time: gear_ratio times the input. The rotor adds
-/// gear_ratio² rotor_inertia to the mass matrix (its gyroscopic coupling is neglected).
-struct Actuator {
-  std::string name;  ///< of the input
-  JointIndex joint;
-  std::size_t coordinate = 0;  ///< of the joint
-  Expression gear_ratio = 1.0;
-  Expression rotor_inertia;  ///< kg m² (kg along a prismatic coordinate), before the gear
-  SourceRange where = {};
-  bool implied = false;  ///< made by the reader: the description says nothing of inputs
-};
-
 /// An input that only expressions use.
 struct Input {
   std::string name;
   std::string unit;
   std::string description;
-  SourceRange where = {};
-};
-
-enum class LoadAxes { kFrame, kWorld };
-
-/// A force at the origin of a frame and a free moment on its body. Components are expressions of time, coordinates,
-/// velocities, inputs and frames.
-struct Load {
-  std::string name;
-  FrameIndex frame;
-  LoadAxes axes = LoadAxes::kFrame;
-  Vector3 force;   ///< N
-  Vector3 moment;  ///< N m
-  SourceRange where = {};
-};
-
-/// A spring-damper between the origins of two frames on different bodies. Tension (pulls the ends together), N:
-/// stiffness (l − free_length) + damping dl/dt + law(l, dl/dt), with l = √(|Δr|² + kLengthSmoothing²).
-struct Spring {
-  std::string name;
-  FrameIndex from, to;
-  Expression stiffness;                 ///< N/m
-  Expression damping;                   ///< N s/m
-  Expression free_length;               ///< m
-  Expression law;                       ///< of arguments 0 (length, m) and 1 (rate, m/s); N
-  std::optional<Expression> potential;  ///< of argument 0: energy of the law's conservative part, J
-  SourceRange where = {};
-};
-
-/// Keeps the direction of a point-to-point force defined at zero length, m.
-inline constexpr double kLengthSmoothing = 1e-9;
-
-/// A generalized force on one scalar coordinate: an expression of time, coordinates, velocities, inputs and frames.
-struct CoordinateForce {
-  std::string name;
-  JointIndex joint;
-  std::size_t coordinate = 0;
-  Expression force;  ///< N m or N; positive pushes forward
   SourceRange where = {};
 };
 
@@ -308,7 +253,7 @@ struct SnappedDirections {
   bool empty() const { return rotations.empty() && axes.empty(); }
 };
 
-struct Mechanism {
+struct Mechanism : ForceElements {
   std::string name;  ///< as the user wrote it; see `cpp_name`
   std::string description;
   std::string source;  ///< where its numbers come from
@@ -317,11 +262,7 @@ struct Mechanism {
   std::vector<Body> bodies;
   std::vector<Joint> joints;  ///< as declared
   std::vector<Frame> frames;
-  std::vector<Actuator> actuators;
   std::vector<Input> inputs;
-  std::vector<Load> loads;
-  std::vector<Spring> springs;
-  std::vector<CoordinateForce> coordinate_forces;
   std::vector<Output> outputs;
   std::vector<Loop> loops;
   LoopOptions loop_options;

@@ -6,24 +6,10 @@ namespace jourdain::model {
 
 namespace {
 
-/// Whether a variable of the expression is of the kind looked for.
-template <class Wanted>
-bool mentions(const Expression& expression, const Wanted& wanted) {
-  return std::any_of(expression.nodes().begin(), expression.nodes().end(), [&](const Expression::Node& node) {
-    return node.op == Expression::Op::kVariable && wanted(node.variable);
-  });
-}
-
-bool mentions_time(const Expression& expression) {
-  return mentions(expression, [](const Variable& v) { return v.kind == Variable::Kind::kTime; });
-}
-
-bool mentions_time(const Vector3& vector) {
-  return std::any_of(vector.begin(), vector.end(), [](const Expression& e) { return mentions_time(e); });
-}
+bool is_time(const Variable& variable) { return variable.kind == Variable::Kind::kTime; }
 
 bool is_driven(const Coordinate& coordinate) {
-  return coordinate.motion && mentions_time(*coordinate.motion);
+  return coordinate.motion && any_variable(*coordinate.motion, is_time);
 }
 
 bool is_driven(const Joint& joint) {
@@ -35,15 +21,12 @@ bool positions_depend(const Mechanism& mechanism) {
   return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
                      [](const Joint& joint) { return is_driven(joint); }) ||
          std::any_of(mechanism.loops.begin(), mechanism.loops.end(), [](const Loop& loop) {
-           return mentions_time(loop.length) || mentions_time(loop.residual);
+           return any_variable(loop.length, is_time) || any_variable(loop.residual, is_time);
          });
 }
 
 bool forces_depend(const Mechanism& mechanism) {
-  return std::any_of(mechanism.loads.begin(), mechanism.loads.end(),
-                     [](const Load& l) { return mentions_time(l.force) || mentions_time(l.moment); }) ||
-         std::any_of(mechanism.coordinate_forces.begin(), mechanism.coordinate_forces.end(),
-                     [](const CoordinateForce& f) { return mentions_time(f.force); });
+  return any_force_element(mechanism, [](const auto& element) { return any_variable(element, is_time); });
 }
 
 /// Outputs, given what positions and dynamics do.
@@ -65,7 +48,7 @@ class OutputTime {
       case OutputKind::kPotentialEnergy:
         return time_.positions;
       case OutputKind::kExpression:
-        return mentions(output.value, [this](const Variable& v) { return depends(v); });
+        return any_variable(output.value, [this](const Variable& v) { return depends(v); });
     }
     return true;
   }

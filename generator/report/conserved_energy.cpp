@@ -8,9 +8,8 @@ bool conserves_energy(const model::Mechanism& mechanism) {
     for (const model::Coordinate& c : joint.coordinates)
       if (!c.damping.is_zero() || !c.friction.is_zero() || c.motion) return false;
   }
-  for (const model::Spring& spring : mechanism.springs)
-    if (!spring.damping.is_zero() || (!spring.law.is_zero() && !spring.potential)) return false;
-  return mechanism.loads.empty() && mechanism.coordinate_forces.empty();
+  return !model::any_force_element(mechanism,
+                                   [](const auto& element) { return !element.conserves_energy(); });
 }
 
 }  // namespace jourdain::report

@@ -41,9 +41,7 @@ class FigureMaker {
     for (std::size_t b = 0; b < mechanism_.bodies.size(); ++b) add_body(b);
     for (const model::Joint& joint : mechanism_.joints) add_joint(joint);
     for (const model::Loop& loop : mechanism_.loops) add_loop(loop);
-    for (const model::Spring& spring : mechanism_.springs)
-      figure_.lines.push_back({LineKind::kSpring, attached(spring.from), attached(spring.to)});
-    for (const model::Load& load : mechanism_.loads) attached(load.frame);
+    for_each_force_element(mechanism_, [this](const auto& element) { add_force_element(element.ends()); });
     for (std::size_t b = 0; b < mechanism_.bodies.size(); ++b)
       if (!holds_something_[b]) stick(b, figure_.bodies[b].center);
     return std::move(figure_);
@@ -93,6 +91,13 @@ class FigureMaker {
   FigurePoint attached(model::FrameIndex index) {
     const model::Frame& frame = mechanism_.frames[index.value];
     return point(frame.body, frame.placement);
+  }
+
+  /// A line between two ends.
+  void add_force_element(const std::vector<model::FrameIndex>& ends) {
+    std::vector<FigurePoint> points;
+    for (const model::FrameIndex end : ends) points.push_back(attached(end));
+    if (points.size() == 2) figure_.lines.push_back({LineKind::kSpring, points[0], points[1]});
   }
 
   Numbers3 axis_in(const model::Placement& placement, const std::array<double, 3>& axis) const {

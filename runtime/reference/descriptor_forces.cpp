@@ -2,50 +2,12 @@
 
 #include <cmath>
 
-#include "support/check.hpp"
+#include "reference/descriptor_bushing.hpp"
+#include "reference/descriptor_elements.hpp"
 
 namespace jourdain::reference::descriptor {
 
 namespace {
-
-using model::Variable;
-
-/// Value at the scene's state; `arguments` are what the expression is a function of.
-template <class Scalar>
-Scalar value(const model::Expression& expression, const Scene<Scalar>& scene,
-             std::span<const Scalar> arguments = {}) {
-  const auto variable = [&](const Variable& v) -> Scalar {
-    const auto i = v.index;
-    const auto component = Eigen::Index(v.component);
-    switch (v.kind) {
-      case Variable::Kind::kTime:
-        return scene.t;
-      case Variable::Kind::kPosition:
-        return scene.position.at(i).at(v.component);
-      case Variable::Kind::kVelocity:
-        return scene.rate.at(i).at(v.component);
-      case Variable::Kind::kInput:
-        return scene.inputs.at(i);
-      case Variable::Kind::kFramePosition:
-        return scene.frames.at(i).p_WF[component];
-      case Variable::Kind::kFrameVelocity:
-        return scene.frames.at(i).v_F[component];
-      case Variable::Kind::kFrameSpin:
-        return scene.frames.at(i).omega[component];
-      case Variable::Kind::kArgument:
-        JD_CHECK(v.component < arguments.size(), "argument {} of {}", v.component, arguments.size());
-        return arguments[v.component];
-    }
-    throw support::InternalError("a variable is of no known kind");
-  };
-  return expression.evaluate<Scalar>(
-      scene.parameters, [](double literal) { return Scalar(literal); }, variable);
-}
-
-template <class Scalar>
-Vector3<Scalar> value(const model::Vector3& vector, const Scene<Scalar>& scene) {
-  return {value(vector[0], scene), value(vector[1], scene), value(vector[2], scene)};
-}
 
 /// Adds forces at points of bodies into their six rows each.
 template <class Scalar>
@@ -78,24 +40,6 @@ class BodyForces {
   const std::vector<AbsoluteBody<Scalar>>& motions_;
   Eigen::VectorX<Scalar> rows_;
 };
-
-/// The spring's pull on its `from` end, N, inertial frame.
-template <class Scalar>
-Vector3<Scalar> spring_force(const model::Spring& spring, const Scene<Scalar>& scene) {
-  using std::sqrt;
-  const FrameMotion<Scalar>& from = scene.frames[spring.from.value];
-  const FrameMotion<Scalar>& to = scene.frames[spring.to.value];
-  const Vector3<Scalar> delta = to.p_WF - from.p_WF;
-  const Scalar smoothing = Scalar(model::kLengthSmoothing);
-  const Scalar length = sqrt(delta.squaredNorm() + smoothing * smoothing);
-  const Vector3<Scalar> direction = delta / length;
-  const Scalar rate = direction.dot(to.v_F - from.v_F);
-  const Scalar arguments[] = {length, rate};
-  const Scalar tension = value(spring.stiffness, scene) * (length - value(spring.free_length, scene)) +
-                         value(spring.damping, scene) * rate +
-                         value(spring.law, scene, std::span<const Scalar>(arguments));
-  return tension * direction;
-}
 
 /// −stiffness (y − rest) − damping z − friction z/√(z² + friction_speed²)
 template <class Scalar>
@@ -163,17 +107,10 @@ Eigen::VectorX<Scalar> body_forces(const model::Mechanism& mechanism, const Scen
                                    const std::vector<AbsoluteBody<Scalar>>& motions) {
   BodyForces<Scalar> sum(bodies, motions);
   sum.add_weight(value(mechanism.gravity, scene));
-  for (const model::Load& load : mechanism.loads) {
-    const std::size_t i = load.frame.value;
-    const Matrix3<Scalar> R_WL =
-        load.axes == model::LoadAxes::kFrame ? scene.frames[i].R_WF : Matrix3<Scalar>::Identity();
-    sum.add(frames[i], R_WL * value(load.force, scene), R_WL * value(load.moment, scene));
-  }
-  for (const model::Spring& spring : mechanism.springs) {
-    const Vector3<Scalar> pull = spring_force(spring, scene);
-    sum.add(frames[spring.from.value], pull, Vector3<Scalar>::Zero());
-    sum.add(frames[spring.to.value], -pull, Vector3<Scalar>::Zero());
-  }
+  for_each_force_element(mechanism, [&](const auto& element) {
+    const Effect<Scalar> effect = descriptor::effect(element, mechanism, scene);
+    for (const auto& [frame, force, moment] : effect.at_frames) sum.add(frames[frame.value], force, moment);
+  });
   return sum.rows();
 }
 
@@ -188,13 +125,11 @@ std::vector<Eigen::VectorX<Scalar>> coordinate_forces(const model::Mechanism& me
       forces[j][Eigen::Index(i)] =
           passive_force(coordinates[i], scene.position[j][i], scene.rate[j][i], scene);
   }
-  for (std::size_t i = 0; i < mechanism.actuators.size(); ++i) {
-    const model::Actuator& actuator = mechanism.actuators[i];
-    forces[actuator.joint.value][Eigen::Index(actuator.coordinate)] +=
-        value(actuator.gear_ratio, scene) * scene.inputs[i];
-  }
-  for (const model::CoordinateForce& force : mechanism.coordinate_forces)
-    forces[force.joint.value][Eigen::Index(force.coordinate)] += value(force.force, scene);
+  for_each_force_element(mechanism, [&](const auto& element) {
+    const Effect<Scalar> effect = descriptor::effect(element, mechanism, scene);
+    for (const auto& [at, force] : effect.on_coordinates)
+      forces[at.joint.value][Eigen::Index(at.coordinate)] += force;
+  });
   return forces;
 }
 

@@ -73,7 +73,7 @@ std::vector<FrameMotion<Scalar>> frame_motions(const std::vector<Frame<Scalar>>&
                                                const std::vector<Body<Scalar>>& bodies,
                                                const std::vector<AbsoluteBody<Scalar>>& motions);
 
-/// Forces on the bodies that pass through no joint: weight, loads, springs. For each body six rows: force (N,
+/// Forces on the bodies that pass through no joint: weight and force elements. For each body six rows: force (N,
 /// inertial frame), moment about the centre of mass (N m, body-fixed components). Shape 6 nb.
 template <class Scalar>
 Eigen::VectorX<Scalar> body_forces(const model::Mechanism& mechanism, const Scene<Scalar>& scene,

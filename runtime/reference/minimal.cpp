@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "reference/minimal_bushing.hpp"
+#include "reference/minimal_elements.hpp"
 #include "reference/minimal_forces.hpp"
 #include "reference/minimal_motion.hpp"
 #include "reference/minimal_outputs.hpp"
@@ -176,8 +178,7 @@ Terms<Scalar> Reference<Scalar>::all_columns(const Forces& at) const {
     add_body(bodies_[i], center, at, sum);
   }
   add_joint_forces(at, sum);
-  add_springs(at, sum);
-  add_loads(at, sum);
+  for_each_force_element(mechanism_, [&](const auto& element) { add(effect(element, at), at, sum); });
   return sum;
 }
 

@@ -69,7 +69,7 @@ struct Terms {
   MatrixX<Scalar> M_scale;
   VectorX<Scalar> k_scale, q_scale;
   Scalar kinetic_energy = 0;    ///< J
-  Scalar potential_energy = 0;  ///< J: −m g·p_C, zero at the inertial origin, and of springs
+  Scalar potential_energy = 0;  ///< J: −m g·p_C, zero at the inertial origin, springs, elements
   Scalar kinetic_scale = 0, potential_scale = 0;
 };
 
@@ -119,6 +119,7 @@ class Reference {
   };
   struct FrameMotion;
   struct Forces;
+  struct Effect;
 
   // Columns of all scalar velocities: those of z, then the prescribed ones.
   Eigen::Index column_count() const;
@@ -141,10 +142,14 @@ class Reference {
   Terms<Scalar> all_columns(const Forces& at) const;
   void add_body(const Body& body, const FrameMotion& center, const Forces& at, Terms<Scalar>& sum) const;
   void add_joint_forces(const Forces& at, Terms<Scalar>& sum) const;
-  void add_springs(const Forces& at, Terms<Scalar>& sum) const;
-  void add_loads(const Forces& at, Terms<Scalar>& sum) const;
-  std::array<Bounded<Scalar>, 3> pull(const model::Spring& spring, const Forces& at,
-                                      Terms<Scalar>* energy) const;
+  void add(const Effect& effect, const Forces& at, Terms<Scalar>& sum) const;
+
+  // By kind of force element.
+  Effect effect(const model::Actuator& actuator, const Forces& at) const;
+  Effect effect(const model::CoordinateForce& force, const Forces& at) const;
+  Effect effect(const model::Spring& spring, const Forces& at) const;
+  Effect effect(const model::Load& load, const Forces& at) const;
+  Effect effect(const model::Bushing& bushing, const Forces& at) const;
 
   /// Second derivatives of all scalar velocities, with their scales.
   struct Accelerations {

@@ -1,7 +1,7 @@
 // Implementation of Reference: outputs. For minimal.cpp only.
 #pragma once
 
-#include "reference/minimal_forces.hpp"
+#include "reference/minimal_elements.hpp"
 
 namespace jourdain::reference {
 
@@ -121,36 +121,14 @@ OutputValue<Scalar> Reference<Scalar>::reaction(std::size_t joint, const Forces&
     const Vector3<Scalar> n_s = I_s * alpha_s + cross_scale<Scalar>(c.omega_scale, I_s * c.omega_scale);
     add(bodies_[b].mass * a, bodies_[b].mass * a_s, n, n_s, c);
   }
-  const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
-  const auto on_carried = [&](std::size_t frame) {
-    const auto& body = mechanism_.frames[frame].body;
-    return body && carried[body->value];
-  };
-  const auto apply = [&](const std::array<Bounded<Scalar>, 3>& f, Scalar sign, std::size_t frame) {
-    const Vector3<Scalar> value(f[0].value, f[1].value, f[2].value),
-        scale(f[0].scale, f[1].scale, f[2].scale);
-    add(-sign * value, scale, zero, zero, at.frames[frame]);
-  };
-  for (const model::Spring& spring : mechanism_.springs) {
-    const auto f = pull(spring, at, nullptr);
-    if (on_carried(spring.from.value)) apply(f, 1, spring.from.value);
-    if (on_carried(spring.to.value)) apply(f, -1, spring.to.value);
-  }
-  for (const model::Load& load : mechanism_.loads) {
-    if (!on_carried(load.frame.value)) continue;
-    const FrameMotion& frame = at.frames[load.frame.value];
-    const Matrix3<Scalar> R =
-        load.axes == model::LoadAxes::kFrame ? frame.R : Matrix3<Scalar>(Matrix3<Scalar>::Identity());
-    std::array<Bounded<Scalar>, 3> f, n;
-    for (std::size_t k = 0; k < 3; ++k) {
-      f[k] = general(load.force[k], at);
-      n[k] = general(load.moment[k], at);
-    }
-    apply(detail::turned(R, f), 1, load.frame.value);
-    n = detail::turned(R, n);
-    moment -= Vector3<Scalar>(n[0].value, n[1].value, n[2].value);
-    moment_s += Vector3<Scalar>(n[0].scale, n[1].scale, n[2].scale);
-  }
+  const auto vector = [](const auto& v) { return Vector3<Scalar>(v[0].value, v[1].value, v[2].value); };
+  const auto scale = [](const auto& v) { return Vector3<Scalar>(v[0].scale, v[1].scale, v[2].scale); };
+  for_each_force_element(mechanism_, [&](const auto& element) {
+    const Effect applied = effect(element, at);
+    for (const auto& [frame, f, n] : applied.at_frames)
+      if (const auto& body = mechanism_.frames[frame.value].body; body && carried[body->value])
+        add(-vector(f), scale(f), -vector(n), scale(n), at.frames[frame.value]);
+  });
   const Matrix3<Scalar> R = at.bodies[child].R.transpose(), R_s = R.cwiseAbs();
   OutputValue<Scalar> result;
   detail::append(result, R * force, Vector3<Scalar>(R_s * force_s));

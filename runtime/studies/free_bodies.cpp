@@ -68,17 +68,21 @@ bool can_be_rewritten(const Joint& joint) {
   });
 }
 
-bool can_act(const model::Actuator& actuator, const Mechanism& mechanism) {
+/// What a force element may be while its bodies' joints become loops: it must name no coordinate that goes.
+bool can_stay(const model::Actuator& actuator, const Mechanism& mechanism) {
   const JointType type = mechanism.joints[actuator.joint.value].type;
   return actuator.rotor_inertia.is_zero() && (type == JointType::kRevolute || type == JointType::kPrismatic);
 }
+bool can_stay(const model::CoordinateForce&, const Mechanism&) { return false; }
+bool can_stay(const model::Load&, const Mechanism&) { return false; }
+bool can_stay(const model::Spring&, const Mechanism&) { return true; }
+bool can_stay(const model::Bushing&, const Mechanism&) { return true; }
 
 bool can_be_rewritten(const Mechanism& m) {
-  return m.loops.empty() && m.loads.empty() && m.coordinate_forces.empty() &&
+  return m.loops.empty() &&
          std::all_of(m.joints.begin(), m.joints.end(),
                      [](const Joint& joint) { return can_be_rewritten(joint); }) &&
-         std::all_of(m.actuators.begin(), m.actuators.end(),
-                     [&m](const model::Actuator& actuator) { return can_act(actuator, m); });
+         !model::any_force_element(m, [&m](const auto& element) { return !can_stay(element, m); });
 }
 
 Expression sum(const Expression& a, const Expression& b) {

@@ -20,11 +20,10 @@ class Numbers {
     for (model::Body& body : mechanism_.bodies) visit_body(body);
     for (model::Joint& joint : mechanism_.joints) visit_joint(joint);
     for (model::Frame& frame : mechanism_.frames) placement("frame " + frame.name, frame.placement);
-    for (model::Actuator& actuator : mechanism_.actuators) {
-      visit_("gear ratio " + actuator.name, actuator.gear_ratio);
-      visit_("rotor inertia " + actuator.name, actuator.rotor_inertia);
-    }
-    visit_forces();
+    for_each_force_element(mechanism_, [this](auto& element) {
+      for (Expression* number : element.expressions())
+        visit_(fmt::format("{} {}", element.kKind, element.name), *number);
+    });
     for (model::Output& output : mechanism_.outputs)
       if (output.kind == model::OutputKind::kExpression) visit_("output " + output.name, output.value);
     for (model::Loop& loop : mechanism_.loops)
@@ -63,17 +62,6 @@ class Numbers {
       visit_("spin damping of " + joint.name, joint.spin_damping);
       vector("initial spin of " + joint.name, joint.initial_spin);
     }
-  }
-  void visit_forces() {
-    for (model::Load& load : mechanism_.loads) {
-      vector("force " + load.name, load.force);
-      vector("moment " + load.name, load.moment);
-    }
-    for (model::Spring& spring : mechanism_.springs)
-      for (Expression* number : {&spring.stiffness, &spring.damping, &spring.free_length})
-        visit_("spring " + spring.name, *number);
-    for (model::CoordinateForce& force : mechanism_.coordinate_forces)
-      visit_("force " + force.name, force.force);
   }
 
   Mechanism& mechanism_;
@@ -128,6 +116,9 @@ void change_ends(const Mechanism& mechanism, std::vector<MechanismMutant>& mutan
   for (std::size_t i = 0; i < mechanism.springs.size(); ++i)
     add("another frame", mechanism.springs[i].name,
         [&](Mechanism& m) { m.springs[i].to = next(m.springs[i].to); });
+  for (std::size_t i = 0; i < mechanism.bushings.size(); ++i)
+    add("ends of a bushing swapped", mechanism.bushings[i].name,
+        [&](Mechanism& m) { std::swap(m.bushings[i].from, m.bushings[i].to); });
   for (std::size_t i = 0; i < mechanism.loads.size(); ++i) {
     add("another frame", mechanism.loads[i].name,
         [&](Mechanism& m) { m.loads[i].frame = next(m.loads[i].frame); });

@@ -46,6 +46,7 @@ class Decoration {
     for (std::size_t i = random_.below(3); i-- > 0;) add_spring();
     if (random_.chance(0.4)) add_coordinate_force();
     for (std::size_t i = 2 + random_.below(3); i-- > 0;) add_output();
+    if (random_.chance(0.4)) add_bushing();
     return std::move(mechanism_);
   }
 
@@ -216,6 +217,21 @@ class Decoration {
         spring.law = spring.law + number(0, 1) * variable(Variable::Kind::kArgument, 0, 1);
     }
     mechanism_.springs.push_back(spring);
+  }
+
+  void add_bushing() {
+    model::Bushing bushing;
+    bushing.name = "bushing";
+    bushing.from = body_frame();
+    bushing.to = model::FrameIndex(random_.below(3));
+    if (mechanism_.frames[bushing.from.value].body == mechanism_.frames[bushing.to.value].body) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+      bushing.stiffness[i] = number(0, 30);
+      bushing.torsional_stiffness[i] = number(0, 10);
+      if (random_.chance(0.5)) bushing.damping[i] = number(0, 3);
+      if (random_.chance(0.5)) bushing.torsional_damping[i] = number(0, 1);
+    }
+    mechanism_.bushings.push_back(bushing);
   }
 
   void add_coordinate_force() {

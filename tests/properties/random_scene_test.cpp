@@ -22,13 +22,15 @@ TEST(RandomScene, GivesTheSameSceneForTheSameSeed) {
 TEST(RandomScene, DrawsEveryJointAndElement) {
   std::set<model::JointType> joints;
   std::set<model::OutputKind> outputs;
-  int motions = 0, free = 0, loads = 0, springs = 0, laws = 0, inputs = 0, rotors = 0, frictions = 0;
+  int motions = 0, free = 0, loads = 0, springs = 0, bushings = 0, laws = 0, inputs = 0, rotors = 0,
+      frictions = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const model::Mechanism scene = random_scene(seed);
     motions += has_motion(scene);
     free += has_free_joint(scene);
     loads += int(scene.loads.size());
     springs += int(scene.springs.size());
+    bushings += int(scene.bushings.size());
     inputs += int(scene.inputs.size());
     for (const model::Spring& spring : scene.springs) laws += spring.potential.has_value();
     for (const model::Actuator& actuator : scene.actuators) rotors += !actuator.rotor_inertia.is_zero();
@@ -40,7 +42,7 @@ TEST(RandomScene, DrawsEveryJointAndElement) {
   }
   EXPECT_EQ(joints.size(), 10u);
   EXPECT_EQ(outputs.size(), 9u);
-  for (const int count : {motions, free, loads, springs, laws, inputs, rotors, frictions})
+  for (const int count : {motions, free, loads, springs, bushings, laws, inputs, rotors, frictions})
     EXPECT_GE(count, 5);
 }
 

@@ -26,11 +26,8 @@ class Writer {
       text_ += fmt::format("{} = {}\n", parameter.name, parameter_text(parameter));
     for (const model::Body& body : mechanism_.bodies) add(body);
     for (const model::Joint& joint : mechanism_.joints) add(joint);
-    for (const model::Actuator& actuator : mechanism_.actuators)
-      text_ += fmt::format("\n[[actuator]]\nname = \"{}\"\n{}gear_ratio = {}\nrotor_inertia = {}\n",
-                           actuator.name, coordinate(actuator.joint, actuator.coordinate),
-                           value(actuator.gear_ratio), value(actuator.rotor_inertia));
-    add_forces();
+    add_frames();
+    for_each_force_element(mechanism_, [this](const auto& element) { add(element); });
     for (const model::Loop& loop : mechanism_.loops) add(loop);
     if (!mechanism_.loops.empty()) add(mechanism_.loop_options);
     for (const model::Output& output : mechanism_.outputs) add(output);
@@ -204,7 +201,7 @@ class Writer {
                                           [&](const model::Body& body) { return body.name == name; });
   }
 
-  void add_forces() {
+  void add_frames() {
     for (const model::Frame& f : mechanism_.frames)
       if (!is_body(f.name))
         text_ += fmt::format("\n[[frame]]\nname = \"{}\"\nbody = \"{}\"\nposition = {}\nrpy = {}\n", f.name,
@@ -212,22 +209,41 @@ class Writer {
                              vector(f.placement.position), vector(f.placement.rotation.rpy));
     for (const model::Input& input : mechanism_.inputs)
       text_ += fmt::format("\n[[input]]\nname = \"{}\"\n", input.name);
-    for (const model::Load& load : mechanism_.loads)
-      text_ +=
-          fmt::format("\n[[force]]\nname = \"{}\"\nframe = \"{}\"\nforce = {}\nmoment = {}\naxes = \"{}\"\n",
-                      load.name, frame(load.frame), vector(load.force), vector(load.moment),
-                      load.axes == model::LoadAxes::kFrame ? "frame" : "world");
-    for (const model::CoordinateForce& force : mechanism_.coordinate_forces)
-      text_ += fmt::format("\n[[force]]\nname = \"{}\"\n{}value = {}\n", force.name,
-                           coordinate(force.joint, force.coordinate), value(force.force));
-    for (const model::Spring& spring : mechanism_.springs) {
-      text_ += fmt::format(
-          "\n[[spring]]\nname = \"{}\"\nfrom = \"{}\"\nto = \"{}\"\nstiffness = {}\ndamping = {}\n"
-          "free_length = {}\nlaw = {}\n",
-          spring.name, frame(spring.from), frame(spring.to), value(spring.stiffness), value(spring.damping),
-          value(spring.free_length), with({"length", "rate"}, spring.law));
-      if (spring.potential) text_ += fmt::format("potential = {}\n", with({"length"}, *spring.potential));
-    }
+  }
+
+  void add(const model::Actuator& actuator) {
+    text_ += fmt::format("\n[[actuator]]\nname = \"{}\"\n{}gear_ratio = {}\nrotor_inertia = {}\n",
+                         actuator.name, coordinate(actuator.joint, actuator.coordinate),
+                         value(actuator.gear_ratio), value(actuator.rotor_inertia));
+  }
+
+  void add(const model::Load& load) {
+    text_ +=
+        fmt::format("\n[[force]]\nname = \"{}\"\nframe = \"{}\"\nforce = {}\nmoment = {}\naxes = \"{}\"\n",
+                    load.name, frame(load.frame), vector(load.force), vector(load.moment),
+                    load.axes == model::LoadAxes::kFrame ? "frame" : "world");
+  }
+
+  void add(const model::CoordinateForce& force) {
+    text_ += fmt::format("\n[[force]]\nname = \"{}\"\n{}value = {}\n", force.name,
+                         coordinate(force.joint, force.coordinate), value(force.force));
+  }
+
+  void add(const model::Spring& spring) {
+    text_ += fmt::format(
+        "\n[[spring]]\nname = \"{}\"\nfrom = \"{}\"\nto = \"{}\"\nstiffness = {}\ndamping = {}\n"
+        "free_length = {}\nlaw = {}\n",
+        spring.name, frame(spring.from), frame(spring.to), value(spring.stiffness), value(spring.damping),
+        value(spring.free_length), with({"length", "rate"}, spring.law));
+    if (spring.potential) text_ += fmt::format("potential = {}\n", with({"length"}, *spring.potential));
+  }
+
+  void add(const model::Bushing& bushing) {
+    text_ += fmt::format(
+        "\n[[bushing]]\nname = \"{}\"\nfrom = \"{}\"\nto = \"{}\"\nstiffness = {}\ndamping = {}\n"
+        "torsional_stiffness = {}\ntorsional_damping = {}\n",
+        bushing.name, frame(bushing.from), frame(bushing.to), vector(bushing.stiffness),
+        vector(bushing.damping), vector(bushing.torsional_stiffness), vector(bushing.torsional_damping));
   }
 
   void add(const model::Loop& loop) {

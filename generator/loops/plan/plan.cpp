@@ -111,11 +111,11 @@ class Planner {
   /// Coordinates that are driven, or that the description starts with a velocity.
   std::vector<bool> preferred() const {
     std::vector<bool> list(layout_.velocity_count(), false);
-    for (const model::Actuator& actuator : mechanism_.actuators)
-      list[*layout_.joints[actuator.joint.value].velocity[actuator.coordinate]] = true;
-    for (const model::CoordinateForce& force : mechanism_.coordinate_forces)
-      if (const auto entry = layout_.joints[force.joint.value].velocity[force.coordinate])
-        list[*entry] = true;
+    for_each_force_element(mechanism_, [&](const auto& element) {
+      const std::optional<model::ScalarCoordinate> at = element.pushed();
+      if (!at) return;
+      if (const auto entry = layout_.joints[at->joint.value].velocity[at->coordinate]) list[*entry] = true;
+    });
     for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
       for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
         if (const auto entry = layout_.joints[j].velocity[c];

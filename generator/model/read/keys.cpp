@@ -242,6 +242,26 @@ free_length = 0.12
 )"};
 }
 
+KeySection bushing_section() {
+  return {"bushing",
+          "[[bushing]]",
+          "Six springs and dampers that hold the origins and axes of two frames together; the law is in "
+          "generator/model/bushing.hpp.",
+          {{"name", "text", "", "its number", "for messages"},
+           {"from", "name", "", kRequired, "a frame, in whose axes the numbers are"},
+           {"to", "name", "", kRequired, "a frame on another body"},
+           {"stiffness", "3 numbers", "N/m", "[0, 0, 0]", "along the axes"},
+           {"damping", "3 numbers", "N s/m", "[0, 0, 0]", "not negative"},
+           {"torsional_stiffness", "3 numbers", "N m/rad", "[0, 0, 0]", "about the axes"},
+           {"torsional_damping", "3 numbers", "N m s/rad", "[0, 0, 0]", "not negative"}},
+          R"([[bushing]]
+from = "cover"
+to = "small_end"
+stiffness = [0, 100, 100]
+torsional_damping = [0, 0, 0.01]
+)"};
+}
+
 KeySection loop_section() {
   return {"loop",
           "[[loop]]",
@@ -311,9 +331,9 @@ joint = "crank"
 
 std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
-      model_section(), parameter_section(), body_section(),  joint_section(), coordinate_section(),
-      frame_section(), actuator_section(),  input_section(), force_section(), spring_section(),
-      loop_section(),  loops_section(),     output_section()};
+      model_section(),   parameter_section(), body_section(),  joint_section(), coordinate_section(),
+      frame_section(),   actuator_section(),  input_section(), force_section(), spring_section(),
+      bushing_section(), loop_section(),      loops_section(), output_section()};
   return sections;
 }
 

@@ -10,12 +10,9 @@ namespace {
 /// Calls `change` with each expression that may name coordinates and inputs.
 template <class Change>
 void for_general_expressions(Mechanism& mechanism, Change&& change) {
-  for (Load& load : mechanism.loads)
-    for (std::size_t k = 0; k < 3; ++k) {
-      change(load.force[k]);
-      change(load.moment[k]);
-    }
-  for (CoordinateForce& force : mechanism.coordinate_forces) change(force.force);
+  for_each_force_element(mechanism, [&](auto& element) {
+    for (Expression* expression : element.expressions()) change(*expression);
+  });
   for (Output& output : mechanism.outputs) change(output.value);
   for (Loop& loop : mechanism.loops) change(loop.residual);
 }
@@ -30,8 +27,9 @@ void lock(Mechanism& mechanism, JointIndex joint) {
   for (const Actuator& actuator : mechanism.actuators)
     input.push_back(on_joint(actuator) ? std::nullopt : std::optional(kept++));
   for (std::size_t i = 0; i < mechanism.inputs.size(); ++i) input.emplace_back(kept++);
-  std::erase_if(mechanism.actuators, on_joint);
-  std::erase_if(mechanism.coordinate_forces, on_joint);
+  for_each_force_list(mechanism, [&](auto& list) {
+    std::erase_if(list, [&](const auto& element) { return element.pushed() && on_joint(*element.pushed()); });
+  });
   std::erase_if(mechanism.loop_options.independent, on_joint);
   std::erase_if(mechanism.outputs, [&](const Output& output) {
     return output.kind == OutputKind::kDrive && output.joint == joint;

@@ -1,4 +1,4 @@
-// [[force]] and [[spring]]
+// [[force]]
 #include <fmt/format.h>
 
 #include "model/read/keys.hpp"
@@ -11,15 +11,6 @@ namespace jourdain::model {
 namespace {
 
 using support::shown;
-
-/// Of a spring's length, and of its rate too where that is asked for.
-Scope spring_scope(bool with_rate) {
-  Scope scope = {{"length", {.kind = Variable::Kind::kArgument}, Measure::variable(needed::kLength)}};
-  if (with_rate)
-    scope.push_back(
-        {"rate", {.kind = Variable::Kind::kArgument, .component = 1}, Measure::variable(needed::kSpeed)});
-  return scope;
-}
 
 void read_load(TomlFile& file, const TomlTable& table, const std::string& name, const Scope& scope,
                Mechanism& mechanism) {
@@ -66,11 +57,6 @@ void read_coordinate_force(TomlFile& file, const TomlTable& table, const std::st
   mechanism.coordinate_forces.push_back(force);
 }
 
-/// The name that a table gives, or "<what><number>".
-std::string name_or_number(const toml::table& table, const char* what, std::size_t number) {
-  return table["name"].value_or(fmt::format("{}{}", what, number));
-}
-
 }  // namespace
 
 void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
@@ -87,37 +73,6 @@ void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanis
       read_load(file, table, name, scope, mechanism);
     else
       read_coordinate_force(file, table, name, scope, mechanism);
-  }
-}
-
-void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
-  std::size_t number = 0;
-  for (const toml::node& node : section) {
-    Spring spring;
-    spring.name = name_or_number(*node.as_table(), "spring", ++number);
-    const TomlTable table(file, *node.as_table(), fmt::format("spring '{}'", shown(spring.name)),
-                          file.range(node.source()), keys_of("spring"));
-    const auto from = find_frame(file, table, "from", mechanism),
-               to = find_frame(file, table, "to", mechanism);
-    spring.where = table.where("from");
-    spring.stiffness = table.number("stiffness", needed::kStiffness);
-    spring.damping = table.number("damping", needed::kDamping);
-    spring.free_length = table.number("free_length", needed::kLength);
-    spring.law = table.function("law", needed::kForce, spring_scope(true));
-    if (table.has("potential"))
-      spring.potential = table.function("potential", needed::kEnergy, spring_scope(false));
-    if (!from || !to) continue;
-    spring.from = *from;
-    spring.to = *to;
-    const std::optional<BodyIndex>&a = mechanism.frames[from->value].body,
-          &b = mechanism.frames[to->value].body;
-    if (a == b)
-      table.error("to",
-                  a ? fmt::format("spring '{}' joins body '{}' with itself", shown(spring.name),
-                                  shown(mechanism.bodies[a->value].name))
-                    : fmt::format("spring '{}' joins the world with itself", shown(spring.name)),
-                  "its ends must be on two bodies");
-    mechanism.springs.push_back(spring);
   }
 }
 

@@ -66,6 +66,21 @@ std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std
   return {};
 }
 
+std::optional<std::pair<FrameIndex, FrameIndex>> find_ends(TomlFile& file, const TomlTable& table,
+                                                           Mechanism& mechanism) {
+  const auto from = find_frame(file, table, "from", mechanism), to = find_frame(file, table, "to", mechanism);
+  if (!from || !to) return {};
+  const std::optional<BodyIndex>&a = mechanism.frames[from->value].body,
+        &b = mechanism.frames[to->value].body;
+  if (a == b)
+    table.error(
+        "to",
+        fmt::format("{} joins {} with itself", table.what(),
+                    a ? fmt::format("body '{}'", shown(mechanism.bodies[a->value].name)) : "the world"),
+        "its ends must be on two bodies");
+  return std::pair(*from, *to);
+}
+
 Scope general_scope(const Mechanism& mechanism) {
   using Kind = Variable::Kind;
   Scope scope = time_scope();

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "model/read/toml_table.hpp"
 
@@ -11,6 +12,11 @@ namespace jourdain::model {
 /// The frame that `table[key]` names. A body or the world becomes a frame on first use. Nothing after a diagnostic.
 std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std::string_view key,
                                      Mechanism& mechanism);
+
+/// The frames on two bodies, or one on the world, that 'from' and 'to' name. Nothing where one is unknown; two on one
+/// body stand after a diagnostic.
+std::optional<std::pair<FrameIndex, FrameIndex>> find_ends(TomlFile& file, const TomlTable& table,
+                                                           Mechanism& mechanism);
 
 /// t, inputs, coordinates and their rates, frames and bodies with position, velocity and angular velocity.
 Scope general_scope(const Mechanism& mechanism);

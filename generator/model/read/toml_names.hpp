@@ -56,4 +56,9 @@ std::optional<std::size_t> find_named(TomlFile& file, SourceRange where, const s
   return {};
 }
 
+/// The name that a table gives, or "<what><number>".
+inline std::string name_or_number(const toml::table& table, const char* what, std::size_t number) {
+  return table["name"].value_or(fmt::format("{}{}", what, number));
+}
+
 }  // namespace jourdain::model

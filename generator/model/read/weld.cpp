@@ -38,6 +38,13 @@ bool acts_by_itself(const Joint& joint) {
                      [](const Coordinate& c) { return !c.stiffness.is_zero() || c.motion.has_value(); });
 }
 
+/// Whether the description does not ask for the element and nothing is lost without it.
+bool is_idle(const Actuator& actuator) { return actuator.implied && actuator.rotor_inertia.is_zero(); }
+template <class Element>
+bool is_idle(const Element&) {
+  return false;
+}
+
 class Ends {
  public:
   explicit Ends(const Mechanism& mechanism)
@@ -72,21 +79,18 @@ class Ends {
 
   void mark_joints() {
     for (std::size_t j = 0; j < held_.size(); ++j) held_[j] = acts_by_itself(mechanism_.joints[j]);
-    for (const Actuator& a : mechanism_.actuators)
-      if (!a.implied || !a.rotor_inertia.is_zero()) hold(a.joint);
-    for (const CoordinateForce& force : mechanism_.coordinate_forces) hold(force.joint);
+    for_each_force_element(mechanism_, [this](const auto& element) {
+      if (element.pushed() && !is_idle(element)) hold(element.pushed()->joint);
+    });
     for (const auto& coordinate : mechanism_.loop_options.independent) hold(coordinate.joint);
     for (const Output& output : mechanism_.outputs)
       if (output.kind == OutputKind::kReaction || output.kind == OutputKind::kDrive) hold(output.joint);
   }
 
   void mark_variables() {
-    for (const Load& load : mechanism_.loads)
-      for (std::size_t k = 0; k < 3; ++k) {
-        hold(load.force[k]);
-        hold(load.moment[k]);
-      }
-    for (const CoordinateForce& force : mechanism_.coordinate_forces) hold(force.force);
+    for_each_force_element(mechanism_, [this](auto element) {
+      for (const Expression* expression : element.expressions()) hold(*expression);
+    });
     for (const Output& output : mechanism_.outputs) hold(output.value);
     for (const Loop& loop : mechanism_.loops) hold(loop.residual);
   }
