@@ -14,9 +14,9 @@ enum class NumberType { kDouble, kFloat, kLong };
 /// Functions of the table of a loaded model that has these steppers.
 std::vector<std::string> loadable_functions(const std::vector<std::string>& steppers);
 
-/// Compiles the files of `compiled` with the C++ compiler (environment variable CXX, else c++) in a temporary folder and
-/// loads the result. `compiled` must have the functions of `loadable_functions`. Throws EnvironmentError with the
-/// compiler's words when that fails.
+/// Compiles the files of `compiled` with the C++ compiler (environment variable CXX, else c++) in a temporary
+/// folder and loads the result. `compiled` must have the functions of `loadable_functions`. Throws
+/// EnvironmentError with the compiler's words when that fails.
 studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, NumberType number);
 
 /// The compiler, the language and the options that decide speed: what comes before the files.

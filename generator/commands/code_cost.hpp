@@ -15,8 +15,9 @@ struct CodeCost {
   long code = 0;   ///< machine code, each function once; without literals
 };
 
-/// By name, "model" for the constructor, of NAME.cpp of `compiled` with the options of `build_model`. Nothing where the compiler knows
-/// no -fcallgraph-info, as clang. Throws EnvironmentError where the code does not compile or `nm` cannot be run.
+/// By name, "model" for the constructor, of NAME.cpp of `compiled` with the options of `build_model`. Nothing
+/// where the compiler knows no -fcallgraph-info, as clang. Throws EnvironmentError where the code does not
+/// compile or `nm` cannot be run.
 std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& name,
                                                           const CompiledModel& compiled, NumberType number);
 

@@ -7,7 +7,8 @@ class App;
 
 namespace jourdain::commands {
 
-/// Each adds its subcommand to `app`; when the user chose it, running the parsed `app` sets `status` to the exit status.
+/// Each adds its subcommand to `app`; when the user chose it, running the parsed `app` sets `status` to the
+/// exit status.
 void add_all(CLI::App& app, int& status);
 
 void add_compile(CLI::App& app, int& status);

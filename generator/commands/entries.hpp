@@ -20,7 +20,8 @@ struct Entry {
   double initial = 0;  ///< of y and z, at the parameters' default values
 };
 
-/// Entries of y, z and u in order, as in the emitted State and Input. Initial values of closed loops are those after assembling.
+/// Entries of y, z and u in order, as in the emitted State and Input. Initial values of closed loops are those
+/// after assembling.
 struct Entries {
   std::vector<Entry> positions, velocities, inputs;
 };

@@ -30,8 +30,8 @@ std::string page() {
     text += fmt::format("\n## {}\n\n{}\n\n| key | type | unit | where left out | |\n|---|---|---|---|---|\n",
                         section.heading, section.meaning);
     for (const model::Key& key : section.keys)
-      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.type, key.unit,
-                          left_out(key), key.meaning);
+      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.type, key.unit, left_out(key),
+                          key.meaning);
     if (*section.example) text += fmt::format("\n```toml\n{}```\n", section.example);
   }
   return text;

@@ -52,8 +52,8 @@ std::vector<std::string> loop_sentences(const LoadedMechanism& loaded);
 /// when the file cannot be read.
 std::optional<LoadedMechanism> load(const ModelArguments& arguments);
 
-/// Prints why the compiler refused to emit, in three lines. The status to exit with: kModelWrong where double has no room for the
-/// mechanism's numbers.
+/// Prints why the compiler refused to emit, in three lines. The status to exit with: kModelWrong where double
+/// has no room for the mechanism's numbers.
 int refuse(const LoadedMechanism& loaded, const validate::Verdict& verdict);
 
 }  // namespace jourdain::commands

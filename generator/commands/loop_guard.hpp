@@ -14,8 +14,8 @@ class LoopGuard {
   /// Refers to both; steps are of length `h`, s.
   LoopGuard(const studies::Flow<double>& flow, const LoadedMechanism& loaded, double h);
 
-  /// What is wrong with the last steps of the flow, which ended at `point`: a sentence for the user that says what to do. Empty where
-  /// nothing is.
+  /// What is wrong with the last steps of the flow, which ended at `point`: a sentence for the user that says
+  /// what to do. Empty where nothing is.
   std::string problem(const studies::Point<double>& point) const;
 
  private:

@@ -7,8 +7,8 @@
 
 namespace jourdain::commands {
 
-/// An object with a list for each kind of thing; words as in the emitted NAME.json. Numbers are those at the parameters' default
-/// values; what they depend on is named beside them.
+/// An object with a list for each kind of thing; words as in the emitted NAME.json. Numbers are those at the
+/// parameters' default values; what they depend on is named beside them.
 nlohmann::ordered_json model_facts(const LoadedMechanism& loaded, const CompiledModel& compiled);
 
 /// The facts as tables, those without rows left out.

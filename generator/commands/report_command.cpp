@@ -125,7 +125,8 @@ struct FreeModel {
   studies::LoadedModel loaded;
 };
 
-/// Compiles the scene as free bodies while other work goes on. Nothing where there is no such scene, or it is too large.
+/// Compiles the scene as free bodies while other work goes on. Nothing where there is no such scene, or it is
+/// too large.
 std::future<std::optional<FreeModel>> build_free_bodies(const Arguments& arguments,
                                                         const LoadedMechanism& loaded) {
   constexpr std::size_t kMostBodies = 8;  // of which g++ does not take longer than of the rest

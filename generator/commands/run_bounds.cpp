@@ -78,7 +78,8 @@ std::string RunBounds::energy_breach(const Point<double>& point) const {
 
 namespace {
 
-/// What one step of a partitioned method does to the linear system x' = A x; empty where no difference grows more than it should.
+/// What one step of a partitioned method does to the linear system x' = A x; empty where no difference grows
+/// more than it should.
 std::string growth_text(const studies::StabilityFunction& function, const Eigen::MatrixXd& A, double growth,
                         double t, double h) {
   const double factor = studies::spectral_radius(studies::step_matrix(function, A, h));

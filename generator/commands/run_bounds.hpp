@@ -11,9 +11,11 @@ namespace jourdain::commands {
 /// Bounds that no valid run reaches, taken from its start. A run leaves them where
 /// - a number of the state, or the energy, is not finite;
 /// - a velocity exceeds 1e12 times the largest one at the start (1 rad/s or m/s where that is less);
-/// - the scene conserves energy and the total has changed by 1e6 times what there was at the start, kinetic energy, |potential energy|
-///   and the kinetic energy of unit velocities together, and by a hundredth of what there is now.
-/// Positions have no bound: bodies may be thrown far away and turn as often as they like. A body that falls keeps its energy.
+/// - the scene conserves energy and the total has changed by 1e6 times what there was at the start, kinetic
+///   energy, |potential energy| and the kinetic energy of unit velocities together, and by a hundredth of what
+///   there is now.
+/// Positions have no bound: bodies may be thrown far away and turn as often as they like. A body that falls
+/// keeps its energy.
 class RunBounds {
  public:
   RunBounds(const studies::Flow<double>& flow, const studies::Point<double>& start, bool conserves_energy);
@@ -42,9 +44,10 @@ struct Breach {
   bool of_loops = false;             ///< the latter
 };
 
-/// The error message: where and how, and why. Either rates are not finite at `last` or half a step or one from there, so that the equations are singular, or the
-/// step is too long: for a mode of the linearisation at the start or at `last` that `method` cannot follow, where there is one. Modes
-/// slower than 1/2 in a step are not judged. `tangent` is that of the independent coordinates, `h` the step, s.
+/// The error message: where and how, and why. Either rates are not finite at `last` or half a step or one from
+/// there, so that the equations are singular, or the step is too long: for a mode of the linearisation at the
+/// start or at `last` that `method` cannot follow, where there is one. Modes slower than 1/2 in a step are not
+/// judged. `tangent` is that of the independent coordinates, `h` the step, s.
 std::string breach_text(const studies::Flow<double>& flow, const model::Tangent& tangent,
                         const Breach& breach, const std::string& method, double h);
 

@@ -39,7 +39,8 @@ struct RunInputs {
   std::string what;  ///< in words; empty where there are no inputs
 };
 
-/// Reads what drives the model. `long_table` may be null. On a mistake prints it and leaves the exit status in `status`.
+/// Reads what drives the model. `long_table` may be null. On a mistake prints it and leaves the exit status in
+/// `status`.
 std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunModel& model,
                                      const jourdain_model_table& table,
                                      const jourdain_model_table* long_table, int& status);

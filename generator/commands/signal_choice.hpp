@@ -18,7 +18,8 @@ struct PlotRequest {
   std::vector<std::string> patterns;  ///< of signals; none: the positions
 };
 
-/// From the values of --plot: the one that ends with ".svg" is the file, NAME.svg where there is none. Nothing after a message.
+/// From the values of --plot: the one that ends with ".svg" is the file, NAME.svg where there is none. Nothing
+/// after a message.
 std::optional<PlotRequest> plot_request(const std::vector<std::string>& values, const std::string& name);
 
 /// Signals that a run writes and draws, by index.

@@ -16,8 +16,8 @@ struct Signal {
   std::string output = {};  ///< whose number it is; empty: none's
 };
 
-/// Positions, velocities, energies, inputs and outputs of a model, in this order. Names differ: what is called like an earlier one, the
-/// time or an energy gets its kind appended, and a number where that is a name, too.
+/// Positions, velocities, energies, inputs and outputs of a model, in this order. Names differ: what is called
+/// like an earlier one, the time or an energy gets its kind appended, and a number where that is a name, too.
 class Signals {
  public:
   Signals(const LoadedMechanism& loaded, const std::vector<programs::OutputFacts>& outputs);
@@ -28,8 +28,8 @@ class Signals {
 
   /// Those that are no outputs, and the numbers of the outputs in `chosen`; of all outputs where it is empty.
   std::vector<std::size_t> columns(const std::vector<std::string>& chosen) const;
-  /// Those with a name that `pattern` matches, where '*' stands for any characters; where there is none, all numbers of the output or
-  /// of the member of one that has that name.
+  /// Those with a name that `pattern` matches, where '*' stands for any characters; where there is none, all
+  /// numbers of the output or of the member of one that has that name.
   std::vector<std::size_t> matching(const std::string& pattern) const;
   std::vector<std::size_t> positions() const;
 

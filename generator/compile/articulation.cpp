@@ -20,7 +20,8 @@ namespace {
 constexpr std::size_t kSmallScene = 5;
 /// From this many on M is not factored as a whole even to be counted.
 constexpr std::size_t kLargeScene = 64;
-/// Errors up to that many units are rounding; another way's must be that much less, and its operations at most so many times more.
+/// Errors up to that many units are rounding; another way's must be that much less, and its operations at most
+/// so many times more.
 constexpr double kFewUnits = 32, kMuchLess = 16;
 constexpr std::size_t kMostMore = 2;
 /// Depths in a row without a saving that end a search.
@@ -62,7 +63,8 @@ class Choice {
 
   std::vector<bool> none() const { return std::vector<bool>(parent_.size(), false); }
 
-  /// Takes another way where what the one of the fewest operations loses is more than rounding, and the other's much less.
+  /// Takes another way where what the one of the fewest operations loses is more than rounding, and the
+  /// other's much less.
   void judge(Articulation& best) {
     const ForwardError errors(mechanism_);
     best.error = best.fewest_error = errors.of(program({best.links, best.planar}));

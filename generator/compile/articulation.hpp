@@ -28,9 +28,9 @@ struct Articulation {
 };
 
 /// Which links are articulated bodies (the others' joints are eliminated from M): first the best depth from the roots,
-/// then branch by branch one link more or less as long as that saves operations. Large scenes start from all links. Scenes
-/// that move in planes may go by accelerations of links. What takes the fewest operations is kept unless it loses digits that
-/// another way keeps.
+/// then branch by branch one link more or less as long as that saves operations. Large scenes start from all
+/// links. Scenes that move in planes may go by accelerations of links. What takes the fewest operations is
+/// kept unless it loses digits that another way keeps.
 Articulation choose_articulation(const model::Mechanism& mechanism,
                                  const dynamics::DerivationOptions& options);
 

@@ -64,9 +64,9 @@ void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diag
 /// check_mechanism and check_inertia.
 CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& options);
 
-/// The last stage of `compile`: validates `model.module` against the equations and the references and, if that succeeds,
-/// fills in `model.files`, reads them back and compares them with what was validated; where that fails they stay empty and
-/// `model.verdict` says why.
+/// The last stage of `compile`: validates `model.module` against the equations and the references and, if that
+/// succeeds, fills in `model.files`, reads them back and compares them with what was validated; where that
+/// fails they stay empty and `model.verdict` says why.
 void validate_and_emit(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                        const CompileOptions& options, CompiledModel& model);
 

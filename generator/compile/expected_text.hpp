@@ -1,4 +1,5 @@
-// What the finished files must say, taken from the facts of the scene and the plan; not from what was handed to the emitter.
+// What the finished files must say, taken from the facts of the scene and the plan; not from what was handed
+// to the emitter.
 #pragma once
 
 #include "compile/compile.hpp"

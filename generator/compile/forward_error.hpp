@@ -9,8 +9,8 @@
 
 namespace jourdain {
 
-/// In units of the largest acceleration's unit roundoff: the median over some states, infinite where double has no value at one
-/// of them.
+/// In units of the largest acceleration's unit roundoff: the median over some states, infinite where double
+/// has no value at one of them.
 struct SampledError {
   double units = 0;
   std::string where;  ///< "l2 = 1e+06", or empty: at the description's parameters
@@ -20,8 +20,8 @@ class ForwardError {
  public:
   explicit ForwardError(const model::Mechanism& mechanism);
 
-  /// The worst of: the description's parameters; each parameter at the ends of its range, or a million times more and less. Of large
-  /// programs only the first.
+  /// The worst of: the description's parameters; each parameter at the ends of its range, or a million times
+  /// more and less. Of large programs only the first.
   SampledError of(const ir::Program& zdot) const;
 
  private:

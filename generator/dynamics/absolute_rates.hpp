@@ -1,5 +1,5 @@
-// Accelerations of chains that move in planes, with rates of links instead of joints: M then holds no moment twice, so that
-// its factorisation does not lose what short links have beside long ones, and takes fewer operations.
+// Accelerations of chains that move in planes, with rates of links instead of joints: M then holds no moment
+// twice, so that its factorisation does not lose what short links have beside long ones, and takes fewer operations.
 #pragma once
 
 #include <vector>

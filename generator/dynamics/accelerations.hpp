@@ -11,8 +11,8 @@ namespace jourdain::dynamics {
 /// Whether gravity counts as an acceleration of the ground.
 enum class Gravity { kNone, kAsAcceleration };
 
-/// `zdot` one per entry of z, as the model defines z. Empty: no coordinate accelerates, and the origin of L of a free link
-/// falls with gravity or moves on steadily (that of the child would accelerate where the two differ).
+/// `zdot` one per entry of z, as the model defines z. Empty: no coordinate accelerates, and the origin of L of
+/// a free link falls with gravity or moves on steadily (that of the child would accelerate where the two differ).
 JointAccelerations joint_accelerations(Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                        const std::string& name);
 

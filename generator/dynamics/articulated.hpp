@@ -25,8 +25,8 @@ ArticulatedInertia sum(const ArticulatedInertia& a, const ArticulatedInertia& b,
 /// Wrench that the acceleration `twist` needs.
 Wrench product(const ArticulatedInertia& inertia, const Twist& twist);
 
-/// inertia − U Uᵀ/D for U = inertia · twist and D = twist · U, with `share` = U/D. Where the twist that gives way is along one
-/// axis, its row becomes exactly 0.
+/// inertia − U Uᵀ/D for U = inertia · twist and D = twist · U, with `share` = U/D. Where the twist that gives
+/// way is along one axis, its row becomes exactly 0.
 ArticulatedInertia give_way(const ArticulatedInertia& inertia, const Wrench& U, const Wrench& share,
                             const Twist& twist, const std::string& name, kinematics::Statements& statements);
 
@@ -34,8 +34,8 @@ ArticulatedInertia give_way(const ArticulatedInertia& inertia, const Wrench& U, 
 ArticulatedInertia reduced(const ArticulatedInertia& inertia, const Wrench& G, const Wrench& share,
                            const std::string& name, kinematics::Statements& statements);
 
-/// The inertia of link i seen from its parent's origin: in W of the parent where the two are parallel, otherwise in L of
-/// the parent.
+/// The inertia of link i seen from its parent's origin: in W of the parent where the two are parallel,
+/// otherwise in L of the parent.
 ArticulatedInertia moved_to_parent(const kinematics::Link& link, const kinematics::WorkingFrames& frames,
                                    std::size_t i, const ArticulatedInertia& inertia, const std::string& name,
                                    kinematics::Statements& statements);

@@ -9,8 +9,9 @@
 
 namespace jourdain::dynamics {
 
-/// Gradient of a row that belongs to two frames, in W of the link of their carrier: by displacement of the origin of `to` (minus
-/// it by that of `from`), and by rotation of the bodies, each about its frame's origin; of the carrier about any point.
+/// Gradient of a row that belongs to two frames, in W of the link of their carrier: by displacement of the
+/// origin of `to` (minus it by that of `from`), and by rotation of the bodies, each about its frame's origin;
+/// of the carrier about any point.
 struct RowGradient {
   Vector3 place = kinematics::zero_vector();
   Vector3 turn_from = kinematics::zero_vector(), turn_to = kinematics::zero_vector(),
@@ -30,7 +31,8 @@ struct LoopClosure {
   std::vector<Ex>
       senses;  ///< products of unit vectors that are 1 where it is closed, and −1 where it is closed the wrong way
   std::vector<RowGradient> gradients;  ///< by row; none of a residual
-  /// By row, as far as asked for; none of a residual: G by entry of z, without entries that are 0, g_t, ġ, and γ = g̈ at ż = 0.
+  /// By row, as far as asked for; none of a residual: G by entry of z, without entries that are 0, g_t, ġ, and
+  /// γ = g̈ at ż = 0.
   std::vector<std::map<std::size_t, Ex>> slopes;
   std::vector<Ex> time_slopes, rates, biases;
   std::optional<Span> span;  ///< of the one row of a rod

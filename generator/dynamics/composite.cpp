@@ -56,8 +56,8 @@ bool is_gimballed_point(const LinkTree& tree, std::size_t i) {
   return is_zero(S[2]) && S[0][1].is_zero() && (S[0][0].is_zero() || S[1][1].is_zero());
 }
 
-/// `turned` for such a link. The general formula's differences would leave no digit of the moment that vanishes; products
-/// take no more operations here.
+/// `turned` for such a link. The general formula's differences would leave no digit of the moment that
+/// vanishes; products take no more operations here.
 Matrix3 turned_point(const Matrix3& S, const Ex& c, const Ex& s, const std::string& name,
                      Statements& statements) {
   const bool on_x = S[1][1].is_zero();

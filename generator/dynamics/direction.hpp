@@ -1,4 +1,5 @@
-// Derivatives of the symbolic equations along a direction, by the rules of calculus on their statements in high precision.
+// Derivatives of the symbolic equations along a direction, by the rules of calculus on their statements in
+// high precision.
 #pragma once
 
 #include <vector>
@@ -18,7 +19,8 @@ struct DirectionOf {
 using Direction = DirectionOf<double>;
 using ExactDirection = DirectionOf<ScaledReal>;
 
-/// The statements where the state moves along `direction`; `leaf` gives the point. Without `tangent.quaternions` displacements are changes of y.
+/// The statements where the state moves along `direction`; `leaf` gives the point. Without
+/// `tangent.quaternions` displacements are changes of y.
 SlopePrecision moved_along(const ExactDirection& direction, const kinematics::Statements& statements,
                            const model::Tangent& tangent, const LeafValue& leaf);
 

@@ -11,8 +11,8 @@ using kinematics::Link;
 
 namespace {
 
-/// ½ m |v|² + v · R (ω × h) + ½ ω · J ω with v the velocity of the origin of L in inertial axes, where it needs no rotation
-/// if L is the child's frame.
+/// ½ m |v|² + v · R (ω × h) + ½ ω · J ω with v the velocity of the origin of L in inertial axes, where it
+/// needs no rotation if L is the child's frame.
 Ex free_energy(Scene& scene, std::size_t i) {
   kinematics::Statements& statements = scene.statements;
   const kinematics::LinkState& state = scene.states[i];

@@ -31,8 +31,8 @@ struct OutputValues {
   std::vector<Ex> values;
 };
 
-/// The symbolic equations of motion M ż = k̄ − q̄ (signs as printed; generator/README.md) and what belongs to them. Entries
-/// are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout.
+/// The symbolic equations of motion M ż = k̄ − q̄ (signs as printed; generator/README.md) and what belongs to
+/// them. Entries are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout.
 struct Equations {
   kinematics::Statements statements;
   std::vector<Ex> ydot;            ///< Z z; empty where ẏ = z

@@ -36,8 +36,8 @@ class Harmonics {
   std::map<std::vector<int>, Coefficients> terms_;
 };
 
-/// `value` with all statements put in. `y[i]` are the symbols of the coordinates. Throws InternalError where `value` is no
-/// trigonometric polynomial (a quotient, say).
+/// `value` with all statements put in. `y[i]` are the symbols of the coordinates. Throws InternalError where
+/// `value` is no trigonometric polynomial (a quotient, say).
 Harmonics expand(const Equations& equations, const Ex& value);
 
 /// "m2*l1*l2*cos(y1) + …" with terms and factors in an order that depends on the names alone; LaTeX if asked for.

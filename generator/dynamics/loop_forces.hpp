@@ -8,8 +8,9 @@
 
 namespace jourdain::dynamics {
 
-/// `applied` with −λ times the gradient of each row on the two bodies of its loop and on their carrier; λ are the leaves, row by
-/// row. A residual adds nothing: what it joins is not known (model::check_loops refuses such outputs).
+/// `applied` with −λ times the gradient of each row on the two bodies of its loop and on their carrier; λ are
+/// the leaves, row by row. A residual adds nothing: what it joins is not known (model::check_loops refuses
+/// such outputs).
 AppliedForces with_loop_forces(Scene& scene, AppliedForces applied, const std::vector<LoopClosure>& closures);
 
 }  // namespace jourdain::dynamics

@@ -19,7 +19,8 @@ class InwardPath {
  public:
   InwardPath(Scene& scene, std::size_t link, std::size_t ancestor);
 
-  /// Derivatives of a point with those positions from the origins of the links on the way, each in W; in W of the ancestor.
+  /// Derivatives of a point with those positions from the origins of the links on the way, each in W; in W of
+  /// the ancestor.
   MovingVector point(const std::vector<Vector3>& levers, const Vector3& position,
                      const std::string& name) const;
   /// A direction given in W of the outermost link.

@@ -1,4 +1,5 @@
-// Solution of M x = b in operations that grow with the length of the branches or with the number of links, or a mixture.
+// Solution of M x = b in operations that grow with the length of the branches or with the number of links, or
+// a mixture.
 #pragma once
 
 #include <vector>
@@ -13,8 +14,8 @@ namespace jourdain::dynamics {
 /// inward. None: composite bodies and M = Lᵀ D L alone. All: the articulated-body algorithm.
 using ArticulatedLinks = std::vector<bool>;
 
-/// M with the rotors' inertia, and `b` one per entry of z, both in internal coordinates (the velocity of a free link along
-/// its W, at the origin of L). Binds the factorisation and the solution.
+/// M with the rotors' inertia, and `b` one per entry of z, both in internal coordinates (the velocity of a
+/// free link along its W, at the origin of L). Binds the factorisation and the solution.
 std::vector<Ex> solve_accelerations(Scene& scene, const ArticulatedLinks& articulated,
                                     const std::vector<Ex>& b);
 

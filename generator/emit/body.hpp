@@ -27,7 +27,8 @@ struct Body {
   std::size_t work_size = 0;  ///< entries of `w`; 0 where there is one part
 };
 
-/// A compiler's time is close to quadratic in the length of a function, so that a part holds at most this many statements.
+/// A compiler's time is close to quadratic in the length of a function, so that a part holds at most this many
+/// statements.
 inline constexpr std::size_t kMaximumStatements = 1500;
 
 /// Values that live in a variable declared elsewhere (members of the model): they are assigned, not declared.
@@ -38,8 +39,8 @@ using StoredValues = std::map<ir::ValueId, std::string>;
 Body print_body(const ir::Program& program, Names names, const LeafText& leaf, const OutputText& output,
                 const StoredValues& stored = {}, std::size_t maximum_statements = kMaximumStatements);
 
-/// Does a sine or cosine depend on time? Such angles are computed as detail::Angle; a value that passes from part to part
-/// is rounded.
+/// Does a sine or cosine depend on time? Such angles are computed as detail::Angle; a value that passes from
+/// part to part is rounded.
 bool turns_with_time(const ir::Program& program);
 
 /// Shortest decimal that reads back as `value`, as a Real.

@@ -16,8 +16,8 @@ namespace jourdain::emit {
 
 namespace {
 
-/// For each velocity those before it that W couples it with: where M or a derivative of the residual has an entry, where
-/// rotations mix columns, and what fills in when rows are eliminated from the last on.
+/// For each velocity those before it that W couples it with: where M or a derivative of the residual has an
+/// entry, where rotations mix columns, and what fills in when rows are eliminated from the last on.
 std::vector<std::vector<std::size_t>> couplings(const programs::SceneFacts& scene,
                                                 const ir::Program& derivatives) {
   const std::size_t n = scene.velocities.size();
@@ -219,8 +219,8 @@ long combination_operations(const std::vector<double>& factors, double scale, st
   return operations + std::max(0L, terms - 1);
 }
 
-/// "base + combination", "base − …". Several increments are added to each other first: rounding at the size of the base is the
-/// largest there is.
+/// "base + combination", "base − …". Several increments are added to each other first: rounding at the size of
+/// the base is the largest there is.
 std::string plus(const std::string& base, const std::string& terms) {
   if (terms.empty()) return base;
   if (terms.find(" + ") != std::string::npos || terms.find(" - ") != std::string::npos)

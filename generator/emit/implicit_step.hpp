@@ -10,7 +10,8 @@
 
 namespace jourdain::emit {
 
-/// What the steps share; the couplings are those of the program residual_derivatives. Empty where no step is linearly implicit.
+/// What the steps share; the couplings are those of the program residual_derivatives. Empty where no step is
+/// linearly implicit.
 std::string implicit_support(const programs::SceneFacts& scene,
                              const std::vector<programs::FunctionInfo>& functions,
                              const ir::Program* derivatives);

@@ -7,8 +7,8 @@
 
 namespace jourdain::emit {
 
-/// A namespace `index` with y_NAME, z_NAME and u_NAME for each position, velocity and input; empty where there is none. The first
-/// letter keeps them apart from keywords and from what macros are usually called.
+/// A namespace `index` with y_NAME, z_NAME and u_NAME for each position, velocity and input; empty where there
+/// is none. The first letter keeps them apart from keywords and from what macros are usually called.
 std::string index_constants(const ModelText& model);
 
 }  // namespace jourdain::emit

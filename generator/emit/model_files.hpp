@@ -33,8 +33,8 @@ struct ModelText {
 
 using File = support::FileText;
 
-/// NAME.hpp, NAME_kernels.hpp, NAME.cpp and NAME.json, in this order. `functions` are those to emit; each but kStep has a
-/// program of the same name in `module`.
+/// NAME.hpp, NAME_kernels.hpp, NAME.cpp and NAME.json, in this order. `functions` are those to emit; each but
+/// kStep has a program of the same name in `module`.
 std::vector<File> emit_files(const ModelText& model, const std::vector<programs::FunctionInfo>& functions,
                              const ir::Module& module);
 

@@ -58,9 +58,9 @@ Rosenbrock ros34pw2() {
       {2.4212380706095346e-01, -1.2232505839045147e+00, 1.5452602553351020e+00, 4.3586652150845900e-01});
 }
 
-/// Five stages, found by least squares over the order conditions and small coefficients: order 4 for index 1 with the full
-/// Jacobian, order 3 as a W-method (whichever terms the derivatives leave out). L-stable, stiffly accurate; the conditions hold to
-/// 1e-15 and are tested.
+/// Five stages, found by least squares over the order conditions and small coefficients: order 4 for index 1
+/// with the full Jacobian, order 3 as a W-method (whichever terms the derivatives leave out). L-stable,
+/// stiffly accurate; the conditions hold to 1e-15 and are tested.
 Rosenbrock rosw43() {
   constexpr double g = 0.25;
   return transformed(
@@ -78,8 +78,8 @@ Rosenbrock rosw43() {
       {0.14580714894973118, 0.4693347673606826, -0.327451052313117, 0.4623091360027033, 0.25});
 }
 
-/// E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, section VI.4: RODAS of order 4 for index 1. L-stable,
-/// stiffly accurate.
+/// E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, section VI.4: RODAS of order 4 for index
+/// 1. L-stable, stiffly accurate.
 Rosenbrock rodas4() {
   Rosenbrock method;
   method.name = "rodas4";

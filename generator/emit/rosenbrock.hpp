@@ -6,8 +6,8 @@
 
 namespace jourdain::emit {
 
-/// Coefficients of u-form: with γ the diagonal of Γ, A = α Γ⁻¹, C = 1/γ − Γ⁻¹, m = Γ⁻ᵀ b (Hairer, Wanner: Solving Ordinary
-/// Differential Equations II, section IV.7).
+/// Coefficients of u-form: with γ the diagonal of Γ, A = α Γ⁻¹, C = 1/γ − Γ⁻¹, m = Γ⁻ᵀ b (Hairer, Wanner:
+/// Solving Ordinary Differential Equations II, section IV.7).
 struct Rosenbrock {
   std::string name;
   double gamma = 0;

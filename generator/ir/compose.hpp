@@ -12,7 +12,8 @@ namespace jourdain::ir {
 /// What stands for a leaf; nothing: the leaf itself.
 using LeafValue = std::function<std::optional<Signed>(LeafKind, std::size_t index)>;
 
-/// Copies `program` into `builder`. Returns the values of its outputs, in order; outputs of the program are not declared.
+/// Copies `program` into `builder`. Returns the values of its outputs, in order; outputs of the program are
+/// not declared.
 std::vector<Signed> insert(Builder& builder, const Program& program, const LeafValue& leaf);
 std::vector<Signed> insert(Builder& builder, const Program& program);
 

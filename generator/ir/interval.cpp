@@ -24,7 +24,8 @@ double below(double x, int units = 1) {
 
 double above(double x, int units = 1) { return -below(-x, units); }
 
-/// The smallest interval with all of `values`, widened by `units` of the last place; the line where one is not a number.
+/// The smallest interval with all of `values`, widened by `units` of the last place; the line where one is not
+/// a number.
 Interval around(std::initializer_list<double> values, int units = 1) {
   Interval result{kInfinity, -kInfinity};
   for (const double value : values) {

@@ -31,14 +31,14 @@ Interval operator*(Interval a, Interval b);
 
 struct IntervalResults {
   std::vector<Interval> values;  ///< of the outputs, in order
-  /// An output may have no value somewhere in the box: it needs a root of what may be negative, a quotient whose divisor may be
-  /// zero, or the angle of what may be (0, 0). The enclosures hold where the values exist.
+  /// An output may have no value somewhere in the box: it needs a root of what may be negative, a quotient
+  /// whose divisor may be zero, or the angle of what may be (0, 0). The enclosures hold where the values exist.
   std::vector<bool> maybe_undefined;
 };
 
-/// Encloses the outputs over all leaves within their intervals, in exact arithmetic: leaves vary independently of each other,
-/// so that enclosures are wider than the ranges but shrink to them as the box does. Sines and cosines of the C library
-/// are taken to be within 4 units of the last place.
+/// Encloses the outputs over all leaves within their intervals, in exact arithmetic: leaves vary independently
+/// of each other, so that enclosures are wider than the ranges but shrink to them as the box does. Sines and
+/// cosines of the C library are taken to be within 4 units of the last place.
 IntervalResults interpret_interval(const Program& program, const LeafValues<Interval>& leaves);
 
 }  // namespace jourdain::ir

@@ -19,9 +19,10 @@ struct Seed {
 /// Entries that are not zero whatever the state, by row and column.
 using JacobianEntries = std::map<std::pair<std::size_t, std::size_t>, Signed>;
 
-/// In which order the intermediate values leave the graph; the result is the same, the operations are not. The first ones of
-/// the program leave operands first (forward mode on sparse columns), then the others results first (reverse mode on
-/// sparse rows). Choosing the cheapest value next (Markowitz) took 5 to 15 % more on the robot arms.
+/// In which order the intermediate values leave the graph; the result is the same, the operations are not. The
+/// first ones of the program leave operands first (forward mode on sparse columns), then the others results
+/// first (reverse mode on sparse rows). Choosing the cheapest value next (Markowitz) took 5 to 15 % more on
+/// the robot arms.
 struct EliminationOrder {
   double forward = 0;  ///< share of the values that leave operands first, 0 … 1
 };

@@ -99,8 +99,8 @@ struct LeafValues {
   const std::vector<Real>& operator[](LeafKind kind) const { return of[static_cast<std::size_t>(kind)]; }
 };
 
-/// The outputs of a program, in order, computed in `Real` arithmetic: double, float, long double take literals as they are written,
-/// support::ScaledReal takes the constants that they stand for.
+/// The outputs of a program, in order, computed in `Real` arithmetic: double, float, long double take literals
+/// as they are written, support::ScaledReal takes the constants that they stand for.
 template <class Real>
 std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leaves);
 

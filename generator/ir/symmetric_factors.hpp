@@ -9,8 +9,8 @@ namespace jourdain::ir {
 
 using Column = std::vector<Signed>;
 
-/// M = Lᵀ D L from the last row on; rows visit only those before them that M couples them with (branch-induced sparsity,
-/// Featherstone).
+/// M = Lᵀ D L from the last row on; rows visit only those before them that M couples them with (branch-induced
+/// sparsity, Featherstone).
 class SymmetricFactors {
  public:
   /// `M` full, by row.

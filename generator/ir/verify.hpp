@@ -17,9 +17,9 @@ struct LeafCounts {
   std::size_t operator[](LeafKind kind) const { return of[static_cast<std::size_t>(kind)]; }
 };
 
-/// What is wrong with a program, in sentences that name it; empty where nothing is. Operands and outputs are values of the
-/// program, operands precede their operation, leaves are among `leaves`, literals are finite, each value has its place for a
-/// label and is needed by an output, no output is given twice.
+/// What is wrong with a program, in sentences that name it; empty where nothing is. Operands and outputs are
+/// values of the program, operands precede their operation, leaves are among `leaves`, literals are finite,
+/// each value has its place for a label and is needed by an output, no output is given twice.
 std::vector<std::string> defects(const Program& program, const LeafCounts& leaves);
 
 }  // namespace jourdain::ir

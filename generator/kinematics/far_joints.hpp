@@ -8,9 +8,9 @@
 
 namespace jourdain::kinematics {
 
-/// How often the size of what a joint moves may fit into the distance to it. A link frame at the foot of the perpendicular
-/// from the parent's origin saves operations, but everything outward is then seen from up to that far away: second moments
-/// lose digits with the square of the ratio. The dimensions of robots differ by less.
+/// How often the size of what a joint moves may fit into the distance to it. A link frame at the foot of the
+/// perpendicular from the parent's origin saves operations, but everything outward is then seen from up to
+/// that far away: second moments lose digits with the square of the ratio. The dimensions of robots differ by less.
 inline constexpr double kFarAway = 64;
 /// The same for slides, which keep first moments only: they lose with the ratio itself.
 inline constexpr double kFarSlide = 1024;

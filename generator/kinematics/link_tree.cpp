@@ -42,8 +42,8 @@ bool is_numeric(const Matrix3& A) {
   });
 }
 
-/// The nearest rotation to a numeric matrix that rounding has moved off one, by a step of Newton's method, A (3 − AᵀA) / 2: without it
-/// that rounding doubles from link to link. Others as they are.
+/// The nearest rotation to a numeric matrix that rounding has moved off one, by a step of Newton's method, A
+/// (3 − AᵀA) / 2: without it that rounding doubles from link to link. Others as they are.
 Matrix3 orthonormal(const Matrix3& A) {
   if (!is_numeric(A)) return A;
   Matrix3 rest = transpose(A) * A;
@@ -229,8 +229,8 @@ class Builder {
   }
 
   /// Moves to the parent what the joint's motion does not feel (base inertial parameters): of a turn
-  /// about z what is symmetric about z (mass, h_z and S_zz); of a ball the mass at its centre; of a slide or curve, which
-  /// turn nothing, the whole second moment; of a screw S_zz.
+  /// about z what is symmetric about z (mass, h_z and S_zz); of a ball the mass at its centre; of a slide or
+  /// curve, which turn nothing, the whole second moment; of a screw S_zz.
   void regroup(Link& link) {
     MassMoments kept = link.moments, moving;
     switch (link.kind) {

@@ -40,8 +40,8 @@ struct Taylor {
 Taylor differentiated(const model::Expression& expression, const Ex& variable, std::span<const Ex> parameters,
                       Statements& statements);
 
-/// Rotation matrix of roll, pitch, yaw. With `snap`, each constant angle that is a multiple of π/2 but for model::kQuarterRounding is
-/// that multiple: the matrix stays orthonormal.
+/// Rotation matrix of roll, pitch, yaw. With `snap`, each constant angle that is a multiple of π/2 but for
+/// model::kQuarterRounding is that multiple: the matrix stays orthonormal.
 Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap,
                         Statements& statements);
 

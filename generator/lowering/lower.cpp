@@ -152,8 +152,8 @@ class Lowering {
     bool negative = false;  ///< the sign that is pulled out of the sum
   };
 
-  /// Different names may stand for one value and its negative. Such terms have one key; the sign is that of the first ones that do
-  /// not cancel, and terms with it come first.
+  /// Different names may stand for one value and its negative. Such terms have one key; the sign is that of
+  /// the first ones that do not cancel, and terms with it come first.
   Terms sorted_terms(const Ex& e) {
     Terms terms{sorted_operands(e)};
     int surplus = 0;

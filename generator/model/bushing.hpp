@@ -22,8 +22,9 @@ namespace jourdain::model {
 ///
 /// and both reversed on the body of `from`, the force on the same line of action: at the origin of `to`. A turn about
 /// one of the axes meets the moment −torsional_stiffness_i sin φ: θ is the angle where that is small, and its potential
-/// is greatest after half a turn. Exchanging the frames changes neither the torsional potential nor, where the three stiffnesses
-/// are equal, the other one; it changes what the damping of d does, which belongs to the axes of `from`.
+/// is greatest after half a turn. Exchanging the frames changes neither the torsional potential nor, where the
+/// three stiffnesses are equal, the other one; it changes what the damping of d does, which belongs to the
+/// axes of `from`.
 struct Bushing {
   std::string name;
   FrameIndex from, to;

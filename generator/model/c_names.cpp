@@ -6,7 +6,8 @@ namespace jourdain::model {
 
 namespace {
 
-// As g++ 12 and clang 14 see the headers of glibc 2.36; a test compiles every identifier in them as a namespace and as a member.
+// As g++ 12 and clang 14 see the headers of glibc 2.36; a test compiles every identifier in them as a
+// namespace and as a member.
 constexpr std::string_view kMacros = R"(
 ADJ_ESTERROR ADJ_FREQUENCY ADJ_MAXERROR ADJ_MICRO ADJ_NANO ADJ_OFFSET ADJ_OFFSET_SINGLESHOT ADJ_OFFSET_SS_READ
 ADJ_SETOFFSET ADJ_STATUS ADJ_TAI ADJ_TICK ADJ_TIMECONST AIO_PRIO_DELTA_MAX ATOMIC_BOOL_LOCK_FREE

@@ -17,8 +17,8 @@ struct JointEntries {
   std::vector<std::optional<std::size_t>> position, velocity;
 };
 
-/// Small displacements, one per velocity: of a scalar coordinate or a position its change, of a quaternion a small rotation δθ in
-/// body axes, δquat = ½ quat ⊗ (0, δθ).
+/// Small displacements, one per velocity: of a scalar coordinate or a position its change, of a quaternion a
+/// small rotation δθ in body axes, δquat = ½ quat ⊗ (0, δθ).
 struct Tangent {
   struct Scalar {
     std::size_t position = 0, velocity = 0;  ///< entry in y, and in z

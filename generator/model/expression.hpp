@@ -39,8 +39,8 @@ struct Variable {
   bool operator==(const Variable&) const = default;
 };
 
-/// A number that may depend on tunable parameters and on variables. Operands come before their operator, the last node is the value;
-/// a node may be the operand of several.
+/// A number that may depend on tunable parameters and on variables. Operands come before their operator, the
+/// last node is the value; a node may be the operand of several.
 /// Subexpressions without either are folded to one double on construction: a model's numbers are rounded to
 /// double once, on reading. Exact identities are applied: 1*x = x, x+0 = x, 0*x = 0, -(-x) = x, x^1 = x, x^0 = 1.
 class Expression {
@@ -145,9 +145,9 @@ struct MeasuredExpression {
 
 /// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), sqrt, sin, cos, tan and the given names. `^` binds
 /// tighter than unary minus and takes integer exponents (or 0.5) only. Text over kMaximumExpressionLength or nested
-/// deeper than kMaximumExpressionDepth, or with more than kMaximumExpressionSize operations where tangents, sin(x)/cos(x) each, are
-/// written out, unknown names (with "did you mean"), NaN or infinity are errors, and so are sums and functions of
-/// what has the wrong dimensions (see dimensions.hpp).
+/// deeper than kMaximumExpressionDepth, or with more than kMaximumExpressionSize operations where tangents,
+/// sin(x)/cos(x) each, are written out, unknown names (with "did you mean"), NaN or infinity are errors, and
+/// so are sums and functions of what has the wrong dimensions (see dimensions.hpp).
 std::variant<MeasuredExpression, ExpressionError> parse_expression(
     std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope = {});
 

@@ -11,8 +11,9 @@
 //   assumption()        sentence about all elements of the kind, empty: nothing to say
 //
 // A new kind: its description in a file of this folder; its line in ForceElements and its name in
-// `for_each_force_list`; its reader (read/); its forces and potential (dynamics/element_forces.hpp) and, sharing nothing with those, the
-// numbers of both references (reference/minimal_elements.hpp, reference/descriptor_elements.hpp).
+// `for_each_force_list`; its reader (read/); its forces and potential (dynamics/element_forces.hpp) and,
+// sharing nothing with those, the numbers of both references (reference/minimal_elements.hpp,
+// reference/descriptor_elements.hpp).
 #pragma once
 
 #include <algorithm>

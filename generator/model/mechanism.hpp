@@ -36,7 +36,8 @@ struct Parameter {
   std::string unit;
   std::string description;
   SourceRange where = {};
-  /// Values it may have at run time; what the compiler proves about loops it proves for all of them. None: the default only.
+  /// Values it may have at run time; what the compiler proves about loops it proves for all of them. None: the
+  /// default only.
   std::optional<std::array<double, 2>> range = {};
 };
 
@@ -87,7 +88,8 @@ enum class JointType {
   kCurve       ///< the child's origin is at `curve`(y) in the joint frame; the child does not turn
 };
 
-/// One scalar coordinate of a joint. Force on it: −stiffness (y − rest) − damping z − friction z/√(z² + friction_speed²).
+/// One scalar coordinate of a joint. Force on it: −stiffness (y − rest) − damping z − friction z/√(z² +
+/// friction_speed²).
 struct Coordinate {
   std::string
       name;  ///< of the entry in y and z: the joint's name, for several coordinates "<joint>_<suffix>"
@@ -181,11 +183,12 @@ enum class LoopType {
   kResidual       ///< residual = 0
 };
 
-/// A joint that closes a kinematic loop: constraint rows g = 0 beside the tree of the joints. Δ leads from the origin of `from`
-/// to that of `to`; n is the unit vector along `axis`, (a₁, a₂) = plane_axes(n), both fixed in `from`; w along `to_axis` and
-/// (b₁, b₂) = plane_axes(w) are fixed in `to`. The carrier is the last body that both ends hang on (see `carrier`); a pin's
-/// (c₁, c₂) = plane_axes(axis) are fixed in the carrier. Rows come in the order that LoopType gives.
-/// Parallel axes n and w, and a₁ and b₁ of a prismatic joint, point the same way.
+/// A joint that closes a kinematic loop: constraint rows g = 0 beside the tree of the joints. Δ leads from the
+/// origin of `from` to that of `to`; n is the unit vector along `axis`, (a₁, a₂) = plane_axes(n), both fixed
+/// in `from`; w along `to_axis` and (b₁, b₂) = plane_axes(w) are fixed in `to`. The carrier is the last body
+/// that both ends hang on (see `carrier`); a pin's (c₁, c₂) = plane_axes(axis) are fixed in the carrier. Rows
+/// come in the order that LoopType gives. Parallel axes n and w, and a₁ and b₁ of a prismatic joint, point the
+/// same way.
 struct Loop {
   std::string name;
   LoopType type = LoopType::kBall;
@@ -266,7 +269,8 @@ struct Mechanism : ForceElements {
   std::vector<Output> outputs;
   std::vector<Loop> loops;
   LoopOptions loop_options;
-  /// Constant angles that are a multiple of a quarter turn but for rounding are that multiple: their matrices are permutations.
+  /// Constant angles that are a multiple of a quarter turn but for rounding are that multiple: their matrices
+  /// are permutations.
   bool snap = true;
   SnappedDirections snapped;
   std::vector<std::string> welded;      ///< joints that were locked because nothing with mass is beyond them

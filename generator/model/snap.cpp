@@ -46,7 +46,8 @@ std::vector<PlacedAxis> axes(Mechanism& mechanism) {
   return list;
 }
 
-/// The double nearest to the multiple of a quarter turn that a constant angle is within `tolerance` of, but not by rounding alone.
+/// The double nearest to the multiple of a quarter turn that a constant angle is within `tolerance` of, but
+/// not by rounding alone.
 std::optional<double> snapped_angle(const Expression& angle, double tolerance) {
   if (!angle.is_constant()) return {};
   constexpr long double kQuarter = std::numbers::pi_v<long double> / 2;

@@ -11,8 +11,9 @@ inline constexpr double kDefaultSnap = 2e-5;
 /// Beyond that an angle is another one.
 inline constexpr double kMaximumSnap = 0.01;
 
-/// Each constant angle of a rotation within `tolerance` (rad) of a multiple of a quarter turn becomes that multiple, each axis within it
-/// of a coordinate axis or plane lies on that; `mechanism.snapped` keeps what stood there. One note says how many there are.
+/// Each constant angle of a rotation within `tolerance` (rad) of a multiple of a quarter turn becomes that
+/// multiple, each axis within it of a coordinate axis or plane lies on that; `mechanism.snapped` keeps what
+/// stood there. One note says how many there are.
 void snap_directions(Mechanism& mechanism, double tolerance, support::Diagnostics& diagnostics);
 
 /// The mechanism with the directions that its description gives; no angle is read as a quarter turn.

@@ -5,8 +5,8 @@
 
 namespace jourdain::model {
 
-/// Value, first and second derivative with respect to one variable; rules of calculus operation by operation. Scalar: any
-/// number that is made from a double; its sqrt, sin and cos are found by its namespace.
+/// Value, first and second derivative with respect to one variable; rules of calculus operation by operation.
+/// Scalar: any number that is made from a double; its sqrt, sin and cos are found by its namespace.
 template <class Scalar>
 struct Taylor {
   Scalar value = Scalar(0), first = Scalar(0), second = Scalar(0);

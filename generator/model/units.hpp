@@ -25,8 +25,9 @@ struct UnitError {
   std::string message, hint;
 };
 
-/// Symbols with exponents (m^2, s^-1), multiplied by blanks, '*' or '·', divided by '/'. Only one factor or a pair of parentheses may follow a
-/// '/': what comes after that would be read one way by some and the other by others. Empty, "1" and "-" are one.
+/// Symbols with exponents (m^2, s^-1), multiplied by blanks, '*' or '·', divided by '/'. Only one factor or a
+/// pair of parentheses may follow a '/': what comes after that would be read one way by some and the other by
+/// others. Empty, "1" and "-" are one.
 std::variant<Unit, UnitError> parse_unit(std::string_view text);
 
 /// A number and the text after it, which is no operator ("120 rpm", "-2.5e3 N/m", "30deg"); nothing where the text is

@@ -26,13 +26,14 @@ struct DerivativeSources {
   ir::Program outputs;                 ///< numbers of all outputs, with ż as leaves
   std::vector<ir::Program> mass_rows;  ///< the entries of one row of M each
   SceneFacts facts;
-  /// How position leaves depend on the displacements and, beyond that, on time: the column after the last velocity, input.
+  /// How position leaves depend on the displacements and, beyond that, on time: the column after the last
+  /// velocity, input.
   std::function<std::vector<ir::Seed>(ir::Builder&, std::size_t time_column)> position_seeds;
 };
 
-/// One program for each of `functions` that holds derivatives or is made for them; the others are passed over. Positions are
-/// differentiated by the displacements of model::Tangent. With r(y, z, a, u, t) = M a − k̄ + q̄ and a = ż,
-/// ∂ż = −M⁻¹ ∂r at a = ż: no derivative of the factorisation is taken. Of some orders of
+/// One program for each of `functions` that holds derivatives or is made for them; the others are passed over.
+/// Positions are differentiated by the displacements of model::Tangent. With r(y, z, a, u, t) = M a − k̄ + q̄
+/// and a = ż, ∂ż = −M⁻¹ ∂r at a = ż: no derivative of the factorisation is taken. Of some orders of
 /// elimination the one with the fewest operations is chosen.
 std::vector<ir::Program> derivative_programs(const DerivativeSources& sources,
                                              const std::vector<FunctionInfo>& functions,

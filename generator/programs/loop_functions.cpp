@@ -120,7 +120,8 @@ class LoopProgram {
     return y;
   }
 
-  /// Bᵀ M B. With one degree of freedom twice the kinetic energy at z = B, where nothing else moves: that costs less than M.
+  /// Bᵀ M B. With one degree of freedom twice the kinetic energy at z = B, where nothing else moves: that
+  /// costs less than M.
   std::vector<ir::Column> mass_matrix() {
     const std::vector<ir::Column>& B = dependence_.B();
     if (B.size() == 1 && !model::time_dependence(system_.mechanism).positions) {
@@ -206,8 +207,8 @@ class LoopProgram {
     return lambda;
   }
 
-  /// With reduced treatments what the dependent coordinates lack at the accelerations given; otherwise those of the state, over all
-  /// rows: of redundant ones those of least norm.
+  /// With reduced treatments what the dependent coordinates lack at the accelerations given; otherwise those
+  /// of the state, over all rows: of redundant ones those of least norm.
   ir::Column constraint_forces(const ir::Column& zdot) {
     if (!system_.plan.is_reduced()) return least_multipliers();
     ir::Column missing = vector(FunctionId::kResidual, dependence_.accelerations(zdot));
@@ -259,8 +260,9 @@ class LoopProgram {
   loops::Dependence dependence_;
 };
 
-/// Newton iterations block by block: each block is closed before the next one starts. Beside the dependent positions "regularity", the
-/// determinants of the last iteration over LoopPlan::determinant, and "opening", the square of what the first one changed.
+/// Newton iterations block by block: each block is closed before the next one starts. Beside the dependent
+/// positions "regularity", the determinants of the last iteration over LoopPlan::determinant, and "opening",
+/// the square of what the first one changed.
 Program closing_program(const loops::LoopSystem& system) {
   Builder builder;
   ir::Column y = loops::position_leaves(builder, system);

@@ -7,8 +7,8 @@
 
 namespace jourdain::programs {
 
-/// A fixed-step method, emitted as `<name>_step` from the template `<name>_step.in`, or by the coefficients in rosenbrock.cpp where
-/// it is linearly implicit.
+/// A fixed-step method, emitted as `<name>_step` from the template `<name>_step.in`, or by the coefficients in
+/// rosenbrock.cpp where it is linearly implicit.
 struct Stepper {
   std::string name;
   int order = 0;

@@ -1,5 +1,5 @@
-// The functions of an emitted model as the README promises them: arguments, their order and shapes, and where results go. Stated here
-// once more, without a look at what writes them.
+// The functions of an emitted model as the README promises them: arguments, their order and shapes, and where
+// results go. Stated here once more, without a look at what writes them.
 #pragma once
 
 #include <optional>

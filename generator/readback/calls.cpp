@@ -120,7 +120,8 @@ bool Interpreter::matches(const Function& function, const std::vector<Value>& ar
   return candidate.bindings.size() == function.parameters_of_template.size();
 }
 
-/// The one that fits: a function before a template, then the one that takes the fewest things of any type, then that of fewer types.
+/// The one that fits: a function before a template, then the one that takes the fewest things of any type,
+/// then that of fewer types.
 Interpreter::Candidate Interpreter::choose(const std::vector<const Function*>& functions,
                                            const std::vector<Value>& arguments,
                                            const Bindings& explicit_arguments, const std::string& name) {

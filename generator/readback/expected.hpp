@@ -1,5 +1,5 @@
-// What the finished files must say, as far as it does not come from programs: filled in by the compiler from the mechanism and its
-// plan.
+// What the finished files must say, as far as it does not come from programs: filled in by the compiler from
+// the mechanism and its plan.
 #pragma once
 
 #include <array>

@@ -13,8 +13,8 @@ void check_structs(const Unit& unit, const Expected& expected, Findings& finding
 /// The namespace of indices: a constant for each position, velocity and input, spelt like its name, with its entry.
 void check_indices(const Unit& unit, const Expected& expected, Findings& findings);
 
-/// Every function is declared, defined and instantiated for double and float as the API has it, and nothing else is; the operations that
-/// comments state are those that were counted.
+/// Every function is declared, defined and instantiated for double and float as the API has it, and nothing
+/// else is; the operations that comments state are those that were counted.
 void check_declarations(const Unit& unit, const Expected& expected, Findings& findings);
 
 /// loops_closed and loops_proven, at their limits, beside them, and where something is not a number.

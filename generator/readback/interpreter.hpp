@@ -14,8 +14,8 @@
 
 namespace jourdain::readback {
 
-/// What C++ says the text does: overloads, template arguments, references, scopes, the value that a variable has or has not yet.
-/// Whatever a C++ compiler would reject, or would leave undefined, throws Refusal.
+/// What C++ says the text does: overloads, template arguments, references, scopes, the value that a variable
+/// has or has not yet. Whatever a C++ compiler would reject, or would leave undefined, throws Refusal.
 class Interpreter {
  public:
   /// Stands for a function of the text; it gets the arguments as places.
@@ -28,7 +28,8 @@ class Interpreter {
   TypeTable& types() { return types_; }
   Domain& domain() { return domain_; }
 
-  /// An object without values in memory that lasts as long as the interpreter, with its members' initial values where it has some.
+  /// An object without values in memory that lasts as long as the interpreter, with its members' initial
+  /// values where it has some.
   Value make(const Type* type);
   /// A place of type "function": calls of it go to `function`, whose result has type `result`.
   Value make_function(FunctionObject function, const Type* result);

@@ -1,4 +1,5 @@
-// Passages that are written as they stand: arithmetic of more than one number, which in exact arithmetic is that of one.
+// Passages that are written as they stand: arithmetic of more than one number, which in exact arithmetic is
+// that of one.
 #pragma once
 
 #include <array>
@@ -15,8 +16,8 @@ struct KnownText {
   Tokens tokens;
 };
 
-/// A second copy, apart from the templates: what is written must be this, token by token. What it computes in double and float is tested in
-/// tests/steppers.
+/// A second copy, apart from the templates: what is written must be this, token by token. What it computes in
+/// double and float is tested in tests/steppers.
 const std::array<KnownText, 2>& known_texts();
 
 }  // namespace jourdain::readback

@@ -8,7 +8,8 @@ namespace {
 
 Fraction over(long numerator, long denominator) { return {numerator, denominator}; }
 
-/// J. R. Dormand, P. J. Prince: A family of embedded Runge-Kutta formulae, J. Comp. Appl. Math. 6 (1980): the six stages of order 5.
+/// J. R. Dormand, P. J. Prince: A family of embedded Runge-Kutta formulae, J. Comp. Appl. Math. 6 (1980): the
+/// six stages of order 5.
 Tableau dormand_prince() {
   Tableau t;
   t.a = {{},

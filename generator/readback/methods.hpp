@@ -22,8 +22,8 @@ const Tableau* find_tableau(const std::string& method);
 /// Weights of rates of this and earlier steps, newest first: x + h Σ w_k f_k.
 std::vector<Fraction> adams_bashforth(int steps);
 
-/// A Rosenbrock method: with u = Γ k, x + Σ m_j u_j; stages at x + Σ A_ij u_j; Γ⁻¹ = (1 − S)/γ. The coefficients are the doubles
-/// nearest to those of the published method in this form.
+/// A Rosenbrock method: with u = Γ k, x + Σ m_j u_j; stages at x + Σ A_ij u_j; Γ⁻¹ = (1 − S)/γ. The
+/// coefficients are the doubles nearest to those of the published method in this form.
 struct RosenbrockTable {
   double gamma = 0;
   std::vector<std::vector<double>> A, S;  ///< strictly lower, by stage
@@ -35,8 +35,8 @@ struct RosenbrockTable {
 /// Nothing where the method is no Rosenbrock method.
 const RosenbrockTable* find_rosenbrock_table(const std::string& method);
 
-/// Of "rk4_step"; linearly implicit methods may lose some where derivatives leave terms out. 0: no step of that name, or not
-/// without all derivatives.
+/// Of "rk4_step"; linearly implicit methods may lose some where derivatives leave terms out. 0: no step of
+/// that name, or not without all derivatives.
 int order_of(const std::string& step, bool all_derivatives);
 
 }  // namespace jourdain::readback

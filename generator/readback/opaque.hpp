@@ -21,8 +21,8 @@ struct Derivatives {
   ExactVector r_t;
 };
 
-/// What a step of the text and the definition of its method both call. While the text is executed every call with new arguments gets
-/// random results; the definition must then ask for exactly these.
+/// What a step of the text and the definition of its method both call. While the text is executed every call
+/// with new arguments gets random results; the definition must then ask for exactly these.
 class OpaqueSystem {
  public:
   OpaqueSystem(const Expected& expected, std::uint64_t seed) : expected_(expected), random_(seed) {}

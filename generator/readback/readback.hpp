@@ -1,5 +1,5 @@
-// The gate between the finished text and the user: the bytes that are about to be written are read as C++ and JSON, and must say what
-// was validated.
+// The gate between the finished text and the user: the bytes that are about to be written are read as C++ and
+// JSON, and must say what was validated.
 #pragma once
 
 #include <string>
@@ -24,9 +24,10 @@ struct Readback {
   Record record;
 };
 
-/// Reads NAME.hpp, NAME_kernels.hpp, NAME.cpp and NAME.json, in this order. Functions with a program are compared with it node by node,
-/// which holds for all states; steps with their methods at random points; names, sizes, defaults, limits and counts with what is
-/// expected. What cannot be read is a difference; nothing is thrown.
+/// Reads NAME.hpp, NAME_kernels.hpp, NAME.cpp and NAME.json, in this order. Functions with a program are
+/// compared with it node by node, which holds for all states; steps with their methods at random points;
+/// names, sizes, defaults, limits and counts with what is expected. What cannot be read is a difference;
+/// nothing is thrown.
 Readback read_back(const std::vector<support::FileText>& files, const Expected& expected);
 
 /// The differences alone.

@@ -4,7 +4,8 @@
 //   K^x_i = h rate(X_i, Z_i) + h (J Σ γ_ij K^x_j + Σ γ_ij K^z_j)
 //   K^z_i = h A_i + h Σ γ_ij K^a_j
 //   0     = r(X_i, Z_i, A_i, t_i) + r_y Σ γ_ij K^x_j + r_z Σ γ_ij K^z_j + M Σ γ_ij K^a_j + h (Σ_j γ_ij) r_t
-// with sums over j ≤ i; J is ∂rate/∂x at the start, which only rotations have. A rotation's displacement is twice its Gibbs vector.
+// with sums over j ≤ i; J is ∂rate/∂x at the start, which only rotations have. A rotation's displacement is
+// twice its Gibbs vector.
 #include "readback/step_data.hpp"
 
 namespace jourdain::readback {

@@ -27,8 +27,9 @@ struct StepExecution {
 StepExecution step_by_text(const Unit& unit, const Expected& expected, const FunctionApi& api,
                            OpaqueSystem& system, StepData& data);
 
-/// The method as it is defined: explicit ones by their tableau, linearly implicit ones as Rosenbrock methods for the system
-/// x' = rate(x, z), z' = a, 0 = r(x, z, a, t) of index 1 in displacements x, velocities and accelerations. Throws Refusal.
+/// The method as it is defined: explicit ones by their tableau, linearly implicit ones as Rosenbrock methods
+/// for the system x' = rate(x, z), z' = a, 0 = r(x, z, a, t) of index 1 in displacements x, velocities and
+/// accelerations. Throws Refusal.
 void step_by_definition(const Expected& expected, const std::string& method, OpaqueSystem& system,
                         StepData& data);
 

@@ -195,7 +195,8 @@ struct Unit {
   std::deque<Constant> all_constants;
 };
 
-/// The type as text with "Real" for the first template parameter where `real` is given that name: "const Model<double>".
+/// The type as text with "Real" for the first template parameter where `real` is given that name: "const
+/// Model<double>".
 std::string text_of(const Unit& unit, const TypeName& type);
 
 /// "const Real (&)[7][7]"; bounds must be integers.

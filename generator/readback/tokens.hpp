@@ -9,7 +9,8 @@
 
 namespace jourdain::readback {
 
-/// Text that is not in the subset of C++ that is understood, or that C++ would not accept; the message begins with file and line.
+/// Text that is not in the subset of C++ that is understood, or that C++ would not accept; the message begins
+/// with file and line.
 class Refusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -48,8 +48,8 @@ struct StructType {
   const Field* find(Symbol name) const;
 };
 
-/// Which type stands for `double` and `float` of the text. The numbers that are computed with have one type; it is neither, or one of
-/// them.
+/// Which type stands for `double` and `float` of the text. The numbers that are computed with have one type;
+/// it is neither, or one of them.
 enum class NumberType : std::uint8_t { kOwn, kDouble, kFloat };
 
 /// Where a type's name is looked up.

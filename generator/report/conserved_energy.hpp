@@ -5,8 +5,8 @@
 
 namespace jourdain::report {
 
-/// Whether kinetic and potential energy together stay constant: no damping, friction, prescribed motion, loads, laws without
-/// potential; inputs must be zero as well, which the caller knows.
+/// Whether kinetic and potential energy together stay constant: no damping, friction, prescribed motion,
+/// loads, laws without potential; inputs must be zero as well, which the caller knows.
 bool conserves_energy(const model::Mechanism& mechanism);
 
 }  // namespace jourdain::report

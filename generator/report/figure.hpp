@@ -47,8 +47,8 @@ struct FigureBody {
   model::Numbers3 center = {};  ///< of mass, m, in the body's frame
 };
 
-/// The pose of body i, position (m, inertial frame) and rotation matrix (body to inertial) row by row, is at entries 12 i to 12 i + 11
-/// of the outputs of `mechanism`.
+/// The pose of body i, position (m, inertial frame) and rotation matrix (body to inertial) row by row, is at
+/// entries 12 i to 12 i + 11 of the outputs of `mechanism`.
 struct Figure {
   model::Mechanism mechanism;    ///< the given one with the bodies' poses as its only outputs
   model::Numbers3 gravity = {};  ///< m/s², inertial frame

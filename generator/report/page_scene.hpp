@@ -9,8 +9,8 @@
 
 namespace jourdain::report {
 
-/// A script's object: the figure, its poses along the reference of `study`, and the view of it. Where all bodies move in one plane
-/// that is from the front.
+/// A script's object: the figure, its poses along the reference of `study`, and the view of it. Where all
+/// bodies move in one plane that is from the front.
 std::string scene_json(const studies::Flow<double>& flow, const studies::Study& study, const Figure& figure);
 
 }  // namespace jourdain::report

@@ -81,7 +81,8 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     text.replace(at, from.size(), to);
 }
 
-/// Black becomes the text colour of the page or, in a file of its own, of the reader's theme; ids become the plot's own.
+/// Black becomes the text colour of the page or, in a file of its own, of the reader's theme; ids become the
+/// plot's own.
 std::string themed(std::string svg, const std::string& name) {
   const std::size_t begin = svg.find("<svg");
   if (begin != std::string::npos) svg.erase(0, begin);

@@ -32,7 +32,8 @@ bool shows_anything(const Plot& plot);
 /// Throws EnvironmentError with a remedy where gnuplot cannot be run.
 void check_plotter();
 
-/// The plots, which must show something, as SVG texts, in order. Throws EnvironmentError with gnuplot's words when it fails.
+/// The plots, which must show something, as SVG texts, in order. Throws EnvironmentError with gnuplot's words
+/// when it fails.
 std::vector<std::string> draw(const std::vector<Plot>& plots);
 
 /// SVG texts of plots of that height as one, from top to bottom.

@@ -7,8 +7,8 @@
 
 namespace jourdain::support {
 
-/// Where something stands in a text file. Lines and columns count from 1, columns in Unicode characters; line 0 means "the file as a whole".
-/// `length` is the number of columns to underline.
+/// Where something stands in a text file. Lines and columns count from 1, columns in Unicode characters; line
+/// 0 means "the file as a whole". `length` is the number of columns to underline.
 struct SourceRange {
   int line = 0;
   int column = 0;

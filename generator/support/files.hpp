@@ -13,21 +13,22 @@ struct FileText {
   std::string text;
 };
 
-/// Reads a whole file or pipe. Throws EnvironmentError naming the path when it cannot be read, is a device or larger than 256 MiB, or a
-/// pipe keeps silent for ten seconds.
+/// Reads a whole file or pipe. Throws EnvironmentError naming the path when it cannot be read, is a device or
+/// larger than 256 MiB, or a pipe keeps silent for ten seconds.
 std::string read_file(const std::string& path);
 
-/// Writes through a temporary file in the same folder and renames it, so that no reader sees half a file. A file with that
-/// text stays as it is.
+/// Writes through a temporary file in the same folder and renames it, so that no reader sees half a file. A
+/// file with that text stays as it is.
 /// Throws EnvironmentError naming the path.
 void write_file(const std::string& path, std::string_view text);
 
-/// Writes all files into `folder`, which is made where it is missing: all under temporary names, then all renamed; those
-/// with that text stay as they are. Throws
+/// Writes all files into `folder`, which is made where it is missing: all under temporary names, then all
+/// renamed; those with that text stay as they are. Throws
 /// EnvironmentError naming the path; nothing of it is left then. A signal waits until it is done.
 void write_files(const std::string& folder, const std::vector<FileText>& files);
 
-/// Throws EnvironmentError where no file can be written into `folder`, or where it cannot be made. Leaves nothing behind.
+/// Throws EnvironmentError where no file can be written into `folder`, or where it cannot be made. Leaves
+/// nothing behind.
 void check_writable(const std::string& folder);
 
 }  // namespace jourdain::support

@@ -6,8 +6,8 @@
 
 namespace jourdain::support {
 
-/// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed once; no symbol stands for
-/// one. kMultiplier: of a loop's row; none is left in an emitted function.
+/// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed
+/// once; no symbol stands for one. kMultiplier: of a loop's row; none is left in an emitted function.
 enum class LeafKind : std::uint8_t {
   kParameter,
   kConstant,

@@ -1,5 +1,5 @@
-// A real number of 77 digits that knows how far rounding on the way to it may have moved it: what tells wrong algebra from
-// rounding, whatever the units and however much cancels.
+// A real number of 77 digits that knows how far rounding on the way to it may have moved it: what tells wrong
+// algebra from rounding, whatever the units and however much cancels.
 #pragma once
 
 #include <cln/lfloat.h>
@@ -10,9 +10,10 @@
 
 namespace jourdain::support {
 
-/// A value with the largest first-order effect on it of a relative change by 1 in any single number that it was computed
-/// from. Two ways to compute one thing agree to a small multiple of the unit roundoff times the larger scale. Where
-/// something has no value (a division by zero, a root of a negative number) it is not a number, and so is what follows.
+/// A value with the largest first-order effect on it of a relative change by 1 in any single number that it
+/// was computed from. Two ways to compute one thing agree to a small multiple of the unit roundoff times the
+/// larger scale. Where something has no value (a division by zero, a root of a negative number) it is not a
+/// number, and so is what follows.
 class ScaledReal {
  public:
   ScaledReal() : value_(zero()) {}

@@ -8,8 +8,9 @@
 
 namespace jourdain::support {
 
-/// A fresh folder under the system's temporary one, removed with its contents at the end of its life or when the program is
-/// interrupted. It is locked while it lives; a new one removes those that a killed program of the same user left.
+/// A fresh folder under the system's temporary one, removed with its contents at the end of its life or when
+/// the program is interrupted. It is locked while it lives; a new one removes those that a killed program of
+/// the same user left.
 class TemporaryFolder {
  public:
   TemporaryFolder();

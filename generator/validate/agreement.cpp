@@ -12,15 +12,16 @@ namespace jourdain::validate {
 
 namespace {
 
-/// Of the largest scale among numbers that are computed together: numbers that symbolic algebra left as rounding of zero have no scale
-/// of their own.
+/// Of the largest scale among numbers that are computed together: numbers that symbolic algebra left as
+/// rounding of zero have no scale of their own.
 constexpr long double kNothing = 1e-30L;
 
-/// Numbers at a state that are all smaller than this share of those at other states are zero, but for constants that cancel in 63 digits.
+/// Numbers at a state that are all smaller than this share of those at other states are zero, but for
+/// constants that cancel in 63 digits.
 constexpr long double kResidue = 1e-60L;
 
-/// How much more than the largest scale of the oracle's numbers rounding may count by where the program's own way to one is less
-/// stable than the oracle's: multipliers of rows that are all but redundant.
+/// How much more than the largest scale of the oracle's numbers rounding may count by where the program's own
+/// way to one is less stable than the oracle's: multipliers of rows that are all but redundant.
 constexpr long double kLessStable = 1e4L;
 
 /// |a − b| over the larger scale; 0 where both are no numbers, infinite where one is or nothing bounds the rounding.

@@ -11,8 +11,8 @@ namespace jourdain::validate {
 
 using support::ScaledReal;
 
-/// Two ways to compute one number in 77 digits may differ by this share of its scale, see ScaledReal: rounding stays below it by
-/// twenty orders, wrong algebra above.
+/// Two ways to compute one number in 77 digits may differ by this share of its scale, see ScaledReal: rounding
+/// stays below it by twenty orders, wrong algebra above.
 inline constexpr long double kAlgebra = 1e-40L;
 
 /// How much more than its depth times the unit roundoff times its scale a value may be off in double.
@@ -33,12 +33,14 @@ struct Compared {
 
 class Agreement {
  public:
-  /// All numbers of `function` at one state, in 77 digits. Where one of both is zero throughout, as in a mechanism that starts in
-  /// equilibrium, what is left of zero has no scale but that of the states before: such a state comes last.
+  /// All numbers of `function` at one state, in 77 digits. Where one of both is zero throughout, as in a
+  /// mechanism that starts in equilibrium, what is left of zero has no scale but that of the states before:
+  /// such a state comes last.
   void same(const std::string& function, const std::string& oracle, const std::vector<ScaledReal>& values,
             const std::vector<ScaledReal>& expected);
-  /// Errors of `values`, computed in double by a program of this depth, against the exact ones. Scales are those of `expected`: of
-  /// another way to compute the same, `oracle`; the program's own, `exact`, count up to 1e4 times the largest of those.
+  /// Errors of `values`, computed in double by a program of this depth, against the exact ones. Scales are
+  /// those of `expected`: of another way to compute the same, `oracle`; the program's own, `exact`, count up
+  /// to 1e4 times the largest of those.
   void rounded(const std::string& function, const std::string& oracle, const std::vector<ScaledReal>& values,
                const std::vector<ScaledReal>& exact, const std::vector<ScaledReal>& expected,
                std::size_t depth);

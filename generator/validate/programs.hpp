@@ -35,7 +35,8 @@ struct Expected {
   std::vector<std::size_t> shares = {};
 };
 
-/// What the parts of a program should be, in the order of `parts_of`. A function without an oracle cannot be emitted: it throws.
+/// What the parts of a program should be, in the order of `parts_of`. A function without an oracle cannot be
+/// emitted: it throws.
 using Oracle = std::function<std::vector<Expected>(const ir::Program&)>;
 
 std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledReal>& values,

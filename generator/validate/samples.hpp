@@ -22,8 +22,8 @@ Point point_at(const model::Mechanism& mechanism, const Sample& sample);
 
 reference::VectorX<long double> to_vector(const std::vector<double>& values);
 
-/// The first is the initial state; parameters are varied by up to a tenth from the second on. Where a random state has no
-/// values it is moved towards the initial one.
+/// The first is the initial state; parameters are varied by up to a tenth from the second on. Where a random
+/// state has no values it is moved towards the initial one.
 std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t count);
 
 }  // namespace jourdain::validate

@@ -1,4 +1,5 @@
-// What the functions of a mechanism without loops should compute at one state: from the symbolic equations, by dense algebra.
+// What the functions of a mechanism without loops should compute at one state: from the symbolic equations, by
+// dense algebra.
 #pragma once
 
 #include <vector>
@@ -20,8 +21,8 @@ using reference::to_list;
 /// The equations at one state, in 77 digits. It refers to what it is made from.
 class TreeOracle {
  public:
-  /// Where derivatives of the residual hold those of applied forces alone, `load` are the equations without gravity, whose q̄ they
-  /// belong to.
+  /// Where derivatives of the residual hold those of applied forces alone, `load` are the equations without
+  /// gravity, whose q̄ they belong to.
   TreeOracle(const model::Mechanism& mechanism, const dynamics::Equations& equations,
              const dynamics::Equations* load, const Point& point);
 

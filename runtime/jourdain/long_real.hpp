@@ -3,8 +3,8 @@
 // NAME::Model<jourdain::LongReal>. Link with -lcln.
 //
 // A literal keeps its double value. CLN's numbers are no use where results overflow, where a root of a negative number
-// is taken or where a number is not finite: it throws, and emitted functions are noexcept. Not for use by two threads at
-// once.
+// is taken or where a number is not finite: it throws, and emitted functions are noexcept. Not for use by two
+// threads at once.
 #pragma once
 
 #include <cln/float.h>

@@ -1,5 +1,5 @@
-// Decompositions of dense matrices as plain functions, compiled once for each kind of number: Eigen's templates for them
-// take seconds wherever they are used.
+// Decompositions of dense matrices as plain functions, compiled once for each kind of number: Eigen's
+// templates for them take seconds wherever they are used.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,9 +10,9 @@
 //   [ M + Cᵀ J C   Gᵀ ] [ ẋ ]   [ f − ω × I ω + Cᵀ (Q − J γ_θ) ]     J: rotor inertias, gear² each
 //   [ G            0  ] [ λ ] = [ −γ                           ]     constraint force on the system: −Gᵀ λ
 //
-// A prescribed coordinate is the constraint θ − motion(t) = 0. Loop joints add rows of their own; where some of all rows
-// are redundant, independent combinations take their place. Minimal coordinates serve only to set up a consistent state
-// and to say what the loops' forces are in them. Clarity over speed.
+// A prescribed coordinate is the constraint θ − motion(t) = 0. Loop joints add rows of their own; where some
+// of all rows are redundant, independent combinations take their place. Minimal coordinates serve only to set
+// up a consistent state and to say what the loops' forces are in them. Clarity over speed.
 #pragma once
 
 #include <Eigen/Dense>
@@ -33,8 +33,9 @@ namespace jourdain::reference {
 
 struct DescriptorOptions {
   ParallelAxes parallel_axes = ParallelAxes::kFixedNormals;
-  /// Which loop rows count as redundant. A state that is integrated leaves the constraints a little, and rows that are redundant on
-  /// them are not beside them: trajectories of overconstrained mechanisms need a coarser measure than states that are closed.
+  /// Which loop rows count as redundant. A state that is integrated leaves the constraints a little, and rows
+  /// that are redundant on them are not beside them: trajectories of overconstrained mechanisms need a coarser
+  /// measure than states that are closed.
   double dependent = descriptor::kDependent;
 };
 
@@ -72,8 +73,8 @@ struct DescriptorSolution {
   /// By joint and scalar coordinate, what the motion's actuator must apply, positive forward, N m or N: beyond all
   /// other forces on that coordinate, with the rotors' acceleration. None where the coordinate is free.
   std::vector<std::vector<std::optional<Scalar>>> drives;
-  /// g and G x + g_t at the given state, joint by joint, constraints before prescribed coordinates: rounding only. Those
-  /// of loops are apart.
+  /// g and G x + g_t at the given state, joint by joint, constraints before prescribed coordinates: rounding
+  /// only. Those of loops are apart.
   Eigen::VectorX<Scalar> g, g_rate;
   LoopConstraints<Scalar> loops;
   Eigen::VectorX<Scalar> loop_gamma;  ///< γ of the loops in z: g̈ = G ż + γ
@@ -123,8 +124,8 @@ class DescriptorReference {
   std::vector<AbsoluteBody<Scalar>> absolute_state(Scalar t, const Eigen::VectorX<Scalar>& y,
                                                    const Eigen::VectorX<Scalar>& z) const;
 
-  /// Accelerations and forces at that state with inputs `u` in the order of the layout. The state is one of the open tree;
-  /// where it leaves the loops, they hold in accelerations all the same.
+  /// Accelerations and forces at that state with inputs `u` in the order of the layout. The state is one of
+  /// the open tree; where it leaves the loops, they hold in accelerations all the same.
   DescriptorSolution<Scalar> solve(Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z,
                                    const Eigen::VectorX<Scalar>& u) const;
 

@@ -1,5 +1,5 @@
-// Loop joints of the descriptor form: constraint rows over the absolute velocities of all bodies, and which combinations of
-// them say something that the tree's joints and the other rows do not.
+// Loop joints of the descriptor form: constraint rows over the absolute velocities of all bodies, and which
+// combinations of them say something that the tree's joints and the other rows do not.
 #pragma once
 
 #include <Eigen/Dense>
@@ -47,20 +47,20 @@ struct LoopRows {
   Eigen::VectorX<Scalar> value, rate, gamma;  ///< g, ġ and g̈ − jacobian ẋ at the given state
 };
 
-/// Rows at time `t` (s); `near` are the joints' scalar coordinates approximately, by joint (see `measure`): residuals see
-/// coordinates as the bodies' poses have them.
+/// Rows at time `t` (s); `near` are the joints' scalar coordinates approximately, by joint (see `measure`):
+/// residuals see coordinates as the bodies' poses have them.
 template <class Scalar>
 LoopRows<Scalar> loop_rows(const Parts<Scalar>& parts, Scalar t,
                            const std::vector<AbsoluteBody<Scalar>>& motions,
                            const std::vector<std::vector<Scalar>>& near);
 
-/// Share of the largest singular value below which a combination of loop rows counts as dependent. A model's numbers are
-/// rounded to double, so that rows which are dependent on paper differ by 1e-16 times a condition number.
+/// Share of the largest singular value below which a combination of loop rows counts as dependent. A model's
+/// numbers are rounded to double, so that rows which are dependent on paper differ by 1e-16 times a condition number.
 inline constexpr double kDependent = 1e-11;
 
 /// Combinations of loop rows, each divided by its length, that are independent of each other on the motions that
-/// `joint_rows` (of full rank) allow: orthonormal left singular vectors times those scales, of singular values above the share
-/// `dependent` of the largest. Shape rank × rows.
+/// `joint_rows` (of full rank) allow: orthonormal left singular vectors times those scales, of singular values
+/// above the share `dependent` of the largest. Shape rank × rows.
 template <class Scalar>
 Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& joint_rows,
                                                 const Eigen::MatrixX<Scalar>& loop_rows,

@@ -103,8 +103,8 @@ Eigen::VectorX<Scalar> DescriptorReference<Scalar>::with_least_loop_forces(
   return least;
 }
 
-/// What holds of the loops in the velocities z of the open tree, x = X z + x̄. As the joints' constraint forces do no work
-/// along X, what the bodies' momentum balance lacks along it is the loops' share.
+/// What holds of the loops in the velocities z of the open tree, x = X z + x̄. As the joints' constraint
+/// forces do no work along X, what the bodies' momentum balance lacks along it is the loops' share.
 template <class Scalar>
 void DescriptorReference<Scalar>::add_loops(const System& system, const Eigen::MatrixX<Scalar>& X,
                                             const Eigen::VectorX<Scalar>& xdot,

@@ -150,7 +150,8 @@ std::vector<AbsoluteBody<Scalar>> DescriptorReference<Scalar>::absolute_state(
   return bodies;
 }
 
-/// X of x = X z + x̄, the velocities (v_C, ω) of all bodies: 6 nb × nz. Velocities are linear in z, so differences say it.
+/// X of x = X z + x̄, the velocities (v_C, ω) of all bodies: 6 nb × nz. Velocities are linear in z, so
+/// differences say it.
 template <class Scalar>
 Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::tree_velocities(Scalar t, const Eigen::VectorX<Scalar>& y,
                                                                     const Eigen::VectorX<Scalar>& z) const {

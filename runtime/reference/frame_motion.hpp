@@ -12,8 +12,8 @@ Vector3<Scalar> cross_scale(const Vector3<Scalar>& a, const Vector3<Scalar>& b) 
   return {l.y() * r.z() + l.z() * r.y(), l.z() * r.x() + l.x() * r.z(), l.x() * r.y() + l.y() * r.x()};
 }
 
-/// Motion of a frame's origin and of the frame, all in inertial components. Columns belong to all scalar velocities, the
-/// prescribed ones too; a_bar and zeta_bar are the accelerations when none of those velocities changes.
+/// Motion of a frame's origin and of the frame, all in inertial components. Columns belong to all scalar
+/// velocities, the prescribed ones too; a_bar and zeta_bar are the accelerations when none of those velocities changes.
 template <class Scalar>
 struct Reference<Scalar>::FrameMotion {
   Matrix3<Scalar> R;

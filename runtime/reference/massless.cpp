@@ -26,7 +26,8 @@ State<long double> scattered_state(const model::CoordinateLayout& layout, int nu
   return state;
 }
 
-/// For each coordinate whether its pivot in `M` is at most `limit`. A pivot that is at most `least` has its row left out of the elimination.
+/// For each coordinate whether its pivot in `M` is at most `limit`. A pivot that is at most `least` has its
+/// row left out of the elimination.
 std::vector<bool> pivots_below(const MatrixX<long double>& M, const VectorX<long double>& limit,
                                const VectorX<long double>& least) {
   MatrixX<long double> A = M;

@@ -20,16 +20,16 @@ inline constexpr long double kMasslessPivot = 1e-13L;
 /// in some positions.
 std::vector<model::JointIndex> massless_joints(const model::Mechanism& mechanism);
 
-/// Joints whose pivot is negative, by more than rounding, at one of the same states: bodies with indefinite inertias can have a negative
-/// kinetic energy.
+/// Joints whose pivot is negative, by more than rounding, at one of the same states: bodies with indefinite
+/// inertias can have a negative kinetic energy.
 std::vector<model::JointIndex> negative_joints(const model::Mechanism& mechanism);
 
 /// A pivot this small against its row's term sum elsewhere is that of an angle which double rounds to the singular one:
 /// the square of 6e-17 for π/2.
 inline constexpr long double kSingularPivot = 1e-30L;
 
-/// Joints whose pivot vanishes at `state`, as in a gimbal's lock: rounding of its own terms, or kSingularPivot of those at
-/// another state.
+/// Joints whose pivot vanishes at `state`, as in a gimbal's lock: rounding of its own terms, or kSingularPivot
+/// of those at another state.
 std::vector<model::JointIndex> singular_joints(const model::Mechanism& mechanism,
                                                const State<long double>& state);
 

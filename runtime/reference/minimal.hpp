@@ -4,7 +4,8 @@
 // them. It shares no formula with the compiler's recursion, so that agreement of the two means something.
 // Clarity over speed.
 //
-//   v_C = J_t z + v̄   ω = J_r z + ω̄   a_C = J_t ż + ā   ω̇ = J_r ż + ζ̄   (v, a inertial; ω, ω̇ body-fixed components)
+//   v_C = J_t z + v̄   ω = J_r z + ω̄   a_C = J_t ż + ā   ω̇ = J_r ż + ζ̄
+//   (v, a inertial; ω, ω̇ body-fixed components)
 //
 //   M  =  Σ J_tᵀ m J_t + J_rᵀ I J_r
 //   k̄  = −Σ J_tᵀ m ā + J_rᵀ (I ζ̄ + ω × I ω)      inertia terms only
@@ -43,9 +44,9 @@ struct State {
   VectorX<Scalar> z;  ///< rad/s or m/s
 };
 
-/// Motion of a point and of the frame that it is fixed in: v = J_t z + v̄, ω = J_r z + ω̄, a = J_t ż + ā, ω̇ = J_r ż + ζ̄.
-/// A `*_scale` bounds its quantity from above, component by component: the same sums with every product replaced by its
-/// absolute value, so that cancellation shows.
+/// Motion of a point and of the frame that it is fixed in: v = J_t z + v̄, ω = J_r z + ω̄, a = J_t ż + ā, ω̇ =
+/// J_r ż + ζ̄. A `*_scale` bounds its quantity from above, component by component: the same sums with every
+/// product replaced by its absolute value, so that cancellation shows.
 template <class Scalar>
 struct BodyMotion {
   Matrix3<Scalar> R_WB;  ///< body to inertial components
@@ -73,8 +74,9 @@ struct Terms {
   Scalar kinetic_scale = 0, potential_scale = 0;
 };
 
-/// Entries of one output of the mechanism, member by member, matrices row by row: pose: position, rotation; velocity: v,
-/// ω; acceleration: a, ω̇; jacobian: J_t, J_r, v̄, ω̄, ā, ζ̄; reaction: force, moment; otherwise one number.
+/// Entries of one output of the mechanism, member by member, matrices row by row: pose: position, rotation;
+/// velocity: v, ω; acceleration: a, ω̇; jacobian: J_t, J_r, v̄, ω̄, ā, ζ̄; reaction: force, moment; otherwise
+/// one number.
 template <class Scalar>
 struct OutputValue {
   std::vector<Scalar> values, scales;
@@ -176,8 +178,8 @@ extern template class Reference<support::ScaledReal>;
 inline constexpr long double kNaturalShare = 1e-3L;
 
 /// Where every term of an entry vanishes with the same cosine, its term sum says nothing: rounding an angle of size 1
-/// moves the entry by the unit roundoff times its natural size, sqrt(M_ii M_jj) for M and as much for rows of k̄ and q̄,
-/// measured by M_scale. Adds kNaturalShare of that to the scales.
+/// moves the entry by the unit roundoff times its natural size, sqrt(M_ii M_jj) for M and as much for rows of
+/// k̄ and q̄, measured by M_scale. Adds kNaturalShare of that to the scales.
 template <class Scalar>
 void widen_scales(Terms<Scalar>& terms);
 

@@ -86,8 +86,8 @@ OutputValue<Scalar> Reference<Scalar>::output(const model::Output& output, const
 }
 
 /// Σ over the bodies that the joint carries of inertia wrench less applied wrench, about the child's origin, in child
-/// components. Springs and drives of the joint itself are part of what it transmits; the moment that accelerates a rotor
-/// is not.
+/// components. Springs and drives of the joint itself are part of what it transmits; the moment that
+/// accelerates a rotor is not.
 template <class Scalar>
 OutputValue<Scalar> Reference<Scalar>::reaction(std::size_t joint, const Forces& at,
                                                 const Accelerations& accelerations) const {

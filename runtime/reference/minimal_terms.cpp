@@ -40,8 +40,9 @@ Scalar backward_error(const Terms<Scalar>& terms, const VectorX<Scalar>& zdot) {
 template <class Scalar>
 Scalar condition(const MatrixX<Scalar>& M) {
   if (M.size() == 0) return 1;
-  // The smallest eigenvalue is the largest one of the inverse: where sizes differ by many orders, rounding of the largest entries
-  // would hide it. Entries of the inverse are as exact as those of M scaled to a unit diagonal allow.
+  // The smallest eigenvalue is the largest one of the inverse: where sizes differ by many orders, rounding of
+  // the largest entries would hide it. Entries of the inverse are as exact as those of M scaled to a unit
+  // diagonal allow.
   const VectorX<Scalar> d = M.diagonal().cwiseSqrt().cwiseInverse();
   const MatrixX<Scalar> factor = positive_inverse<Scalar>(d.asDiagonal() * M * d.asDiagonal());
   if (!d.allFinite() || factor.size() == 0) return std::numeric_limits<Scalar>::infinity();

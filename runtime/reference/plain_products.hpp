@@ -1,5 +1,6 @@
-// Products of matrices as plain loops: those that Eigen makes of expressions take a compiler longer than all else in the
-// references, and their matrices are small. Found where at least one of the operators below is in scope before Eigen's own.
+// Products of matrices as plain loops: those that Eigen makes of expressions take a compiler longer than all
+// else in the references, and their matrices are small. Found where at least one of the operators below is in
+// scope before Eigen's own.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,8 +37,8 @@ Scalar row_times_column(const StoredEntries<Scalar>& a, const StoredEntries<Scal
   return sum;
 }
 
-/// Whether Eigen multiplies each sum by a factor, of one: that makes the sum a number of its own, which raises the scale of
-/// a ScaledReal to its size. What emitted files say of errors shows it.
+/// Whether Eigen multiplies each sum by a factor, of one: that makes the sum a number of its own, which raises
+/// the scale of a ScaledReal to its size. What emitted files say of errors shows it.
 template <DenseExpression A, DenseExpression B>
 bool counts_as_number(const A& a, const B& b) {
   constexpr Eigen::Index kLargestUnrolled = 20;  // EIGEN_GEMM_TO_COEFFBASED_THRESHOLD

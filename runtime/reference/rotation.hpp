@@ -64,8 +64,8 @@ Vector3<Scalar> vector_value(const model::Vector3& vector, std::span<const Scala
   return {vector[0].evaluate(parameters), vector[1].evaluate(parameters), vector[2].evaluate(parameters)};
 }
 
-/// R = Rz(yaw) Ry(pitch) Rx(roll) at the given parameter values. With `snap`, constant angles that are a multiple of a quarter turn but
-/// for model::kQuarterRounding are that multiple.
+/// R = Rz(yaw) Ry(pitch) Rx(roll) at the given parameter values. With `snap`, constant angles that are a
+/// multiple of a quarter turn but for model::kQuarterRounding are that multiple.
 template <class Scalar>
 Matrix3<Scalar> rotation_value(const model::Rotation& rotation, std::span<const Scalar> parameters,
                                bool snap) {

@@ -54,8 +54,8 @@ struct AdaptiveRun {
   bool finished = false;
 };
 
-/// Solution at `times` (s, ascending). Where loops are open by more than `tolerance` at one of them they are closed, and the
-/// integrator starts anew. Gives up beyond `call_limit` calls of f.
+/// Solution at `times` (s, ascending). Where loops are open by more than `tolerance` at one of them they are
+/// closed, and the integrator starts anew. Gives up beyond `call_limit` calls of f.
 AdaptiveRun follow(AdaptiveIntegrator& integrator, const CountedRates& rates,
                    const std::vector<double>& times, double tolerance, long call_limit);
 

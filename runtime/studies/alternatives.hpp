@@ -1,6 +1,6 @@
 // What else one could integrate emitted code with, at the same error as the recommended step: CVODE and an adaptive
-// Dormand-Prince pair on the emitted right-hand side, and semi-implicit Euler at 2 ms, as physics engines for games and learning
-// step by default.
+// Dormand-Prince pair on the emitted right-hand side, and semi-implicit Euler at 2 ms, as physics engines for
+// games and learning step by default.
 #pragma once
 
 #include <optional>
@@ -33,9 +33,10 @@ struct Alternatives {
   std::vector<Alternative> rows;  ///< the recommended step first; empty where nothing was recommended
 };
 
-/// Runs the recommended step, and each adaptive integrator at the loosest of its tolerances (10^(-k/3), k = 3, 4, …, tried in this
-/// order) that keeps the error asked for: `tolerance`, or that of the recommended step. Where none does within `seconds` of work
-/// the most accurate run stands in its place. Runs are timed in turns, whole, inputs sampled as functions of time.
+/// Runs the recommended step, and each adaptive integrator at the loosest of its tolerances (10^(-k/3), k = 3,
+/// 4, …, tried in this order) that keeps the error asked for: `tolerance`, or that of the recommended step.
+/// Where none does within `seconds` of work the most accurate run stands in its place. Runs are timed in
+/// turns, whole, inputs sampled as functions of time.
 Alternatives study_alternatives(const Flow<double>& flow, const Advice& advice,
                                 const std::optional<double>& tolerance, double sampling,
                                 const ReferenceSolution& reference, double seconds, const Progress& progress);

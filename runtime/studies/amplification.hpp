@@ -26,8 +26,8 @@ const StabilityFunction* stability_function(std::string_view method);
 /// |R(x)|, or the largest root of the multistep recursion, at x = hµ. Not for partitioned methods.
 double amplification(const StabilityFunction& function, std::complex<double> x);
 
-/// Matrix of one step of length h (s) on x' = A x, A 2nz × 2nz with positions first. One-step methods with a polynomial, and
-/// partitioned ones.
+/// Matrix of one step of length h (s) on x' = A x, A 2nz × 2nz with positions first. One-step methods with a
+/// polynomial, and partitioned ones.
 Eigen::MatrixXd step_matrix(const StabilityFunction& function, const Eigen::MatrixXd& A, double h);
 
 /// Largest |eigenvalue|.
@@ -48,8 +48,8 @@ double step_limit(const StabilityFunction& function, const Eigen::MatrixXd& A, d
 /// Whether some piece of the imaginary axis from 0 on is stable.
 bool keeps_oscillations(const StabilityFunction& function);
 
-/// Boundary of the region |R(x)| ≤ 1 in the x = hµ plane, one closed curve. Empty for partitioned methods and regions that are
-/// not bounded.
+/// Boundary of the region |R(x)| ≤ 1 in the x = hµ plane, one closed curve. Empty for partitioned methods and
+/// regions that are not bounded.
 std::vector<std::complex<double>> region_boundary(const StabilityFunction& function);
 
 }  // namespace jourdain::studies

@@ -1,5 +1,6 @@
-// The pair of orders 5 and 4 of Dormand and Prince, A family of embedded Runge-Kutta formulae, J. Comp. Appl. Math. 6 (1980),
-// with the starting step and the step control of Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, II.4.
+// The pair of orders 5 and 4 of Dormand and Prince, A family of embedded Runge-Kutta formulae, J. Comp. Appl.
+// Math. 6 (1980), with the starting step and the step control of Hairer, Nørsett and Wanner, Solving Ordinary
+// Differential Equations I, II.4.
 #pragma once
 
 #include <array>

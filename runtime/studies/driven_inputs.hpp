@@ -24,8 +24,8 @@ class ExpressionInputs : public Inputs {
   std::vector<double> parameters_;
 };
 
-/// Inputs that make every coordinate follow its motion: the forces that inverse dynamics says are missing, each given to the
-/// first actuator of its coordinate.
+/// Inputs that make every coordinate follow its motion: the forces that inverse dynamics says are missing,
+/// each given to the first actuator of its coordinate.
 class FollowingInputs : public Inputs {
  public:
   /// The tables must outlive this; `long_table` may be null where no 50 digits are asked for.

@@ -106,7 +106,8 @@ class Comparison {
     return result;
   }
 
-  /// Σ_j |M_ij| |ż_j| + Σ_k |∂r_i/∂x_k| |x_k|: what rounding the accelerations and the state once would change in a row; the time too.
+  /// Σ_j |M_ij| |ż_j| + Σ_k |∂r_i/∂x_k| |x_k|: what rounding the accelerations and the state once would change
+  /// in a row; the time too.
   VectorXd row_scales(const MatrixXd& M, const VectorXd& zdot, double t, const std::vector<double>& x) const {
     const auto n = static_cast<Eigen::Index>(flow_.table().velocity_count);
     if (flow_.has_loops()) return M.cwiseAbs() * zdot.cwiseAbs() + by_entries(M, t, x);
@@ -122,7 +123,8 @@ class Comparison {
            (M * by_time(t, x)).cwiseAbs();
   }
 
-  /// The same where positions depend on each other, by differences: through the loops each has the rounding of the largest.
+  /// The same where positions depend on each other, by differences: through the loops each has the rounding of
+  /// the largest.
   VectorXd by_entries(const MatrixXd& M, double t, const std::vector<double>& x) const {
     const auto ny = static_cast<Eigen::Index>(flow_.position_count());
     const MatrixXd J = jacobian(flow_, {t, x}, std::cbrt(2 * flow_.table().unit_roundoff));

@@ -1,5 +1,5 @@
-// What a model's accelerations are worth far from where it usually is: velocities, angles and tunable parameters swept over
-// many orders of magnitude, the working precision against 50 digits.
+// What a model's accelerations are worth far from where it usually is: velocities, angles and tunable
+// parameters swept over many orders of magnitude, the working precision against 50 digits.
 #pragma once
 
 #include <string>
@@ -17,7 +17,8 @@ struct ExtremePoint {
   double factor = 1;  ///< of the quantity; of angles: what is added, rad
   /// Worst row of M δż, δż the error of ż, over what rounding ż and the state once would change in it:
   /// Σ_j |M_ij| |ż_j| + Σ_k |∂r_i/∂x_k| |x_k| with r = M ż − k̄ + q̄. Not a number with multipliers, whose
-  /// rounding these terms do not cover; with other loops every position counts as large as the largest, whose rounding it has.
+  /// rounding these terms do not cover; with other loops every position counts as large as the largest, whose
+  /// rounding it has.
   double backward = 0;
   double forward = 0;  ///< ‖δż‖ / ‖ż‖
   bool finite = true;  ///< accelerations are finite in the working precision; else the errors say nothing
@@ -29,8 +30,10 @@ struct ExtremeSweep {
   std::vector<ExtremePoint> points;
 };
 
-/// `tangent` is that of the independent coordinates. One sweep of velocities (factors 1e-6 … 1e6), of angles (1 … 1e9 rad added to each), and of every tunable parameter
-/// (1e-6 … 1e6 times its value; then the loops are closed again). With loops angles are left out, which depend on each other. Empty where the table has no derivatives. The state is the same in both precisions. Afterwards both tables have `parameters` again.
+/// `tangent` is that of the independent coordinates. One sweep of velocities (factors 1e-6 … 1e6), of angles
+/// (1 … 1e9 rad added to each), and of every tunable parameter (1e-6 … 1e6 times its value; then the loops are
+/// closed again). With loops angles are left out, which depend on each other. Empty where the table has no
+/// derivatives. The state is the same in both precisions. Afterwards both tables have `parameters` again.
 std::vector<ExtremeSweep> study_extremes(const model::Mechanism& mechanism, const model::Tangent& tangent,
                                          const std::vector<double>& parameters, const Flow<double>& flow,
                                          const Flow<LongReal>& long_flow, const ReferenceSolution& reference,

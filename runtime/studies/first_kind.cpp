@@ -23,8 +23,8 @@ VectorXd to_vector(const std::vector<double>& values) {
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// y and z of the tree at a state of the flow, whose velocities may be the independent ones alone: the rates of the positions tell
-/// all of them.
+/// y and z of the tree at a state of the flow, whose velocities may be the independent ones alone: the rates
+/// of the positions tell all of them.
 class TreeStates {
  public:
   TreeStates(const model::Mechanism& mechanism, const Flow<double>& flow)

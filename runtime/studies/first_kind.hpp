@@ -1,7 +1,8 @@
 // Generalized coordinates against equations of the first kind: the same scene in descriptor form (absolute coordinates,
 // multipliers), plain and projected onto its constraints after each step, beside the numeric reference in minimal
-// coordinates. These three are plain numeric code with the same classical Runge-Kutta method, so that their times compare. Where the
-// scene was compiled as free bodies as well, emitted code in both coordinates is compared in the same way.
+// coordinates. These three are plain numeric code with the same classical Runge-Kutta method, so that their
+// times compare. Where the scene was compiled as free bodies as well, emitted code in both coordinates is
+// compared in the same way.
 #pragma once
 
 #include <string>
@@ -37,8 +38,9 @@ struct EmittedFreeBodies {
   Flow<double> flow;
 };
 
-/// Curves over `steps` (s, descending, divisors of `sampling`), each as far as `seconds` of work allow. `parameters` in the
-/// mechanism's order; `reference` is of `flow`. `free` may be null. With loops there are no plain minimal coordinates to compare with.
+/// Curves over `steps` (s, descending, divisors of `sampling`), each as far as `seconds` of work allow.
+/// `parameters` in the mechanism's order; `reference` is of `flow`. `free` may be null. With loops there are
+/// no plain minimal coordinates to compare with.
 std::vector<FormCurve> study_forms(const model::Mechanism& mechanism, const std::vector<double>& parameters,
                                    const Flow<double>& flow, const EmittedFreeBodies* free,
                                    const std::vector<double>& steps, double sampling,

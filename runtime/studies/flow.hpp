@@ -58,8 +58,8 @@ class Flow {
 
   bool has_loops() const { return table_.correct != nullptr; }
 
-  /// The state that the description starts from, or the one that was set, after a step of no length: its quaternions have
-  /// unit length in this number type, and its loops are closed, if they can be from there.
+  /// The state that the description starts from, or the one that was set, after a step of no length: its
+  /// quaternions have unit length in this number type, and its loops are closed, if they can be from there.
   Point<Real> start() const;
   void set_start(const std::vector<double>& x) { start_ = x; }
   /// From now on steps get inputs as numbers, those of their begin, and hold them.
@@ -68,8 +68,8 @@ class Flow {
   std::vector<Real> rates(const Real& t, const std::vector<Real>& x) const;
   /// An empty memory for `method`.
   Memory fresh_memory(const jourdain_method& method) const;
-  /// A memory that holds the rates at `earlier` points, newest first; as many as `method` remembers. A fresh one for methods that
-  /// remember no rates.
+  /// A memory that holds the rates at `earlier` points, newest first; as many as `method` remembers. A fresh
+  /// one for methods that remember no rates.
   Memory memory_of(const jourdain_method& method, const std::vector<Point<Real>>& earlier) const;
   /// `count` steps of length h; inputs are sampled at the stages, unless they are held.
   void step(const jourdain_method& method, Point<Real>& point, double h, long count, Memory& memory) const;
@@ -82,7 +82,8 @@ class Flow {
   Point<Real> closed(Point<Real> point) const;
   /// Of the last call of `step` on this thread; there must be loops.
   jourdain_closing last_closing() const;
-  /// Was the closing regular, and were positions within the ranges for which it is proven, in all steps of the last call of `step`?
+  /// Was the closing regular, and were positions within the ranges for which it is proven, in all steps of the
+  /// last call of `step`?
   bool is_trusted() const;
   /// Largest |g| and |dg/dt| over all rows; zero where there are no loops.
   Residuals residuals(const Point<Real>& point) const;

@@ -144,8 +144,8 @@ class Rewriting {
     return model::FrameIndex(free_.frames.size() - 1);
   }
 
-  /// Along the axis, which has the same components in both frames, on the child and against it on the parent. Forces of a prismatic
-  /// joint have one line of action.
+  /// Along the axis, which has the same components in both frames, on the child and against it on the parent.
+  /// Forces of a prismatic joint have one line of action.
   void act(std::size_t index, model::FrameIndex on_parent, model::FrameIndex on_child) {
     const Joint& joint = given_.joints[index];
     Expression effort = driving(index);

@@ -24,7 +24,8 @@ struct Modes {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd right;  ///< columns, in the coordinates of A
   Eigen::MatrixXd
-      participations;  ///< nz × 2nz: share of each coordinate, position and velocity together, in a mode; columns sum to 1
+      /// nz × 2nz: share of each coordinate, position and velocity together, in a mode; columns sum to 1
+      participations;
   Eigen::VectorXd scales;  ///< of the coordinates; balance A
   bool defective = false;  ///< eigenvectors as good as dependent: participations say little
 };

@@ -50,8 +50,8 @@ double log_inertia(const Flow<double>& flow, const Point<double>& point,
   return std::log(std::fabs(reference::determinant<double>(B.transpose() * MB)));
 }
 
-/// Rate (1/s) at which volumes in phase space shrink, of coordinates and momenta: in (y, z) a volume changes with det Bᵀ M B too,
-/// which damps nothing.
+/// Rate (1/s) at which volumes in phase space shrink, of coordinates and momenta: in (y, z) a volume changes
+/// with det Bᵀ M B too, which damps nothing.
 double shrinking(const Flow<double>& flow, const Local& local, const model::Tangent& tangent) {
   const std::size_t positions = flow.position_count();
   double speed = 0;
@@ -91,8 +91,9 @@ std::vector<Index> oscillations_of(const Modes& modes) {
   return list;
 }
 
-/// Frozen eigenvalues wander off to both sides as the scene moves. Each oscillation gets the mean damping ratio −Re µ/|µ| of
-/// those of its rank by |µ| along the way, where there are as many everywhere; none where that is little beside what they wander.
+/// Frozen eigenvalues wander off to both sides as the scene moves. Each oscillation gets the mean damping
+/// ratio −Re µ/|µ| of those of its rank by |µ| along the way, where there are as many everywhere; none where
+/// that is little beside what they wander.
 void average_damping(std::vector<Local>& locals) {
   std::vector<std::vector<Index>> ranked;
   for (const Local& local : locals) ranked.push_back(oscillations_of(local.modes));

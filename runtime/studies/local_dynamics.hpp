@@ -10,8 +10,8 @@
 
 namespace jourdain::studies {
 
-/// The linear system at one time, of the motions that keep the loops closed. The reference that it comes from must outlive
-/// it.
+/// The linear system at one time, of the motions that keep the loops closed. The reference that it comes from
+/// must outlive it.
 struct Local {
   const Point<double>* point = nullptr;
   LocalCoordinates coordinates;
@@ -37,8 +37,9 @@ std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& 
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,
                      const std::vector<Local>& locals, const model::Tangent& tangent, bool conserves_energy);
 
-/// rms(ż) over rms(z) along the trajectory, weighed by M, 1/s: a stiff coordinate that vibrates or settles counts with the little
-/// energy that it has. At least half the largest rate at which a quaternion turns, and one over the duration.
+/// rms(ż) over rms(z) along the trajectory, weighed by M, 1/s: a stiff coordinate that vibrates or settles
+/// counts with the little energy that it has. At least half the largest rate at which a quaternion turns, and
+/// one over the duration.
 double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference,
                        const model::Tangent& tangent);
 

@@ -19,12 +19,13 @@ struct LoopRun {
   bool finite = true;  ///< false: up to the step that was not
 };
 
-/// When the first step ended, of `h` (s) over `duration` (s) by the table's first method, whose closing is not to be trusted; none where
-/// all are, and without loops.
+/// When the first step ended, of `h` (s) over `duration` (s) by the table's first method, whose closing is not
+/// to be trusted; none where all are, and without loops.
 std::optional<double> first_untrusted(const Flow<double>& flow, double h, double duration);
 
-/// Runs over `duration` (s) with the recommended step, and with ten times that step. Without a recommendation the cheapest
-/// point of the study within 1e-6 (rad, m) takes its place, or the most accurate one. Empty where there are no loops.
+/// Runs over `duration` (s) with the recommended step, and with ten times that step. Without a recommendation
+/// the cheapest point of the study within 1e-6 (rad, m) takes its place, or the most accurate one. Empty where
+/// there are no loops.
 std::vector<LoopRun> study_loops(const Flow<double>& flow, const WorkPrecision& work, const Advice* advice,
                                  double duration);
 

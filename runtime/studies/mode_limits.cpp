@@ -21,8 +21,8 @@ bool is_fast(Complex mu, const Scene& scene) {
   return std::abs(mu) > kAbove * scene.rate;
 }
 
-/// Methods that let every undamped mode grow get the h up to which one grows e-fold over the whole trajectory: that is what
-/// competes with the limits of damped modes.
+/// Methods that let every undamped mode grow get the h up to which one grows e-fold over the whole trajectory:
+/// that is what competes with the limits of damped modes.
 double limit_of_mode(const StabilityFunction& function, Complex mu, ModeKind kind, const Scene& scene) {
   const Complex oscillation(0, std::abs(mu));
   switch (kind) {
@@ -94,8 +94,8 @@ double stated(const MethodLimit& limit, const StabilityFunction* function) {
   return none && limit.h < INFINITY ? 0 : limit.h;
 }
 
-/// Do frozen coefficients hold: is `decisive`, the smallest of `limits`, of a mode that outpaces every change of them, or are they
-/// all the same?
+/// Do frozen coefficients hold: is `decisive`, the smallest of `limits`, of a mode that outpaces every change
+/// of them, or are they all the same?
 bool predicts(const MethodLimit& decisive, const std::vector<MethodLimit>& limits, const Scene& scene) {
   constexpr double kOutpaces = 30, kSame = 1.02, kFewestSteps = 4;
   if (decisive.kind == ModeKind::kGrowing || !(decisive.h < scene.duration / kFewestSteps)) return false;

@@ -1,15 +1,17 @@
 // The largest stable step of each method at each time, from the modes of the linearisation.
 //
-// Frozen eigenvalues wander off to both sides of what they are in the mean as a scene moves: oscillations are judged with their mean
-// damping ratio along the trajectory, none where that is less than a tenth of what they wander. A mode counts as *damped* or *growing*
-// by its sign, as *undamped* without damping. In a scene that damps nothing (energy is conserved, or volumes in the phase space of coordinates and momenta
-// do not shrink) every mode that rather oscillates is undamped. *Fast* modes, |µ| above three times the trajectory's own rate, are those that a
-// method need not follow but has to survive: they decide; slow ones only where no fast one has a limit. Frozen coefficients predict
-// a limit only while they hardly change: of modes above thirty times that rate, or where the limits at all points agree, and at steps of
-// which four or more make the time. Of growing modes nothing is predicted. Elsewhere
-// the smallest of the points' limits is no more than an estimate, and runs alone say what is stable. A method that lets every
-// undamped mode grow has no stable step ("none: undamped mode") unless a damped mode asks for a step so short that undamped ones
-// grow less than e-fold over the trajectory.
+// Frozen eigenvalues wander off to both sides of what they are in the mean as a scene moves: oscillations are
+// judged with their mean damping ratio along the trajectory, none where that is less than a tenth of what they
+// wander. A mode counts as *damped* or *growing* by its sign, as *undamped* without damping. In a scene that
+// damps nothing (energy is conserved, or volumes in the phase space of coordinates and momenta do not shrink)
+// every mode that rather oscillates is undamped. *Fast* modes, |µ| above three times the trajectory's own
+// rate, are those that a method need not follow but has to survive: they decide; slow ones only where no fast
+// one has a limit. Frozen coefficients predict a limit only while they hardly change: of modes above thirty
+// times that rate, or where the limits at all points agree, and at steps of which four or more make the time.
+// Of growing modes nothing is predicted. Elsewhere the smallest of the points' limits is no more than an
+// estimate, and runs alone say what is stable. A method that lets every undamped mode grow has no stable step
+// ("none: undamped mode") unless a damped mode asks for a step so short that undamped ones grow less than
+// e-fold over the trajectory.
 #pragma once
 
 #include <complex>
@@ -52,7 +54,8 @@ double largest_stable_step(const MethodLimit& limit);
 
 ModeKind kind_of(std::complex<double> mu, const Scene& scene);
 
-/// Limits of one method at each of `locals` where they predict anything, and the smallest one that decides; method 0 in all of them.
+/// Limits of one method at each of `locals` where they predict anything, and the smallest one that decides;
+/// method 0 in all of them.
 struct LimitsAlong {
   std::vector<double> limits;  ///< s; 0: none is stable, infinity: no limit is known
   MethodLimit smallest;

@@ -136,8 +136,8 @@ class Runs {
   Budget& budget_;
 };
 
-/// h that holds and h that diverges: 5 % on both sides of `predicted`, or a step of kWidening apart around it. Beyond a limit a
-/// nonlinear scene may hold again.
+/// h that holds and h that diverges: 5 % on both sides of `predicted`, or a step of kWidening apart around it.
+/// Beyond a limit a nonlinear scene may hold again.
 std::optional<std::pair<double, double>> bracket(const Runs& runs, double predicted) {
   constexpr double kNear = 1.05;
   if (runs.diverges(predicted * kNear) == true && runs.diverges(predicted / kNear) == false)

@@ -15,7 +15,8 @@ enum class ReferenceKind { kAutomatic, kExtrapolation, kCvode };
 /// Reports what is being done and how much of it is, from 0 to 1.
 using Progress = std::function<void(const std::string& what, double done)>;
 
-/// States at start.t + k `interval`. Shorter than asked for where solutions with two tolerances part by more than kParted.
+/// States at start.t + k `interval`. Shorter than asked for where solutions with two tolerances part by more
+/// than kParted.
 struct ReferenceSolution {
   std::string method;                  ///< in words
   double interval = 0;                 ///< s
@@ -32,7 +33,8 @@ inline constexpr double kParted = 1e-6;
 
 /// By extrapolation on `long_flow` where there is one and its cost allows, otherwise by CVODE on `flow`. `interval`
 /// times `count` is the duration (s); the times between are kept as well, by extrapolation in intervals of `interval`
-/// / 2^k, as fine as `seconds` of work allow, by CVODE of an eighth. Throws EnvironmentError where no method gets through.
+/// / 2^k, as fine as `seconds` of work allow, by CVODE of an eighth. Throws EnvironmentError where no method
+/// gets through.
 ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>* long_flow,
                                   ReferenceKind kind, double interval, long count, int halvings,
                                   double seconds, const Progress& progress);

@@ -26,7 +26,8 @@ struct ReportHead {
 /// For a terminal, lines of 110 characters at most.
 std::string report_text(const ReportHead& head, const jourdain_model_table& table, const Study& study);
 
-/// work_precision.csv, error_sources.csv, stability.csv, extremes.csv, first_kind.csv, loops.csv, alternatives.csv: as far as the study has them.
+/// work_precision.csv, error_sources.csv, stability.csv, extremes.csv, first_kind.csv, loops.csv,
+/// alternatives.csv: as far as the study has them.
 std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain_model_table& table,
                                           const Study& study);
 

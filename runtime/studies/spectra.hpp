@@ -1,4 +1,5 @@
-// Decompositions that need complex numbers, and the matrix exponential, compiled once: see reference/decompositions.hpp.
+// Decompositions that need complex numbers, and the matrix exponential, compiled once: see
+// reference/decompositions.hpp.
 #pragma once
 
 #include <Eigen/Core>

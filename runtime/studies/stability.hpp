@@ -1,5 +1,5 @@
-// Which step lengths a method survives on a trajectory: predicted from the eigenvalues of the linearisation along it, and
-// observed by runs that diverge or do not.
+// Which step lengths a method survives on a trajectory: predicted from the eigenvalues of the linearisation
+// along it, and observed by runs that diverge or do not.
 #pragma once
 
 #include <complex>
@@ -42,11 +42,12 @@ struct Stability {
   std::string transient_method;  ///< whose R that is; empty: not looked at
 };
 
-/// The longest limit of all methods that have one, where a damped fast mode decides on it and the motion itself would allow far
-/// longer steps. Null where the scene is not stiff.
+/// The longest limit of all methods that have one, where a damped fast mode decides on it and the motion
+/// itself would allow far longer steps. Null where the scene is not stiff.
 const MethodLimit* stiff_limit(const Stability& stability);
 
-/// Along `reference`; `tangent` is that of the independent coordinates and says which entries of y are quaternions. `seconds` of nominal work at most, see work.hpp.
+/// Along `reference`; `tangent` is that of the independent coordinates and says which entries of y are
+/// quaternions. `seconds` of nominal work at most, see work.hpp.
 Stability study_stability(const Flow<double>& flow, const ReferenceSolution& reference,
                           const model::Tangent& tangent, bool conserves_energy, double seconds,
                           const Progress& progress);
@@ -63,21 +64,22 @@ struct LimitRuns {
 };
 
 /// Bisects around the predicted limit. What diverges depends on the mode:
-/// - undamped: a velocity is not finite or ten times the largest of the reference (entries count with a hundredth of the
-///   largest at least), within 2000 steps at least;
-/// - damped, `stiff`: a velocity is that largest one off a run with an eighth of the step, within 2000 steps at least. Such runs
-///   often settle on a false oscillation before they get to ten times;
-/// - damped: displaced and undisplaced run are a hundred times as far apart as those with an eighth of the step have been,
-///   within 500 steps at least, or ten times the largest velocity: both may settle on the same false oscillation. Neither
-///   resonance nor trajectories that part by themselves count.
-/// Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, where a million steps and the time do for
-/// that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted one, or the budget is spent.
+/// - undamped: a velocity is not finite or ten times the largest of the reference (entries count with a
+///   hundredth of the largest at least), within 2000 steps at least;
+/// - damped, `stiff`: a velocity is that largest one off a run with an eighth of the step, within 2000 steps
+///   at least. Such runs often settle on a false oscillation before they get to ten times;
+/// - damped: displaced and undisplaced run are a hundred times as far apart as those with an eighth of the
+///   step have been, within 500 steps at least, or ten times the largest velocity: both may settle on the same
+///   false oscillation. Neither resonance nor trajectories that part by themselves count.
+/// Runs are long enough for a difference to grow e⁴⁰-fold 2 % beyond the limit, where a million steps and the
+/// time do for that. None where runs diverge or hold at every h tried, from 0.28 to 3.6 times the predicted
+/// one, or the budget is spent.
 std::optional<ObservedLimit> observe_limit(const Flow<double>& flow, const jourdain_method& method,
                                            const LimitRuns& runs, Budget& budget);
 
-/// Of a method for which linear theory gives no limit: runs from the start over `duration` (s), with steps from an eighth of it
-/// down. One fails where a velocity is not finite or ten times the `largest` of the reference. Either the longest h that held
-/// when no run failed, or the shortest that failed, to 1 %.
+/// Of a method for which linear theory gives no limit: runs from the start over `duration` (s), with steps
+/// from an eighth of it down. One fails where a velocity is not finite or ten times the `largest` of the
+/// reference. Either the longest h that held when no run failed, or the shortest that failed, to 1 %.
 struct NonlinearLimit {
   std::optional<ObservedLimit> fails;
   std::optional<double> holds;  ///< s

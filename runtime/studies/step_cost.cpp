@@ -190,7 +190,8 @@ Stepping moved(Stepping stepping, const std::function<void(std::vector<double>&)
   return stepping;
 }
 
-/// Fills in what steps from other states cost, over steps from one on the way: at a start in rest many numbers are zero.
+/// Fills in what steps from other states cost, over steps from one on the way: at a start in rest many numbers
+/// are zero.
 void compare_states(Stepping plain, const Flow<double>& flow, const std::vector<bool>& angular,
                     StepCost& cost) {
   plain.rewind();

@@ -22,7 +22,8 @@ struct StepCost {
   std::size_t method = 0;
   Quantiles warm;  ///< one after the other along the motion
   Quantiles cold;  ///< each after data of twice the last cache's size was read and written
-  /// Medians of steps from changed states over that from a state along the motion. Velocities whose products are subnormal:
+  /// Medians of steps from changed states over that from a state along the motion. Velocities whose products
+  /// are subnormal:
   double subnormal = 0;
   std::optional<double> flushed;            ///< those flushed to zero; where the processor can
   std::optional<double> thousand, million;  ///< so many rad of whole turns on all angles; where there are any
@@ -43,7 +44,8 @@ std::size_t evicting_bytes();
 /// Velocity (rad/s, m/s) whose square is subnormal in numbers of that unit roundoff: 1e-160 in double, 1e-20 in float.
 double faint_velocity(double unit_roundoff);
 
-/// For every method of the table; inputs are those of the start, held. `angular` tells of each position whether it is an angle.
+/// For every method of the table; inputs are those of the start, held. `angular` tells of each position
+/// whether it is an angle.
 std::vector<StepCost> measure_step_costs(const Flow<double>& flow, const std::vector<bool>& angular,
                                          const StepCostOptions& options, const Progress& progress);
 

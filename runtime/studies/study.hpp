@@ -64,12 +64,14 @@ struct Study {
   std::optional<Advice> advice;
   Alternatives alternatives;   ///< to the recommended step
   std::vector<LoopRun> loops;  ///< empty without loops
-  /// s: when the loops' closing turns singular, or leaves what is proven, at the shortest step; then there is no advice.
+  /// s: when the loops' closing turns singular, or leaves what is proven, at the shortest step; then there is
+  /// no advice.
   std::optional<double> untrusted_from;
 };
 
-/// `long_flow` may be null: no 50 digits then; `free` too: no emitted code of the first kind. Inputs and starts of the flows are the same. `tangent` is that of the emitted
-/// State, of the independent coordinates; `parameters` in the mechanism's order.
+/// `long_flow` may be null: no 50 digits then; `free` too: no emitted code of the first kind. Inputs and
+/// starts of the flows are the same. `tangent` is that of the emitted State, of the independent coordinates;
+/// `parameters` in the mechanism's order.
 Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent,
                 const std::vector<double>& parameters, const Flow<double>& flow,
                 const Flow<LongReal>* long_flow, const EmittedFreeBodies* free, const StudyOptions& options,

@@ -1,4 +1,5 @@
-// Work that is counted instead of timed: what a study finds out depends neither on the machine nor on what else it does.
+// Work that is counted instead of timed: what a study finds out depends neither on the machine nor on what
+// else it does.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,8 @@ inline double long_step_time(const jourdain_method& method) {
   return kLongOperationTime * static_cast<double>(method.operations + 10);
 }
 
-/// Of the rates of a state in 50 digits: a step of the method that asks for them at the least cost, for each time it asks.
+/// Of the rates of a state in 50 digits: a step of the method that asks for them at the least cost, for each
+/// time it asks.
 inline double long_rates_time(const jourdain_model_table& table) {
   double least = 0;
   for (int m = 0; m < table.method_count; ++m) {

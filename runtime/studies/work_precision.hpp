@@ -43,8 +43,8 @@ ErrorNorms errors_at(const std::vector<double>& x, const std::vector<double>& re
 /// Least and quartiles of some samples.
 StepTime spread_of(std::vector<double> samples);
 
-/// Runs steps of length h and compares with the reference at every multiple of `sampling` (s), a multiple of h and of the
-/// reference's interval.
+/// Runs steps of length h and compares with the reference at every multiple of `sampling` (s), a multiple of h
+/// and of the reference's interval.
 WorkPoint measure_errors(const Flow<double>& flow, std::size_t method, double h, double sampling,
                          const ReferenceSolution& reference, bool conserves_energy);
 
@@ -53,18 +53,18 @@ WorkPoint measure_errors(const Flow<double>& flow, std::size_t method, double h,
 std::vector<StepTime> measure_step_times(const jourdain_model_table& table, const Point<double>& start,
                                          const std::vector<double>& inputs, double h);
 
-/// Steps (s, descending) longer than `sampling`, 2, 4, 8, … times as long or a little more: whole numbers of them make the
-/// reference's time and whole numbers of its intervals a step. Ten steps at least.
+/// Steps (s, descending) longer than `sampling`, 2, 4, 8, … times as long or a little more: whole numbers of
+/// them make the reference's time and whole numbers of its intervals a step. Ten steps at least.
 std::vector<double> longer_steps(const ReferenceSolution& reference, double sampling);
 
-/// Points for every method and every step of `steps` (s, descending). Errors of steps longer than `sampling` are taken after
-/// each step.
+/// Points for every method and every step of `steps` (s, descending). Errors of steps longer than `sampling`
+/// are taken after each step.
 WorkPrecision study_work_precision(const Flow<double>& flow, const std::vector<double>& steps,
                                    double sampling, const ReferenceSolution& reference, bool conserves_energy,
                                    const std::vector<double>& held_inputs, const Progress& progress);
 
-/// Halves the shortest step `h` (s) as long as no point is within `tolerance` and the least error falls, 4096 steps an interval of
-/// `sampling` and `seconds` of nominal work at most. The steps that were added, descending.
+/// Halves the shortest step `h` (s) as long as no point is within `tolerance` and the least error falls, 4096
+/// steps an interval of `sampling` and `seconds` of nominal work at most. The steps that were added, descending.
 std::vector<double> go_on_to_shorter_steps(WorkPrecision& study, double h, double tolerance,
                                            const Flow<double>& flow, double sampling,
                                            const ReferenceSolution& reference, bool conserves_energy,
@@ -76,9 +76,9 @@ void judge_orders(WorkPrecision& study, const ReferenceSolution& reference);
 /// Marks the points that no other one beats in both run time and largest position error.
 void mark_pareto_front(std::vector<WorkPoint>& points);
 
-/// Slope of log(error) over log(h) of the errors that are well above `floor`: extrapolated to h = 0 from the two slopes at the
-/// shortest steps where these agree; otherwise of a line through the last five points, where its standard error is below 0.3.
-/// `h` falls.
+/// Slope of log(error) over log(h) of the errors that are well above `floor`: extrapolated to h = 0 from the
+/// two slopes at the shortest steps where these agree; otherwise of a line through the last five points, where
+/// its standard error is below 0.3. `h` falls.
 std::optional<double> measured_order(const std::vector<double>& h, const std::vector<double>& errors,
                                      double floor);
 

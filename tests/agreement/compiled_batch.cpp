@@ -17,8 +17,8 @@ namespace {
 using Evaluate = void (*)(double t, const double* p, const double* y, const double* z, const double* u,
                           const double* zdot, double h, double* results);
 
-/// Generic over Model: functions are found by argument-dependent lookup, sizes are the model's, and what a scene does not
-/// have is left out. Outputs are nothing but numbers.
+/// Generic over Model: functions are found by argument-dependent lookup, sizes are the model's, and what a
+/// scene does not have is left out. Outputs are nothing but numbers.
 constexpr const char* kDriver = R"(
 template <class State, class Real>
 auto set_time(State& state, Real t, int) -> decltype(void(state.t)) { state.t = t; }

@@ -1,5 +1,5 @@
-// Jacobians of the emitted programs against differences of the symbolic equations in 60 digits, entry by entry: every model
-// and hundreds of random scenes.
+// Jacobians of the emitted programs against differences of the symbolic equations in 60 digits, entry by
+// entry: every model and hundreds of random scenes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

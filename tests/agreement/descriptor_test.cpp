@@ -1,4 +1,5 @@
-// Accelerations, joint reactions and drives of every model of the repository against the descriptor form, loops left open.
+// Accelerations, joint reactions and drives of every model of the repository against the descriptor form,
+// loops left open.
 #include "reference/descriptor.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Accelerations in double where lengths and masses of a chain differ by many orders of magnitude, and how the way to compute them is
-// chosen.
+// Accelerations in double where lengths and masses of a chain differ by many orders of magnitude, and how the
+// way to compute them is chosen.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Robots on a free root against accelerations that were computed otherwise: public ones by an independent library, ours in
-// descriptor form.
+// Robots on a free root against accelerations that were computed otherwise: public ones by an independent
+// library, ours in descriptor form.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

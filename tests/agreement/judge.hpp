@@ -17,8 +17,8 @@ struct Sample {
   std::vector<double> parameters, y, z, u, zdot;
 };
 
-/// Seeded: state and inputs as in random_tree.hpp, parameters within a tenth of their defaults, accelerations in ±5. With
-/// `single`, every number is one of float.
+/// Seeded: state and inputs as in random_tree.hpp, parameters within a tenth of their defaults, accelerations
+/// in ±5. With `single`, every number is one of float.
 Sample random_sample(const model::Mechanism& mechanism, std::uint64_t seed, bool single = false);
 
 /// Outputs of the function `name`, computed by the interpreter.

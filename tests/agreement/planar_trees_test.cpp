@@ -28,7 +28,8 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-/// Slides on the ground and on slides, then turns about one axis either way, with branches, springs, dampers, rotors and a force.
+/// Slides on the ground and on slides, then turns about one axis either way, with branches, springs, dampers,
+/// rotors and a force.
 std::string planar_tree(std::uint64_t seed) {
   Draw draw(seed);
   const int count = 2 + draw.below(6);

@@ -1,5 +1,6 @@
-// The published and independently computed cases that tests compare with, as plain data. tests/data is part of the project: what is
-// missing there fails. Public robots that may not be redistributed lie beside the project and add cases where they are.
+// The published and independently computed cases that tests compare with, as plain data. tests/data is part of
+// the project: what is missing there fails. Public robots that may not be redistributed lie beside the project
+// and add cases where they are.
 #pragma once
 
 #include <filesystem>

@@ -177,6 +177,21 @@ TEST(Layering, FilesHoldOneIdea) {
     }
 }
 
+/// clang-format sees to code.
+TEST(Layering, CommentsHaveAtMost120Columns) {
+  constexpr std::ptrdiff_t kColumns = 120;
+  const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  for (const char* folder : {"generator", "runtime", "tests"})
+    for (const fs::path& file : sources(folder)) {
+      std::istringstream text(support::read_file(file.string()));
+      for (std::string row; std::getline(text, row);) {
+        if (row.find("//") != row.find_first_not_of(' ')) continue;
+        EXPECT_LE(std::count_if(row.begin(), row.end(), is_first_byte), kColumns)
+            << fs::relative(file, kSource) << ": " << row;
+      }
+    }
+}
+
 TEST(Layering, TemplatesUseMathAlone) {
   for (const auto& entry : fs::directory_iterator(kSource / "templates")) {
     if (entry.path().filename() == "shim.cpp.in") continue;

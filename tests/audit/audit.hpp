@@ -1,6 +1,6 @@
 // Runs of an emitted model against a solution of its own: collocation at six Gauss points (order 12) in long double, by
-// fixed-point iteration, with steps halved until two solutions agree. It uses what the emitted header declares, and nothing of
-// this project beside.
+// fixed-point iteration, with steps halved until two solutions agree. It uses what the emitted header
+// declares, and nothing of this project beside.
 #pragma once
 
 #include <algorithm>
@@ -186,8 +186,9 @@ std::vector<typename System<Model>::Vector> reference(Long interval, long count,
   return {};
 }
 
-/// Arguments: intervals, their length (s), then method, h (s), steps and intervals between two comparisons, and so on. Prints the
-/// largest difference of a position for each: of the emitted steps in double, as the header says that they are called.
+/// Arguments: intervals, their length (s), then method, h (s), steps and intervals between two comparisons,
+/// and so on. Prints the largest difference of a position for each: of the emitted steps in double, as the
+/// header says that they are called.
 template <template <class> class Model, class Accelerations, template <int, class> class RateHistory>
 int run(int count, char** arguments) {
   const long intervals = std::stol(arguments[1]);

@@ -1,5 +1,6 @@
-// Accuracy of the accelerations where masses, lengths, speeds, angles and stiffnesses are extreme, as a table and, for a
-// file name as argument, as CSV; and what denormal numbers cost in time. Nothing is asserted here: tests/extremes does.
+// Accuracy of the accelerations where masses, lengths, speeds, angles and stiffnesses are extreme, as a table
+// and, for a file name as argument, as CSV; and what denormal numbers cost in time. Nothing is asserted here:
+// tests/extremes does.
 #include <fmt/format.h>
 #include <fmt/os.h>
 

@@ -1,13 +1,16 @@
-// What the compiler does by default with a thousand random linkages that swing free for two seconds: how many are right, which are
-// not, and what they cost beside multipliers and beside the cheapest choice of independent coordinates. Nothing is asserted here.
+// What the compiler does by default with a thousand random linkages that swing free for two seconds: how many
+// are right, which are not, and what they cost beside multipliers and beside the cheapest choice of
+// independent coordinates. Nothing is asserted here.
 //
-//   linkages [--quick] [CLASS [FIRST [COUNT]]]     classes whose names begin with CLASS, COUNT seeds from FIRST; quick: multipliers
+//   linkages [--quick] [CLASS [FIRST [COUNT]]]     classes whose names begin with CLASS, COUNT seeds from FIRST;
+//                                                  quick: multipliers
 //                                                  are tried only where what is chosen is not right
 //
-// Columns: treatments (closed form, Newton, multipliers); right, flagged (stopped by a guard, right until then), refused
-// (diagnostics), wrong, unknown (no reference); lost: flagged or refused where multipliers finish right; right ones that need steps
-// below 0.5 ms; judged for less than 2 s; largest drift of energy of right ones; a step's operations over those with multipliers
-// (median) and, of planar linkages with one loop, over those of the cheapest single partition (median, largest).
+// Columns: treatments (closed form, Newton, multipliers); right, flagged (stopped by a guard, right until
+// then), refused (diagnostics), wrong, unknown (no reference); lost: flagged or refused where multipliers
+// finish right; right ones that need steps below 0.5 ms; judged for less than 2 s; largest drift of energy of
+// right ones; a step's operations over those with multipliers (median) and, of planar linkages with one loop,
+// over those of the cheapest single partition (median, largest).
 // On the other stream: seeds that are not right, and why.
 #include <fmt/format.h>
 
@@ -101,7 +104,8 @@ std::size_t partitioned_operations(model::Mechanism mechanism, const std::vector
   return made ? CompiledSwing(mechanism, made->model).step_operations() : 0;
 }
 
-/// Operations of a step with the cheapest choice of independent coordinates, of joints with one coordinate each; 0: there is none.
+/// Operations of a step with the cheapest choice of independent coordinates, of joints with one coordinate
+/// each; 0: there is none.
 std::size_t cheapest_partition(const model::Mechanism& mechanism, std::size_t freedom) {
   std::size_t cheapest = 0;
   std::vector<bool> chosen(mechanism.joints.size(), false);

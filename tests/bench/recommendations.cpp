@@ -1,4 +1,5 @@
-// Recommended steps against the cheapest that a search through all methods and step lengths finds: all models, and random scenes.
+// Recommended steps against the cheapest that a search through all methods and step lengths finds: all models,
+// and random scenes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,7 +68,8 @@ bool is_wrong(const MethodLimit& limit) {
   return limit.predicts && limit.observed && std::fabs(limit.h / limit.observed->h - 1) > kRight;
 }
 
-/// Predicted limits that runs observed, how many of them within 5 %, and whether the report says that some are not to be trusted.
+/// Predicted limits that runs observed, how many of them within 5 %, and whether the report says that some are
+/// not to be trusted.
 struct Limits {
   int observed = 0, right = 0;
   bool is_flagged = false, is_flagged_damped = false;

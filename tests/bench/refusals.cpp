@@ -1,4 +1,5 @@
-// Ten thousand valid random mechanisms: which of them does the compiler refuse? With a kind, a first seed and a number, these alone.
+// Ten thousand valid random mechanisms: which of them does the compiler refuse? With a kind, a first seed and
+// a number, these alone.
 #include <fmt/format.h>
 
 #include <cstdlib>

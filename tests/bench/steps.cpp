@@ -1,4 +1,5 @@
-// Step lengths from 1e-12 s to where RK4 fails, and a hundred million steps: what is left of the energy. Nothing is asserted.
+// Step lengths from 1e-12 s to where RK4 fails, and a hundred million steps: what is left of the energy.
+// Nothing is asserted.
 #include <fmt/format.h>
 
 #include <cmath>

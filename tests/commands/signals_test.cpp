@@ -108,7 +108,8 @@ TEST_F(Signals, WithoutAFiniteValueMakeNoPlot) {
   EXPECT_FALSE(fs::exists(in_folder("p.svg")));
 }
 
-/// A slide that is called like the time, with a second one, an input and outputs that are called like each other's columns.
+/// A slide that is called like the time, with a second one, an input and outputs that are called like each
+/// other's columns.
 TEST_F(Signals, HaveColumnsOfDifferentNames) {
   std::string text = "[model]\nname = \"m\"\n";
   for (const std::string name : {"time", "time_velocity", "total_energy"})

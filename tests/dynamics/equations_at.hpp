@@ -23,7 +23,8 @@ struct EquationsAt {
 
 EquationsAt equations_at(const model::Mechanism& mechanism, const StateNumbers& state);
 
-/// A scene of one body "b" on one joint "j" to the world. `body` and `joint` are the lines of their tables; gravity is (0, 0, −9.81).
+/// A scene of one body "b" on one joint "j" to the world. `body` and `joint` are the lines of their tables;
+/// gravity is (0, 0, −9.81).
 model::Mechanism one_body(const std::string& body, const std::string& joint, const std::string& more = "");
 
 }  // namespace jourdain::tests

@@ -84,8 +84,8 @@ TEST(OneJoint, AUniversalJointHasTheGyroscopicTermsOfItsTwoAngles) {
   EXPECT_NEAR(e.k_bar[1], (C - A) * s * co * da * da, kRounding);
 }
 
-// A point mass at the distance l under two turns is the spherical pendulum: m l² cos² β α̈ = 2 m l² sin β cos β α̇ β̇ …,
-// m l² β̈ = −m l² sin β cos β α̇² …
+// A point mass at the distance l under two turns is the spherical pendulum: m l² cos² β α̈ = 2 m l² sin β cos
+// β α̇ β̇ …, m l² β̈ = −m l² sin β cos β α̇² …
 TEST(OneJoint, APointMassOnAUniversalJointIsTheSphericalPendulum) {
   const double l = 0.8, alpha = 0.4, beta = 0.9, da = 1.3, db = -2.1;
   const EquationsAt e =

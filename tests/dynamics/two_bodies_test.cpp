@@ -45,7 +45,8 @@ axis = )" + second_axis);
 
 constexpr double m1 = 3, m2 = 2, c1 = 0.2, c2 = 0.3, l = 0.5, I1 = 0.05, I2 = 0.07;
 
-// Craig, Introduction to Robotics, the planar two-link arm, with distributed masses. Angles downwards positive about +y.
+// Craig, Introduction to Robotics, the planar two-link arm, with distributed masses. Angles downwards positive
+// about +y.
 TEST(TwoLinks, AreThePlanarArmOfTheTextbooks) {
   const double a = 0.4, b = 0.9, da = 1.3, db = -2.1;
   const EquationsAt e = equations_at(two_links("[0, 1, 0]", "[0, 1, 0]"), {{a, b}, {da, db}});
@@ -114,7 +115,8 @@ axis = [1, 0, 0]
   EXPECT_NEAR(e.k_bar[1], m * r * rate * rate, kRounding);
 }
 
-// A rotor with moment A about its axis y on a frame that turns about z: the moment −A Ω ω about x is what its bearing x feels.
+// A rotor with moment A about its axis y on a frame that turns about z: the moment −A Ω ω about x is what its
+// bearing x feels.
 TEST(TwoBodies, ASpinningRotorPushesItsGimbal) {
   const double A = 0.4, spin = 30, yaw = 0.5;
   const EquationsAt e = equations_at(read_scene(R"([model]

@@ -28,7 +28,8 @@ std::string includes() {
   return text;
 }
 
-/// Every identifier in the preprocessed headers and among the macros that are defined then; none that are reserved to the compiler.
+/// Every identifier in the preprocessed headers and among the macros that are defined then; none that are
+/// reserved to the compiler.
 std::set<std::string> identifiers(const std::string& compiler, const char* standard,
                                   const std::string& file) {
   const std::string text = support::run_process({compiler, standard, "-E", "-P", file}).output + "\n" +

@@ -39,15 +39,15 @@ std::string double_pendulum(double m1, double m2);
 /// A free body that carries two links.
 std::string flying_arm(double base, double link);
 
-/// Bodies of thickness `t` on a ball joint, a hinge and a universal joint: with moments 1, t², 1 + t² a plate, with t², 1, 1
-/// a rod; both are at the bound of what a rigid body may have.
+/// Bodies of thickness `t` on a ball joint, a hinge and a universal joint: with moments 1, t², 1 + t² a plate,
+/// with t², 1, 1 a rod; both are at the bound of what a rigid body may have.
 std::string thin_bodies(double t);
 
 /// A point mass at `center` on a universal joint about z and then x.
 std::string gimballed_mass(double x, double y, double z);
 
-/// A rotor in a universal joint, its axis on the first one where the second angle is zero; only the moment of the rings,
-/// kg m², keeps M regular there.
+/// A rotor in a universal joint, its axis on the first one where the second angle is zero; only the moment of
+/// the rings, kg m², keeps M regular there.
 std::string gimballed_rotor(double moment);
 
 /// Spatial links with a joint spring and a spring to the world.
@@ -60,11 +60,12 @@ std::string geared_hinge(double ratio);
 /// Two links under a hinge that a motor turns at 1.25 times `rate`, rad/s: the angle is a product that is rounded.
 std::string driven_links(double rate);
 
-/// A free body whose mass, centre of mass (at `lever`) and moments are tunable, so that nothing is folded before the run.
+/// A free body whose mass, centre of mass (at `lever`) and moments are tunable, so that nothing is folded
+/// before the run.
 std::string tunable_body(double lever);
 
-/// Three links of length 1 on oblique axes, the first of which is `distance` away from the inertial origin; with another
-/// selection of joints, distance and axes tunable.
+/// Three links of length 1 on oblique axes, the first of which is `distance` away from the inertial origin;
+/// with another selection of joints, distance and axes tunable.
 std::string distant_arm(double distance);
 std::string tunable_distant_arm(double distance);
 

@@ -16,13 +16,13 @@ enum class Loss {
   /// The sum of the angles of parallel joints, or an angle as a function of time, is rounded with its size: as much as
   /// rounding the state itself would change.
   kLargeAngle,
-  /// A body's second moments are turned by differences of their size: a moment about an axis near which all mass lies has
-  /// the rounding of the largest moment.
+  /// A body's second moments are turned by differences of their size: a moment about an axis near which all
+  /// mass lies has the rounding of the largest moment.
   kSmallMoment
 };
 
-/// One swept quantity. Its values are 2^exponent, so that the numbers of a description are numbers of float as well and both
-/// precisions evaluate the same mechanism (all families but the Panda's).
+/// One swept quantity. Its values are 2^exponent, so that the numbers of a description are numbers of float as
+/// well and both precisions evaluate the same mechanism (all families but the Panda's).
 struct Family {
   std::string name;
   std::string swept;                                         ///< the quantity, with its unit

@@ -17,12 +17,12 @@ struct Conditioning {
   double moments = 1;    ///< largest by smallest diagonal entry of angular coordinates
 };
 
-/// M may be taken as regular in a precision with unit roundoff u where the scaled condition is below kRegular/u: Cholesky's
-/// method is sure to end there (Demmel 1989), and the pivots of LᵀDL are its.
+/// M may be taken as regular in a precision with unit roundoff u where the scaled condition is below
+/// kRegular/u: Cholesky's method is sure to end there (Demmel 1989), and the pivots of LᵀDL are its.
 inline constexpr double kRegular = 0x1p-6;
 
-/// Of ż computed in one precision by the optimised program, at a state that is exact in that precision. Errors in units of
-/// u = 2⁻⁵³ or 2⁻²⁴; exact values are those of the symbolic equations in 60 digits.
+/// Of ż computed in one precision by the optimised program, at a state that is exact in that precision. Errors
+/// in units of u = 2⁻⁵³ or 2⁻²⁴; exact values are those of the symbolic equations in 60 digits.
 struct Accuracy {
   double backward = 0;  ///< largest over the rows of |M ż − k̄ + q̄| / (Σ|M||ż| + Σ|k̄ terms| + Σ|q̄ terms|)
   double forward = 0;  ///< ‖ż − ż_exact‖ / ‖ż_exact‖

@@ -1,5 +1,5 @@
-// Accelerations stay right to the last digits where masses, lengths, speeds, angles and stiffnesses are extreme: a part of
-// the sweep that tests/bench/extremes.cpp makes.
+// Accelerations stay right to the last digits where masses, lengths, speeds, angles and stiffnesses are
+// extreme: a part of the sweep that tests/bench/extremes.cpp makes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ namespace {
 constexpr int kValues = 5;
 constexpr std::uint64_t kSeeds = 2;
 
-// An entry of M, k̄ or q̄ is a sum of some tens of products, and so is a row of the factors; each rounds by u at most. What
-// a family's loss explains multiplies it. The largest seen is 5.
+// An entry of M, k̄ or q̄ is a sum of some tens of products, and so is a row of the factors; each rounds by u
+// at most. What a family's loss explains multiplies it. The largest seen is 5.
 constexpr double kBackward = 100;
 // Forward error by u cond(M) where first-order theory holds: the same sums, seen through M⁻¹; k̄ and q̄ may cancel. The
 // largest seen is 4.
@@ -81,8 +81,8 @@ TEST(Extremes, ADistantArmKeepsItsDigits) {
 }
 
 TEST(Extremes, TheConditionOfAStretchedPendulumIsTheClosedForm) {
-  // With m1 = ε, m2 = l1 = l2 = 1 and the elbow at δ: det M = ε + sin² δ, tr M = 3 + ε + 2 cos δ. The Frobenius norms of a
-  // symmetric 2 × 2 matrix and of its inverse have the product (tr² − 2 det)/det.
+  // With m1 = ε, m2 = l1 = l2 = 1 and the elbow at δ: det M = ε + sin² δ, tr M = 3 + ε + 2 cos δ. The
+  // Frobenius norms of a symmetric 2 × 2 matrix and of its inverse have the product (tr² − 2 det)/det.
   const double delta = 0x1p-20, det = 0x1p-40 + std::pow(std::sin(delta), 2);
   const double trace = 3 + 0x1p-40 + 2 * std::cos(delta);
   const Accuracy a = in_double("double pendulum, m1/m2 = 1e-12", -20);

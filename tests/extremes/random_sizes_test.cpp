@@ -1,5 +1,5 @@
-// Random trees whose bodies differ in size and mass by many orders of magnitude: no family of scenes foresees where dimensions
-// of one body drown those of another.
+// Random trees whose bodies differ in size and mass by many orders of magnitude: no family of scenes foresees
+// where dimensions of one body drown those of another.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,15 +15,17 @@ namespace {
 
 using model::Expression;
 
-// A link frame may be kFarAway times as far away as what it carries is large, and the digits that costs go with that ratio,
-// with its square where numbers are tunable. 1100 scenes and trees stayed below 100 where M is regular.
+// A link frame may be kFarAway times as far away as what it carries is large, and the digits that costs go
+// with that ratio, with its square where numbers are tunable. 1100 scenes and trees stayed below 100 where M
+// is regular.
 constexpr double kBackward = 500;
 
 void scale(Expression& value, double factor) {
   value = Expression::binary(Expression::Op::kMultiply, value, Expression(factor));
 }
 
-/// Every body gets a size from 2⁻²⁰ to 2²⁰ and a mass from 2⁻ᵐ to 2ᵐ times its own, and with it the joints placed on it.
+/// Every body gets a size from 2⁻²⁰ to 2²⁰ and a mass from 2⁻ᵐ to 2ᵐ times its own, and with it the joints
+/// placed on it.
 model::Mechanism with_random_sizes(model::Mechanism mechanism, std::uint64_t seed, int m) {
   Random random(seed + 4711);
   const auto factor = [&random](int most) {

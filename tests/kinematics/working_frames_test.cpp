@@ -1,4 +1,5 @@
-// How links turn: single turns, reversed axes, runs of parallel axes, quaternions, against rotation matrices written down.
+// How links turn: single turns, reversed axes, runs of parallel axes, quaternions, against rotation matrices
+// written down.
 #include "kinematics/working_frames.hpp"
 
 #include <gtest/gtest.h>

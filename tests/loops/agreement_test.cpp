@@ -1,5 +1,5 @@
-// Accelerations and constraint forces of the emitted programs against the descriptor form: every model with loops and more than a
-// hundred random mechanisms.
+// Accelerations and constraint forces of the emitted programs against the descriptor form: every model with
+// loops and more than a hundred random mechanisms.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ using MatrixL = reference::MatrixX<Long>;
 
 constexpr std::uint64_t kMechanisms = cases(120);
 constexpr std::size_t kStates = 3;
-// Normwise, times the condition number: accelerations are solved with G M⁻¹ Gᵀ in double, with multipliers of regularised.
+// Normwise, times the condition number: accelerations are solved with G M⁻¹ Gᵀ in double, with multipliers of
+// regularised.
 constexpr double kTolerance = 1e-9;
 
 struct Tally {
@@ -152,7 +153,8 @@ TEST(Loops, EveryModelAcceleratesAndLoadsAsTheDescriptorFormSays) {
   EXPECT_GE(chosen.mechanisms, 7u);
 }
 
-/// Suspensions on a chassis that moves, with tunable lengths, with a strut of two bodies, and a point between three spheres.
+/// Suspensions on a chassis that moves, with tunable lengths, with a strut of two bodies, and a point between
+/// three spheres.
 TEST(Loops, ClosedFormsInSpaceAgreeWithTheDescriptorForm) {
   Tally tally;
   for (const char* name : {"chassis_corner", "tunable_corner", "strut_with_slide", "delta_leg"}) {

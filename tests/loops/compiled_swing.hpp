@@ -1,4 +1,5 @@
-// Free motion as the compiler's programs have it: compiled as the command does by default, stepped as the emitted rk4_step does.
+// Free motion as the compiler's programs have it: compiled as the command does by default, stepped as the
+// emitted rk4_step does.
 #pragma once
 
 #include <optional>

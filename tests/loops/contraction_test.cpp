@@ -1,4 +1,5 @@
-// What one iteration of closing leaves open, from states that are open by several sizes: the square, up to a factor of the linkage.
+// What one iteration of closing leaves open, from states that are open by several sizes: the square, up to a
+// factor of the linkage.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +27,8 @@ double open(const std::vector<double>& y) {
 }
 
 constexpr double kRounding = 1e-15;
-/// Second derivatives of the rows are at most 0.36 + 0.36 + 0.24 m, the inverse of G at these states 10/m: |g'| ≤ ½ 0.96 (10 |g|)².
+/// Second derivatives of the rows are at most 0.36 + 0.36 + 0.24 m, the inverse of G at these states 10/m:
+/// |g'| ≤ ½ 0.96 (10 |g|)².
 constexpr double kFactor = 50;
 
 TEST(Contraction, NewtonsIterationsSquareTheOpening) {

@@ -1,5 +1,5 @@
-// The oracle of free motion: the descriptor form of a mechanism, in absolute coordinates, integrated with a method of high order
-// at two tolerances, so that it says itself how far it can be believed.
+// The oracle of free motion: the descriptor form of a mechanism, in absolute coordinates, integrated with a
+// method of high order at two tolerances, so that it says itself how far it can be believed.
 #pragma once
 
 #include <vector>
@@ -34,9 +34,10 @@ inline constexpr double kAgreement = 1e-6;
 /// Rows that the linkages here need have singular values of 1e-2 and more, but near singular positions.
 inline constexpr double kRedundant = 1e-4;
 
-/// Motion from the description's initial values, which must meet the loops to rounding. Of the loops' rows those combinations
-/// count that have singular values above kRedundant of the largest: stages are off the constraints by what they err, and there
-/// redundant rows are not quite so. A mechanism whose axes are rounded has no motion, strictly: ask for that of the ideal one.
+/// Motion from the description's initial values, which must meet the loops to rounding. Of the loops' rows
+/// those combinations count that have singular values above kRedundant of the largest: stages are off the
+/// constraints by what they err, and there redundant rows are not quite so. A mechanism whose axes are rounded
+/// has no motion, strictly: ask for that of the ideal one.
 KnownMotion known_motion(const model::Mechanism& mechanism, double size, const Looks& looks);
 
 }  // namespace jourdain::tests

@@ -1,5 +1,5 @@
-// Judges free motion of compiled mechanisms with loops by what any user can see: where the bodies are, the energy, how far loops
-// open. Nothing here knows how loops are closed.
+// Judges free motion of compiled mechanisms with loops by what any user can see: where the bodies are, the
+// energy, how far loops open. Nothing here knows how loops are closed.
 #pragma once
 
 #include <optional>
@@ -33,9 +33,10 @@ struct Judgement {
 /// Compiles `linkage` and follows its motion at step lengths h and h/2 beside `known`, the motion of `linkage.ideal`.
 /// `treatment`: asked for; none: the compiler chooses.
 ///
-/// Wrong: bodies further off than ten times the error that the two steps extrapolate to, plus floors of rounding, of the
-/// reference's doubt and of the perturbation; energy whose drift does not fall eight times at half the step; open loops; no
-/// numbers. From h = 1 ms on; what is wrong there is tried again at shorter steps, down to 1/16 ms, and wrong only if it stays so.
+/// Wrong: bodies further off than ten times the error that the two steps extrapolate to, plus floors of
+/// rounding, of the reference's doubt and of the perturbation; energy whose drift does not fall eight times at
+/// half the step; open loops; no numbers. From h = 1 ms on; what is wrong there is tried again at shorter
+/// steps, down to 1/16 ms, and wrong only if it stays so.
 Judgement judge(const RandomLinkage& linkage, const KnownMotion& known, const Looks& looks,
                 std::optional<model::LoopTreatment> treatment = {});
 

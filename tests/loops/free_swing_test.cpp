@@ -1,5 +1,5 @@
-// A few random linkages of each class swing free for half a second: what the compiler makes of them by default, and what the
-// judge sees. A thousand of them: ./dev bench.
+// A few random linkages of each class swing free for half a second: what the compiler makes of them by
+// default, and what the judge sees. A thousand of them: ./dev bench.
 #include "loops/free_swing.hpp"
 
 #include <fmt/format.h>

@@ -52,7 +52,8 @@ Linkage random_four_bar(std::uint64_t seed) {
   Random random(seed);
   double a = 0, b = 0, c = 0, gap = 0, crank = 0;
   Point ground;
-  // sin² at the coupler's far pin, of the triangle with sides b, c and the distance from the crank's pin to the ground pivot.
+  // sin² at the coupler's far pin, of the triangle with sides b, c and the distance from the crank's pin to
+  // the ground pivot.
   const auto margin = [&](double angle) {
     const double d = length(ground - bar(a, angle)), cosine = (b * b + c * c - d * d) / (2 * b * c);
     return 1 - cosine * cosine;

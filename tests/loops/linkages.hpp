@@ -63,12 +63,13 @@ struct Linkage {
   std::array<double, 2> reachable{};  ///< some interval of it about the initial value, off dead positions
 };
 
-/// A four-bar with pins in all ways in which its tree can be cut: both dependent angles on the crank's branch or one on each side,
-/// relative or absolute, axes up or down, rows in the ground's, the crank's or a skew frame. Within 0.05 of a
-/// change point there is none.
+/// A four-bar with pins in all ways in which its tree can be cut: both dependent angles on the crank's branch
+/// or one on each side, relative or absolute, axes up or down, rows in the ground's, the crank's or a skew
+/// frame. Within 0.05 of a change point there is none.
 Linkage random_four_bar(std::uint64_t seed);
 
-/// An offset slider-crank, the rod on the crank or on the slide, or (inverted) a rod that slides through a turning block.
+/// An offset slider-crank, the rod on the crank or on the slide, or (inverted) a rod that slides through a
+/// turning block.
 Linkage random_slider_crank(std::uint64_t seed, bool inverted);
 
 }  // namespace jourdain::tests

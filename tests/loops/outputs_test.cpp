@@ -1,5 +1,5 @@
-// What joints transmit, what prescribed motions need and the Jacobians of mechanisms with loops, against the descriptor form, which
-// has every body and every constraint apart.
+// What joints transmit, what prescribed motions need and the Jacobians of mechanisms with loops, against the
+// descriptor form, which has every body and every constraint apart.
 #include "programs/loop_outputs.hpp"
 
 #include <fmt/format.h>
@@ -201,8 +201,8 @@ class Outputs {
     return wrench;
   }
 
-  /// v = J_t z + v_bar and a = J_t zdot + a_bar with what `values` holds (J_t, J_r, v_bar, omega_bar, a_bar, zeta_bar), rotations
-  /// alike, against the motion of the frame in the tree.
+  /// v = J_t z + v_bar and a = J_t zdot + a_bar with what `values` holds (J_t, J_r, v_bar, omega_bar, a_bar,
+  /// zeta_bar), rotations alike, against the motion of the frame in the tree.
   void compare_jacobian(const Vector& values, const Vector& z, const Vector& zdot,
                         const reference::BodyMotion<long double>& frame, const Vector& tree_zdot) {
     const Eigen::Index n = z.size();

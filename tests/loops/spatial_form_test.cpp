@@ -1,4 +1,5 @@
-// Closed forms in space: suspensions, struts and points between three spheres of random shape, whatever row comes first.
+// Closed forms in space: suspensions, struts and points between three spheres of random shape, whatever row
+// comes first.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,8 @@ namespace {
 constexpr const char* kHeavy =
     R"(<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)";
 
-/// An arm with two fingers, the second with a tip; `tip` and `inside` are put into that link and into the joint that carries it.
+/// An arm with two fingers, the second with a tip; `tip` and `inside` are put into that link and into the
+/// joint that carries it.
 std::string hand(const std::string& tip = "", const std::string& inside = "") {
   return fmt::format(R"(<robot name="hand">
   <link name="base"/> <link name="arm">{}</link>

@@ -27,8 +27,8 @@ std::vector<std::vector<kinematics::Ex>> asked_for(const dynamics::Equations& eq
 /// Statements that something asked for depends on.
 std::vector<std::size_t> live_statements(const dynamics::Equations& equations);
 
-/// The equations with that fault in their statement `at`; none where it has no place for it. Terms and symbols are chosen by their
-/// text: the order in memory changes from run to run.
+/// The equations with that fault in their statement `at`; none where it has no place for it. Terms and symbols
+/// are chosen by their text: the order in memory changes from run to run.
 std::optional<dynamics::Equations> planted(const dynamics::Equations& equations, StatementFault fault,
                                            std::size_t at, std::uint64_t seed);
 

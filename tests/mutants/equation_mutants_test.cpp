@@ -1,5 +1,5 @@
-// Faults planted in the derivation's statements. Programs follow them, so that no comparison of programs with statements sees a
-// fault: the numeric reference has to, but for what only some functions are made of.
+// Faults planted in the derivation's statements. Programs follow them, so that no comparison of programs with
+// statements sees a fault: the numeric reference has to, but for what only some functions are made of.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -15,7 +15,8 @@ struct MechanismMutant {
   model::Mechanism mechanism;
 };
 
-/// Every number times 1 + 1e-9, with the other sign, zero; every zero made 1e-6; axes reversed; parents, ends and frames swapped.
+/// Every number times 1 + 1e-9, with the other sign, zero; every zero made 1e-6; axes reversed; parents, ends
+/// and frames swapped.
 std::vector<MechanismMutant> mechanism_mutants(const model::Mechanism& mechanism);
 
 }  // namespace jourdain::tests

@@ -1,5 +1,5 @@
-// The equations and programs of a changed mechanism, offered as those of the original: the numeric reference, which takes the
-// mechanism as read, has to see it.
+// The equations and programs of a changed mechanism, offered as those of the original: the numeric reference,
+// which takes the mechanism as read, has to see it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

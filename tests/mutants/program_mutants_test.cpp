@@ -1,4 +1,5 @@
-// Faults planted in the optimised programs of every function: the compiler refuses to write each of them, or it is none.
+// Faults planted in the optimised programs of every function: the compiler refuses to write each of them, or
+// it is none.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

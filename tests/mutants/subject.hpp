@@ -33,8 +33,8 @@ ir::Module programs_of(const model::Mechanism& mechanism, const dynamics::Equati
 bool refuses(const model::Mechanism& mechanism, const dynamics::Equations& equations,
              const std::optional<loops::LoopPlan>& plan, const ir::Module& module);
 
-/// The same where functions of derivatives are promised: with quaternions of unit length, with reduced treatments of loops closed; to
-/// the rounding of doubles.
+/// The same where functions of derivatives are promised: with quaternions of unit length, with reduced
+/// treatments of loops closed; to the rounding of doubles.
 std::vector<ir::LeafValues<double>> lawful_states(const Subject& subject, std::size_t count);
 
 /// Values of all leaves at seeded random states: anywhere for trees; with loops near the plan's start, open.

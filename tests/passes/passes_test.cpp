@@ -1,4 +1,5 @@
-// Every pass on random programs: what it promises and what it keeps. That a second run changes nothing: pipeline_test.cpp.
+// Every pass on random programs: what it promises and what it keeps. That a second run changes nothing:
+// pipeline_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>

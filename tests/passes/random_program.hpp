@@ -7,8 +7,8 @@
 
 namespace jourdain::tests {
 
-/// Sums, differences, products and some sines of parameters, positions and literals; three outputs. No divisions, so that
-/// every value is finite.
+/// Sums, differences, products and some sines of parameters, positions and literals; three outputs. No
+/// divisions, so that every value is finite.
 ir::Program random_program(std::uint64_t seed);
 
 /// Values for its leaves, of size 1.

@@ -1,4 +1,5 @@
-// Closes random loops of a mechanism where it stands: the second end of a loop joint is put where the first one needs it.
+// Closes random loops of a mechanism where it stands: the second end of a loop joint is put where the first
+// one needs it.
 #pragma once
 
 #include <array>

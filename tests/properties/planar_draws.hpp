@@ -14,8 +14,8 @@ struct PlacedLink {
   Point3 from, to;
 };
 
-/// A four-bar: ground, crank, coupler, rocker. Grashof: some bar turns round. Lengths 0.2 to 1.2 m, at least 5 mm from a
-/// change point.
+/// A four-bar: ground, crank, coupler, rocker. Grashof: some bar turns round. Lengths 0.2 to 1.2 m, at least 5
+/// mm from a change point.
 std::vector<PlacedLink> draw_four_bar(PlacedScene& scene, bool grashof, Start start, Random& random);
 
 /// Ground, crank, rod; a slide on the ground, whose line passes the crank's pivot at a distance, holds the rod's end.

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kFastest = 2;  // norm of the rates at the start, rad/s and m/s
 
-/// Where a linkage is near a dead position, its loop or its dyad is: near two of them at once it is near a singular position.
+/// Where a linkage is near a dead position, its loop or its dyad is: near two of them at once it is near a
+/// singular position.
 struct Starts {
   Start loop, dyad;
   Starts(Start start, Random& random) : loop(start), dyad(start) {
@@ -175,8 +176,8 @@ double size_of(const model::Mechanism& mechanism) {
   return size;
 }
 
-/// In the plane of a planar linkage; platforms hang or stand, as they would otherwise soon swing through singular positions,
-/// where there is no reference.
+/// In the plane of a planar linkage; platforms hang or stand, as they would otherwise soon swing through
+/// singular positions, where there is no reference.
 Point3 direction_of_gravity(LinkageClass kind, bool planar, Random& random) {
   const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
   if (planar) return Point3(x, -1, 0).normalized();

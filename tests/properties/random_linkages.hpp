@@ -1,5 +1,5 @@
-// Seeded random mechanisms with closed loops of the kinds that people build, swinging free: what the compiler's own choice of
-// a treatment is judged with. They know nothing of treatments.
+// Seeded random mechanisms with closed loops of the kinds that people build, swinging free: what the
+// compiler's own choice of a treatment is judged with. They know nothing of treatments.
 #pragma once
 
 #include <cstdint>
@@ -47,9 +47,9 @@ struct RandomLinkage {
   double size = 1;          ///< m: distances of joints and frames from their bodies' origins, summed
 };
 
-/// From rest (half of them) or with rates of up to 2, bodies with mass and inertia, gravity, no damping. Half have tunable
-/// lengths. Of the overconstrained ones four in ten are rounded to 4, 6, 9 or 12 decimals, two in ten have an axis tilted by
-/// 1e-16 to 1e-4 rad. Loops are closed to rounding at the start, but for those.
+/// From rest (half of them) or with rates of up to 2, bodies with mass and inertia, gravity, no damping. Half
+/// have tunable lengths. Of the overconstrained ones four in ten are rounded to 4, 6, 9 or 12 decimals, two in
+/// ten have an axis tilted by 1e-16 to 1e-4 rad. Loops are closed to rounding at the start, but for those.
 RandomLinkage random_linkage(const LinkageKind& kind, std::uint64_t seed);
 
 }  // namespace jourdain::tests

@@ -21,10 +21,11 @@ LoopClass loop_class(std::uint64_t seed);
 inline constexpr double kWeakestConstraint = 1e-3;
 
 /// One to three loops ((seed / 8) % 3 of them beyond the first) on a tree of up to nine bodies, closed at the initial
-/// positions at t = 0, where rates of zero are consistent, too. At times prescribed coordinates, rods whose length changes,
-/// residuals that know time; gravity, joint springs, dampers, actuators, springs, a tunable parameter. The rank of the loops'
-/// rows is the same at `consistent_states(…, seed, kLoopStates)`, at least one degree of freedom is left, every coordinate that
-/// loops hold moves, no joint moves nothing and cond(M) ≤ 1e8: other draws are thrown away.
+/// positions at t = 0, where rates of zero are consistent, too. At times prescribed coordinates, rods whose
+/// length changes, residuals that know time; gravity, joint springs, dampers, actuators, springs, a tunable
+/// parameter. The rank of the loops' rows is the same at `consistent_states(…, seed, kLoopStates)`, at least
+/// one degree of freedom is left, every coordinate that loops hold moves, no joint moves nothing and cond(M) ≤
+/// 1e8: other draws are thrown away.
 model::Mechanism random_loops(std::uint64_t seed);
 
 /// States at which a draw is judged.

@@ -17,8 +17,8 @@ void draw_bennett(PlacedScene& scene, Random& random);
 /// A platform on two chains of three parallel hinges each, across each other: goes straight up, with redundant rows.
 void draw_sarrus(PlacedScene& scene, Random& random);
 
-/// A platform on six legs with a sprung slide each; legs are universal joints below and balls above. The platform is free
-/// or hangs on a leg.
+/// A platform on six legs with a sprung slide each; legs are universal joints below and balls above. The
+/// platform is free or hangs on a leg.
 void draw_stewart(PlacedScene& scene, Random& random);
 
 /// A platform on three arms, by bars with universal joints or by two rods each.

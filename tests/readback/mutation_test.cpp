@@ -16,8 +16,8 @@ struct Tally {
   int refused = 0, same_tokens = 0, same_results = 0, never_executed = 0, same_value = 0;
 };
 
-/// Operators whose mutants may compute the same: qualifiers, redundant parentheses, statements that do not depend on each other or
-/// are idempotent, digits beyond a double's.
+/// Operators whose mutants may compute the same: qualifiers, redundant parentheses, statements that do not
+/// depend on each other or are idempotent, digits beyond a double's.
 const std::set<std::string> kMayMeanTheSame = {"drop_word",       "insert_parentheses",  "swap_statements",
                                                "swap_names",      "duplicate_statement", "drop_parentheses",
                                                "drop_punctuation"};
@@ -102,8 +102,8 @@ class Suite {
                                                   whole.compare(mutant.at, 16, "least_regularity") == 0);
   }
 
-  /// The displacement of the first stage, which nothing reads without quaternions; loops to where nothing is coupled, with one velocity
-  /// all of them; arrays inside steps that are longer than needed.
+  /// The displacement of the first stage, which nothing reads without quaternions; loops to where nothing is
+  /// coupled, with one velocity all of them; arrays inside steps that are longer than needed.
   static bool has_no_effect(const std::string& whole, const TextMutant& mutant) {
     const std::string line = line_of(whole, mutant);
     const bool is_loop = line.find("first_coupled[k + 1]") != std::string::npos;

@@ -1,5 +1,5 @@
-// What readers, compiler and references share, so that no comparison between them sees it: units, angles, quaternions, tensors,
-// shapes, gears. Against numbers from outside.
+// What readers, compiler and references share, so that no comparison between them sees it: units, angles,
+// quaternions, tensors, shapes, gears. Against numbers from outside.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,7 +45,8 @@ model::Mechanism read_urdf(const std::string& text) {
   return mechanism.value_or(model::Mechanism());
 }
 
-/// A slide along +z that carries a link whose joint has this origin; the link's centre of mass is at (1, 2, 3) in its frame.
+/// A slide along +z that carries a link whose joint has this origin; the link's centre of mass is at (1, 2, 3)
+/// in its frame.
 model::Mechanism tilted(const std::string& rpy) {
   return read_urdf(R"(<robot name="tilted"><link name="base"/>
 <link name="b"><inertial><origin xyz="1 2 3"/><mass value="2"/>
@@ -81,7 +82,8 @@ TEST(Conventions, UrdfJointsMoveAlongXUnlessTheySayOtherwise) {
   EXPECT_NEAR(by_both(robot, {{0.5}, {0}, {0}}).potential_energy, 2 * g * 0.5, kRounding);
 }
 
-// A dumbbell along (1, 1, 0): two masses of 1 kg at ±(0.3, 0.3, 0). Tensor Ixx = Iyy = 0.18, Izz = 0.36, Ixy = −∫x y dm = −0.18.
+// A dumbbell along (1, 1, 0): two masses of 1 kg at ±(0.3, 0.3, 0). Tensor Ixx = Iyy = 0.18, Izz = 0.36, Ixy =
+// −∫x y dm = −0.18.
 TEST(Conventions, ProductsOfInertiaAreEntriesOfTheTensor) {
   const std::string toml = "mass = 2\ninertia = { xx = 0.18, yy = 0.18, zz = 0.36, xy = -0.18 }";
   const auto M = [&](const std::string& body, const char* axis) {

@@ -1,5 +1,6 @@
-// Loops replaced by the forces that they were found to transmit: the open tree then moves as before, and its joints transmit
-// what they did, also where redundant loops share their forces with the joints in the way that least multipliers choose.
+// Loops replaced by the forces that they were found to transmit: the open tree then moves as before, and its
+// joints transmit what they did, also where redundant loops share their forces with the joints in the way that
+// least multipliers choose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +38,8 @@ class Opened {
     mechanism_.loops.clear();
   }
 
-  /// Whether a loop's forces act at its ends alone; a row in the axes of a moving carrier pushes that too, unless Δ = 0.
+  /// Whether a loop's forces act at its ends alone; a row in the axes of a moving carrier pushes that too,
+  /// unless Δ = 0.
   static bool handles(const model::Mechanism& mechanism) {
     return std::all_of(mechanism.loops.begin(), mechanism.loops.end(), [](const model::Loop& loop) {
       return loop.type == LoopType::kBall || loop.type == LoopType::kRevolute ||

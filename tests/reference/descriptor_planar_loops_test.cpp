@@ -1,5 +1,5 @@
-// Planar loops of the descriptor form against the loop equations of the textbooks, written in the complex plane, and the
-// principle of virtual power.
+// Planar loops of the descriptor form against the loop equations of the textbooks, written in the complex
+// plane, and the principle of virtual power.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The descriptor form on random mechanisms with loops, against the reference in minimal coordinates and the definitions of
-// the constraint rows, written down a second time.
+// The descriptor form on random mechanisms with loops, against the reference in minimal coordinates and the
+// definitions of the constraint rows, written down a second time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -219,7 +219,8 @@ class Definitions {
   Reference<Long> tree_;
 };
 
-// Off the loops, where no row is zero: values, G by displacing one coordinate after the other, and g_t by letting time run.
+// Off the loops, where no row is zero: values, G by displacing one coordinate after the other, and g_t by
+// letting time run.
 TEST(RandomLoopsReference, RowsAreTheirDefinitionsAndDerivativesOfThem) {
   for_states([](const model::Mechanism& mechanism, std::uint64_t seed, LoopState state) {
     const DescriptorReference<Long> form(mechanism);

@@ -39,8 +39,8 @@ struct FourBar {
   std::array<double, 3> moments{0.02, 0.15, 0.09};                ///< kg m²
 };
 
-/// The linkage under gravity along −y, its coupler's end joined to the rocker's end by `closing`; an actuator on the crank.
-/// With `base`, all stands on a body that turns about z at the origin.
+/// The linkage under gravity along −y, its coupler's end joined to the rocker's end by `closing`; an actuator
+/// on the crank. With `base`, all stands on a body that turns about z at the origin.
 Linkage four_bar(const FourBar& bars, model::LoopType closing, bool base = false);
 
 }  // namespace jourdain::tests

@@ -1,4 +1,5 @@
-// Reports' pages in a browser: nothing overlaps, nothing fails, the slider moves the picture, the first screen says what to do.
+// Reports' pages in a browser: nothing overlaps, nothing fails, the slider moves the picture, the first screen
+// says what to do.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

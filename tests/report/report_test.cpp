@@ -260,7 +260,8 @@ TEST_F(Reports, AFollowedMotionIsItsOwnExactSolution) {
 
 TEST_F(Reports, DescriptorFormDriftsAndProjectionStopsIt) {
   for (const auto& [name, report] : reports_) {
-    // Bodies of a pendulum without inertia about their centre cannot be free, nor can springs act on what is no coordinate.
+    // Bodies of a pendulum without inertia about their centre cannot be free, nor can springs act on what is
+    // no coordinate.
     ASSERT_EQ(report["first_kind"].size(), name == "lagrange_top" ? 5u : 3u) << name;
     const json &minimal = report["first_kind"][0], &plain = report["first_kind"][1],
                &projected = report["first_kind"][2];

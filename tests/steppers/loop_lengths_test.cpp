@@ -1,5 +1,5 @@
-// A coupler whose length is set at run time, on both sides of where a bar begins to turn round: the emitted code is right there, or it
-// says that it is not to be trusted.
+// A coupler whose length is set at run time, on both sides of where a bar begins to turn round: the emitted
+// code is right there, or it says that it is not to be trusted.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -191,7 +191,8 @@ TEST(Steppers, CopiesOfStateAndHistoryGoOnWithTheSameBits) {
 }
 
 /// Largest difference between the lower half of A and dual numbers through forward_dynamics; displacements of the
-/// quaternion whose w is y[quaternion] (negative: none) and whose angular velocity begins at z[spin] are small rotations.
+/// quaternion whose w is y[quaternion] (negative: none) and whose angular velocity begins at z[spin] are small
+/// rotations.
 template <int quaternion, int spin, template <class> class Model, template <class> class State,
           template <class> class Input>
 double linearisation_error(State<double> state, const Input<Dual>& input) {

@@ -1,7 +1,8 @@
 // All steppers of a model that was emitted with them.
 #pragma once
 
-/// Calls `visit(name, order, history, step)` for each stepper of the model's namespace, `step(state, input, h, history)`.
+/// Calls `visit(name, order, history, step)` for each stepper of the model's namespace, `step(state, input, h,
+/// history)`.
 #define JOURDAIN_VISIT_STEPPERS(ns, Real, visit)                                                             \
   do {                                                                                                       \
     int none = 0;                                                                                            \

@@ -21,7 +21,8 @@ struct EmittedModel {
   void set_parameter(const std::string& name, double value);
 };
 
-/// Functions that a model is emitted with: every stepper and the derivatives of forward dynamics, or a few where those are long.
+/// Functions that a model is emitted with: every stepper and the derivatives of forward dynamics, or a few
+/// where those are long.
 std::vector<std::string> all_loadable_functions();
 
 /// Parameters have their values in the mechanism.
@@ -41,8 +42,8 @@ std::size_t method_called(const jourdain_model_table& table, const std::string& 
 /// A mass on a rail with a spring (N/m) and a damper (N s/m), 0.1 m from rest; 1 kg.
 std::string oscillator_text(double stiffness, double damping);
 
-/// Chain of `count` rods (0.2 m, 0.5 kg) in a vertical plane, each held to the one before by a bushing: parameters k (N/m) and c
-/// (N s/m) along and across, bending (N m/rad). Three velocities a rod, two of them stiff.
+/// Chain of `count` rods (0.2 m, 0.5 kg) in a vertical plane, each held to the one before by a bushing:
+/// parameters k (N/m) and c (N s/m) along and across, bending (N m/rad). Three velocities a rod, two of them stiff.
 std::string bushing_chain_text(int count);
 
 }  // namespace jourdain::tests

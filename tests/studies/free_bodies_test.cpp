@@ -21,7 +21,8 @@ std::string body(const std::string& name, const std::string& more = "") {
          "\"\nmass = \"m\"\ncenter_of_mass = [0.1, 0.05, -0.2]\ninertia = [0.02, 0.03, 0.04]\n" + more;
 }
 
-/// A mast with a trolley that is pushed, a damped arm with a geared motor and a tool fixed to it, a cross, a sleeve, a ball.
+/// A mast with a trolley that is pushed, a damped arm with a geared motor and a tool fixed to it, a cross, a
+/// sleeve, a ball.
 std::string chain(const std::string& on_arm = "damping = 0.3\n", const std::string& end = "") {
   return "[model]\nname = \"chain\"\ngravity = [0, 1, -9.81]\n[parameters]\nm = 1.5\n" + body("mast") +
          "[[joint]]\nname = \"turn\"\ntype = \"revolute\"\nparent = \"world\"\nchild = \"mast\"\n"

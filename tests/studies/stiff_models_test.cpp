@@ -1,4 +1,5 @@
-// Stiff models: limits that are predicted against those that runs show, and the implicit steppers at many times RK4's limit.
+// Stiff models: limits that are predicted against those that runs show, and the implicit steppers at many
+// times RK4's limit.
 #include <fmt/format.h>
 
 #include <cmath>

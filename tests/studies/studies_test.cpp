@@ -90,7 +90,8 @@ TEST(Divergence, IsThatOfTheHyperbolicCosine) {
   constexpr double kRate = 2;
   const Divergence divergence = measure_divergence(flow, reference.points, 0.1, kRate);
   ASSERT_EQ(divergence.growth.size(), 41u);
-  // Whatever the direction, after a while separations grow as exp(5 t); its share of the growing mode costs a constant factor.
+  // Whatever the direction, after a while separations grow as exp(5 t); its share of the growing mode costs a
+  // constant factor.
   for (std::size_t k = 10; k < 40; ++k)
     EXPECT_NEAR(std::log(divergence.growth[k + 1] / divergence.growth[k]), 0.5, 1e-4) << k;
   const double most = std::hypot(std::cosh(20.0), kRate * std::sinh(20.0) / 5);

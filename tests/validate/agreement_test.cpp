@@ -1,4 +1,5 @@
-// What is refused and what is not: differences of algebra, whatever the size of the numbers, and never those of rounding.
+// What is refused and what is not: differences of algebra, whatever the size of the numbers, and never those
+// of rounding.
 #include "validate/agreement.hpp"
 
 #include <gtest/gtest.h>

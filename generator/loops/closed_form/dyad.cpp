@@ -188,8 +188,8 @@ class Solver {
     return solution(known(-(k + B * *e_b)), known(*e_b));
   }
 
-  /// k + A e_a + Σ C e_a e_b = 0, where A e_a + Σ C e_a e_b = R(a) (u + R(b) w). With A = 1 after division it is m(e_b) e_a, a product of
-  /// complex numbers with m = 1 + W e_b, so that |m| = |k|.
+  /// k + A e_a + Σ C e_a e_b = 0, where A e_a + Σ C e_a e_b = R(a) (u + R(b) w). With A = 1 after division it
+  /// is m(e_b) e_a, a product of complex numbers with m = 1 + W e_b, so that |m| = |k|.
   Result nested(std::size_t a, std::size_t b) {
     const Matrix2 A = matrix(a);
     if (!is_regular(A)) return kUndetermined;

@@ -17,8 +17,8 @@ struct Solution {
   std::optional<Matrix3> rotation = {};  ///< that the last four unknowns are the quaternion of
 };
 
-/// Solves `rows` = 0 for as many unknowns, one or two; of two solutions the one that passes through `initial` values of them
-/// is taken. Otherwise why not, a phrase for the user.
+/// Solves `rows` = 0 for as many unknowns, one or two; of two solutions the one that passes through `initial`
+/// values of them is taken. Otherwise why not, a phrase for the user.
 std::variant<Solution, std::string> solve(ir::Builder& builder, std::vector<Polynomial> rows,
                                           const std::vector<double>& initial, const Samples& samples);
 

@@ -9,11 +9,12 @@
 
 namespace jourdain::loops {
 
-/// States that formulas are evaluated at; the first is the initial one. What holds at all of them to rounding is taken to hold.
+/// States that formulas are evaluated at; the first is the initial one. What holds at all of them to rounding
+/// is taken to hold.
 using Samples = std::vector<ir::LeafValues<double>>;
 
-/// `count` states: the entries of y that `varied` marks and the time are off by up to 0.3, parameters with a range by up to half of it,
-/// later ones by less.
+/// `count` states: the entries of y that `varied` marks and the time are off by up to 0.3, parameters with a
+/// range by up to half of it, later ones by less.
 Samples samples_near(const std::vector<double>& initial_y, const std::vector<bool>& varied,
                      const std::vector<double>& parameters,
                      const std::vector<std::optional<std::array<double, 2>>>& parameter_range,

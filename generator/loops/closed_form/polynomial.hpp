@@ -16,8 +16,9 @@ namespace jourdain::loops {
 /// Scalar coordinates that a block determines at most; beside them a rotation in space.
 inline constexpr std::size_t kScalars = 3;
 
-/// Powers of cos, sin and the plain value of each unknown scalar, c₀, s₀, v₀, c₁ …, of which sin occurs once at most: s² is 1 − c²;
-/// of the entries w x y z of an unknown quaternion, and of those of its rotation matrix R, row by row.
+/// Powers of cos, sin and the plain value of each unknown scalar, c₀, s₀, v₀, c₁ …, of which sin occurs once
+/// at most: s² is 1 − c²; of the entries w x y z of an unknown quaternion, and of those of its rotation matrix
+/// R, row by row.
 using Monomial = std::array<int, 3 * kScalars + 4 + 9>;
 
 inline constexpr Monomial kConstant{};
@@ -65,8 +66,8 @@ struct Roles {
   std::vector<std::string> names;            ///< of the entries of y, for messages
 };
 
-/// Those values of `program`, in the builder's values; sines and cosines of sums with dependent coordinates are split by the addition
-/// theorem. Otherwise why one is no such polynomial, a phrase for the user.
+/// Those values of `program`, in the builder's values; sines and cosines of sums with dependent coordinates
+/// are split by the addition theorem. Otherwise why one is no such polynomial, a phrase for the user.
 std::variant<std::vector<Polynomial>, std::string> polynomials_of(ir::Builder& builder,
                                                                   const ir::Program& program,
                                                                   const std::vector<ir::ValueId>& values,

@@ -42,11 +42,11 @@ struct ClosedFormRequest {
 };
 
 /// Solves blocks of one coordinate (linear, or α cos + β sin = γ) and of two: two angles of which the rows are
-/// k + A e_a + B e_b or k + R(a) (u + R(b) w), an angle and a slide of which they are k + A e_a + v s or k + R(a) (u + v s),
-/// two slides; three slides between three spheres; a rotation in space with at most one coordinate (see solve_rotation). e is (cos,
-/// sin); rows may be combined by any regular matrix that the unknowns do not change. Every root is proven to
-/// stay off zero over the range of the independent coordinates that matter: an angle without range may take any value.
-/// Otherwise the reason, a phrase for the user.
+/// k + A e_a + B e_b or k + R(a) (u + R(b) w), an angle and a slide of which they are k + A e_a + v s or k +
+/// R(a) (u + v s), two slides; three slides between three spheres; a rotation in space with at most one
+/// coordinate (see solve_rotation). e is (cos, sin); rows may be combined by any regular matrix that the
+/// unknowns do not change. Every root is proven to stay off zero over the range of the independent coordinates
+/// that matter: an angle without range may take any value. Otherwise the reason, a phrase for the user.
 std::variant<ClosedForm, std::string> closed_form(const ClosedFormRequest& request);
 
 }  // namespace jourdain::loops

@@ -10,8 +10,8 @@
 
 namespace jourdain::loops {
 
-/// Of the blocks of a plan, from its initial state. Parameters vary over their ranges, the others have their default values. Otherwise why
-/// there is no closed form, a phrase.
+/// Of the blocks of a plan, from its initial state. Parameters vary over their ranges, the others have their
+/// default values. Otherwise why there is no closed form, a phrase.
 std::variant<ClosedFormRequest, std::string> position_request(const model::Mechanism& mechanism,
                                                               const ConstraintPrograms& constraints,
                                                               const LoopPlan& plan);

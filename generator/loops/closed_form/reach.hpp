@@ -37,8 +37,9 @@ struct Reached {
   std::vector<ProvenRange> positions;  ///< that matter and have a range
 };
 
-/// The least margin that is proven wherever the independent coordinates may be: within their range, an angle without one or one
-/// that time drives anywhere; and for all parameters within their ranges. Otherwise what is not proven, a phrase for the user.
+/// The least margin that is proven wherever the independent coordinates may be: within their range, an angle
+/// without one or one that time drives anywhere; and for all parameters within their ranges. Otherwise what is
+/// not proven, a phrase for the user.
 std::variant<Reached, std::string> smallest_margin(const ReachRequest& request, Effort effort = {});
 
 }  // namespace jourdain::loops

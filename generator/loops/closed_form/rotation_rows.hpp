@@ -50,7 +50,8 @@ class RotationRows {
   Scalar folded(Scalar value) const;
   /// The value as a number: exact where it depends on nothing, otherwise that at the start.
   Scalar constant(Scalar value) const;
-  /// Scaled so that the first of the left vectors has length 1, if it has `length` at the start and no parameter changes that.
+  /// Scaled so that the first of the left vectors has length 1, if it has `length` at the start and no
+  /// parameter changes that.
   Factors scaled(Factors factors, Scalar length) const;
   bool is_orthonormal(const std::vector<Vector3>& B) const;
 

@@ -237,7 +237,8 @@ class RotationSolver : RotationRows {
     return Held{Matrix3{{B[0], B[1], B[2]}} * p, t, 0.5 * (rod.length * rod.length - dot(p, p) - dot(t, t))};
   }
 
-  /// With R c = d and n · R t = γ: R t = (c·t/|c|²) d + x, where x is orthogonal to d, of known length and of known component along n.
+  /// With R c = d and n · R t = γ: R t = (c·t/|c|²) d + x, where x is orthogonal to d, of known length and of
+  /// known component along n.
   Result turned(const Image& image, const RotationRow& last) {
     const auto held = held_in_turning(last);
     if (!held) return kOtherForm;

@@ -39,8 +39,8 @@ double magnitude(Interval a);
 
 bool is_inside(const Intervals& inner, const Intervals& outer);
 
-/// A branch x(p) over a box P of the free variables: for every p in P there is exactly one solution in x + S (p − centre) + U. It
-/// depends continuously on p, and ∂g/∂x is regular all over that set.
+/// A branch x(p) over a box P of the free variables: for every p in P there is exactly one solution in x + S
+/// (p − centre) + U. It depends continuously on p, and ∂g/∂x is regular all over that set.
 struct Branch {
   Intervals P;
   Eigen::VectorXd centre, x;  ///< the middle of P; a point near the branch there
@@ -94,13 +94,13 @@ class BranchEquations {
   Evaluator evaluate_;
 };
 
-/// Encloses the branch that Newton's method finds from `guess` over the box P: the operator of Krawczyk (1969) on the deviation from
-/// its tangent. With A enclosing the derivatives over x + S (P − c) + U,
+/// Encloses the branch that Newton's method finds from `guess` over the box P: the operator of Krawczyk (1969)
+/// on the deviation from its tangent. With A enclosing the derivatives over x + S (P − c) + U,
 ///
 ///   K(U) = −C g(x, c) − C (A_p + A_x S) (P − c) + (1 − C A_x) U
 ///
-/// maps solutions in U to themselves; where K(U) is inside U there is one for every p, and A_x is regular (Neumaier 1990,
-/// theorem 5.1.8). Nothing where the box is too large for that, or no branch is there.
+/// maps solutions in U to themselves; where K(U) is inside U there is one for every p, and A_x is regular
+/// (Neumaier 1990, theorem 5.1.8). Nothing where the box is too large for that, or no branch is there.
 std::optional<Branch> enclose_branch(const BranchEquations& equations, const Intervals& P,
                                      const Eigen::VectorXd& guess);
 

@@ -90,8 +90,8 @@ class Proof {
     return point;
   }
 
-  /// Of the sides that were not halved too often the one over which the bound's value varies most, as far as slopes tell; otherwise
-  /// the one that was halved least.
+  /// Of the sides that were not halved too often the one over which the bound's value varies most, as far as
+  /// slopes tell; otherwise the one that was halved least.
   std::optional<std::size_t> widest(const Box& box, std::size_t bound) const {
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < box.halvings.size(); ++k) {
@@ -117,7 +117,8 @@ class Proof {
     return ir::interpret_interval(program, leaves);
   }
 
-  /// Of each value over the box; −∞ where it may not exist. Sets `violation_` where the middle of the box refutes the bound.
+  /// Of each value over the box; −∞ where it may not exist. Sets `violation_` where the middle of the box
+  /// refutes the bound.
   std::vector<double> lower_bounds(const Box& box) {
     std::vector<Interval> point;
     for (const double x : middle(box)) point.push_back(Interval::point(x));

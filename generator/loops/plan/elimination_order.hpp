@@ -8,8 +8,8 @@
 
 namespace jourdain::loops {
 
-/// Rows and columns of the block in an order whose pivots are large at the first of the Jacobians, with few operations; empty where one
-/// nearly vanishes at another: sampled, what is used needs a proof.
+/// Rows and columns of the block in an order whose pivots are large at the first of the Jacobians, with few
+/// operations; empty where one nearly vanishes at another: sampled, what is used needs a proof.
 Elimination elimination_order(const std::vector<Matrix>& jacobians, const std::vector<std::size_t>& rows,
                               const std::vector<std::size_t>& columns);
 

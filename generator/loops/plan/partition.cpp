@@ -44,9 +44,10 @@ class Conditioning {
     }
   }
 
-  /// Smallest singular value of the dependent columns over the largest of all columns, the worst of all; G equilibrated. All columns
-  /// count: otherwise a single dependent coordinate would never be conditioned badly. 0 where the determinant changes its sign: between
-  /// such configurations the block is singular. Stops below `enough`.
+  /// Smallest singular value of the dependent columns over the largest of all columns, the worst of all; G
+  /// equilibrated. All columns count: otherwise a single dependent coordinate would never be conditioned
+  /// badly. 0 where the determinant changes its sign: between such configurations the block is singular. Stops
+  /// below `enough`.
   double operator()(const std::vector<std::size_t>& dependents, double enough = 0) {
     double worst = 1;
     std::optional<bool> sign;

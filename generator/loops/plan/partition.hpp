@@ -21,8 +21,8 @@ Groups velocity_groups(const model::Mechanism& mechanism);
 
 /// `structure` are Jacobians that vanish only where a row has no such part: what blocks are made by.
 ///
-/// The partition whose dependent block is conditioned best where it is worst, over Jacobians with only regular rows. Where several
-/// are nearly as good the one with `preferred` velocities. Nothing where the groups do not fit.
+/// The partition whose dependent block is conditioned best where it is worst, over Jacobians with only regular
+/// rows. Where several are nearly as good the one with `preferred` velocities. Nothing where the groups do not fit.
 std::optional<Partition> choose_partition(const std::vector<Matrix>& jacobians,
                                           const std::vector<Matrix>& structure, const Groups& groups,
                                           const std::vector<bool>& preferred);
@@ -37,7 +37,8 @@ std::vector<Matrix> open_rows(const model::Mechanism& mechanism, const Constrain
                               const std::vector<Configuration>& configurations,
                               const std::vector<std::size_t>& rows);
 
-/// Block triangular form of the dependent columns: the smallest square blocks in an order in which each needs earlier ones only.
+/// Block triangular form of the dependent columns: the smallest square blocks in an order in which each needs
+/// earlier ones only.
 std::vector<Block> triangular_blocks(const std::vector<Matrix>& jacobians,
                                      const std::vector<std::size_t>& dependents);
 

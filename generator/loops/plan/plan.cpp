@@ -152,8 +152,8 @@ class Planner {
     return regular;
   }
 
-  /// Off the loops, at other parameters: what vanishes there is no part of a row. Rods of equal lengths hide some parts where loops
-  /// are closed.
+  /// Off the loops, at other parameters: what vanishes there is no part of a row. Rods of equal lengths hide
+  /// some parts where loops are closed.
   std::vector<Matrix> open_jacobians() const {
     return open_rows(mechanism_, constraints_, configurations_, plan_.rows);
   }
@@ -185,8 +185,8 @@ class Planner {
     return true;
   }
 
-  /// Those that may be closed: the one that is named; otherwise the one that is conditioned best, and the one of the coordinates with a
-  /// range, over which more can be proven.
+  /// Those that may be closed: the one that is named; otherwise the one that is conditioned best, and the one
+  /// of the coordinates with a range, over which more can be proven.
   std::vector<Partition> partitions() const {
     const std::vector<Matrix> regular = regular_jacobians(), open = open_jacobians();
     const std::vector<std::size_t> named = named_independent();
@@ -232,7 +232,8 @@ class Planner {
     return "";
   }
 
-  /// A choice that is not proven is taken only where it is asked for, or where multipliers would need M⁻¹ of a singular M.
+  /// A choice that is not proven is taken only where it is asked for, or where multipliers would need M⁻¹ of a
+  /// singular M.
   void go_without_proof(const std::string& why) {
     if (plan_.is_named || !massless_.empty())
       return diagnostics_.warning(
@@ -285,7 +286,8 @@ class Planner {
     return closed_form(positions);
   }
 
-  /// Complete pivoting at the start, where cofactors are dearer; none where a pivot is nearly lost at a configuration seen.
+  /// Complete pivoting at the start, where cofactors are dearer; none where a pivot is nearly lost at a
+  /// configuration seen.
   Elimination elimination_of(const Block& block) const {
     if (block.rows.size() < 3) return {};
     return elimination_order(jacobians_, block.rows, block.dependents);

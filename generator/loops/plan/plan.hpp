@@ -9,8 +9,8 @@
 
 namespace jourdain::loops {
 
-/// Decides on the loops of `mechanism`. Nothing after diagnostics (loops that cannot be assembled, no freedom left, a treatment
-/// that is asked for and not possible).
+/// Decides on the loops of `mechanism`. Nothing after diagnostics (loops that cannot be assembled, no freedom
+/// left, a treatment that is asked for and not possible).
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
                                    support::Diagnostics& diagnostics);
 

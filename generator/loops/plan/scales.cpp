@@ -13,8 +13,8 @@ namespace jourdain::loops {
 
 namespace {
 
-/// Regularisation as a share of the largest entry of G M⁻¹ Gᵀ at the start, of rows with lengths: what rounding allows, and what keeps
-/// multipliers bounded where singular configurations are passed again and again.
+/// Regularisation as a share of the largest entry of G M⁻¹ Gᵀ at the start, of rows with lengths: what
+/// rounding allows, and what keeps multipliers bounded where singular configurations are passed again and again.
 constexpr double kLeast = 1e-10, kBounding = 1e-7;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }

@@ -11,8 +11,8 @@ namespace jourdain::loops {
 /// G M⁻¹ Gᵀ at a configuration, M of the tree.
 Matrix schur_matrix(const model::Mechanism& mechanism, const Configuration& configuration, const Matrix& G);
 
-/// Sets row_length and regularisation of the plan from the start, where the Jacobian is `G`; where M of the tree is singular there is
-/// nothing to take them from.
+/// Sets row_length and regularisation of the plan from the start, where the Jacobian is `G`; where M of the
+/// tree is singular there is nothing to take them from.
 void set_scales(const model::Mechanism& mechanism, const Configuration& start, const Matrix& G,
                 bool is_regular, LoopPlan& plan);
 
@@ -20,7 +20,8 @@ void set_scales(const model::Mechanism& mechanism, const Configuration& start, c
 void set_sharing_lengths(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                          const std::vector<Matrix>& jacobians, LoopPlan& plan);
 
-/// Sets the determinant of what closing solves for, once the treatment is known, from the configurations seen. The first is the start.
+/// Sets the determinant of what closing solves for, once the treatment is known, from the configurations seen.
+/// The first is the start.
 void set_determinant(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                      const std::vector<Matrix>& jacobians, LoopPlan& plan);
 

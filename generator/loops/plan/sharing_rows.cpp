@@ -15,7 +15,8 @@ using Rows = std::vector<std::size_t>;
 constexpr long double kSteady = 0.9L;
 /// How much better rows that share must do.
 constexpr long double kBetter = 1.2L;
-/// Of the least singular value that counts the next one may be so much, or numbers that disagree tell what is independent.
+/// Of the least singular value that counts the next one may be so much, or numbers that disagree tell what is
+/// independent.
 constexpr long double kClear = 1e-2L;
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }

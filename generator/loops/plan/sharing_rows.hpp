@@ -8,9 +8,9 @@
 
 namespace jourdain::loops {
 
-/// Redundant rows may be so in turn: of the two rows that hold an axis, fixed in a body that turns, now the one follows from the
-/// others and now the other. Then no choice stays regular, though the mechanism does. Of `rows`, which are regular, one that does not
-/// stay so and those that take its place, if there are any such; in order.
+/// Redundant rows may be so in turn: of the two rows that hold an axis, fixed in a body that turns, now the
+/// one follows from the others and now the other. Then no choice stays regular, though the mechanism does. Of
+/// `rows`, which are regular, one that does not stay so and those that take its place, if there are any such; in order.
 std::vector<std::size_t> sharing_rows(const std::vector<Matrix>& jacobians,
                                       const std::vector<std::size_t>& rows);
 

@@ -132,8 +132,8 @@ class StartSearch {
     return opening(z).lpNorm<Eigen::Infinity>() <= kAgrees * (1 + z.lpNorm<Eigen::Infinity>());
   }
 
-  /// The velocities nearest to the initial ones that agree with the loops, `held` and `held_` as they are; where there are none, those
-  /// that open the loops least.
+  /// The velocities nearest to the initial ones that agree with the loops, `held` and `held_` as they are;
+  /// where there are none, those that open the loops least.
   Vector nearest(const Entries& held) const {
     return closure_.consistent(start_.configuration, initial_.z, all_but(held_, held));
   }

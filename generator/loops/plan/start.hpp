@@ -19,12 +19,14 @@ struct Start {
   std::vector<Moved> moved;
 };
 
-/// Closes the loops from the initial values; the velocities `independent` of the tree and their coordinates stay as they are.
+/// Closes the loops from the initial values; the velocities `independent` of the tree and their coordinates
+/// stay as they are.
 ///
-/// Positions that the description gives stay where the others can close the loops alone; otherwise all move from as near as those come.
-/// Velocities that it gives stay, to the bit, where they agree with the loops; given zeros yield to other given ones, and ones that agree
-/// to 1e-6 of the largest count as rounded and move to the nearest that agree. Nothing after diagnostics: loops that stay open or close
-/// with axes against each other, given velocities that conflict.
+/// Positions that the description gives stay where the others can close the loops alone; otherwise all move
+/// from as near as those come. Velocities that it gives stay, to the bit, where they agree with the loops;
+/// given zeros yield to other given ones, and ones that agree to 1e-6 of the largest count as rounded and move
+/// to the nearest that agree. Nothing after diagnostics: loops that stay open or close with axes against each
+/// other, given velocities that conflict.
 std::optional<Start> find_start(const model::Mechanism& mechanism, const NumericClosure& closure,
                                 const std::vector<std::size_t>& independent,
                                 support::Diagnostics& diagnostics);

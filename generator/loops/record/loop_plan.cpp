@@ -25,7 +25,8 @@ double LoopPlan::least_regularity() const {
     case LoopTreatment::kPartitioned:
       return proof ? 1e-6 : 1e-3;
     case LoopTreatment::kMultipliers:
-      // Ten times the regularisation: a hundredth of the constraint force is left out. Where rows disagree they tell no better what holds.
+      // Ten times the regularisation: a hundredth of the constraint force is left out. Where rows disagree
+      // they tell no better what holds.
       return is_named ? 0 : std::max(1e-9, 10 * disagreement);
   }
   return 0;

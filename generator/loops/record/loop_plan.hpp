@@ -1,5 +1,5 @@
-// The record of what is decided offline about a mechanism's loops: where it starts, which coordinates are independent, how loops are
-// closed.
+// The record of what is decided offline about a mechanism's loops: where it starts, which coordinates are
+// independent, how loops are closed.
 #pragma once
 
 #include <optional>
@@ -34,20 +34,22 @@ struct LoopPlan {
   std::size_t freedom = 0;             ///< degrees of freedom
   std::vector<std::string> redundant;  ///< rows that follow from others, by name
   std::vector<std::size_t> rows;       ///< the others
-  /// With multipliers: rows of which one counts, a different one here and there. Those of `rows` and others that are redundant; see
-  /// SchurFactors. Empty where `rows` stay independent everywhere.
+  /// With multipliers: rows of which one counts, a different one here and there. Those of `rows` and others
+  /// that are redundant; see SchurFactors. Empty where `rows` stay independent everywhere.
   std::vector<std::size_t> sharing;
-  /// Redundant rows that disagree with the others by more than rounding, and by how much (m, rad) at worst, of the configurations seen: they stay open.
+  /// Redundant rows that disagree with the others by more than rounding, and by how much (m, rad) at worst, of
+  /// the configurations seen: they stay open.
   std::vector<std::size_t> disagreeing;
   double disagreement = 0;
   std::vector<std::size_t> independent;  ///< velocities; empty with multipliers
   std::vector<Block> blocks;  ///< of the dependent ones, in the order of solution; empty with multipliers
-  /// Smallest singular value of the dependent block over the largest of G, rows and columns scaled; the worst at the configurations
-  /// seen. 0 is singular.
+  /// Smallest singular value of the dependent block over the largest of G, rows and columns scaled; the worst
+  /// at the configurations seen. 0 is singular.
   double conditioning = 0;
   std::vector<double> row_length;  ///< m by row: what its multiplier is divided by to be a force
-  /// Added to G M⁻¹ Gᵀ of rows with lengths, 1/kg, for accelerations and for what closes, and how often that is made good; see
-  /// SchurFactors. Multipliers that were asked for are meant to pass singular configurations: there more bounds them.
+  /// Added to G M⁻¹ Gᵀ of rows with lengths, 1/kg, for accelerations and for what closes, and how often that
+  /// is made good; see SchurFactors. Multipliers that were asked for are meant to pass singular
+  /// configurations: there more bounds them.
   double regularisation = 0, closing_regularisation = 0;
   int corrections = 1;
   double determinant = 1;  ///< of what closing solves for, its largest at the configurations seen
@@ -63,11 +65,11 @@ struct LoopPlan {
   /// Rows that multipliers are solved for, in order: `rows` and those that share.
   std::vector<std::size_t> solved_rows() const;
   bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
-  /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that were asked for pass
-  /// singular configurations straight on: 0.
+  /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that
+  /// were asked for pass singular configurations straight on: 0.
   double least_regularity() const;
-  /// Beyond it a state's `opening` says that closing may have left loops open by more than 1e-10 of the scene's length. Follows from the
-  /// proof where there is one, is chosen otherwise.
+  /// Beyond it a state's `opening` says that closing may have left loops open by more than 1e-10 of the
+  /// scene's length. Follows from the proof where there is one, is chosen otherwise.
   double greatest_opening() const;
 };
 

@@ -17,7 +17,8 @@ using ir::LeafKind;
 
 namespace {
 
-/// What each block may be off by after its iterations, and the share of the radius that blocks before it may move it by.
+/// What each block may be off by after its iterations, and the share of the radius that blocks before it may
+/// move it by.
 constexpr double kEnd = 1e-10, kMoved = 0.01;
 constexpr double kLeastRadius = 1e-8;
 /// Bounds hold within this many radii.

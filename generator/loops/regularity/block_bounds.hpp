@@ -1,4 +1,5 @@
-// What holds of dependent blocks all along a branch: how regular they are, from how far away Newton iterations come back.
+// What holds of dependent blocks all along a branch: how regular they are, from how far away Newton iterations
+// come back.
 #pragma once
 
 #include <cstddef>
@@ -22,21 +23,22 @@ struct NewtonProblem {
   int iterations = 2;
 };
 
-/// Takes a branch box by box. The margin of a block A is the least |det A| over the product of the largest norms of its rows, columns
-/// divided by their norms at the start. With C near A⁻¹ and e_ij bounds of |1 − C A|, |det A| ≥ Π (1 − Σ_j e_ij) / |det C|
-/// (Ostrowski 1937).
+/// Takes a branch box by box. The margin of a block A is the least |det A| over the product of the largest
+/// norms of its rows, columns divided by their norms at the start. With C near A⁻¹ and e_ij bounds of |1 − C
+/// A|, |det A| ≥ Π (1 − Σ_j e_ij) / |det C| (Ostrowski 1937).
 ///
 /// Displacements d lead from the dependents to the branch; slides count in units of `length`. In one block
-/// with e = max |d| Newton's iteration leaves e⁺ ≤ κ ω/2 e², ω a bound of |G⁻¹ ∂²g/∂d²| (the affine invariant form of the theorem of
-/// Newton and Kantorovich: Deuflhard 2004, theorem 2.3), κ = 2 where there are quaternions, whose displacements do not add up.
-/// That rows do not depend on later blocks is seen at the middle of each box, not proven.
+/// with e = max |d| Newton's iteration leaves e⁺ ≤ κ ω/2 e², ω a bound of |G⁻¹ ∂²g/∂d²| (the affine invariant
+/// form of the theorem of Newton and Kantorovich: Deuflhard 2004, theorem 2.3), κ = 2 where there are
+/// quaternions, whose displacements do not add up. That rows do not depend on later blocks is seen at the
+/// middle of each box, not proven.
 class BlockBounds {
  public:
   BlockBounds(NewtonProblem problem, const BranchEquations& equations, const Eigen::VectorXd& start_x,
               const Eigen::VectorXd& start_p);
 
-  /// Makes the bounds so small that they hold on this box too. False, and nothing changed, where the box is too large to tell or the
-  /// margin not proven to be above `least`.
+  /// Makes the bounds so small that they hold on this box too. False, and nothing changed, where the box is
+  /// too large to tell or the margin not proven to be above `least`.
   bool include(const Branch& branch, double least);
 
   /// The smallest of all blocks.
@@ -46,10 +48,11 @@ class BlockBounds {
 
   /// Dependents off by this or less come back; rad, or units of `length`.
   double radius() const { return radius_; }
-  /// Nowhere else within this of the branch do the rows vanish. With 1 − C G of norm θ or less there, a first correction c belongs
-  /// to dependents off by |c| (1 + θ)/(1 − θ) or less.
+  /// Nowhere else within this of the branch do the rows vanish. With 1 − C G of norm θ or less there, a first
+  /// correction c belongs to dependents off by |c| (1 + θ)/(1 − θ) or less.
   double isolation() const { return isolation_; }
-  /// So do those within `isolation` whose first correction, the root of the sum of the squares of all blocks', is at most this; rad, m.
+  /// So do those within `isolation` whose first correction, the root of the sum of the squares of all blocks',
+  /// is at most this; rad, m.
   double first_correction() const;
   /// Distance from the branch after the iterations, in exact arithmetic.
   double ends_within() const;

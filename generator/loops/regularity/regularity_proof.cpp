@@ -156,8 +156,8 @@ class Proof {
     worst_ = branch.centre;
   }
 
-  /// The branch must go on into every part that it enters, and agree with those that are proven: if it does so at one point of a shared
-  /// face it does on all of that, as both are continuous and regular.
+  /// The branch must go on into every part that it enters, and agree with those that are proven: if it does so
+  /// at one point of a shared face it does on all of that, as both are continuous and regular.
   std::string meet_neighbours(std::size_t index) {
     const Branch& branch = *(*region_)[index].branch;
     for (const std::size_t other : region_->touching(branch.P)) {
@@ -282,8 +282,9 @@ class Proof {
                        [&](std::size_t part) { return (*region_)[part].branch.has_value(); });
   }
 
-  /// The solution half of all turns before the start and that half of them after it, whole turns of angles taken off, are the same if the
-  /// second is in the box about the branch at the first in which there is only one. Two branches that meet anywhere do so everywhere.
+  /// The solution half of all turns before the start and that half of them after it, whole turns of angles
+  /// taken off, are the same if the second is in the box about the branch at the first in which there is only
+  /// one. Two branches that meet anywhere do so everywhere.
   bool closes(std::size_t k) const {
     if (layout_.free.size() > 1 && !is_all_proven()) return false;
     VectorXd p = start_p();

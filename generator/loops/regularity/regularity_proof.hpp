@@ -33,10 +33,12 @@ struct RegularityRequest {
   Evaluator evaluate = ir::interpret_interval;
 };
 
-/// The proof; otherwise why it is not proven, a phrase for the user that says where. The same on every machine: effort is counted in boxes.
+/// The proof; otherwise why it is not proven, a phrase for the user that says where. The same on every
+/// machine: effort is counted in boxes.
 std::variant<RegularityProof, std::string> prove_regular(const RegularityRequest& request);
 
-/// The request for a plan whose independent velocities and blocks are chosen, from the plan's initial state, parameters in their ranges.
+/// The request for a plan whose independent velocities and blocks are chosen, from the plan's initial state,
+/// parameters in their ranges.
 RegularityRequest regularity_request(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
                                      const LoopPlan& plan);
 

@@ -33,8 +33,8 @@ class NumericClosure {
   std::size_t velocity_count() const { return velocities_; }
   const model::Tangent& tangent() const { return tangent_; }
 
-  /// Rows that follow from others, but for numbers that disagree: assembling and walking leave them open, by no more than `limit` (m,
-  /// products of unit vectors) on the branch that is meant.
+  /// Rows that follow from others, but for numbers that disagree: assembling and walking leave them open, by
+  /// no more than `limit` (m, products of unit vectors) on the branch that is meant.
   void disregard(const std::vector<std::size_t>& rows, long double limit);
   /// Whether the rows that are regarded are closed, and the others nearly so.
   bool is_closed(const Configuration& at) const;
@@ -54,11 +54,13 @@ class NumericClosure {
   /// y moved by the displacement; quaternions keep unit length.
   Configuration displaced(const Configuration& from, const Vector& displacement) const;
 
-  /// The nearest closed configuration, by damped Gauss-Newton steps of least norm over the velocities listed in `moving`
-  /// (empty: all). Check `value` of the result: where it is not closed, g is as small as these steps can make it.
+  /// The nearest closed configuration, by damped Gauss-Newton steps of least norm over the velocities listed
+  /// in `moving` (empty: all). Check `value` of the result: where it is not closed, g is as small as these
+  /// steps can make it.
   Configuration assembled(Configuration start, const std::vector<bool>& moving) const;
 
-  /// The nearest velocities that meet G z + g_t = 0, of those in `moving`; where there are none, those that come nearest to that.
+  /// The nearest velocities that meet G z + g_t = 0, of those in `moving`; where there are none, those that
+  /// come nearest to that.
   Vector consistent(const Configuration& at, const Vector& z, const std::vector<bool>& moving) const;
 
  private:
@@ -85,8 +87,8 @@ Vector least_norm(const Matrix& A, const Vector& b);
 bool in_range(const Configuration& config, const model::Mechanism& mechanism,
               const model::CoordinateLayout& layout);
 
-/// Closed configurations from seeded random walks on the constraint manifold, the first is `start`. Where no freedom is left they are
-/// those of times to come; without prescribed motion all are the start.
+/// Closed configurations from seeded random walks on the constraint manifold, the first is `start`. Where no
+/// freedom is left they are those of times to come; without prescribed motion all are the start.
 std::vector<Configuration> walk(const NumericClosure& closure, const Configuration& start,
                                 const model::Mechanism& mechanism, std::size_t count);
 

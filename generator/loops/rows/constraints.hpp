@@ -9,8 +9,8 @@
 
 namespace jourdain::loops {
 
-/// g(y, t), its Jacobian G by the displacements of model::Tangent and g_t; ġ = G z + g_t and γ = g̈ − G ż. Leaves are the
-/// y and z of the tree, t and parameters. Entries that are zero whatever the state are left out.
+/// g(y, t), its Jacobian G by the displacements of model::Tangent and g_t; ġ = G z + g_t and γ = g̈ − G ż.
+/// Leaves are the y and z of the tree, t and parameters. Entries that are zero whatever the state are left out.
 struct ConstraintPrograms {
   ir::Program value;   ///< ("g", row), every row
   ir::Program senses;  ///< ("sense", loop), as in dynamics::LoopClosure
@@ -20,8 +20,9 @@ struct ConstraintPrograms {
   ir::Program rates;     ///< ("rate", row) and ("gamma", row), every row
 };
 
-/// A loop does not feel how its carrier moves: the coordinates inward of it are taken as zero in its rows. There are several ways to the
-/// derivatives: first those with the fewest operations each, then others that may share more with what they are used in.
+/// A loop does not feel how its carrier moves: the coordinates inward of it are taken as zero in its rows.
+/// There are several ways to the derivatives: first those with the fewest operations each, then others that
+/// may share more with what they are used in.
 std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mechanism,
                                                     const dynamics::Equations& equations);
 

@@ -9,8 +9,9 @@ namespace jourdain::loops {
 
 using ir::Column;
 
-/// Solves A x = b and Aᵀ x = b: up to three unknowns by cofactors, more by orthogonalisation (modified Gram-Schmidt). Elimination in
-/// a fixed order divides by pivots that may vanish where A is regular: it is for matrices whose pivots are known not to.
+/// Solves A x = b and Aᵀ x = b: up to three unknowns by cofactors, more by orthogonalisation (modified
+/// Gram-Schmidt). Elimination in a fixed order divides by pivots that may vanish where A is regular: it is for
+/// matrices whose pivots are known not to.
 class DenseSolver {
  public:
   static constexpr std::size_t kLargestByCofactors = 3;

@@ -78,8 +78,9 @@ class Settlement {
            std::none_of(rows.begin(), rows.end(), [&](std::size_t r) { return is_expression[r]; });
   }
 
-  /// The `count` rows that are left open best where all stay open by no more than `limit` wherever the others let the mechanism go;
-  /// none where they do not. Near a singular configuration rows nearly follow from others, too, but not for long.
+  /// The `count` rows that are left open best where all stay open by no more than `limit` wherever the others
+  /// let the mechanism go; none where they do not. Near a singular configuration rows nearly follow from
+  /// others, too, but not for long.
   std::vector<std::size_t> left_open(const std::vector<Configuration>& seen, std::size_t count,
                                      long double limit) const {
     if (!closure_.is_closed(seen.front()) || seen.size() < configurations_ / 2) return {};

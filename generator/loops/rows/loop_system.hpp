@@ -12,8 +12,8 @@
 
 namespace jourdain::loops {
 
-/// Programs of the tree and of the constraints. Those of the tree are asked for by function; "outputs" and "residual" take ż as
-/// leaves.
+/// Programs of the tree and of the constraints. Those of the tree are asked for by function; "outputs" and
+/// "residual" take ż as leaves.
 struct LoopSystem {
   const ConstraintPrograms& constraints;
   const LoopPlan& plan;

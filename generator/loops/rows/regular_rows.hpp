@@ -7,12 +7,12 @@
 
 namespace jourdain::loops {
 
-/// A row that differs from a combination of others by less than this share of the largest row counts as following from them: numbers
-/// that a file gives to seven digits differ by no more.
+/// A row that differs from a combination of others by less than this share of the largest row counts as
+/// following from them: numbers that a file gives to seven digits differ by no more.
 inline constexpr long double kRowTolerance = 1e-6L;
 
-/// As many rows as are independent anywhere: those that stay so best where they do it worst, of the configurations at which that many
-/// are; earlier rows where there is little difference. In order.
+/// As many rows as are independent anywhere: those that stay so best where they do it worst, of the
+/// configurations at which that many are; earlier rows where there is little difference. In order.
 std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians,
                                       long double tolerance = kRowTolerance);
 

@@ -16,8 +16,8 @@ struct Timeless {
       false;  ///< an angle depends on positions too, other than by a sum: it stands for both
 };
 
-/// Copies the outputs of `program` into `builder`. The first driven angle becomes position `first`. Of a sum of positions and
-/// driven angles only the latter are replaced. Time that is used otherwise stays.
+/// Copies the outputs of `program` into `builder`. The first driven angle becomes position `first`. Of a sum
+/// of positions and driven angles only the latter are replaced. Time that is used otherwise stays.
 Timeless without_clock(ir::Builder& builder, const ir::Program& program, std::size_t first);
 
 /// Is a position used in sums under sines and cosines alone, so that a whole turn of it changes no output?

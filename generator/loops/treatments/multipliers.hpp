@@ -1,4 +1,5 @@
-// Multipliers in index-1 form: (G M⁻¹ Gᵀ) λ = G M⁻¹ (k̄ − q̄) + γ + 2 s ġ + s² g, with a bounded symmetric regularisation.
+// Multipliers in index-1 form: (G M⁻¹ Gᵀ) λ = G M⁻¹ (k̄ − q̄) + γ + 2 s ġ + s² g, with a bounded symmetric
+// regularisation.
 #pragma once
 
 #include "loops/rows/loop_system.hpp"
@@ -6,7 +7,8 @@
 
 namespace jourdain::loops {
 
-/// Added to the diagonal of S over the square of each row's length, 1/kg, and corrections that make it good (see SchurFactors).
+/// Added to the diagonal of S over the square of each row's length, 1/kg, and corrections that make it good
+/// (see SchurFactors).
 struct Regularisation {
   double size = 0;
   int corrections = 1;

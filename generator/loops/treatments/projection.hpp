@@ -9,7 +9,8 @@ namespace jourdain::loops {
 /// The program `project`. With M and S = G M⁻¹ Gᵀ over the independent rows at the y given:
 ///
 ///   ("y", entry)   y moved by d = −M⁻¹ Gᵀ S⁻¹ g, one Gauss-Newton step
-///   ("z", entry)   z − M⁻¹ Gᵀ S⁻¹ (G₁ z + g_t), G₁ and g_t at the new y, the rest at the old one (the difference is of second order)
+///   ("z", entry)   z − M⁻¹ Gᵀ S⁻¹ (G₁ z + g_t), G₁ and g_t at the new y, the rest at the old one (the difference
+///                  is of second order)
 ///   "regularity"   det S / LoopPlan::determinant
 ///   "opening"      dᵀ d
 ir::Program projection_program(const LoopSystem& system);

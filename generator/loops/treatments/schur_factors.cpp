@@ -9,7 +9,8 @@ using ir::Signed;
 
 namespace {
 
-/// Rows in an order in which elimination fills in little: the row with the fewest neighbours next (minimum degree), `last` at the end.
+/// Rows in an order in which elimination fills in little: the row with the fewest neighbours next (minimum
+/// degree), `last` at the end.
 std::vector<std::size_t> least_degree(std::vector<std::set<std::size_t>> neighbours,
                                       const std::vector<std::size_t>& last) {
   std::vector<std::size_t> order;
@@ -72,7 +73,8 @@ void SchurFactors::eliminate(std::size_t p, std::vector<Column>& S) {
   }
 }
 
-/// W R W / (t² + t δ + δ²), t the trace: a share δ/t is left out to first order, as elsewhere, and nothing is divided by zero.
+/// W R W / (t² + t δ + δ²), t the trace: a share δ/t is left out to first order, as elsewhere, and nothing is
+/// divided by zero.
 void SchurFactors::invert_shared(const std::vector<Column>& S) {
   const auto weight = [&](std::size_t i) { return builder_.literal(sharing_.weights[i]); };
   const Signed delta = builder_.literal(sharing_.size);

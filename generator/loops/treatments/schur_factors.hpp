@@ -17,12 +17,13 @@ struct SharingRows {
   double size = 0;
 };
 
-/// S + Δ = L D Lᵀ for S = J W Jᵀ with positive definite W and a small positive diagonal Δ: no pivoting is needed wherever the rows
-/// of J are independent, and none where they are not. Factored in an order of least degree, since S is banded where loops form a
-/// chain.
+/// S + Δ = L D Lᵀ for S = J W Jᵀ with positive definite W and a small positive diagonal Δ: no pivoting is
+/// needed wherever the rows of J are independent, and none where they are not. Factored in an order of least
+/// degree, since S is banded where loops form a chain.
 ///
-/// Rows may share: where the others are eliminated what is left of S over them, R, has rank 1, whichever of them are weak. Then
-/// R⁺ = W R W / tr(W R)², weights W, takes no choice among them, and what their numbers disagree by is left open.
+/// Rows may share: where the others are eliminated what is left of S over them, R, has rank 1, whichever of
+/// them are weak. Then R⁺ = W R W / tr(W R)², weights W, takes no choice among them, and what their numbers
+/// disagree by is left open.
 class SchurFactors {
  public:
   /// `S` full, by row.
@@ -31,8 +32,8 @@ class SchurFactors {
   /// (S + Δ)⁻¹ c.
   Column solved(Column c) const;
   /// That after corrections x ← x + (S + Δ)⁻¹ Δ x (proximal iterations): along a singular value σ of S a share
-  /// (δ/(σ + δ))^(corrections + 1) of the solution is left out. Where S is singular the solution is bounded, of redundant rows the one of
-  /// least norm.
+  /// (δ/(σ + δ))^(corrections + 1) of the solution is left out. Where S is singular the solution is bounded,
+  /// of redundant rows the one of least norm.
   Column corrected(const Column& c, int corrections) const;
   /// det(S + Δ); of rows that share tr(W R) + δ.
   ir::Signed determinant() const;

@@ -23,15 +23,16 @@ void check_numbers(const Mechanism& mechanism, support::Diagnostics& diagnostics
 /// False if they do not; the rest of the mechanism cannot be judged then.
 bool check_graph(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 
-/// Each loop joint constrains something: a coordinate that is not prescribed moves its ends against each other, or moves what its
-/// residual depends on. No reaction or drive is asked for beside a residual. The joints must have passed `check_graph`.
+/// Each loop joint constrains something: a coordinate that is not prescribed moves its ends against each
+/// other, or moves what its residual depends on. No reaction or drive is asked for beside a residual. The
+/// joints must have passed `check_graph`.
 void check_loops(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 
 /// Inertia about the centre of mass positive semidefinite for each body, triangle inequality of the principal
 /// moments after merging bodies joined by fixed joints, both at the parameters' default values. Lumped bodies
 /// need no more than moments of inertia about their origin that are not negative; nothing is merged with
-/// them. The joints must have passed `check_graph`. Where `triangle` is a warning, so is an indefinite inertia; the bodies that have
-/// one are returned.
+/// them. The joints must have passed `check_graph`. Where `triangle` is a warning, so is an indefinite
+/// inertia; the bodies that have one are returned.
 std::vector<std::string> check_inertias(const Mechanism& mechanism, support::Diagnostics& diagnostics,
                                         support::Severity triangle);
 

@@ -1,4 +1,5 @@
-// The keys of a TOML description: what its tables may hold. The command prints them, and models/README.md is made from them.
+// The keys of a TOML description: what its tables may hold. The command prints them, and models/README.md is
+// made from them.
 #pragma once
 
 #include <span>

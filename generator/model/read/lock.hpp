@@ -5,8 +5,8 @@
 
 namespace jourdain::model {
 
-/// Makes the joint a fixed one, at coordinate zero. What acts on it goes with it; where an expression names its coordinates, their
-/// rates or its actuators' inputs, zeros take their place.
+/// Makes the joint a fixed one, at coordinate zero. What acts on it goes with it; where an expression names
+/// its coordinates, their rates or its actuators' inputs, zeros take their place.
 void lock(Mechanism& mechanism, JointIndex joint);
 
 }  // namespace jourdain::model

@@ -32,12 +32,13 @@ struct CoordinateNeeds {
 };
 CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate);
 
-/// What belongs to one scalar coordinate, from the table of its joint or from its own; and the keys that such a table has.
+/// What belongs to one scalar coordinate, from the table of its joint or from its own; and the keys that such
+/// a table has.
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
                      Coordinate& coordinate);
 
-/// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values; zero after a
-/// diagnostic that it cannot be read or where it is missing. `scope` has t and names that it refuses.
+/// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values;
+/// zero after a diagnostic that it cannot be read or where it is missing. `scope` has t and names that it refuses.
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
                               const Needed& needed, const Scope& scope);
 /// t alone.
@@ -52,8 +53,8 @@ std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const
 /// All [[input]] tables.
 std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism);
 
-/// [[force]], [[spring]], [[bushing]], [[output]] and [[loop]]: what refers to bodies, joints, frames and inputs, which `mechanism` has already.
-/// Bodies that are named where a frame may stand become frames.
+/// [[force]], [[spring]], [[bushing]], [[output]] and [[loop]]: what refers to bodies, joints, frames and
+/// inputs, which `mechanism` has already. Bodies that are named where a frame may stand become frames.
 void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 void read_bushings(TomlFile& file, const toml::array& section, Mechanism& mechanism);

@@ -110,7 +110,8 @@ class TomlTable {
   /// Of the value of `key`; line 0 where it is missing.
   SourceRange where_given(std::string_view key) const { return has(key) ? where(key) : SourceRange(); }
 
-  /// The text of `key`; nothing (after a diagnostic if it has another type, or characters that cannot be printed) where it is missing.
+  /// The text of `key`; nothing (after a diagnostic if it has another type, or characters that cannot be
+  /// printed) where it is missing.
   std::optional<std::string> text(std::string_view key) const;
   /// The unit of measurement that `key` names, 1 where it is missing; nothing after a diagnostic.
   std::optional<Unit> unit(std::string_view key) const;

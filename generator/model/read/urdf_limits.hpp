@@ -14,8 +14,9 @@ struct Limits {
   bool any() const { return lower || upper || velocity || effort; }
 };
 
-/// The <limit> elements of a URDF text that `read_urdf` accepts, by joint; joints that state none are left out, and so are numbers that
-/// are none or not finite. Where only one end of the range is written the other is zero; continuous joints have no range.
+/// The <limit> elements of a URDF text that `read_urdf` accepts, by joint; joints that state none are left
+/// out, and so are numbers that are none or not finite. Where only one end of the range is written the other
+/// is zero; continuous joints have no range.
 std::map<std::string, Limits> read_urdf_limits(const std::string& text);
 
 }  // namespace jourdain::model

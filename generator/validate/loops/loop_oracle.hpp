@@ -1,5 +1,5 @@
-// What the functions of a mechanism with loops should compute at one state: dense algebra on the symbolic equations of its tree and on
-// its constraints, in 77 digits.
+// What the functions of a mechanism with loops should compute at one state: dense algebra on the symbolic
+// equations of its tree and on its constraints, in 77 digits.
 #pragma once
 
 #include <vector>

@@ -49,7 +49,8 @@ ir::Module part_of(const ir::Module& module, bool closing) {
 
 std::vector<ScaledReal> exact(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 
-/// Parameters off their default values: within their ranges, or by one hundredth where the treatment does not depend on them.
+/// Parameters off their default values: within their ranges, or by one hundredth where the treatment does not
+/// depend on them.
 std::vector<double> varied(const model::Mechanism& mechanism, const loops::LoopPlan& plan,
                            support::Uniform& uniform) {
   constexpr double kShare = 0.01;
@@ -129,7 +130,8 @@ class Comparison {
   }
 
  private:
-  /// Everything but closing holds where loops are open, too; derivatives of reduced equations are those along closed states.
+  /// Everything but closing holds where loops are open, too; derivatives of reduced equations are those along
+  /// closed states.
   void compare_open(const Point& open) {
     ir::Module there = functions_;
     if (scene_.plan.is_reduced())
