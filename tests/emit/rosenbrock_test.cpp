@@ -41,7 +41,7 @@ struct Usual {
 class Conditions : public ::testing::TestWithParam<const char*> {
  protected:
   const Rosenbrock& method = *find_rosenbrock(GetParam());
-  const Stepper& stepper = *find_stepper(GetParam());
+  const programs::Stepper& stepper = *programs::find_stepper(GetParam());
   Usual u{method};
 };
 

@@ -21,7 +21,7 @@ struct Symbols {
 };
 
 std::string lowered(const Symbols& s, const Ex& value) {
-  return print(lower(s.statements, {{"r", -1, -1, value}}, "p"));
+  return print(lowering::lower(s.statements, {{"r", -1, -1, value}}, "p"));
 }
 
 TEST(Lower, DoesNotDependOnTheOrderOfTerms) {
@@ -63,7 +63,7 @@ TEST(Lower, LeavesOutStatementsThatNobodyNeeds) {
 TEST(Lower, PowersBecomeProductsQuotientsAndRoots) {
   Symbols s;
   const Program program =
-      lower(s.statements, {{"r", -1, -1, GiNaC::pow(s.a, 3) / s.b + GiNaC::sqrt(s.c)}}, "p");
+      lowering::lower(s.statements, {{"r", -1, -1, GiNaC::pow(s.a, 3) / s.b + GiNaC::sqrt(s.c)}}, "p");
   LeafValues<double> leaves;
   leaves[LeafKind::kPosition] = {2, 4};
   leaves[LeafKind::kVelocity] = {9};
@@ -73,7 +73,7 @@ TEST(Lower, PowersBecomeProductsQuotientsAndRoots) {
 TEST(Lower, RoundsExactNumbersToTheNearestDouble) {
   Symbols s;
   const auto rounded = [&](const Ex& number) {
-    const Program program = lower(s.statements, {{"r", -1, -1, number}}, "p");
+    const Program program = lowering::lower(s.statements, {{"r", -1, -1, number}}, "p");
     return interpret(program, LeafValues<double>{})[0];
   };
   EXPECT_EQ(rounded(GiNaC::numeric(1, 3)), 1.0 / 3.0);

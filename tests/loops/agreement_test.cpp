@@ -7,6 +7,7 @@
 
 #include "agreement/shared_data.hpp"
 #include "loops/closed_programs.hpp"
+#include "loops/rows/configuration.hpp"
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_loops.hpp"

@@ -13,6 +13,7 @@
 #include "loops/closed_form/position_blocks.hpp"
 #include "loops/linkages.hpp"
 #include "loops/plan/plan.hpp"
+#include "loops/rows/configuration.hpp"
 
 namespace jourdain::tests {
 namespace {

@@ -26,8 +26,8 @@ constexpr double kHalfUlp = 0x1p-53;
 
 /// Values of everything at one state, list by list.
 std::vector<std::vector<Exact>> values(const dynamics::Equations& e, const ir::LeafValues<double>& leaves) {
-  const dynamics::HighPrecision exact(
-      e.statements, [&](LeafKind kind, std::size_t i) { return leaves[lowering::leaf_kind(kind)].at(i); });
+  const dynamics::HighPrecision exact(e.statements,
+                                      [&](LeafKind kind, std::size_t i) { return leaves[kind].at(i); });
   std::vector<std::vector<Exact>> all;
   for (const std::vector<Ex>& list : asked_for(e)) {
     all.emplace_back();
