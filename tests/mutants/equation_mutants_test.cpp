@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "dynamics/high_precision.hpp"
-#include "lowering/lower.hpp"
 #include "mutants/equation_mutants.hpp"
 #include "mutants/exact_values.hpp"
 #include "mutants/scenes.hpp"
