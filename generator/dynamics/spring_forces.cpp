@@ -42,7 +42,7 @@ Ex law_value(Scene& scene, const std::string& name, const model::Expression& law
 
 /// Tension over length: the force on `to` is −that Δr, on `from` +that Δr.
 Ex tension_per_length(Scene& scene, const model::Spring& spring, const Stretch& s) {
-  const Ex stiffness = scene.value("stiffness", spring.stiffness);
+  Ex stiffness = scene.value("stiffness", spring.stiffness);
   const Ex damping = scene.value("damping", spring.damping);
   const Ex free_length = scene.value("free_length", spring.free_length);
   if (spring.damping.is_zero() && spring.law.is_zero() && spring.free_length.is_zero()) return stiffness;

@@ -146,7 +146,7 @@ class LoopProgram {
   }
 
   ir::Column k_bar() {
-    const ir::Column tree = vector(FunctionId::kKBar);
+    ir::Column tree = vector(FunctionId::kKBar);
     if (!system_.plan.is_reduced()) return tree;
     const ir::Column bias = times(loops::tree_mass_matrix(builder_, system_), dependence_.beta());
     ir::Column rows;

@@ -92,7 +92,7 @@ Effect<Scalar> effect(const model::Spring& spring, const model::Mechanism&, cons
   const FrameMotion<Scalar>& from = scene.frames[spring.from.value];
   const FrameMotion<Scalar>& to = scene.frames[spring.to.value];
   const Vector3<Scalar> delta = to.p_WF - from.p_WF;
-  const Scalar smoothing = Scalar(model::kLengthSmoothing);
+  const auto smoothing = Scalar(model::kLengthSmoothing);
   const Scalar length = sqrt(delta.squaredNorm() + smoothing * smoothing);
   const Vector3<Scalar> direction = delta / length;
   const Scalar rate = direction.dot(to.v_F - from.v_F);

@@ -147,6 +147,7 @@ std::vector<Eigen::VectorX<Scalar>> rotor_inertias(const model::Mechanism& mecha
   return inertias;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
 #define JOURDAIN_INSTANTIATE(S)                                                                        \
   template Body<S> read_body(const model::Body&, std::span<const S>, bool);                            \
   template Frame<S> read_frame(const model::Frame&, std::span<const S>, bool);                         \
@@ -159,5 +160,6 @@ std::vector<Eigen::VectorX<Scalar>> rotor_inertias(const model::Mechanism& mecha
   template std::vector<Eigen::VectorX<S>> rotor_inertias(const model::Mechanism&, std::span<const S>);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace jourdain::reference::descriptor
