@@ -131,7 +131,7 @@ class LoopProgram {
           })[0];
       return {{builder_.multiply(builder_.literal(2), T)}};
     }
-    const std::vector<ir::Column> M = loops::tree_mass_matrix(builder_, system_);
+    std::vector<ir::Column> M = loops::tree_mass_matrix(builder_, system_);
     if (!system_.plan.is_reduced()) return M;
     std::vector<ir::Column> reduced;
     for (const ir::Column& column : B) reduced.push_back(dependence_.projected(times(M, column)));

@@ -94,7 +94,7 @@ MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point, con
         extrapolated_jacobian(flow, point).bottomRightCorner(nz, nz);
     return A;
   }
-  const MatrixXd J = extrapolated_jacobian(flow, point);
+  MatrixXd J = extrapolated_jacobian(flow, point);
   if (tangent.quaternions.empty()) return J;
   const auto ny = static_cast<Index>(flow.position_count()), nz = J.cols() - ny;
   const MatrixXd T = position_tangents(Eigen::Map<const VectorXd>(point.x.data(), ny), nz, tangent);

@@ -49,7 +49,7 @@ std::optional<model::JointIndex> idle_joint(const model::Mechanism& mechanism, c
 
 std::vector<model::JointIndex> massless_in_tree(const model::Mechanism& mechanism,
                                                 const Configuration& start) {
-  const std::vector<model::JointIndex> always = reference::massless_joints(mechanism);
+  std::vector<model::JointIndex> always = reference::massless_joints(mechanism);
   if (!always.empty()) return always;
   const std::size_t n = model::lay_out_coordinates(mechanism).velocity_count();
   return reference::singular_joints(mechanism, {start.t, start.y, Vector::Zero(at(n))});

@@ -98,7 +98,7 @@ class Proof {
     while (!open_.empty()) {
       const Open next = std::move(open_.back());
       open_.pop_back();
-      const std::string end = prove(region_->at(next.anchor.p, next.part), next.anchor);
+      std::string end = prove(region_->at(next.anchor.p, next.part), next.anchor);
       if (!end.empty()) return end;
     }
     return "";

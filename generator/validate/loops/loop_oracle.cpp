@@ -159,7 +159,7 @@ ExactVector LoopOracle::multipliers(const ExactVector& zdot) const {
 
 ExactVector LoopOracle::residual() const {
   const ExactVector given = to_exact(point_.exact[LeafKind::kAcceleration]);
-  const ExactVector r = e_.B.transpose() * (e_.M * of_tree(given) - e_.k + e_.q);
+  ExactVector r = e_.B.transpose() * (e_.M * of_tree(given) - e_.k + e_.q);
   if (scene_.plan.is_reduced()) return r;
   const std::vector<std::size_t> rows = scene_.plan.solved_rows();
   return r + e_.G(rows, Eigen::all).transpose() * constrained(rows).lambda;
