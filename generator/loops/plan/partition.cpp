@@ -143,7 +143,7 @@ std::vector<Block> triangular_blocks(const std::vector<Matrix>& jacobians,
       if (std::any_of(jacobians.begin(), jacobians.end(),
                       [&](const Matrix& G) { return G(at(r), at(dependents[c])) != 0; }))
         columns_of[r].push_back(c);
-  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  constexpr auto kNone = static_cast<std::size_t>(-1);
   std::vector<std::size_t> row_of(n, kNone);  // a perfect matching, by augmenting paths
   for (std::size_t r = 0; r < n; ++r) {
     std::vector<bool> seen(n, false);

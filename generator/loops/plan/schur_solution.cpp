@@ -6,9 +6,6 @@
 
 namespace jourdain::loops {
 
-using reference::determinant;
-using reference::solved;
-
 namespace {
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
