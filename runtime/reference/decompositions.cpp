@@ -115,6 +115,7 @@ MatrixX<Scalar> positive_inverse(const MatrixX<Scalar>& A) {
   return factors.solve(MatrixX<Scalar>::Identity(A.rows(), A.cols()));
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
 #define JOURDAIN_INSTANTIATE(S)                                                        \
   template VectorX<S> solved_by_lu(const MatrixX<S>&, const VectorX<S>&);              \
   template MatrixX<S> solved_by_lu(const MatrixX<S>&, const MatrixX<S>&);              \
@@ -136,5 +137,6 @@ MatrixX<Scalar> positive_inverse(const MatrixX<Scalar>& A) {
   template MatrixX<S> positive_inverse(const MatrixX<S>&);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace jourdain::reference

@@ -285,6 +285,7 @@ Measurement<Scalar> measure(const Joint<Scalar>& joint, const Pose<TimeJet<Scala
   return Measuring<Scalar>(joint, joint_frame(joint, parent), child, near, parallel_axes).run();
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
 #define JOURDAIN_INSTANTIATE(S)                                                                      \
   template Joint<S> read_joint(const model::Joint&, std::span<const S>, bool);                       \
   template Pose<TimeJet<S>> joint_frame(const Joint<S>&, const Pose<TimeJet<S>>&);                   \
@@ -294,5 +295,6 @@ Measurement<Scalar> measure(const Joint<Scalar>& joint, const Pose<TimeJet<Scala
                                   std::span<const S>, ParallelAxes);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace jourdain::reference::descriptor

@@ -216,6 +216,7 @@ Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& jo
   return range<Scalar>(seen, Scalar(dependent)).transpose() * scales.asDiagonal();
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
 #define JOURDAIN_INSTANTIATE(S)                                                                           \
   template std::vector<Loop<S>> read_loops(const model::Mechanism&);                                      \
   template LoopRows<S> loop_rows(const Parts<S>&, S, const std::vector<AbsoluteBody<S>>&,                 \
@@ -224,5 +225,6 @@ Eigen::MatrixX<Scalar> independent_combinations(const Eigen::MatrixX<Scalar>& jo
                                                       double);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace jourdain::reference::descriptor

@@ -99,11 +99,13 @@ JointRows<Scalar> joint_rows(const Joint<Scalar>& joint, const std::vector<Body<
   return result;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
 #define JOURDAIN_INSTANTIATE(S)                                                                   \
   template Pose<TimeJet<S>> coasting(const Body<S>&, const AbsoluteBody<S>&, const Velocity<S>&); \
   template JointRows<S> joint_rows(const Joint<S>&, const std::vector<Body<S>>&,                  \
                                    const std::vector<AbsoluteBody<S>>&, std::span<const S>, ParallelAxes);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace jourdain::reference::descriptor

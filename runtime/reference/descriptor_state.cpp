@@ -172,6 +172,7 @@ Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::tree_velocities(Scalar t, co
   return X;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
 #define JOURDAIN_INSTANTIATE(S)                                                                       \
   template TimeJet<S> DescriptorReference<S>::prescribed(const model::Expression&, S) const;          \
   template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_at(       \
@@ -189,5 +190,6 @@ Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::tree_velocities(Scalar t, co
       S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace jourdain::reference

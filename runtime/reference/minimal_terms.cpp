@@ -49,6 +49,7 @@ Scalar condition(const MatrixX<Scalar>& M) {
   return largest_eigenvalue<Scalar>(M) * largest_eigenvalue<Scalar>(d.asDiagonal() * factor * d.asDiagonal());
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
 #define JOURDAIN_INSTANTIATE(S)                                  \
   template VectorX<S> forward_dynamics(const Terms<S>&);         \
   template void widen_scales(Terms<S>&);                         \
@@ -56,5 +57,6 @@ Scalar condition(const MatrixX<Scalar>& M) {
   template S condition(const MatrixX<S>&);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace jourdain::reference

@@ -50,11 +50,11 @@ class Closing {
       const std::size_t count = block.dependents.size() + (block.rotation ? 3 : 0);
       JD_CHECK(block.rows.size() == count, "{} rows for {} unknowns", block.rows.size(), count);
       if (block.dependents.size() > kScalars) return fmt::format("block of {} unknowns", count);
-      if (const std::string failure = solve_block(block); !failure.empty()) return failure;
+      if (std::string failure = solve_block(block); !failure.empty()) return failure;
     }
-    if (const std::string failure = check_start(); !failure.empty()) return failure;
+    if (std::string failure = check_start(); !failure.empty()) return failure;
     ClosedForm result{closing_program()};
-    if (const std::string failure = check(result.close); !failure.empty()) return failure;
+    if (std::string failure = check(result.close); !failure.empty()) return failure;
     const auto reached = proven(conditions_);
     if (const auto* failure = std::get_if<std::string>(&reached)) return *failure;
     result.smallest_margin = std::get<Reached>(reached).margin;
@@ -298,7 +298,7 @@ class Closing {
                              roles_.names[dependents_[k]], change);
         leaves[LeafKind::kPosition][dependents_[k]] = y[k];
       }
-      if (const std::string failure = check_residual(leaves); !failure.empty()) return failure;
+      if (std::string failure = check_residual(leaves); !failure.empty()) return failure;
     }
     return "";
   }

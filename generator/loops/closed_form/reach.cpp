@@ -37,7 +37,7 @@ class Reach {
   }
 
   std::variant<Reached, std::string> run(Effort effort) {
-    if (const std::string failure = lay_out(); !failure.empty()) return failure;
+    if (std::string failure = lay_out(); !failure.empty()) return failure;
     if (ir::count_operations(program_).atan2 > 0) return "its discriminant has an arctangent, which jumps";
     std::vector<Bound> bounds;
     for (const Requirement& requirement : request_.requirements)

@@ -42,7 +42,7 @@ class Layout {
     result_.problem.iterations = request_.iterations;
     list_unknowns();
     for (const ir::ValueId angle : timeless.driven) driven_.push_back(value_at_start(rows, angle));
-    if (const std::string failure = list_free(); !failure.empty()) return failure;
+    if (std::string failure = list_free(); !failure.empty()) return failure;
     ir::LeafValues<double> fixed;
     fixed[LeafKind::kParameter] = request_.parameters;
     fixed[LeafKind::kPosition] = request_.initial_y;

@@ -61,7 +61,7 @@ class Proof {
       bounds_ = &bounds;
       seen_ = 1;
       proven_ = 0;
-      if (const std::string failure = follow(); !failure.empty()) return failure;
+      if (std::string failure = follow(); !failure.empty()) return failure;
       const std::optional<std::size_t> open = open_circle();
       if (!open) return result(bounds);
       if (++turns[*open] > kMostTurns)
@@ -130,7 +130,7 @@ class Proof {
     if (!side) return failure(known);
     region_->halve(index, *side);
     for (const std::size_t half : (*region_)[index].halves)
-      if (const std::string end = reach(half); !end.empty()) return end;
+      if (std::string end = reach(half); !end.empty()) return end;
     open_.push_back({index, known});
     return "";
   }
