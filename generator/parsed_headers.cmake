@@ -30,7 +30,7 @@ function(jourdain_starts_with target name)
   get_target_property(folder jourdain_parsed_${name} BINARY_DIR)
   string(APPEND folder /CMakeFiles/jourdain_parsed_${name}.dir)
   target_compile_options(${target} PRIVATE -I${folder} -include cmake_pch.hxx -Winvalid-pch)
-  # What g++ says a source depends on lacks what it took from the parsed form.
+  # What g++ says a source depends on lacks what it took from the parsed form: ccache's depend mode would find wrong results.
   get_target_property(sources ${target} SOURCES)
   get_target_property(directory ${target} SOURCE_DIR)
   list(TRANSFORM sources REPLACE "^([^/].*)" "${directory}/\\1")
