@@ -1,5 +1,6 @@
-// What the finished files must say, taken from the facts of the scene and the plan; not from what was handed
-// to the emitter.
+// What the finished files must say. Names, sizes and what follows from what are the facts of the scene, which the
+// emitter has too (module_check.hpp compares outputs with what was derived); sentences and proofs come from the
+// plan and the verdict, not from the emitter's text.
 #pragma once
 
 #include "compile/compile.hpp"

@@ -1,8 +1,8 @@
 #include "compile/module_check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <string>
+#include <tuple>
 
 #include "ir/verify.hpp"
 
@@ -27,13 +27,29 @@ ir::LeafCounts leaves_of(const std::string& name, const programs::SceneFacts& sc
   return leaves;
 }
 
-/// Numbers of outputs are declared by their kinds, and derived.
+using Entry = std::tuple<std::string, int, int>;
+
+/// Name and subscripts of every number of the outputs, as their kinds declare them.
+std::vector<Entry> declared_entries(const programs::SceneFacts& scene) {
+  std::vector<Entry> entries;
+  for (const programs::OutputFacts& output : scene.outputs)
+    for (const programs::OutputMember& member : output.members)
+      for (int k = 0; k < member.rows * member.columns; ++k)
+        entries.emplace_back(output.name + (member.name.empty() ? "" : "." + member.name),
+                             member.rows > 1 ? k / member.columns : -1,
+                             member.is_matrix ? k % member.columns : -1);
+  return entries;
+}
+
+/// They are derived as they are declared: in this order, member by member.
 void compare_outputs(const ir::Module& module, const programs::SceneFacts& scene,
                      std::vector<std::string>& list) {
-  const ir::Program* outputs = ir::find_program(module, ir::FunctionId::kOutputs);
-  if (outputs && outputs->outputs.size() != scene.output_numbers())
-    list.push_back(fmt::format("{} numbers of outputs are derived, {} declared", outputs->outputs.size(),
-                               scene.output_numbers()));
+  const ir::Program* program = ir::find_program(module, ir::FunctionId::kOutputs);
+  if (!program) return;
+  std::vector<Entry> derived;
+  for (const ir::Output& output : program->outputs)
+    derived.emplace_back(output.name, output.row, output.column);
+  if (derived != declared_entries(scene)) list.push_back("outputs: derived are others than are declared");
 }
 
 }  // namespace

@@ -60,6 +60,12 @@ std::vector<ScaledReal> widened(const std::vector<double>& values) { return {val
 
 }  // namespace
 
+FunctionId function_of(const ir::Program& program) {
+  const std::optional<FunctionId> function = ir::function_named(program.name);
+  JD_CHECK(function, "no oracle for '{}'", program.name);
+  return *function;
+}
+
 std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledReal>& values,
                            const ExactDirection& direction, std::size_t output_numbers) {
   const Contraction c(program, values, direction);

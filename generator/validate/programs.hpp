@@ -3,13 +3,22 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/direction.hpp"
 #include "ir/module.hpp"
+#include "reference/exact_algebra.hpp"
 #include "validate/agreement.hpp"
 
 namespace jourdain::validate {
+
+using reference::determinant;
+using reference::ExactMatrix;
+using reference::ExactVector;
+using reference::solved;
+using reference::to_exact;
+using reference::to_list;
 
 /// Where programs are evaluated. Derivatives are contracted with the direction.
 struct Point {
@@ -34,6 +43,14 @@ struct Expected {
   /// Numbers of which it only knows that they are positive and no more than 1.
   std::vector<std::size_t> shares = {};
 };
+
+/// Of a program with one part.
+inline std::vector<Expected> expecting(const char* oracle, std::vector<ScaledReal> values) {
+  return {{oracle, std::move(values)}};
+}
+
+/// Which function a program computes. One that is not in the table has no oracle: it throws.
+ir::FunctionId function_of(const ir::Program& program);
 
 /// What the parts of a program should be, in the order of `parts_of`. A function without an oracle cannot be
 /// emitted: it throws.

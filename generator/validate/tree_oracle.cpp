@@ -1,10 +1,8 @@
 #include "validate/tree_oracle.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "dynamics/outputs.hpp"
-#include "ir/function_id.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::validate {
@@ -56,35 +54,30 @@ TreeOracle::TreeOracle(const model::Mechanism& mechanism, const dynamics::Equati
 }
 
 std::vector<Expected> TreeOracle::operator()(const ir::Program& program) const {
-  const auto one = [](const char* oracle, std::vector<ScaledReal> values) {
-    return std::vector<Expected>{{oracle, std::move(values)}};
-  };
-  const std::optional<FunctionId> function = ir::function_named(program.name);
-  JD_CHECK(function, "no oracle for '{}'", program.name);
-  switch (*function) {
+  switch (function_of(program)) {
     case FunctionId::kInitialState:
       return {state(program)};
     case FunctionId::kPositionRate:
-      return one("Z z of the equations", exact_.values(equations_.ydot));
+      return expecting("Z z of the equations", exact_.values(equations_.ydot));
     case FunctionId::kMassMatrix:
-      return one("M of the equations", mass_entries(program, "M"));
+      return expecting("M of the equations", mass_entries(program, "M"));
     case FunctionId::kKBar:
-      return one("k_bar of the equations", to_list(k_));
+      return expecting("k_bar of the equations", to_list(k_));
     case FunctionId::kQBar:
-      return one("q_bar of the equations", to_list(q_));
+      return expecting("q_bar of the equations", to_list(q_));
     case FunctionId::kForwardDynamics:
-      return one("M^-1 (k_bar - q_bar)", to_list(zdot_));
+      return expecting("M^-1 (k_bar - q_bar)", to_list(zdot_));
     case FunctionId::kResidual:
-      return one("M zdot - k_bar + q_bar", to_list(M_ * given_accelerations() - k_ + q_));
+      return expecting("M zdot - k_bar + q_bar", to_list(M_ * given_accelerations() - k_ + q_));
     case FunctionId::kInverseDynamics:
-      return one("M zdot - k_bar + q_bar without inputs",
-                 to_list(M_ * given_accelerations() - k_ + forces_without_inputs()));
+      return expecting("M zdot - k_bar + q_bar without inputs",
+                       to_list(M_ * given_accelerations() - k_ + forces_without_inputs()));
     case FunctionId::kKineticEnergy:
-      return one("T of the equations", {exact_.value(equations_.kinetic_energy)});
+      return expecting("T of the equations", {exact_.value(equations_.kinetic_energy)});
     case FunctionId::kPotentialEnergy:
-      return one("V of the equations", {exact_.value(equations_.potential_energy)});
+      return expecting("V of the equations", {exact_.value(equations_.potential_energy)});
     case FunctionId::kOutputs:
-      return one("outputs of the equations", exact_.values(dynamics::output_entries(equations_)));
+      return expecting("outputs of the equations", exact_.values(dynamics::output_entries(equations_)));
     case FunctionId::kResidualDerivatives:
       return {{"M of the equations", mass_entries(program, "M")},
               {"the residual's derivative along a direction", to_list(residual_rate())}};

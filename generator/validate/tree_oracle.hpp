@@ -6,17 +6,9 @@
 
 #include "dynamics/equations.hpp"
 #include "model/mechanism.hpp"
-#include "reference/exact_algebra.hpp"
 #include "validate/programs.hpp"
 
 namespace jourdain::validate {
-
-using reference::determinant;
-using reference::ExactMatrix;
-using reference::ExactVector;
-using reference::solved;
-using reference::to_exact;
-using reference::to_list;
 
 /// The equations at one state, in 77 digits. It refers to what it is made from.
 class TreeOracle {

@@ -168,6 +168,32 @@ TEST(Layering, StudiesNameNoModel) {
   }
 }
 
+/// Paths of files between backticks: from the page, from its parent, the generator or the top; NAME stands for any.
+TEST(Pages, NameFilesThatExist) {
+  for (const char* page :
+       {"generator/README.md", "generator/loops/README.md", "runtime/README.md", "models/README.md"}) {
+    const std::string text = support::read_file((kSource / page).string());
+    const fs::path folder = (kSource / page).parent_path();
+    std::size_t found = 0;
+    for (std::size_t open = text.find('`'); open != std::string::npos;) {
+      const std::size_t close = text.find('`', open + 1);
+      if (close == std::string::npos) break;
+      const std::string name = text.substr(open + 1, close - open - 1);
+      open = text.find('`', close + 1);
+      const std::string extension = fs::path(name).extension().string();
+      if ((extension != ".cpp" && extension != ".hpp" && extension != ".h") ||
+          name.find("NAME") != std::string::npos)
+        continue;
+      ++found;
+      const auto exists = [&name](const fs::path& place) { return fs::exists(place / name); };
+      EXPECT_TRUE(exists(folder) || exists(folder.parent_path()) || exists(kSource) ||
+                  exists(kSource / "generator"))
+          << page << " names " << name;
+    }
+    EXPECT_TRUE(found > 0 || std::string(page).starts_with("models")) << page;
+  }
+}
+
 TEST(Layering, FilesHoldOneIdea) {
   for (const char* folder : {"generator", "runtime"})
     for (const fs::path& file : sources(folder)) {

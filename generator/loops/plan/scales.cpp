@@ -108,7 +108,7 @@ long double block_determinant(const LoopPlan& plan, const Matrix& G) {
   long double product = 1;
   for (const Block& block : plan.blocks) {
     const Matrix D = rows_of(G, block.rows)(Eigen::all, block.dependents);
-    const long double determinant = reference::determinant<long double>(D);
+    const auto determinant = reference::determinant<long double>(D);
     product *=
         block.rows.size() <= DenseSolver::kLargestByCofactors ? determinant : determinant * determinant;
   }

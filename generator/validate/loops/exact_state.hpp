@@ -6,17 +6,9 @@
 #include "dynamics/closure_motion.hpp"
 #include "loops/record/loop_plan.hpp"
 #include "model/coordinates.hpp"
-#include "reference/exact_algebra.hpp"
 #include "validate/programs.hpp"
 
 namespace jourdain::validate {
-
-using reference::determinant;
-using reference::ExactMatrix;
-using reference::ExactVector;
-using reference::solved;
-using reference::to_exact;
-using reference::to_list;
 
 using support::ScaledReal;
 

@@ -1,9 +1,7 @@
 #include "validate/loops/loop_oracle.hpp"
 
 #include <algorithm>
-#include <optional>
 
-#include "ir/function_id.hpp"
 #include "loops/plan/schur_solution.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "validate/tree_oracle.hpp"
@@ -44,43 +42,40 @@ LoopOracle::LoopOracle(const LoopScene& scene, const Point& point)
     : scene_(scene), point_(point), e_(exact_motion(scene, point.exact)) {}
 
 std::vector<Expected> LoopOracle::operator()(const ir::Program& program) const {
-  const auto one = [](const char* oracle, std::vector<ScaledReal> values) {
-    return std::vector<Expected>{{oracle, std::move(values)}};
-  };
-  const std::optional<FunctionId> function = ir::function_named(program.name);
-  JD_CHECK(function, "no oracle for '{}'", program.name);
-  switch (*function) {
+  switch (function_of(program)) {
     case FunctionId::kInitialState:
-      return one("the assembled start", start(program));
+      return expecting("the assembled start", start(program));
     case FunctionId::kPositionRate:
-      return one("Z z of the equations, z as the loops allow", position_rate());
+      return expecting("Z z of the equations, z as the loops allow", position_rate());
     case FunctionId::kMassMatrix:
-      return one("B^T M B", mass_entries(program));
+      return expecting("B^T M B", mass_entries(program));
     case FunctionId::kKBar:
-      return one("B^T (k_bar - M beta)", to_list(e_.B.transpose() * (e_.k - e_.M * e_.beta)));
+      return expecting("B^T (k_bar - M beta)", to_list(e_.B.transpose() * (e_.k - e_.M * e_.beta)));
     case FunctionId::kQBar:
-      return one("B^T q_bar", to_list(e_.B.transpose() * e_.q));
+      return expecting("B^T q_bar", to_list(e_.B.transpose() * e_.q));
     case FunctionId::kForwardDynamics:
-      return one(kAccelerations, to_list(accelerations()));
+      return expecting(kAccelerations, to_list(accelerations()));
     case FunctionId::kResidual:
-      return one("B^T (M zdot - k_bar + q_bar + G^T lambda)", to_list(residual()));
+      return expecting("B^T (M zdot - k_bar + q_bar + G^T lambda)", to_list(residual()));
     case FunctionId::kInverseDynamics:
-      return one("B^T (M zdot - k_bar + q_bar) without inputs",
-                 to_list(e_.B.transpose() * (e_.M * of_tree(to_exact(point_.exact[LeafKind::kAcceleration])) -
-                                             e_.k + e_.q_without_inputs)));
+      return expecting(
+          "B^T (M zdot - k_bar + q_bar) without inputs",
+          to_list(e_.B.transpose() * (e_.M * of_tree(to_exact(point_.exact[LeafKind::kAcceleration])) - e_.k +
+                                      e_.q_without_inputs)));
     case FunctionId::kKineticEnergy:
-      return one("T of the equations", {e_.kinetic_energy});
+      return expecting("T of the equations", {e_.kinetic_energy});
     case FunctionId::kPotentialEnergy:
-      return one("V of the equations", {e_.potential_energy});
+      return expecting("V of the equations", {e_.potential_energy});
     case FunctionId::kConstraintResidual: {
       std::vector<ScaledReal> rows = to_list(e_.g);
       rows.insert(rows.end(), e_.rate.data(), e_.rate.data() + e_.rate.size());
-      return one("g and its rate, of the constraints", rows);
+      return expecting("g and its rate, of the constraints", rows);
     }
     case FunctionId::kConstraintForces:
-      return one("the multipliers of the constrained system", to_list(multipliers(of_tree(accelerations()))));
+      return expecting("the multipliers of the constrained system",
+                       to_list(multipliers(of_tree(accelerations()))));
     case FunctionId::kOutputs:
-      return one("outputs of the constrained system", outputs());
+      return expecting("outputs of the constrained system", outputs());
     case FunctionId::kResidualDerivatives:
       return {{"B^T M B", mass_entries(program)},
               {"differences of the residual", change([](const LoopOracle& o) { return o.residual(); }, true),
