@@ -1,5 +1,7 @@
 #include "commands/commands.hpp"
 
+#include <initializer_list>
+
 namespace jourdain::commands {
 
 void add_all(CLI::App& app, int& status) {

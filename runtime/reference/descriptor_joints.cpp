@@ -248,7 +248,7 @@ template <class Scalar>
 Pose<TimeJet<Scalar>> child_pose(const Joint<Scalar>& joint, const Pose<TimeJet<Scalar>>& parent,
                                  std::span<const TimeJet<Scalar>> y) {
   using T = Jet<Scalar>;
-  const Pose<T> frame = joint_frame(joint, parent);
+  Pose<T> frame = joint_frame(joint, parent);
   const Matrix3<T> aligned = Matrix3<T>::Identity();
   const Vector3<T> zero = Vector3<T>::Zero();
   const Vector3<T> axis = joint.axis.template cast<T>();
