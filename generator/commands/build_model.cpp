@@ -7,7 +7,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "emit/step_text.hpp"
+#include "emit/operations.hpp"
 #include "emit/templates.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
@@ -89,13 +89,12 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
   const long rate = operations_of(compiled, FunctionId::kPositionRate);
   std::string steppers, methods;
   int method_count = 0;
-  for (const programs::FunctionInfo& function : compiled.functions) {
-    if (!function.stepper) continue;
-    const programs::Stepper& s = *function.stepper;
+  for (const emit::StepRecord& record : emit::step_records(scene, compiled.functions, compiled.module)) {
+    const programs::Stepper& s = *record.stepper;
     steppers += stepper_struct(name, s);
     methods += fmt::format("\n    {{\"{0}\", {1}, {2}, {3}, {4}, {5}L, steps<{0}_method>}},", s.name,
                            s.order_with(scene.all_derivatives), s.evaluations, s.history, int(s.implicit),
-                           emit::step_operations(scene, s, compiled.module));
+                           record.operations);
     ++method_count;
   }
   std::string parameters;

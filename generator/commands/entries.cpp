@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "emit/structs.hpp"
+#include "emit/output_names.hpp"
 
 namespace jourdain::commands {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands/load.hpp"
-#include "emit/model_files.hpp"
+#include "emit/file_text.hpp"
 
 namespace jourdain::commands {
 

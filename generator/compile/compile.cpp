@@ -10,6 +10,7 @@
 #include "compile/model_text.hpp"
 #include "compile/module_check.hpp"
 #include "compile/omissions.hpp"
+#include "emit/cpp/model_files.hpp"
 #include "loops/plan/plan.hpp"
 #include "programs/closed_system.hpp"
 #include "programs/tree_functions.hpp"
@@ -116,7 +117,8 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
           : validate::validate_translation(mechanism, equations, result.module, 8, load ? &*load : nullptr);
   result.assumptions = assumptions(mechanism, options, result);
   if (!result.verdict.accepted()) return;
-  result.files = emit::emit_files(model_text(mechanism, options, result), result.functions, result.module);
+  result.files =
+      emit::cpp::model_files(model_text(mechanism, options, result), result.functions, result.module);
   result.expected = expected_text(mechanism, options, result);
   result.expected.left_out = left_out_sentences(result.omissions);
   for (const std::string& sentence : result.expected.left_out) result.expected.sentences.push_back(sentence);

@@ -6,7 +6,7 @@
 
 #include "compile/articulation.hpp"
 #include "dynamics/equations.hpp"
-#include "emit/model_files.hpp"
+#include "emit/file_text.hpp"
 #include "loops/plan/plan.hpp"
 #include "model/coordinates.hpp"
 #include "model/mechanism.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compile/compile.hpp"
-#include "emit/model_files.hpp"
+#include "emit/file_text.hpp"
 
 namespace jourdain {
 

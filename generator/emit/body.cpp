@@ -14,25 +14,7 @@ using ir::Op;
 using ir::Program;
 using ir::ValueId;
 
-std::string literal_text(double value) {
-  std::string digits = fmt::format("{}", value);
-  if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
-  return fmt::format("Real({})", digits);
-}
-
 namespace {
-
-/// Binding strength of an expression's outermost operation.
-enum class Strength { kSum, kProduct, kAtom };
-
-struct Text {
-  std::string text;
-  Strength strength = Strength::kAtom;
-};
-
-std::string at_least(const Text& text, Strength strength) {
-  return text.strength >= strength ? text.text : "(" + text.text + ")";
-}
 
 /// Values that depend on time and that an angle is made of: operands of sines and cosines, through sums and products.
 std::vector<bool> angles_of_time(const Program& program) {
@@ -59,13 +41,13 @@ std::vector<bool> angles_of_time(const Program& program) {
   return is_angle;
 }
 
-class BodyPrinter {
+class BodyBuilder {
  public:
-  BodyPrinter(const Program& program, Names names, const LeafText& leaf, const OutputText& output,
+  BodyBuilder(const Program& program, Names names, const LeafPlace& leaf, const ResultStatement& result,
               const StoredValues& stored)
       : program_(program),
         leaf_(leaf),
-        output_(output),
+        result_(result),
         stored_(stored),
         uses_(ir::use_counts(program)),
         is_angle_(angles_of_time(program)),
@@ -78,7 +60,7 @@ class BodyPrinter {
     find_pairs();
   }
 
-  Body print(std::size_t maximum_statements) {
+  Body build(std::size_t maximum_statements) {
     std::vector<std::size_t> statements;
     for (std::size_t i = 0; i < program_.nodes.size(); ++i)
       if (!name_[i].empty()) statements.push_back(i);
@@ -90,10 +72,9 @@ class BodyPrinter {
     body.work_size = slots.size();
     body.parts.resize(parts);
     for (std::size_t part = 0; part < parts; ++part)
-      print_part(body.parts[part], part, statements, part_of, slots);
+      body.parts[part] = part_statements(part, statements, part_of, slots);
     for (const ir::Output& output : program_.outputs)
-      if (!stored_.count(output.value))
-        body.parts.back().lines.push_back(output_(output, expression(output.value).text));
+      if (!stored_.count(output.value)) body.parts.back().push_back(result_(output, real(output.value)));
     return body;
   }
 
@@ -202,90 +183,72 @@ class BodyPrinter {
     return slots;
   }
 
-  void print_part(Part& part, std::size_t index, const std::vector<std::size_t>& statements,
-                  const std::vector<std::size_t>& part_of,
-                  const std::map<std::size_t, std::size_t>& slots) const {
+  Statements part_statements(std::size_t index, const std::vector<std::size_t>& statements,
+                             const std::vector<std::size_t>& part_of,
+                             const std::map<std::size_t, std::size_t>& slots) const {
     const std::size_t parts = statements.empty() ? 1 : part_of[statements.back()] + 1;
+    const Expression w = name("w");
+    Statements part;
     if (index > 0)
       for (std::size_t i : needed_in(index, statements, part_of, parts))
-        part.lines.push_back(fmt::format("const Real {} = w[{}];", name_[i], slots.at(i)));
+        part.push_back(constant(name_[i], w[slots.at(i)]));
     for (std::size_t i : statements)
-      if (part_of[i] == index) print_statement(part, i);
+      if (part_of[i] == index) add_statement(part, i);
     for (const auto& [i, slot] : slots)
-      if (part_of[i] == index) part.lines.push_back(fmt::format("w[{}] = {};", slot, name_[i]));
+      if (part_of[i] == index) part.push_back(set(w[slot], name(name_[i])));
+    return part;
   }
 
-  void print_statement(Part& part, std::size_t i) const {
+  void add_statement(Statements& part, std::size_t i) const {
     if (second_.count(i)) return;
     const auto it = pair_.find(i);
-    if (it == pair_.end()) {
-      const char* declare = stored_.count(ValueId(i)) ? ""
-                            : is_angle_[i]            ? "const detail::Angle<Real> "
-                                                      : "const Real ";
-      part.lines.push_back(fmt::format("{}{} = {};", declare, name_[i], operation(ValueId(i)).text));
-      return;
+    if (it != pair_.end()) {
+      const bool sine_first = program_.nodes[i].op == Op::kSin;
+      const std::string &sine = name_[sine_first ? i : it->second],
+                        &cosine = name_[sine_first ? it->second : i];
+      part.push_back({Declare{{}, Declare::Change::kFree, {{sine}, {cosine}}}});
+      part.push_back({SineCosine{as_computed(program_.nodes[i].a), sine, cosine}});
+    } else if (stored_.count(ValueId(i))) {
+      part.push_back(set(name(name_[i]), computation(ValueId(i))));
+    } else {
+      const Type type{is_angle_[i] ? Type::Kind::kAngle : Type::Kind::kReal};
+      part.push_back({Declare{type, Declare::Change::kConstant, {{name_[i], {}, computation(ValueId(i))}}}});
     }
-    const bool sine_first = program_.nodes[i].op == Op::kSin;
-    const std::string &sine = name_[sine_first ? i : it->second],
-                      &cosine = name_[sine_first ? it->second : i];
-    part.lines.push_back(fmt::format("Real {}, {};", sine, cosine));
-    part.lines.push_back(
-        fmt::format("detail::sine_cosine({}, {}, {});", angle(program_.nodes[i].a).text, sine, cosine));
   }
 
-  /// A value as a Real: by its name where it has one.
-  Text expression(ValueId id) const {
-    const Text text = angle(id);
+  /// A value as a real: by its name where it has one.
+  Expression real(ValueId id) const {
     const Node& node = program_[id];
-    const bool is_time = node.op == Op::kLeaf && node.leaf == ir::LeafKind::kTime;
-    if (is_time) return {fmt::format("Real({})", leaf_(node.leaf, node.index))};
-    return is_angle_[id.value] ? Text{fmt::format("Real({})", text.text)} : text;
+    if (node.op == Op::kLeaf && node.leaf == ir::LeafKind::kTime)
+      return to_real(leaf_(node.leaf, node.index));
+    return is_angle_[id.value] ? to_real(as_computed(id)) : as_computed(id);
   }
 
-  /// A value as it is computed: an Angle where it is one.
-  Text angle(ValueId id) const { return name_[id.value].empty() ? operation(id) : Text{name_[id.value]}; }
-
-  Text operand(ValueId id, bool of_angle, Strength strength) const {
-    return {at_least(of_angle ? angle(id) : expression(id), strength)};
+  /// A value as it is computed: an angle where it is one.
+  Expression as_computed(ValueId id) const {
+    return name_[id.value].empty() ? computation(id) : name(name_[id.value]);
   }
 
-  Text operation(ValueId id) const {
+  Expression computation(ValueId id) const {
     const Node& node = program_[id];
-    const bool is_angle = is_angle_[id.value];
-    const auto a = [&](Strength strength) { return operand(node.a, is_angle, strength).text; };
-    const auto b = [&](Strength strength) { return operand(node.b, is_angle, strength).text; };
-    switch (node.op) {
-      case Op::kLiteral:
-        return {literal_text(node.literal)};
-      case Op::kLeaf:
-        return {node.leaf == ir::LeafKind::kTime
-                    ? fmt::format("detail::Angle<Real>({})", leaf_(node.leaf, node.index))
-                    : leaf_(node.leaf, node.index)};
-      case Op::kNegate:
-        return {"-" + a(Strength::kAtom), Strength::kSum};
-      case Op::kAdd:
-        return {a(Strength::kSum) + " + " + b(Strength::kProduct), Strength::kSum};
-      case Op::kSubtract:
-        return {a(Strength::kSum) + " - " + b(Strength::kProduct), Strength::kSum};
-      case Op::kMultiply:
-        return {a(Strength::kProduct) + " * " + b(Strength::kAtom), Strength::kProduct};
-      case Op::kDivide:
-        return {a(Strength::kProduct) + " / " + b(Strength::kAtom), Strength::kProduct};
-      case Op::kSqrt:
-        return {fmt::format("detail::square_root({})", expression(node.a).text)};
-      case Op::kSin:
-        return {fmt::format("detail::sine({})", angle(node.a).text)};
-      case Op::kCos:
-        return {fmt::format("detail::cosine({})", angle(node.a).text)};
-      case Op::kAtan2:
-        return {fmt::format("detail::arctangent2({}, {})", expression(node.a).text, expression(node.b).text)};
+    if (node.op == Op::kLiteral) return node.literal;
+    if (node.op == Op::kLeaf) {
+      const Expression place = leaf_(node.leaf, node.index);
+      return node.leaf == ir::LeafKind::kTime ? to_angle(place) : place;
     }
-    return {};
+    const bool turns = node.op == Op::kSin || node.op == Op::kCos;
+    const bool of_angles = turns || (is_angle_[id.value] && node.op != Op::kSqrt && node.op != Op::kAtan2);
+    std::vector<Expression> operands;
+    for (int k = 0; k < ir::operand_count(node.op); ++k) {
+      const ValueId operand = k == 0 ? node.a : node.b;
+      operands.push_back(of_angles ? as_computed(operand) : real(operand));
+    }
+    return operation(node.op, std::move(operands));
   }
 
   const Program& program_;
-  const LeafText& leaf_;
-  const OutputText& output_;
+  const LeafPlace& leaf_;
+  const ResultStatement& result_;
   const StoredValues& stored_;
   std::vector<std::size_t> uses_;
   std::vector<bool> is_angle_;
@@ -301,9 +264,9 @@ bool turns_with_time(const Program& program) {
   return std::find(is_angle.begin(), is_angle.end(), true) != is_angle.end();
 }
 
-Body print_body(const Program& program, Names names, const LeafText& leaf, const OutputText& output,
-                const StoredValues& stored, std::size_t maximum_statements) {
-  return BodyPrinter(program, std::move(names), leaf, output, stored).print(maximum_statements);
+Body body_of(const Program& program, Names names, const LeafPlace& leaf, const ResultStatement& result,
+             const StoredValues& stored, std::size_t maximum_statements) {
+  return BodyBuilder(program, std::move(names), leaf, result, stored).build(maximum_statements);
 }
 
 }  // namespace jourdain::emit

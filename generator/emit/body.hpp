@@ -1,4 +1,4 @@
-// C++ statements of a program: one per named or shared value, in the program's order.
+// Statements of a program: one per named or shared value, in the program's order.
 #pragma once
 
 #include <functional>
@@ -6,25 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "emit/tree.hpp"
 #include "emit/unique_names.hpp"
-#include "ir/program.hpp"
 
 namespace jourdain::emit {
 
-/// How leaves are spelt, e.g. state.y[3].
-using LeafText = std::function<std::string(ir::LeafKind, std::size_t index)>;
+/// Where leaves are, e.g. entry 3 of y of the state.
+using LeafPlace = std::function<Expression(ir::LeafKind, std::size_t index)>;
 
-/// How results are written, e.g. `M[0][1] = value;`.
-using OutputText = std::function<std::string(const ir::Output&, const std::string& value)>;
+/// What is done with results, e.g. M[0][1] is set.
+using ResultStatement = std::function<Statement(const ir::Output&, Expression value)>;
 
-/// Statements of a part of a function; parts communicate through an array `w` of Real.
-struct Part {
-  std::vector<std::string> lines;
-};
-
+/// Parts of a function communicate through an array `w` of reals.
 struct Body {
-  std::vector<Part> parts;    ///< the last one writes the outputs
-  std::size_t work_size = 0;  ///< entries of `w`; 0 where there is one part
+  std::vector<Statements> parts;  ///< the last one writes the outputs
+  std::size_t work_size = 0;      ///< entries of `w`; 0 where there is one part
 };
 
 /// A compiler's time is close to quadratic in the length of a function, so that a part holds at most this many
@@ -36,14 +32,11 @@ using StoredValues = std::map<ir::ValueId, std::string>;
 
 /// Values used once and not named are written inside the expression that uses them; the order of operations is that of
 /// the program. A pair of sin and cos of one angle is computed by one call.
-Body print_body(const ir::Program& program, Names names, const LeafText& leaf, const OutputText& output,
-                const StoredValues& stored = {}, std::size_t maximum_statements = kMaximumStatements);
+Body body_of(const ir::Program& program, Names names, const LeafPlace& leaf, const ResultStatement& result,
+             const StoredValues& stored = {}, std::size_t maximum_statements = kMaximumStatements);
 
-/// Does a sine or cosine depend on time? Such angles are computed as detail::Angle; a value that passes from
+/// Does a sine or cosine depend on time? Such angles are computed as angles; a value that passes from
 /// part to part is rounded.
 bool turns_with_time(const ir::Program& program);
-
-/// Shortest decimal that reads back as `value`, as a Real.
-std::string literal_text(double value);
 
 }  // namespace jourdain::emit

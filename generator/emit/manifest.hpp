@@ -3,15 +3,10 @@
 
 #include <string>
 
-#include "emit/model_files.hpp"
+#include "emit/file_text.hpp"
+#include "emit/operations.hpp"
 
 namespace jourdain::emit {
-
-/// A step and the operations of one call.
-struct StepRecord {
-  const programs::Stepper* stepper = nullptr;
-  long operations = 0;
-};
 
 std::string manifest(const ModelText& model, const std::vector<programs::FunctionInfo>& functions,
                      const ir::Module& module, const std::vector<StepRecord>& steps);

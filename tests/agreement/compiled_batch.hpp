@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agreement/judge.hpp"
-#include "emit/model_files.hpp"
+#include "emit/file_text.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {

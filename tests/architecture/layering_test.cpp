@@ -72,8 +72,10 @@ const std::map<std::string, std::set<std::string>>& rooms() {
       below.insert(room);
     }
     rooms["emit"] = {"programs", "loops/record", "passes", "ir", "model", "support"};
+    rooms["emit/cpp"] = {"emit", "programs", "loops/record", "passes", "ir", "model", "support"};
     below.insert({"emit", "readback"});
     rooms["compile"] = below;
+    rooms["compile"].insert("emit/cpp");  // the one place that chooses a language
     rooms["report"] = {"studies", "emit", "model", "support"};
     below.insert({"compile", "report", "studies", "model/read", "model/check"});
     rooms["commands"] = below;

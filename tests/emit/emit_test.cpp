@@ -8,9 +8,11 @@
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
 #include "emit/body.hpp"
-#include "emit/index_constants.hpp"
-#include "emit/layout.hpp"
-#include "emit/structs.hpp"
+#include "emit/cpp/index_constants.hpp"
+#include "emit/cpp/layout.hpp"
+#include "emit/cpp/printer.hpp"
+#include "emit/cpp/structs.hpp"
+#include "emit/output_names.hpp"
 #include "emit/templates.hpp"
 #include "emit/unique_names.hpp"
 #include "ir/builder.hpp"
@@ -34,10 +36,10 @@ TEST(Names, AreIdentifiersThatDiffer) {
 
 TEST(IndexConstants, HaveNamesThatDiffer) {
   ModelText model;
-  EXPECT_EQ(index_constants(model), "");
+  EXPECT_EQ(cpp::index_constants(model), "");
   model.facts.positions = {"a.b", "a b", "x"};
   model.facts.inputs = {"int"};
-  EXPECT_EQ(index_constants(model),
+  EXPECT_EQ(cpp::index_constants(model),
             "\n// Entries by name: state.y[index::y_a_b], input.u[index::u_int].\n"
             "namespace index {\n"
             "inline constexpr int y_a_b = 0;\n"
@@ -58,7 +60,7 @@ TEST(Outputs, HaveNumbersWithTheNamesOfTheirMembers) {
   EXPECT_THAT(names, testing::ElementsAre("a", "b.v[0]", "b.v[1]", "b.v[2]", "b.R[0][0]", "b.R[0][1]",
                                           "b.R[1][0]", "b.R[1][1]", "b.row[0]", "b.row[1]"));
   for (const char* declared : {"Real a;", "Real v[3];", "Real R[2][2];", "Real row[2];", "} b;"})
-    EXPECT_THAT(output_struct(model), testing::HasSubstr(declared));
+    EXPECT_THAT(cpp::output_struct(model), testing::HasSubstr(declared));
 }
 
 TEST(Text, CannotLeaveCommentsOrStrings) {
@@ -67,11 +69,11 @@ TEST(Text, CannotLeaveCommentsOrStrings) {
 }
 
 TEST(Literals, AreTheShortestThatReadBack) {
-  EXPECT_EQ(literal_text(0.1), "Real(0.1)");
-  EXPECT_EQ(literal_text(2), "Real(2.0)");
-  EXPECT_EQ(literal_text(1e22), "Real(1e+22)");
+  EXPECT_EQ(cpp::literal_text(0.1), "Real(0.1)");
+  EXPECT_EQ(cpp::literal_text(2), "Real(2.0)");
+  EXPECT_EQ(cpp::literal_text(1e22), "Real(1e+22)");
   for (const double x : {1.0 / 3, 9.81, 1.7976931348623157e308, 5e-324}) {
-    const std::string text = literal_text(x);
+    const std::string text = cpp::literal_text(x);
     EXPECT_EQ(std::strtod(text.c_str() + 5, nullptr), x) << text;
   }
 }
@@ -79,12 +81,18 @@ TEST(Literals, AreTheShortestThatReadBack) {
 TEST(Layout, BreaksLongLinesAtSpaces) {
   std::string line = "const Real x = a";
   for (int i = 0; i < 60; ++i) line += " + b";
-  const std::string text = wrapped(line + ";", 2);
+  const std::string text = cpp::wrapped(line + ";", 2);
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
     EXPECT_LE(end - begin, 110u);
-  EXPECT_TRUE(mentions("f(state.y[0])", "state"));
-  EXPECT_FALSE(mentions("f(my_state, model.state)", "state"));
+}
+
+TEST(Tree, MentionsVariablesButNoMembersOfTheirNames) {
+  const Statements statements = {set(name("x"), name("model").dot("state")),
+                                 loop("i", 3, {set(name("y")[name("i")], 0.0)})};
+  EXPECT_TRUE(mentions(statements, "model"));
+  EXPECT_TRUE(mentions(statements, "y"));
+  EXPECT_FALSE(mentions(statements, "state"));
 }
 
 TEST(Templates, FillEveryHole) {
@@ -97,10 +105,10 @@ TEST(Body, CallsTheArctangentWithBothItsOperands) {
   ir::Builder b;
   const ir::Signed x = b.leaf(ir::LeafKind::kPosition, 0), y = b.leaf(ir::LeafKind::kPosition, 1);
   b.output("r", 0, -1, b.multiply(b.atan2(b.add(x, y), -x), y));
-  const Body body = print_body(
-      b.finish("angle"), Names({}), [](ir::LeafKind, std::size_t i) { return "y" + std::to_string(i); },
-      [](const ir::Output&, const std::string& value) { return value; });
-  EXPECT_EQ(body.parts[0].lines, (std::vector<std::string>{"y1 * detail::arctangent2(y0 + y1, -y0)"}));
+  const Body body = body_of(
+      b.finish("angle"), Names({}), [](ir::LeafKind, std::size_t i) { return name("y" + std::to_string(i)); },
+      [](const ir::Output&, const Expression& value) { return Statement{Return{value}}; });
+  EXPECT_EQ(cpp::statements_text(body.parts[0], {}, 0), "return y1 * detail::arctangent2(y0 + y1, -y0);\n");
 }
 
 /// The program with the first position reduced to one turn.
@@ -144,24 +152,24 @@ TEST(Body, IsCutIntoPartsOfTheWantedLength) {
   for (const ir::Program& program : panda.module.functions) {
     if (program.name != "forward_dynamics") continue;
     const auto leaf = [](ir::LeafKind kind, std::size_t i) {
-      return std::string(ir::leaf_name(kind)) + std::to_string(i);
+      return name(std::string(ir::leaf_name(kind)) + std::to_string(i));
     };
-    const auto output = [](const ir::Output& o, const std::string& value) {
-      return "zdot" + std::to_string(o.row) + " = " + value;
+    const auto output = [](const ir::Output& o, const Expression& value) {
+      return set(name("zdot")[o.row], value);
     };
-    const Body whole = print_body(program, Names({}), leaf, output),
-               parts = print_body(program, Names({}), leaf, output, {}, 100);
+    const Body whole = body_of(program, Names({}), leaf, output),
+               parts = body_of(program, Names({}), leaf, output, {}, 100);
     EXPECT_EQ(whole.parts.size(), 1u);
     EXPECT_EQ(whole.work_size, 0u);
     EXPECT_GT(parts.parts.size(), 4u);
     EXPECT_GT(parts.work_size, 0u);
     std::multiset<std::string> statements, expected;
-    for (const std::string& line : whole.parts[0].lines) expected.insert(line);
-    for (const Part& part : parts.parts) {
+    for (const Statement& statement : whole.parts[0]) expected.insert(cpp::statements_text({statement}, {}));
+    for (const Statements& part : parts.parts) {
       std::size_t own = 0;
-      for (const std::string& line : part.lines) {
-        if (line.find("w[") != std::string::npos) continue;
-        statements.insert(line);
+      for (const Statement& statement : part) {
+        if (mentions(Statements{statement}, "w")) continue;
+        statements.insert(cpp::statements_text({statement}, {}));
         ++own;
       }
       EXPECT_LE(own, 120u);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emit/body.hpp"
+#include "emit/cpp/printer.hpp"
 
 namespace jourdain::emit {
 namespace {
@@ -33,10 +34,17 @@ class Written {
   std::vector<std::string> lines(ValueId result) {
     program_.labels.assign(program_.nodes.size(), "");
     program_.outputs = {{"r", -1, -1, result}};
-    const Body body = print_body(
-        program_, Names({}), [](ir::LeafKind, std::size_t i) { return std::string(1, "abcd"[i]); },
-        [](const ir::Output&, const std::string& value) { return value; });
-    return body.parts.at(0).lines;
+    const Body body = body_of(
+        program_, Names({}), [](ir::LeafKind, std::size_t i) { return name(std::string(1, "abcd"[i])); },
+        [](const ir::Output&, const Expression& value) { return Statement{Return{value}}; });
+    std::vector<std::string> lines;
+    for (const Statement& statement : body.parts.at(0)) {
+      const auto* last = std::get_if<Return>(&statement.is);
+      lines.push_back(last ? cpp::expression_text(last->value, {})
+                           : cpp::statements_text({statement}, {}, 0));
+      if (!last) lines.back().pop_back();
+    }
+    return lines;
   }
 
  private:

@@ -1,0 +1,268 @@
+#include "emit/explicit_step.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "emit/parameters.hpp"
+#include "support/check.hpp"
+
+namespace jourdain::emit {
+
+namespace {
+
+const Expression h = name("h"), state = name("state"), stage = name("stage"), history = name("history");
+
+/// Rates are v, a or v1, a1, v2, a2, …: of y and of z.
+using Rates = std::function<Expression(int)>;
+
+/// A sum over rates, for an entry of y or of z.
+using Combination = std::function<Expression(const Rates&)>;
+
+/// Statements, as they are added.
+class Step {
+ public:
+  explicit Step(bool clock) : clock_(clock) {}
+
+  bool has_clock() const { return clock_; }
+  void add(Statement statement) { statements_.push_back(std::move(statement)); }
+
+  void counts() {
+    add({Declare{kIntegerType,
+                 Declare::Change::kNever,
+                 {{"ny", {}, position_count()}, {"nz", {}, velocity_count()}}}});
+  }
+
+  void stage_at_start() {
+    add({Declare{struct_type("State"), Declare::Change::kFree, {{"stage", {}, state}}}});
+  }
+
+  /// Arrays v1, …, a1, …; a single one is without number.
+  void rate_arrays(int stages, bool one_line = true) {
+    std::vector<Variable> v, a;
+    for (int k = 1; k <= stages; ++k) {
+      v.push_back({numbered("v", stages == 1 ? 0 : k), {name("ny")}});
+      a.push_back({numbered("a", stages == 1 ? 0 : k), {name("nz")}});
+    }
+    if (one_line) v.insert(v.end(), a.begin(), a.end());
+    add({Declare{kRealType, Declare::Change::kFree, v}});
+    if (!one_line) add({Declare{kRealType, Declare::Change::kFree, a}});
+  }
+
+  void rates(const Expression& at, int k = 0) {
+    add({Call{
+        "rates", {name("model"), at, name("input"), name(numbered("v", k)), name(numbered("a", k))}, true}});
+  }
+
+  Expression scalar(const std::string& variable, const Expression& value) {
+    add(constant(variable, value));
+    return name(variable);
+  }
+
+  void time(const Expression& target, const Expression& change) {
+    if (clock_) add(set(target.dot("t"), state.dot("t") + change));
+  }
+
+  /// target = state + factor × combination, for y and z.
+  void advance(const Expression& target, const Expression& factor, const Combination& combination) {
+    positions(target, factor, combination);
+    velocities(target, factor, combination);
+  }
+  void positions(const Expression& target, const Expression& factor, const Combination& combination) {
+    entries(target, "y", "ny", factor, combination([](int k) { return name(numbered("v", k))[name("i")]; }));
+  }
+  void velocities(const Expression& target, const Expression& factor, const Combination& combination) {
+    entries(target, "z", "nz", factor, combination([](int k) { return name(numbered("a", k))[name("i")]; }));
+  }
+
+  Statements take() { return std::move(statements_); }
+
+ private:
+  static std::string numbered(const std::string& letter, int k) {
+    return k == 0 ? letter : fmt::format("{}{}", letter, k);
+  }
+
+  void entries(const Expression& target, const char* member, const char* count, const Expression& factor,
+               const Expression& sum) {
+    const Expression i = name("i");
+    add(loop("i", name(count), {set(target.dot(member)[i], state.dot(member)[i] + factor * sum)}));
+  }
+
+  bool clock_;
+  Statements statements_;
+};
+
+Expression first(const Rates& k) { return k(0); }
+
+void euler(Step& step) {
+  step.rate_arrays(1);
+  step.rates(state);
+  step.advance(state, h, first);
+  step.time(state, h);
+}
+
+/// Velocities first, positions with the new velocities.
+void semi_implicit_euler(Step& step) {
+  step.rate_arrays(1);
+  step.add({Call{"accelerations", {name("model"), state, name("input"), name("a")}, true}});
+  step.velocities(state, h, first);
+  step.add({Call{"velocities", {name("model"), state, name("v")}, true}});
+  step.positions(state, h, first);
+  step.time(state, h);
+}
+
+void heun(Step& step) {
+  step.stage_at_start();
+  step.rate_arrays(2);
+  step.rates(stage, 1);
+  step.time(stage, h);
+  step.advance(stage, h, [](const Rates& k) { return k(1); });
+  step.rates(stage, 2);
+  const Expression half = step.scalar("half", 0.5 * h);
+  step.advance(state, half, [](const Rates& k) { return k(1) + k(2); });
+  step.time(state, h);
+}
+
+/// W. Kutta, Zeitschrift für Mathematik und Physik 46 (1901).
+void rk4(Step& step) {
+  const Expression half = step.scalar("half", 0.5 * h);
+  step.stage_at_start();
+  step.rate_arrays(4);
+  step.rates(stage, 1);
+  step.time(stage, half);
+  step.advance(stage, half, [](const Rates& k) { return k(1); });
+  step.rates(stage, 2);
+  step.advance(stage, half, [](const Rates& k) { return k(2); });
+  step.rates(stage, 3);
+  step.time(stage, h);
+  step.advance(stage, h, [](const Rates& k) { return k(3); });
+  step.rates(stage, 4);
+  const Expression sixth = step.scalar("sixth", h / 6.0);
+  step.advance(state, sixth, [](const Rates& k) { return k(1) + 2.0 * (k(2) + k(3)) + k(4); });
+  step.time(state, h);
+}
+
+struct Fraction {
+  int numerator = 0, denominator = 1;
+};
+
+Expression quotient(const Fraction& f) {
+  return Expression(double(f.numerator)) / Expression(double(f.denominator));
+}
+
+/// Coefficients of a Runge-Kutta method, by stage: rows of A and nodes but for the first stage, b.
+struct Tableau {
+  std::vector<std::vector<Fraction>> A;
+  std::vector<Fraction> nodes, b;
+};
+
+/// Declares the coefficients of a row as NAME1, NAME2, … and gives their sum over the rates; signs are written, not
+/// stored.
+Combination combination(Step& step, const std::string& letter, const std::vector<Fraction>& row) {
+  Declare declare{kRealType, Declare::Change::kConstant, {}};
+  for (std::size_t j = 0; j < row.size(); ++j)
+    if (row[j].numerator != 0)
+      declare.variables.push_back({fmt::format("{}{}", letter, j + 1),
+                                   {},
+                                   quotient({std::abs(row[j].numerator), row[j].denominator})});
+  step.add({declare});
+  return [letter, row](const Rates& k) {
+    std::optional<Expression> sum;
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      if (row[j].numerator == 0) continue;
+      const Expression term = name(fmt::format("{}{}", letter, j + 1)) * k(int(j) + 1);
+      sum = !sum ? term : row[j].numerator < 0 ? *sum - term : *sum + term;
+    }
+    return *sum;
+  };
+}
+
+void runge_kutta(Step& step, const Tableau& tableau) {
+  const std::size_t stages = tableau.b.size();
+  step.stage_at_start();
+  step.rate_arrays(int(stages), false);
+  step.rates(stage, 1);
+  for (std::size_t i = 0; i + 1 < stages; ++i) {
+    const Combination sum = combination(step, fmt::format("a{}", i + 2), tableau.A[i]);
+    const Fraction& node = tableau.nodes[i];
+    step.time(stage, node.numerator == node.denominator ? h : quotient(node) * h);
+    step.advance(stage, h, sum);
+    step.rates(stage, int(i) + 2);
+  }
+  step.advance(state, h, combination(step, "b", tableau.b));
+  step.time(state, h);
+}
+
+/// J. R. Dormand, P. J. Prince, Journal of Computational and Applied Mathematics 6 (1980).
+void rk5(Step& step) {
+  runge_kutta(step, {{{{1, 5}},
+                      {{3, 40}, {9, 40}},
+                      {{44, 45}, {-56, 15}, {32, 9}},
+                      {{19372, 6561}, {-25360, 2187}, {64448, 6561}, {-212, 729}},
+                      {{9017, 3168}, {-355, 33}, {46732, 5247}, {49, 176}, {-5103, 18656}}},
+                     {{1, 5}, {3, 10}, {4, 5}, {8, 9}, {1, 1}},
+                     {{35, 384}, {}, {500, 1113}, {125, 192}, {-2187, 6784}, {11, 84}}});
+}
+
+/// Until `earlier` steps are remembered a step of rk4; then state + scale × combination. k(0) are the rates of now,
+/// k(1), … the remembered ones, newest first.
+void adams_bashforth(Step& step, int earlier, const char* scale, const Expression& factor,
+                     const Combination& sum) {
+  const Expression i = name("i"), count = history.dot("count");
+  step.rate_arrays(1);
+  step.rates(state);
+  const auto remembered = [&](const char* member, const char* now) -> Rates {
+    return [member, now, i](int k) { return k == 0 ? name(now)[i] : history.dot(member)[k - 1][i]; };
+  };
+  AtStart start{count, earlier, true, {}, {}};
+  start.then = {{Call{"rk4_step", {name("model"), state, name("input"), h}}},
+                set(count, earlier == 1 ? Expression(1) : count + 1)};
+  start.otherwise = {
+      constant(scale, factor),
+      loop("i", name("ny"),
+           {set(state.dot("y")[i], state.dot("y")[i] + name(scale) * sum(remembered("ydot", "v")))}),
+      loop("i", name("nz"),
+           {set(state.dot("z")[i], state.dot("z")[i] + name(scale) * sum(remembered("zdot", "a")))})};
+  if (step.has_clock()) start.otherwise.push_back(set(state.dot("t"), state.dot("t") + h));
+  step.add({start});
+  for (const auto& [member, rate, entries] : {std::tuple("ydot", "v", "ny"), {"zdot", "a", "nz"}}) {
+    Statements moves;
+    for (int k = earlier - 1; k > 0; --k)
+      moves.push_back(set(history.dot(member)[k][i], history.dot(member)[k - 1][i]));
+    moves.push_back(set(history.dot(member)[0][i], name(rate)[i]));
+    step.add(loop("i", name(entries), moves));
+  }
+}
+
+void adams_bashforth2(Step& step) {
+  adams_bashforth(step, 1, "half", 0.5 * h, [](const Rates& k) { return 3.0 * k(0) - k(1); });
+}
+
+void adams_bashforth3(Step& step) {
+  adams_bashforth(step, 2, "twelfth", h / 12.0,
+                  [](const Rates& k) { return 23.0 * k(0) - 16.0 * k(1) + 5.0 * k(2); });
+}
+
+constexpr std::pair<const char*, void (*)(Step&)> kMethods[] = {{"euler", euler},
+                                                                {"semi_implicit_euler", semi_implicit_euler},
+                                                                {"heun", heun},
+                                                                {"rk4", rk4},
+                                                                {"rk5", rk5},
+                                                                {"adams_bashforth2", adams_bashforth2},
+                                                                {"adams_bashforth3", adams_bashforth3}};
+
+}  // namespace
+
+Statements explicit_step(const programs::Stepper& stepper, bool clock) {
+  for (const auto& [name, method] : kMethods)
+    if (name == stepper.name) {
+      Step step(clock);
+      step.counts();
+      method(step);
+      return step.take();
+    }
+  JD_CHECK(false, "no method '{}'", stepper.name);
+  return {};
+}
+
+}  // namespace jourdain::emit

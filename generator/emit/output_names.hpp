@@ -1,0 +1,18 @@
+// How the numbers of outputs are called.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "programs/scene_facts.hpp"
+
+namespace jourdain::emit {
+
+/// "[a][b]" with those of the two that the member's array has; a scalar has none.
+std::string subscripts(const programs::OutputMember& member, int a, int b);
+
+/// Row by row: "tracer.position[0]", …
+std::vector<std::string> number_names(const programs::OutputFacts& output,
+                                      const programs::OutputMember& member);
+
+}  // namespace jourdain::emit

@@ -1,0 +1,84 @@
+#include "emit/tree.hpp"
+
+#include <algorithm>
+
+namespace jourdain::emit {
+
+using ir::Op;
+using Kind = Expression::Kind;
+
+Expression name(const std::string& variable) { return {Kind::kName, variable}; }
+
+Expression operation(Op op, std::vector<Expression> operands) {
+  Expression result(Kind::kOperation, "", std::move(operands));
+  result.operation = op;
+  return result;
+}
+
+Expression operator+(const Expression& a, const Expression& b) { return operation(Op::kAdd, {a, b}); }
+Expression operator-(const Expression& a, const Expression& b) { return operation(Op::kSubtract, {a, b}); }
+Expression operator*(const Expression& a, const Expression& b) { return operation(Op::kMultiply, {a, b}); }
+Expression operator/(const Expression& a, const Expression& b) { return operation(Op::kDivide, {a, b}); }
+Expression operator-(const Expression& a) { return operation(Op::kNegate, {a}); }
+Expression square_root(const Expression& a) { return operation(Op::kSqrt, {a}); }
+Expression to_real(const Expression& a) { return {Kind::kToReal, "", {a}}; }
+Expression to_angle(const Expression& time) { return {Kind::kToAngle, "", {time}}; }
+Expression inputs_at(const Expression& state) { return {Kind::kInputsAt, "", {state}}; }
+Expression position_count() { return {Kind::kPositionCount, ""}; }
+Expression velocity_count() { return {Kind::kVelocityCount, ""}; }
+
+Statement set(const Expression& target, const Expression& value) { return {Set{{target}, value}}; }
+
+Statement constant(const std::string& variable, const Expression& value) {
+  return {Declare{{}, Declare::Change::kConstant, {{variable, {}, value}}}};
+}
+
+Statement loop(const std::string& variable, const Expression& end, Statements body) {
+  return {Loop{variable, 0, end, false, std::move(body)}};
+}
+
+bool mentions(const Expression& expression, const std::string& variable) {
+  if (expression.kind == Kind::kName && expression.name == variable) return true;
+  if (expression.kind == Kind::kInputsAt && variable == "input") return true;
+  return std::any_of(expression.operands.begin(), expression.operands.end(),
+                     [&](const Expression& operand) { return mentions(operand, variable); });
+}
+
+namespace {
+
+/// Whether one statement mentions `variable`.
+struct Mentions {
+  const std::string& variable;
+
+  bool any(const std::vector<Expression>& expressions) const {
+    return std::any_of(expressions.begin(), expressions.end(),
+                       [this](const Expression& e) { return mentions(e, variable); });
+  }
+  bool operator()(const Declare& declare) const {
+    return std::any_of(declare.variables.begin(), declare.variables.end(), [this](const Variable& v) {
+      return v.name == variable || any(v.entries) || (v.value && mentions(*v.value, variable));
+    });
+  }
+  bool operator()(const Set& set) const { return any(set.targets) || mentions(set.value, variable); }
+  bool operator()(const SineCosine& pair) const {
+    return pair.sine == variable || pair.cosine == variable || mentions(pair.angle, variable);
+  }
+  bool operator()(const Loop& loop) const {
+    return mentions(loop.first, variable) || mentions(loop.end, variable) || mentions(loop.body, variable);
+  }
+  bool operator()(const AtStart& start) const {
+    return any({start.left, start.right}) || mentions(start.then, variable) ||
+           mentions(start.otherwise, variable);
+  }
+  bool operator()(const Call& call) const { return any(call.arguments); }
+  bool operator()(const Return& result) const { return mentions(result.value, variable); }
+};
+
+}  // namespace
+
+bool mentions(const Statements& statements, const std::string& variable) {
+  return std::any_of(statements.begin(), statements.end(),
+                     [&](const Statement& s) { return std::visit(Mentions{variable}, s.is); });
+}
+
+}  // namespace jourdain::emit

@@ -1,0 +1,187 @@
+// What an emitted model computes, between programs and the languages that print it: functions of statements over
+// reals, arrays and structs. The tree says what is computed, in which order and where it goes; a language says how
+// that is spelt.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "ir/program.hpp"
+
+namespace jourdain::emit {
+
+struct Expression {
+  enum class Kind {
+    kReal,           ///< `number`
+    kInteger,        ///< `number`
+    kPositionCount,  ///< entries of y
+    kVelocityCount,  ///< entries of z
+    kName,           ///< a variable or parameter
+    kMember,         ///< member `name` of the struct operands[0]
+    kEntry,          ///< entry operands[1] of the array operands[0]
+    kFrom,           ///< the array operands[0] from its entry operands[1] on
+    kOperation,      ///< `operation` of the operands, reals or integers
+    kToReal,         ///< an angle, a time or an integer as a real
+    kToAngle,        ///< a time as an angle
+    kInputsAt        ///< what the inputs are at the state operands[0]: held over the step, or sampled there
+  };
+  Kind kind = Kind::kInteger;
+  double number = 0;
+  std::string name;
+  ir::Op operation = ir::Op::kLiteral;
+  std::vector<Expression> operands;
+
+  Expression() = default;
+  Expression(Kind k, std::string n, std::vector<Expression> o = {})
+      : kind(k), name(std::move(n)), operands(std::move(o)) {}
+  Expression(double real) : kind(Kind::kReal), number(real) {}
+  Expression(int integer) : number(integer) {}
+  Expression(std::size_t integer) : number(static_cast<double>(integer)) {}
+
+  Expression operator[](const Expression& index) const { return {Kind::kEntry, "", {*this, index}}; }
+  Expression from(const Expression& index) const { return {Kind::kFrom, "", {*this, index}}; }
+  Expression dot(const std::string& member) const { return {Kind::kMember, member, {*this}}; }
+};
+
+Expression name(const std::string& variable);
+Expression operation(ir::Op op, std::vector<Expression> operands);
+Expression operator+(const Expression& a, const Expression& b);
+Expression operator-(const Expression& a, const Expression& b);
+Expression operator*(const Expression& a, const Expression& b);
+Expression operator/(const Expression& a, const Expression& b);
+Expression operator-(const Expression& a);
+Expression square_root(const Expression& a);
+Expression to_real(const Expression& a);
+Expression to_angle(const Expression& time);
+Expression inputs_at(const Expression& state);
+Expression position_count();
+Expression velocity_count();
+
+/// Whether the variable or parameter `variable` is read or written.
+bool mentions(const Expression& expression, const std::string& variable);
+
+struct Type {
+  enum class Kind { kReal, kAngle, kInteger, kStruct };
+  Kind kind = Kind::kReal;
+  std::string name = {};    ///< of a struct
+  bool is_support = false;  ///< a struct that only emitted functions use
+  int depth = 0;            ///< steps that a struct of that kind remembers
+};
+
+struct Variable {
+  std::string name;
+  std::vector<Expression> extents = {};
+  std::optional<Expression> value = {};
+  std::vector<Expression> entries = {};  ///< of an array that is constant
+};
+
+struct Statement;
+
+/// Variables of one type, each with its extents and value.
+struct Declare {
+  enum class Change {
+    kNever,
+    kConstant,
+    kFree
+  };  ///< known to the compiler; constant from here on; a variable
+  Type type;
+  Change change = Change::kFree;
+  std::vector<Variable> variables;
+  std::string comment = {};
+};
+
+struct Set {
+  std::vector<Expression> targets;  ///< all become `value`
+  Expression value;
+};
+
+/// Both of one angle, which may be an angle or a real.
+struct SineCosine {
+  Expression angle;
+  std::string sine, cosine;
+};
+
+/// `variable` runs over first, first + 1, …, end − 1, or the other way.
+struct Loop {
+  std::string variable;
+  Expression first, end;
+  bool descends = false;
+  std::vector<Statement> body;
+};
+
+/// A condition that holds in the first steps of a trajectory only: left < right, or left = right.
+struct AtStart {
+  Expression left, right;
+  bool is_less = false;
+  std::vector<Statement> then, otherwise;
+};
+
+/// Of a function of the model, or of one that only emitted functions use.
+struct Call {
+  std::string function;
+  std::vector<Expression> arguments;
+  bool is_support = false;
+};
+
+struct Return {
+  Expression value;
+};
+
+struct Statement {
+  std::variant<Declare, Set, SineCosine, Loop, AtStart, Call, Return> is;
+};
+
+using Statements = std::vector<Statement>;
+
+Statement set(const Expression& target, const Expression& value);
+Statement constant(const std::string& variable, const Expression& value);
+Statement loop(const std::string& variable, const Expression& end, Statements body);
+
+bool mentions(const Statements& statements, const std::string& variable);
+
+struct Parameter {
+  enum class Access {
+    kRead,   ///< by reference
+    kValue,  ///< a copy
+    kWrite   ///< by reference, read and written
+  };
+  Type type;
+  std::string name;
+  Access access = Access::kRead;
+  std::vector<std::size_t> extents = {};  ///< of an array; without entries here
+  bool is_slice = false;                  ///< a part of an array, as long as the function wants it
+  bool is_inputs = false;                 ///< the inputs: held, or sampled at states
+};
+
+struct Function {
+  std::string name;
+  std::string comment;  ///< empty where the table of functions has it
+  std::vector<Parameter> parameters;
+  std::optional<Type> result = {};  ///< nothing, a real or a struct
+  Statements body = {};
+  bool only_sampled = false;  ///< does nothing where inputs are held over a step
+};
+
+/// Members declared together, e.g. five arrays of one length.
+struct Members {
+  std::vector<Variable> variables;
+  Type type = {};
+  std::string comment = {};
+};
+
+struct Struct {
+  std::string name, comment;
+  std::vector<Members> members;
+};
+
+/// Integers that are known when the model is emitted.
+struct Table {
+  std::string name, comment;
+  std::vector<std::size_t> entries;
+};
+
+}  // namespace jourdain::emit
