@@ -223,7 +223,7 @@ Expression turned_derivatives(const programs::SceneFacts& scene, Statements& bod
   const auto& quaternions = scene.tangent.quaternions;
   if (quaternions.empty()) return step.dot("r_y");
   const std::size_t n = scene.velocities.size();
-  const Expression turned = name("turned");
+  Expression turned = name("turned");
   body.push_back({Declare{kRealType, Declare::Change::kFree, {{"turned", {n, n}}}, "r_y E"}});
   body.push_back(loop("i", n, {loop("j", n, {set(turned[i][j], step.dot("r_y")[i][j])})}));
   body.push_back(constant("half", 0.5 * s));
