@@ -8,9 +8,6 @@
 
 namespace jourdain::dynamics {
 
-/// Does link i turn about an axis parallel to that of its parent? Its rate is then that of the link itself.
-bool turns_beside_parent(const kinematics::LinkTree& tree, std::size_t i);
-
 /// Whether all links slide without ever turning, or turn one beside the other, and at least two do that.
 bool moves_in_planes(const Scene& scene);
 

@@ -29,7 +29,7 @@ namespace {
 void set_free_acceleration(Scene& scene, std::size_t i, const std::vector<Ex>& zdot, Gravity gravity,
                            const std::string& name, JointAccelerations& motion) {
   const Vector3 v_W = scene.statements.bind(
-      name + "fallW", transpose(scene.frames.rotation(i)) * falling(scene, i, zdot, gravity));
+      name + "fallW", transpose(scene.frames.R_CW(i)) * falling(scene, i, zdot, gravity));
   motion.inside[i] = scene.statements.bind(name + "inside", shift_acceleration(scene, i, motion.spin[i]));
   motion.linear[i] = scene.statements.bind(name + "fallc", v_W + motion.inside[i]);
 }
@@ -72,17 +72,16 @@ std::vector<Twist> link_accelerations(Scene& scene, const std::vector<Ex>& zdot,
     Twist at{kinematics::zero_vector(), motion.ground};
     if (link.parent != kGround) {
       const std::size_t p = link.parent;
-      const bool parallel = link.parallel;
-      const auto seen = [&](const Vector3& v, const char* what) {
-        return parallel ? v : scene.frames.to_link(p, v, a + what);
+      const auto in_C = [&](const Vector3& v, const char* what) {
+        return scene.frames.from_parent_to_C(i, v, a + what);
       };
-      const Vector3 w = seen(scene.omega.own[p], "w"), alpha = seen(result[p].angular, "al");
-      const Vector3& r = scene.frames.offset(i);
+      const Vector3 w = in_C(scene.omega.own[p], "w"), alpha = in_C(result[p].angular, "al");
+      const Vector3& r = scene.frames.r_CW(i);
       const Vector3 wr = statements.bind(a + "wr", cross(w, r));
-      at.linear = statements.bind(a + "o", seen(result[p].linear, "p") + cross(alpha, r) + cross(w, wr));
+      at.linear = statements.bind(a + "o", in_C(result[p].linear, "p") + cross(alpha, r) + cross(w, wr));
       at.angular = scene.frames.from_parent(i, result[p].angular, a + "n");
     }
-    if (!link.parallel) at.linear = statements.bind(a + "t", transpose(scene.frames.rotation(i)) * at.linear);
+    at.linear = scene.frames.from_C_to_W(i, at.linear, a + "t");
     if (link.kind == LinkKind::kFree) at.linear = motion.linear[i];
 
     const Vector3& w_p = scene.omega.parent[i];

@@ -122,19 +122,17 @@ ArticulatedInertia give_way(const ArticulatedInertia& inertia, const Wrench& U, 
   return bound(name, result, statements);
 }
 
-ArticulatedInertia moved_to_parent(const kinematics::Link& link, const kinematics::WorkingFrames& frames,
-                                   std::size_t i, const ArticulatedInertia& inertia, const std::string& name,
+ArticulatedInertia moved_to_parent(const kinematics::WorkingFrames& frames, std::size_t i,
+                                   const ArticulatedInertia& inertia, const std::string& name,
                                    Statements& statements) {
-  ArticulatedInertia moved = inertia;
-  if (!link.parallel) {
-    const Matrix3& R = frames.rotation(i);
-    moved = bound(name + "R",
-                  {rotated(R, moved.A, name + "RA", statements), rotated(R, moved.H, name + "RH", statements),
-                   rotated(R, moved.J, name + "RJ", statements)},
-                  statements);
-  }
+  const Matrix3& R = frames.R_CW(i);
+  const ArticulatedInertia moved =
+      bound(name + "R",
+            {rotated(R, inertia.A, name + "RA", statements), rotated(R, inertia.H, name + "RH", statements),
+             rotated(R, inertia.J, name + "RJ", statements)},
+            statements);
   // Force = A (a − r × α) + H α; the moment gains r × force.
-  const Matrix3 r = cross_matrix(frames.offset(i));
+  const Matrix3 r = cross_matrix(frames.r_CW(i));
   const Matrix3 H = bound(name + "H", difference(moved.H, moved.A * r), statements);
   const Matrix3 lever = r * moved.H;
   const Matrix3 J = moved.J + (transpose(lever) + r * H);

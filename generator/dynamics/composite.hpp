@@ -5,18 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "kinematics/working_frames.hpp"
+#include "dynamics/wrenches.hpp"
 
 namespace jourdain::dynamics {
-
-using kinematics::Ex;
-using kinematics::Vector3;
-
-/// A force with a moment about a point, or a linear with an angular momentum.
-struct Wrench {
-  Vector3 force = kinematics::zero_vector();
-  Vector3 moment = kinematics::zero_vector();
-};
 
 /// Mass moments of a link and all links outward of it, about the link's origin, in its working frame.
 struct CompositeBody {
@@ -37,12 +28,6 @@ std::vector<CompositeBody> derive_composites(const kinematics::LinkTree& tree,
                                              kinematics::Statements& statements,
                                              const std::function<Joins(std::size_t link)>& joins);
 
-/// Velocity field `linear` + `angular` × x of a rigid motion, x from the link's origin.
-struct Twist {
-  Vector3 angular = kinematics::zero_vector();
-  Vector3 linear = kinematics::zero_vector();
-};
-
 /// Motion of a link relative to its parent per unit of one velocity, in W.
 struct Column {
   Twist twist;
@@ -55,19 +40,5 @@ std::vector<Column> derive_columns(const kinematics::Link& link, const kinematic
 
 /// Momentum of the composite body moving as `twist`, about the link's origin, in W.
 Wrench momentum(const CompositeBody& body, const Twist& twist);
-
-/// Power of a wrench on a twist, both in the same axes and about the same point.
-Ex power(const Wrench& wrench, const Twist& twist);
-
-/// Sums of wrenches over subtrees: W_i of the result is that of `own[i]` and of all links outward, about the
-/// origin of link i, in its working frame.
-std::vector<Wrench> accumulate_wrenches(const kinematics::LinkTree& tree,
-                                        const kinematics::WorkingFrames& frames,
-                                        const std::vector<Wrench>& own, const std::string& name,
-                                        kinematics::Statements& statements);
-
-/// A wrench about the origin of `link`, in its working frame, moved to the parent's origin and working frame.
-Wrench to_parent(const kinematics::LinkTree& tree, const kinematics::WorkingFrames& frames, std::size_t link,
-                 const Wrench& wrench, const std::string& name, kinematics::Statements& statements);
 
 }  // namespace jourdain::dynamics

@@ -123,7 +123,7 @@ class Derivation {
               M[*row.entry][*column.entry] = M[*column.entry][*row.entry] =
                   statements_.bind(named("M", *row.entry, *column.entry), power(seen, row.twist));
           if (scene_.tree.links[j].parent != kGround)
-            moving = to_parent(scene_.tree, scene_.frames, j, moving, name, statements_);
+            moving = to_parent(scene_.frames, j, moving, name, statements_);
         }
       }
     for (std::size_t i = 0; i < scene_.link_count(); ++i)
@@ -166,8 +166,7 @@ class Derivation {
 
   std::vector<std::vector<Ex>> generalized(const InertiaForces& inertia, const std::vector<Wrench>& applied,
                                            const std::string& name) {
-    return derive_generalized_forces(scene_.tree, scene_.frames, scene_.columns, inertia, applied, name,
-                                     statements_);
+    return derive_generalized_forces(scene_.frames, scene_.columns, inertia, applied, name, statements_);
   }
 
   /// Rows per link and column as rows of z; those of free links in external coordinates.
@@ -201,7 +200,7 @@ class Derivation {
   std::vector<std::vector<Ex>> pushes(const AppliedForces& applied, const std::string& name) {
     std::vector<std::vector<Ex>> rows = applied.along;
     const std::vector<Wrench> totals =
-        accumulate_wrenches(scene_.tree, scene_.frames, applied.on_link, name + "load", statements_);
+        accumulate_wrenches(scene_.frames, applied.on_link, name + "load", statements_);
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (std::size_t c = 0; c < rows[i].size(); ++c)
         rows[i][c] =
@@ -266,7 +265,7 @@ class Derivation {
     const Vector3 at_origin =
         statements_.bind(fmt::format("ao{}", i), Vector3{zdot[first], zdot[first + 1], zdot[first + 2]} -
                                                      shift_acceleration(scene_, i, spin));
-    const Vector3 turned = statements_.bind(fmt::format("vdot{}", i), scene_.frames.rotation(i) * at_origin);
+    const Vector3 turned = statements_.bind(fmt::format("vdot{}", i), scene_.frames.R_CW(i) * at_origin);
     for (std::size_t k = 0; k < 3; ++k)
       zdot[first + k] =
           statements_.bind(fmt::format("zdot_{}", first + k), turned[k] + scene_.tree.gravity[k]);
@@ -301,7 +300,7 @@ class Derivation {
     const Ex& mass = scene_.composites[i].moments.mass;
     const Vector3 fall = falling(scene_, i, scene_.leaves.zdot, Gravity::kAsAcceleration);
     const Vector3 fall_W =
-        statements_.bind(fmt::format("fallm{}", i), transpose(scene_.frames.rotation(i)) * fall);
+        statements_.bind(fmt::format("fallm{}", i), transpose(scene_.frames.R_CW(i)) * fall);
     const Vector3 lever = kinematics::cross(mass * scene_.tree.links[i].shift, fall_W);
     for (std::size_t k = 0; k < 3; ++k) {
       tau[first + k] = statements_.bind(fmt::format("tauf{}", first + k), tau[first + k] + mass * fall[k]);

@@ -88,17 +88,14 @@ class Recursion {
     const Link& link = tree_.links[i];
     const std::string a = named("a", i);
     if (link.kind == LinkKind::kFree) return kinematics::zero_vector();
-    if (link.parent == kGround)
-      return statements_.bind(a, transpose(frames_.rotation(i)) * accelerations_.ground);
+    if (link.parent == kGround) return frames_.from_C_to_W(i, accelerations_.ground, a);
     const std::size_t p = link.parent;
-    const std::string from = named(link.parallel ? "W" : "L", p);
-    const Vector3 omega = link.parallel ? omega_.own[p] : frames_.to_link(p, omega_.own[p], from + "w");
-    const Vector3 alpha = link.parallel ? alpha_[p] : frames_.to_link(p, alpha_[p], from + "al");
-    const Vector3 acceleration =
-        link.parallel ? acceleration_[p] : frames_.to_link(p, acceleration_[p], from + "a");
-    const Matrix3 U = acceleration_gradient(omega, alpha, from, statements_);
-    const Vector3 sum = statements_.bind(a + "o", acceleration + U * frames_.offset(i));
-    return link.parallel ? sum : statements_.bind(a, transpose(frames_.rotation(i)) * sum);
+    const std::string in_C = named(frames_.meets_in_W(i) ? "W" : "L", p);
+    const Vector3 omega_C = frames_.from_parent_to_C(i, omega_.own[p], in_C + "w");
+    const Vector3 alpha_C = frames_.from_parent_to_C(i, alpha_[p], in_C + "al");
+    const Vector3 a_C = frames_.from_parent_to_C(i, acceleration_[p], in_C + "a");
+    const Matrix3 U_C = acceleration_gradient(omega_C, alpha_C, in_C, statements_);
+    return frames_.from_C_to_W(i, statements_.bind(a + "o", a_C + U_C * frames_.r_CW(i)), a);
   }
 
   void outward(std::size_t i) {
@@ -280,7 +277,7 @@ InertiaForces derive_inertia_forces(const LinkTree& tree, const WorkingFrames& f
   return Recursion(tree, frames, states, composites, omega, accelerations, name, statements).derive();
 }
 
-std::vector<std::vector<Ex>> derive_generalized_forces(const LinkTree& tree, const WorkingFrames& frames,
+std::vector<std::vector<Ex>> derive_generalized_forces(const WorkingFrames& frames,
                                                        const std::vector<std::vector<Column>>& columns,
                                                        const InertiaForces& inertia,
                                                        const std::vector<Wrench>& applied,
@@ -290,7 +287,7 @@ std::vector<std::vector<Ex>> derive_generalized_forces(const LinkTree& tree, con
     own[i].force = statements.bind(fmt::format("{}ef{}", name, i), own[i].force - applied[i].force);
     own[i].moment = statements.bind(fmt::format("{}en{}", name, i), own[i].moment - applied[i].moment);
   }
-  const std::vector<Wrench> totals = accumulate_wrenches(tree, frames, own, name, statements);
+  const std::vector<Wrench> totals = accumulate_wrenches(frames, own, name, statements);
   std::vector<std::vector<Ex>> forces(own.size());
   for (std::size_t i = 0; i < own.size(); ++i)
     for (std::size_t c = 0; c < columns[i].size(); ++c)

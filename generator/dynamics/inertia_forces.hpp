@@ -52,9 +52,11 @@ InertiaForces derive_inertia_forces(const kinematics::LinkTree& tree, const kine
 
 /// Generalized forces of all wrenches, one per column of each link: Σ J_tᵀ m a + J_rᵀ (I ω̇ + ω × I ω) − `applied`,
 /// with `applied` wrenches (one per link, about its origin, in W) on the links.
-std::vector<std::vector<Ex>> derive_generalized_forces(
-    const kinematics::LinkTree& tree, const kinematics::WorkingFrames& frames,
-    const std::vector<std::vector<Column>>& columns, const InertiaForces& inertia,
-    const std::vector<Wrench>& applied, const std::string& name, kinematics::Statements& statements);
+std::vector<std::vector<Ex>> derive_generalized_forces(const kinematics::WorkingFrames& frames,
+                                                       const std::vector<std::vector<Column>>& columns,
+                                                       const InertiaForces& inertia,
+                                                       const std::vector<Wrench>& applied,
+                                                       const std::string& name,
+                                                       kinematics::Statements& statements);
 
 }  // namespace jourdain::dynamics

@@ -232,8 +232,8 @@ class Outputs {
     const kinematics::BodyPose& pose = scene_.tree.bodies[child.value];
     if (pose.link == kGround) return ground_reaction(carried, at, pose);
     std::vector<Wrench> wrenches = carried_wrenches(carried, at, fmt::format("react{}", joint.value));
-    const std::vector<Wrench> totals = accumulate_wrenches(scene_.tree, scene_.frames, wrenches,
-                                                           fmt::format("reacts{}", joint.value), statements_);
+    const std::vector<Wrench> totals =
+        accumulate_wrenches(scene_.frames, wrenches, fmt::format("reacts{}", joint.value), statements_);
     return about_child(totals[pose.link], pose, fmt::format("react{}c", joint.value));
   }
 
@@ -273,8 +273,8 @@ class Outputs {
   std::vector<OutputValues> ground_reaction(const std::vector<bool>& carried, const std::vector<Twist>& at,
                                             const kinematics::BodyPose& pose) {
     const std::string name = "react_ground";
-    std::vector<Wrench> totals = accumulate_wrenches(
-        scene_.tree, scene_.frames, carried_wrenches(carried, at, name), name + "s", statements_);
+    std::vector<Wrench> totals =
+        accumulate_wrenches(scene_.frames, carried_wrenches(carried, at, name), name + "s", statements_);
     Wrench sum;
     const Vector3 upward = Ex(-1) * scene_.tree.gravity;
     for (std::size_t b = 0; b < carried.size(); ++b) {
@@ -293,7 +293,7 @@ class Outputs {
       const Vector3 f = scene_.frames.to_parent(i, totals[i].force, name + "tf");
       const Vector3 n = scene_.frames.to_parent(i, totals[i].moment, name + "tn");
       sum.force = statements_.bind(name + "lf", sum.force + f);
-      sum.moment = statements_.bind(name + "ln", sum.moment + n + cross(scene_.frames.offset(i), f));
+      sum.moment = statements_.bind(name + "ln", sum.moment + n + cross(scene_.frames.r_CW(i), f));
     }
     const Vector3 at_child = statements_.bind(name + "m", sum.moment - cross(pose.r_LB, sum.force));
     const Matrix3 R = transpose(pose.R_LB);
@@ -309,7 +309,7 @@ class Outputs {
         derive_inertia_forces(scene_.tree, scene_.frames, scene_.states, scene_.composites, scene_.omega,
                               motion, "drive", statements_);
     const std::vector<std::vector<Ex>> rows = derive_generalized_forces(
-        scene_.tree, scene_.frames, scene_.columns, inertia, applied_.on_link, "drive", statements_);
+        scene_.frames, scene_.columns, inertia, applied_.on_link, "drive", statements_);
     return statements_.bind(output.name, rows[link][0] - applied_.along[link][0]);
   }
 

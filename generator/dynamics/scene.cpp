@@ -48,7 +48,7 @@ Twist Scene::relative_twist(std::size_t i) {
   const std::string name = fmt::format("vrel{}", i);
   if (link.kind == LinkKind::kFree) {
     const Vector3 shifted = kinematics::cross(state.spin, link.shift);
-    twist.linear = statements.bind(name, transpose(frames.rotation(i)) * state.velocity + shifted);
+    twist.linear = statements.bind(name, transpose(frames.R_CW(i)) * state.velocity + shifted);
   } else {
     twist.linear = statements.bind(name, state.rate * frames.direction(i));
   }
@@ -61,7 +61,7 @@ Ex Scene::value(const std::string& name, const model::Expression& expression) {
 
 Wrench to_external(Scene& scene, std::size_t link, const Wrench& wrench, const std::string& name) {
   const Vector3 lever = kinematics::cross(scene.tree.links[link].shift, wrench.force);
-  return {scene.statements.bind(name + "f", scene.frames.rotation(link) * wrench.force),
+  return {scene.statements.bind(name + "f", scene.frames.R_CW(link) * wrench.force),
           scene.statements.bind(name + "n", wrench.moment + lever)};
 }
 

@@ -38,10 +38,8 @@ class Solver {
         rows_(count_),
         H_(count_, std::vector<Ex>(count_, 0)),
         L_(H_),
-        inertia_(scene.link_count()),
-        in_link_(scene.link_count()),
-        force_(scene.link_count()),
-        force_in_link_(scene.link_count()),
+        inertias_(scene.frames),
+        forces_(scene.frames),
         x_(count_) {
     for (std::size_t k = 0; k < count_; ++k) rows_[k].u = b[k];
     rigid_ = derive_composites(scene.tree, scene.frames, statements_, [this](std::size_t i) {
@@ -78,7 +76,7 @@ class Solver {
 
   /// Moved, but not turned, by its parent.
   bool is_carried_along(std::size_t i) const {
-    return basis_ == Basis::kLinks && turns_beside_parent(scene_.tree, i);
+    return basis_ == Basis::kLinks && scene_.tree.turns_beside_parent(i);
   }
 
   Wrench bound(const std::string& name, const Wrench& wrench) {
@@ -110,8 +108,7 @@ class Solver {
         }
         if (is_carried_along(j)) moving.moment = kinematics::zero_vector();
         if (scene_.tree.links[j].parent != kGround)
-          moving =
-              to_parent(scene_.tree, scene_.frames, j, moving, named("p", *column.entry, j), statements_);
+          moving = to_parent(scene_.frames, j, moving, named("p", *column.entry, j), statements_);
       }
       row.head = j;
       if (j != kGround) row.G = moving;
@@ -146,9 +143,9 @@ class Solver {
       rows_[i].u = statements_.bind(named("u", k, i), rows_[i].u - L_[k][i] * row.u);
     if (row.head == kGround) return;
     row.share = scaled(row.inverse_D, row.G, fmt::format("GD{}", k));
-    inertia_[row.head] =
-        reduced(inertia_[row.head], row.G, row.share, fmt::format("I{}_{}", row.head, k), statements_);
-    add(force_[row.head], row.share, row.u, fmt::format("f{}_{}", row.head, k));
+    ArticulatedInertia& inertia = inertias_.in_W(row.head);
+    inertia = reduced(inertia, row.G, row.share, fmt::format("I{}_{}", row.head, k), statements_);
+    add(forces_.in_W(row.head), row.share, row.u, fmt::format("f{}_{}", row.head, k));
   }
 
   void add(Wrench& total, const Wrench& share, const Ex& u, const std::string& name) {
@@ -160,17 +157,13 @@ class Solver {
   void give_way(std::size_t i) {
     const Link& link = scene_.tree.links[i];
     const std::string name = fmt::format("I{}", i);
-    ArticulatedInertia inertia = sum(rigid_inertia(rigid_[i]), inertia_[i], name + "r", statements_);
+    ArticulatedInertia inertia = sum(rigid_inertia(rigid_[i]), inertias_.in_W(i), name + "r", statements_);
     inertia = sum(inertia,
-                  turned_to_working(in_link_[i], scene_.frames.cosine(i), scene_.frames.sine(i), name + "w",
-                                    statements_),
+                  turned_to_working(inertias_.in_L(i), scene_.frames.cosine(i), scene_.frames.sine(i),
+                                    name + "w", statements_),
                   name + "s", statements_);
-    Wrench& force = force_[i];
-    const Wrench& outer = force_in_link_[i];
-    force.force =
-        statements_.bind(name + "ff", force.force + scene_.frames.to_working(i, outer.force, name + "f"));
-    force.moment =
-        statements_.bind(name + "fn", force.moment + scene_.frames.to_working(i, outer.moment, name + "n"));
+    Wrench force =
+        gather(scene_.frames, i, forces_, {name + "ff", name + "fn"}, {name + "f", name + "n"}, statements_);
     for (std::size_t c = scene_.columns[i].size(); c-- > 0;) {
       const Column& column = scene_.columns[i][c];
       if (!column.entry) continue;
@@ -189,23 +182,12 @@ class Solver {
       add(force, row.share, row.u, step + "f");
     }
     if (link.parent == kGround) return;
-    const ArticulatedInertia moved =
-        moved_to_parent(link, scene_.frames, i, inertia, name + "p", statements_);
-    ArticulatedInertia& target = link.parallel ? inertia_[link.parent] : in_link_[link.parent];
-    target = sum(target, moved, name + "c", statements_);
-    hand_force_inward(i, force);
-  }
-
-  void hand_force_inward(std::size_t i, const Wrench& force) {
-    const Link& link = scene_.tree.links[i];
-    const std::string name = fmt::format("hand{}", i);
-    Wrench moved = force;
-    if (!link.parallel)
-      moved = bound(name + "R",
-                    {scene_.frames.rotation(i) * force.force, scene_.frames.rotation(i) * force.moment});
-    moved.moment = moved.moment + kinematics::cross(scene_.frames.offset(i), moved.force);
-    Wrench& target = link.parallel ? force_[link.parent] : force_in_link_[link.parent];
-    target = bound(name, {target.force + moved.force, target.moment + moved.moment});
+    ArticulatedInertia& target = inertias_.joined_by(i);
+    target = sum(target, moved_to_parent(scene_.frames, i, inertia, name + "p", statements_), name + "c",
+                 statements_);
+    const std::string hand = fmt::format("hand{}", i);
+    hand_inward(scene_.frames, i, force, {hand + "f", hand + "n"}, {hand + "Rf", hand + "Rn"}, forces_,
+                statements_);
   }
 
   /// Acceleration of an articulated link: its parent's field at its origin, then column by column.
@@ -229,17 +211,13 @@ class Solver {
   }
 
   Twist from_parent(std::size_t i, const std::string& name) {
-    const Link& link = scene_.tree.links[i];
-    const std::size_t p = link.parent;
-    const Twist& outer = accelerations_[p];
-    const bool parallel = link.parallel;
-    const Vector3 alpha = parallel ? outer.angular : scene_.frames.to_link(p, outer.angular, name + "al");
-    const Vector3 a = parallel ? outer.linear : scene_.frames.to_link(p, outer.linear, name + "a");
-    const Vector3 at_origin =
-        statements_.bind(name + "o", a + kinematics::cross(alpha, scene_.frames.offset(i)));
-    if (parallel) return {alpha, at_origin};
-    const Matrix3 R = transpose(scene_.frames.rotation(i));
-    return {statements_.bind(name + "W", R * alpha), statements_.bind(name + "w", R * at_origin)};
+    const kinematics::WorkingFrames& frames = scene_.frames;
+    const Twist& outer = accelerations_[scene_.tree.links[i].parent];
+    const Vector3 alpha_C = frames.from_parent_to_C(i, outer.angular, name + "al");
+    const Vector3 a_C = frames.from_parent_to_C(i, outer.linear, name + "a");
+    const Vector3 at_origin = statements_.bind(name + "o", a_C + kinematics::cross(alpha_C, frames.r_CW(i)));
+    const Vector3 alpha = frames.from_C_to_W(i, alpha_C, name + "W");
+    return {alpha, frames.from_C_to_W(i, at_origin, name + "w")};
   }
 
   void substitute(std::size_t k) {
@@ -259,8 +237,8 @@ class Solver {
   std::vector<Row> rows_;               // by entry of z
   std::vector<std::vector<Ex>> H_, L_;  // lower triangle: remainder of M within bundles, and its factor
   std::vector<CompositeBody> rigid_;    // bundles, without what is outward of articulated links
-  std::vector<ArticulatedInertia> inertia_, in_link_;  // from outward, in W and in L
-  std::vector<Wrench> force_, force_in_link_;
+  kinematics::InwardSums<ArticulatedInertia> inertias_;  // from outward
+  WrenchSums forces_;
   std::vector<Twist> accelerations_;
   std::vector<Ex> x_;
 };

@@ -74,6 +74,9 @@ struct LinkTree {
   std::vector<BodyPose> bodies;  ///< by BodyIndex
   std::vector<MassMoments>
       body_moments;  ///< by BodyIndex, about the origin of the body's link, before regrouping
+
+  /// Does a link turn about an axis parallel to that of its parent? Its rate is then that of the link itself.
+  bool turns_beside_parent(std::size_t link) const;
 };
 
 struct LinkTreeOptions {

@@ -37,7 +37,7 @@ WorkingFrames::WorkingFrames(const LinkTree& tree, const std::vector<LinkState>&
       R = R * quaternion_matrix(states[i].quaternion, fmt::format("q{}", i), statements);
       for (std::size_t k = 0; k < 3; ++k) R[k] = statements.bind(fmt::format("R{}_{}", i, k), R[k]);
     }
-    rotation_.push_back(R);
+    R_CW_.push_back(R);
     set_translation(i, states[i]);
   }
 }
@@ -69,14 +69,14 @@ void WorkingFrames::set_translation(std::size_t i, const LinkState& state) {
     direction = statements_.bind(name + "d", link.R_PJ * state.slope);
     curvature = statements_.bind(name + "dd", link.R_PJ * state.curvature);
   }
-  if (link.kind == LinkKind::kFree) offset = state.origin + rotation_[i] * link.shift;
+  if (link.kind == LinkKind::kFree) offset = state.origin + R_CW_[i] * link.shift;
   if (link.parallel) offset = to_working(link.parent, offset, name);
   if (link.moves_along_z()) {
     direction[2] = link.kind == LinkKind::kScrew ? link.pitch : Ex(1);
     const Ex travel = statements_.bind(name + "t", direction[2] * state.position);
     for (std::size_t k = 0; k < 3; ++k) offset[k] = offset[k] + link.R_PL[k][2] * travel;
   }
-  offset_.push_back(statements_.bind(name, offset));
+  r_CW_.push_back(statements_.bind(name, offset));
   direction_.push_back(direction);
   curvature_.push_back(curvature);
 }
@@ -88,22 +88,39 @@ Vector3 WorkingFrames::to_working(std::size_t link, const Vector3& v, const std:
 }
 
 Vector3 WorkingFrames::to_link(std::size_t link, const Vector3& v, const std::string& name) const {
+  if (link == kGround) return v;
   const Ex &c = cosine_[link], &s = sine_[link];
   return statements_.bind(name, Vector3{c * v[0] + s * v[1], c * v[1] - s * v[0], v[2]});
 }
 
+Vector3 WorkingFrames::from_parent_to_C(std::size_t link, const Vector3& v, const std::string& name) const {
+  return meets_in_W(link) ? v : to_link(parent(link), v, name);
+}
+
+Vector3 WorkingFrames::from_C_to_parent(std::size_t link, const Vector3& v, const std::string& name) const {
+  return meets_in_W(link) ? v : to_working(parent(link), v, name);
+}
+
+Vector3 WorkingFrames::from_W_to_C(std::size_t link, const Vector3& v, const std::string& name) const {
+  return meets_in_W(link) ? v : statements_.bind(name, R_CW_[link] * v);
+}
+
+Vector3 WorkingFrames::from_C_to_W(std::size_t link, const Vector3& v, const std::string& name) const {
+  return meets_in_W(link) ? v : statements_.bind(name, transpose(R_CW_[link]) * v);
+}
+
 Vector3 WorkingFrames::from_parent(std::size_t link, const Vector3& v, const std::string& name) const {
-  const Link& to = tree_.links[link];
-  if (to.parallel) return v;
-  const Vector3 v_P = to.parent == kGround ? v : to_link(to.parent, v, name + "p");
-  return statements_.bind(name, transpose(rotation_[link]) * v_P);
+  return from_C_to_W(link, from_parent_to_C(link, v, name + "p"), name);
 }
 
 Vector3 WorkingFrames::to_parent(std::size_t link, const Vector3& v, const std::string& name) const {
-  const Link& from = tree_.links[link];
-  if (from.parallel) return v;
-  const Vector3 v_P = statements_.bind(name + "p", rotation_[link] * v);
-  return from.parent == kGround ? v_P : to_working(from.parent, v_P, name);
+  return from_C_to_parent(link, from_W_to_C(link, v, name + "p"), name);
+}
+
+Vector3 WorkingFrames::point_to_parent(std::size_t link, const Vector3& x, const std::string& name) const {
+  const bool in_parent = meets_in_W(link) || parent(link) == kGround;
+  const Vector3 x_C = statements_.bind(in_parent ? name : name + "p", R_CW_[link] * x + r_CW_[link]);
+  return from_C_to_parent(link, x_C, name);
 }
 
 }  // namespace jourdain::kinematics
