@@ -29,7 +29,7 @@ namespace {
 /// Inward sums of forces, and moments about each link's origin of its own body and of what its children pull with.
 class PlanarForces {
  public:
-  PlanarForces(Scene& scene, const AppliedForces& applied)
+  PlanarForces(const Scene& scene, const AppliedForces& applied)
       : scene_(scene), applied_(applied), total_(scene.link_count()), moment_(scene.link_count(), 0) {}
 
   std::vector<Ex> derive() {
@@ -93,7 +93,7 @@ class PlanarForces {
     return sum;
   }
 
-  Scene& scene_;
+  const Scene& scene_;
   const AppliedForces& applied_;
   std::vector<Ex> square_;
   std::vector<Vector3> acceleration_, total_;
@@ -107,11 +107,11 @@ int relative_sign(const LinkTree& tree, std::size_t i) {
 
 }  // namespace
 
-std::vector<Ex> planar_forces(Scene& scene, const AppliedForces& applied) {
+std::vector<Ex> planar_forces(const Scene& scene, const AppliedForces& applied) {
   return PlanarForces(scene, applied).derive();
 }
 
-void add_planar_rotors(Scene& scene, std::vector<std::vector<Ex>>& M) {
+void add_planar_rotors(const Scene& scene, std::vector<std::vector<Ex>>& M) {
   for (const model::Actuator& actuator : scene.mechanism.actuators) {
     if (actuator.rotor_inertia.is_zero()) continue;
     const std::size_t i = scene.link_of(actuator.joint, actuator.coordinate), e = *scene.states[i].entry;
@@ -128,7 +128,7 @@ void add_planar_rotors(Scene& scene, std::vector<std::vector<Ex>>& M) {
   }
 }
 
-std::vector<Ex> joint_rates_of(Scene& scene, const std::vector<Ex>& x) {
+std::vector<Ex> joint_rates_of(const Scene& scene, const std::vector<Ex>& x) {
   std::vector<Ex> zdot = x;
   for (std::size_t i = 0; i < scene.link_count(); ++i) {
     if (!scene.tree.turns_beside_parent(i)) continue;

@@ -12,12 +12,12 @@ namespace jourdain::dynamics {
 bool moves_in_planes(const Scene& scene);
 
 /// Forces on the rates of links, at zero accelerations: u of M_abs x = u.
-std::vector<Ex> planar_forces(Scene& scene, const AppliedForces& applied);
+std::vector<Ex> planar_forces(const Scene& scene, const AppliedForces& applied);
 
 /// M_abs in lower triangle: rotors act between a link and its parent.
-void add_planar_rotors(Scene& scene, std::vector<std::vector<Ex>>& M);
+void add_planar_rotors(const Scene& scene, std::vector<std::vector<Ex>>& M);
 
 /// dz/dt of the joints from accelerations x of the links.
-std::vector<Ex> joint_rates_of(Scene& scene, const std::vector<Ex>& x);
+std::vector<Ex> joint_rates_of(const Scene& scene, const std::vector<Ex>& x);
 
 }  // namespace jourdain::dynamics

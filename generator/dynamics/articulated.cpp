@@ -10,14 +10,8 @@ using kinematics::Statements;
 
 namespace {
 
-Matrix3 bound(const std::string& name, const Matrix3& M, Statements& statements) {
-  Matrix3 result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = statements.bind(fmt::format("{}{}", name, i), M[i]);
-  return result;
-}
-
 ArticulatedInertia bound(const std::string& name, const ArticulatedInertia& inertia, Statements& statements) {
-  return {statements.bind_symmetric(name + "A", inertia.A), bound(name + "H", inertia.H, statements),
+  return {statements.bind_symmetric(name + "A", inertia.A), statements.bind(name + "H", inertia.H),
           statements.bind_symmetric(name + "J", inertia.J)};
 }
 
@@ -48,11 +42,9 @@ std::optional<std::size_t> unit_axis(const Vector3& v) {
   return axis;
 }
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
 /// R M Rᵀ
 Matrix3 rotated(const Matrix3& R, const Matrix3& M, const std::string& name, Statements& statements) {
-  return R * bound(name, M * transpose(R), statements);
+  return R * statements.bind(name, M * transpose(R));
 }
 
 /// Rz M Rzᵀ. With t = s (M_xx − M_yy) + c (M_xy + M_yx): M'_xx = M_xx − s t, M'_xy = c t − M_yx, M'_yx = c t − M_xy.
@@ -133,7 +125,7 @@ ArticulatedInertia moved_to_parent(const kinematics::WorkingFrames& frames, std:
             statements);
   // Force = A (a − r × α) + H α; the moment gains r × force.
   const Matrix3 r = cross_matrix(frames.r_CW(i));
-  const Matrix3 H = bound(name + "H", difference(moved.H, moved.A * r), statements);
+  const Matrix3 H = statements.bind(name + "H", difference(moved.H, moved.A * r));
   const Matrix3 lever = r * moved.H;
   const Matrix3 J = moved.J + (transpose(lever) + r * H);
   return {moved.A, H, statements.bind_symmetric(name + "J", J)};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "kinematics/inward_sums.hpp"
+
 namespace jourdain::dynamics {
 
 using kinematics::kGround;
@@ -16,9 +18,7 @@ namespace {
 
 /// R S Rᵀ with its intermediate bound (permutations cost nothing).
 Matrix3 rotated(const Matrix3& R, const Matrix3& S, const std::string& name, Statements& statements) {
-  Matrix3 RS = R * S;
-  for (std::size_t i = 0; i < 3; ++i) RS[i] = statements.bind(fmt::format("{}r{}", name, i), RS[i]);
-  return statements.bind_symmetric(name, RS * transpose(R));
+  return statements.bind_symmetric(name, statements.bind(name + "r", R * S) * transpose(R));
 }
 
 /// S and polar turned about z from link to working axes. With d = S_xx − S_yy and t = s d + 2 c S_xy:
@@ -40,9 +40,9 @@ Matrix3 turned(const Matrix3& S, const Ex& polar, const Ex& c, const Ex& s, cons
   return T;
 }
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
-bool is_zero(const Matrix3& S) { return is_zero(S[0]) && is_zero(S[1]) && is_zero(S[2]); }
+bool is_zero(const Matrix3& S) {
+  return kinematics::is_zero(S[0]) && kinematics::is_zero(S[1]) && kinematics::is_zero(S[2]);
+}
 
 /// Whether a link is nothing but a mass on its x or y axis, and turns about an axis that meets that of a parent without
 /// inertia: the pendulum on a universal joint. M is singular where the mass comes to lie on the parent's axis.
@@ -81,11 +81,11 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
   kinematics::InwardSums<MassMoments> sums(frames);
   std::vector<Ex> polar(n, 0);  // S_xx + S_yy of what is in W
   std::vector<CompositeBody> composites(n);
-  for (std::size_t i = 0; i < n; ++i) sums.in_L(i) = tree.links[i].moments;
+  for (std::size_t i = 0; i < n; ++i) sums.in_L[i] = tree.links[i].moments;
   for (std::size_t i = n; i-- > 0;) {
     const std::size_t parent = tree.links[i].parent;
     const std::string S = fmt::format("S{}", i), h = fmt::format("h{}", i);
-    const MassMoments &own = sums.in_L(i), &in_W = sums.in_W(i);
+    const MassMoments &own = sums.in_L[i], &in_W = sums.in_W[i];
     const Ex own_polar = statements.bind(S + "b_zz", own.second[0][0] + own.second[1][1]);
     const Matrix3 own_second =
         is_gimballed_point(tree, i)
@@ -116,7 +116,7 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
     }
     const Vector3 mr = statements.bind(h + "r", moved.mass * r);
     const Vector3 middle = statements.bind(h + "k", moved.first + Ex(GiNaC::numeric(1, 2)) * mr);
-    MassMoments& target = sums.joined_by(i);
+    MassMoments& target = sums.joined_by(i, frames);
     if (frames.meets_in_W(i)) {
       const Ex shift = statements.bind(fmt::format("D{}", i), r[0] * middle[0] + r[1] * middle[1]);
       const Ex half = as_mass ? shift : statements.bind(fmt::format("E{}", i), body.J_zz + shift);
@@ -130,22 +130,23 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
   return composites;
 }
 
-std::vector<Column> derive_columns(const Link& link, const kinematics::LinkState& state,
-                                   const WorkingFrames& frames, std::size_t index) {
-  std::vector<Column> columns;
-  if (!link.has_quaternion()) {
-    Column& column = columns.emplace_back();
-    column.entry = state.entry;
-    if (link.turns_about_z()) column.twist.angular[2] = link.sign;
-    for (std::size_t k = 0; k < 3; ++k) column.twist.linear[k] = link.sign * frames.direction(index)[k];
-    return columns;
-  }
-  const std::size_t count = state.column_count(link);
-  for (std::size_t c = 0; c < count; ++c) {
-    Column& column = columns.emplace_back();
-    column.entry = *state.entry + c;
-    const bool translation = c + 3 < count;
-    (translation ? column.twist.linear : column.twist.angular)[c % 3] = 1;
+std::vector<std::vector<Column>> derive_columns(const LinkTree& tree,
+                                                const std::vector<kinematics::LinkState>& states,
+                                                const WorkingFrames& frames) {
+  std::vector<std::vector<Column>> columns(tree.links.size());
+  for (std::size_t i = 0; i < tree.links.size(); ++i) {
+    const Link& link = tree.links[i];
+    if (!link.has_quaternion()) {
+      const Vector3 turn = {0, 0, link.turns_about_z() ? link.sign : 0};
+      columns[i].push_back({{turn, Ex(link.sign) * frames.direction(i)}, states[i].entry});
+      continue;
+    }
+    const std::size_t count = states[i].column_count(link);
+    for (std::size_t c = 0; c < count; ++c) {
+      Column& column = columns[i].emplace_back();
+      column.entry = *states[i].entry + c;
+      (c + 3 < count ? column.twist.linear : column.twist.angular)[c % 3] = 1;
+    }
   }
   return columns;
 }
@@ -158,6 +159,10 @@ Wrench momentum(const CompositeBody& body, const Twist& twist) {
                         body.J_yy * w[1] - S[0][1] * w[0] - S[1][2] * w[2],
                         body.J_zz * w[2] - S[0][2] * w[0] - S[1][2] * w[1]};
   return {body.moments.mass * v + kinematics::cross(w, h), kinematics::cross(h, v) + spin};
+}
+
+Ex power(const Wrench& wrench, const Twist& twist) {
+  return kinematics::dot(wrench.force, twist.linear) + kinematics::dot(wrench.moment, twist.angular);
 }
 
 }  // namespace jourdain::dynamics

@@ -5,9 +5,27 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/wrenches.hpp"
+#include "kinematics/working_frames.hpp"
 
 namespace jourdain::dynamics {
+
+using kinematics::Ex;
+using kinematics::Vector3;
+
+/// A force with a moment about a point, or a linear with an angular momentum.
+struct Wrench {
+  Vector3 force = kinematics::zero_vector();
+  Vector3 moment = kinematics::zero_vector();
+};
+
+inline Wrench operator+(const Wrench& a, const Wrench& b) { return {a.force + b.force, a.moment + b.moment}; }
+inline Wrench operator*(const Ex& a, const Wrench& b) { return {a * b.force, a * b.moment}; }
+
+/// Velocity field `linear` + `angular` × x of a rigid motion, x from the link's origin.
+struct Twist {
+  Vector3 angular = kinematics::zero_vector();
+  Vector3 linear = kinematics::zero_vector();
+};
 
 /// Mass moments of a link and all links outward of it, about the link's origin, in its working frame.
 struct CompositeBody {
@@ -34,11 +52,15 @@ struct Column {
   std::optional<std::size_t> entry;  ///< in z; none where the coordinate is prescribed
 };
 
-/// One per scalar coordinate, three for a ball, six (translations along W, then rotations) for a free link.
-std::vector<Column> derive_columns(const kinematics::Link& link, const kinematics::LinkState& state,
-                                   const kinematics::WorkingFrames& frames, std::size_t index);
+/// By link: one per scalar coordinate, three for a ball, six (translations along W, then rotations) for a free link.
+std::vector<std::vector<Column>> derive_columns(const kinematics::LinkTree& tree,
+                                                const std::vector<kinematics::LinkState>& states,
+                                                const kinematics::WorkingFrames& frames);
 
 /// Momentum of the composite body moving as `twist`, about the link's origin, in W.
 Wrench momentum(const CompositeBody& body, const Twist& twist);
+
+/// Power of a wrench on a twist, both in the same axes and about the same point.
+Ex power(const Wrench& wrench, const Twist& twist);
 
 }  // namespace jourdain::dynamics

@@ -11,7 +11,7 @@ namespace jourdain::dynamics {
 using kinematics::kGround;
 using kinematics::Statements;
 
-PointPath follow_point(Scene& scene, std::size_t link, const Vector3& x_L, std::size_t ancestor,
+PointPath follow_point(const Scene& scene, std::size_t link, const Vector3& x_L, std::size_t ancestor,
                        const std::string& name) {
   Statements& statements = scene.statements;
   PointPath path;
@@ -30,7 +30,7 @@ PointPath follow_point(Scene& scene, std::size_t link, const Vector3& x_L, std::
   return path;
 }
 
-std::vector<Vector3> carry_outward(Scene& scene, const PointPath& path, const Vector3& v,
+std::vector<Vector3> carry_outward(const Scene& scene, const PointPath& path, const Vector3& v,
                                    const std::string& name) {
   std::vector<Vector3> carried(path.links.size());
   Vector3 current = v;
@@ -48,7 +48,7 @@ std::size_t common_ancestor(const kinematics::LinkTree& tree, std::size_t a, std
   return kGround;
 }
 
-kinematics::BodyPose frame_pose(Scene& scene, const model::Frame& frame) {
+kinematics::BodyPose frame_pose(const Scene& scene, const model::Frame& frame) {
   kinematics::BodyPose pose;
   if (frame.body) pose = scene.tree.bodies[frame.body->value];
   Statements& statements = scene.statements;

@@ -6,51 +6,49 @@ namespace jourdain::dynamics {
 
 using kinematics::cross;
 using kinematics::kGround;
-using kinematics::Statements;
-using kinematics::WorkingFrames;
 
-Ex power(const Wrench& wrench, const Twist& twist) {
-  return kinematics::dot(wrench.force, twist.linear) + kinematics::dot(wrench.moment, twist.angular);
+Wrench bound(const Scene& scene, const std::string& name, const Wrench& wrench) {
+  return {scene.statements.bind(name + "f", wrench.force), scene.statements.bind(name + "n", wrench.moment)};
 }
 
-Wrench gather(const WorkingFrames& frames, std::size_t i, const WrenchSums& sums, const WrenchNames& names,
-              const WrenchNames& parts, Statements& statements) {
-  const Wrench &in_W = sums.in_W(i), &in_L = sums.in_L(i);
+Wrench gather(const Scene& scene, std::size_t i, const WrenchSums& sums, const WrenchNames& names,
+              const WrenchNames& parts) {
+  const Wrench &in_W = sums.in_W[i], &in_L = sums.in_L[i];
   const Vector3 force =
-      statements.bind(names.force, in_W.force + frames.to_working(i, in_L.force, parts.force));
-  return {force,
-          statements.bind(names.moment, in_W.moment + frames.to_working(i, in_L.moment, parts.moment))};
+      scene.statements.bind(names.force, in_W.force + scene.frames.to_working(i, in_L.force, parts.force));
+  return {force, scene.statements.bind(names.moment,
+                                       in_W.moment + scene.frames.to_working(i, in_L.moment, parts.moment))};
 }
 
-void hand_inward(const WorkingFrames& frames, std::size_t i, const Wrench& wrench, const WrenchNames& names,
-                 const WrenchNames& turned, WrenchSums& sums, Statements& statements) {
-  const Vector3 f_C = frames.from_W_to_C(i, wrench.force, turned.force);
-  const Vector3 n_C = frames.from_W_to_C(i, wrench.moment, turned.moment);
-  Wrench& sum = sums.joined_by(i);
-  sum.force = statements.bind(names.force, sum.force + f_C);
-  sum.moment = statements.bind(names.moment, sum.moment + (n_C + cross(frames.r_CW(i), f_C)));
+void hand_inward(const Scene& scene, std::size_t i, const Wrench& wrench, const WrenchNames& names,
+                 const WrenchNames& turned, WrenchSums& sums) {
+  const Vector3 f_C = scene.frames.from_W_to_C(i, wrench.force, turned.force);
+  const Vector3 n_C = scene.frames.from_W_to_C(i, wrench.moment, turned.moment);
+  Wrench& sum = sums.joined_by(i, scene.frames);
+  sum.force = scene.statements.bind(names.force, sum.force + f_C);
+  sum.moment = scene.statements.bind(names.moment, sum.moment + (n_C + cross(scene.frames.r_CW(i), f_C)));
 }
 
-std::vector<Wrench> accumulate_wrenches(const WorkingFrames& frames, const std::vector<Wrench>& own,
-                                        const std::string& name, Statements& statements) {
-  WrenchSums sums(frames);
+std::vector<Wrench> accumulate_wrenches(const Scene& scene, const std::vector<Wrench>& own,
+                                        const std::string& name) {
+  WrenchSums sums(scene.frames);
   std::vector<Wrench> totals(own.size());
-  for (std::size_t i = 0; i < own.size(); ++i) sums.in_W(i) = own[i];
+  for (std::size_t i = 0; i < own.size(); ++i) sums.in_W[i] = own[i];
   for (std::size_t i = own.size(); i-- > 0;) {
     const std::string f = fmt::format("{}f{}", name, i), n = fmt::format("{}n{}", name, i);
-    totals[i] = gather(frames, i, sums, {f, n}, {f + "b", n + "b"}, statements);
-    if (frames.parent(i) == kGround) continue;
-    hand_inward(frames, i, totals[i], {f + "c", n + "c"}, {f + "p", n + "p"}, sums, statements);
+    totals[i] = gather(scene, i, sums, {f, n}, {f + "b", n + "b"});
+    if (scene.frames.parent(i) == kGround) continue;
+    hand_inward(scene, i, totals[i], {f + "c", n + "c"}, {f + "p", n + "p"}, sums);
   }
   return totals;
 }
 
-Wrench to_parent(const WorkingFrames& frames, std::size_t i, const Wrench& wrench, const std::string& name,
-                 Statements& statements) {
-  const Vector3 f_C = frames.from_W_to_C(i, wrench.force, name + "f");
-  const Vector3 lever = statements.bind(name + "l", cross(frames.r_CW(i), f_C));
-  const Vector3 n_C = statements.bind(name + "n", frames.R_CW(i) * wrench.moment + lever);
-  return {frames.from_C_to_parent(i, f_C, name + "F"), frames.from_C_to_parent(i, n_C, name + "N")};
+Wrench to_parent(const Scene& scene, std::size_t i, const Wrench& wrench, const std::string& name) {
+  const Vector3 f_C = scene.frames.from_W_to_C(i, wrench.force, name + "f");
+  const Vector3 lever = scene.statements.bind(name + "l", cross(scene.frames.r_CW(i), f_C));
+  const Vector3 n_C = scene.statements.bind(name + "n", scene.frames.R_CW(i) * wrench.moment + lever);
+  return {scene.frames.from_C_to_parent(i, f_C, name + "F"),
+          scene.frames.from_C_to_parent(i, n_C, name + "N")};
 }
 
 }  // namespace jourdain::dynamics

@@ -18,10 +18,9 @@ Matrix3 quaternion_matrix(const std::array<Ex, 4>& q, const std::string& name, S
   const Ex xx = twice(1, 1), yy = twice(2, 2), zz = twice(3, 3);
   const Ex xy = twice(1, 2), xz = twice(1, 3), yz = twice(2, 3);
   const Ex wx = twice(0, 1), wy = twice(0, 2), wz = twice(0, 3);
-  Matrix3 R = {
+  const Matrix3 R = {
       {{1 - yy - zz, xy - wz, xz + wy}, {xy + wz, 1 - xx - zz, yz - wx}, {xz - wy, yz + wx, 1 - xx - yy}}};
-  for (std::size_t i = 0; i < 3; ++i) R[i] = statements.bind(fmt::format("{}r{}", name, i), R[i]);
-  return R;
+  return statements.bind(name + "r", R);
 }
 
 }  // namespace
@@ -32,12 +31,11 @@ WorkingFrames::WorkingFrames(const LinkTree& tree, const std::vector<LinkState>&
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     const Link& link = tree.links[i];
     set_angle(i, states[i]);
-    Matrix3 R = link.R_PL;
+    R_CW_.push_back(link.R_PL);
     if (link.has_quaternion()) {
-      R = R * quaternion_matrix(states[i].quaternion, fmt::format("q{}", i), statements);
-      for (std::size_t k = 0; k < 3; ++k) R[k] = statements.bind(fmt::format("R{}_{}", i, k), R[k]);
+      const Matrix3 R_LW = quaternion_matrix(states[i].quaternion, fmt::format("q{}", i), statements);
+      R_CW_[i] = statements.bind(fmt::format("R{}_", i), link.R_PL * R_LW);
     }
-    R_CW_.push_back(R);
     set_translation(i, states[i]);
   }
 }
@@ -91,30 +89,6 @@ Vector3 WorkingFrames::to_link(std::size_t link, const Vector3& v, const std::st
   if (link == kGround) return v;
   const Ex &c = cosine_[link], &s = sine_[link];
   return statements_.bind(name, Vector3{c * v[0] + s * v[1], c * v[1] - s * v[0], v[2]});
-}
-
-Vector3 WorkingFrames::from_parent_to_C(std::size_t link, const Vector3& v, const std::string& name) const {
-  return meets_in_W(link) ? v : to_link(parent(link), v, name);
-}
-
-Vector3 WorkingFrames::from_C_to_parent(std::size_t link, const Vector3& v, const std::string& name) const {
-  return meets_in_W(link) ? v : to_working(parent(link), v, name);
-}
-
-Vector3 WorkingFrames::from_W_to_C(std::size_t link, const Vector3& v, const std::string& name) const {
-  return meets_in_W(link) ? v : statements_.bind(name, R_CW_[link] * v);
-}
-
-Vector3 WorkingFrames::from_C_to_W(std::size_t link, const Vector3& v, const std::string& name) const {
-  return meets_in_W(link) ? v : statements_.bind(name, transpose(R_CW_[link]) * v);
-}
-
-Vector3 WorkingFrames::from_parent(std::size_t link, const Vector3& v, const std::string& name) const {
-  return from_C_to_W(link, from_parent_to_C(link, v, name + "p"), name);
-}
-
-Vector3 WorkingFrames::to_parent(std::size_t link, const Vector3& v, const std::string& name) const {
-  return from_C_to_parent(link, from_W_to_C(link, v, name + "p"), name);
 }
 
 Vector3 WorkingFrames::point_to_parent(std::size_t link, const Vector3& x, const std::string& name) const {

@@ -28,18 +28,30 @@ class WorkingFrames {
   Vector3 to_link(std::size_t link, const Vector3& v_W, const std::string& name) const;
 
   /// Components in W of `link` of a vector given in W of its parent (or in the inertial frame). Bound as `name`.
-  Vector3 from_parent(std::size_t link, const Vector3& v_parent, const std::string& name) const;
+  Vector3 from_parent(std::size_t link, const Vector3& v_parent, const std::string& name) const {
+    return from_C_to_W(link, from_parent_to_C(link, v_parent, name + "p"), name);
+  }
   /// The way back.
-  Vector3 to_parent(std::size_t link, const Vector3& v_W, const std::string& name) const;
+  Vector3 to_parent(std::size_t link, const Vector3& v_W, const std::string& name) const {
+    return from_C_to_parent(link, from_W_to_C(link, v_W, name + "p"), name);
+  }
   /// The same of a point: from the link's origin, and from its parent's.
   Vector3 point_to_parent(std::size_t link, const Vector3& x_W, const std::string& name) const;
 
   /// Both ways lead through C, where a link and its parent meet: at the parent's origin, in the axes of W of the parent
   /// if the link is in its run, of L of the parent otherwise (the inertial frame of a root). Bound as `name`.
-  Vector3 from_parent_to_C(std::size_t link, const Vector3& v_parent, const std::string& name) const;
-  Vector3 from_C_to_parent(std::size_t link, const Vector3& v_C, const std::string& name) const;
-  Vector3 from_W_to_C(std::size_t link, const Vector3& v_W, const std::string& name) const;
-  Vector3 from_C_to_W(std::size_t link, const Vector3& v_C, const std::string& name) const;
+  Vector3 from_parent_to_C(std::size_t link, const Vector3& v_parent, const std::string& name) const {
+    return meets_in_W(link) ? v_parent : to_link(parent(link), v_parent, name);
+  }
+  Vector3 from_C_to_parent(std::size_t link, const Vector3& v_C, const std::string& name) const {
+    return meets_in_W(link) ? v_C : to_working(parent(link), v_C, name);
+  }
+  Vector3 from_W_to_C(std::size_t link, const Vector3& v_W, const std::string& name) const {
+    return meets_in_W(link) ? v_W : statements_.bind(name, R_CW_[link] * v_W);
+  }
+  Vector3 from_C_to_W(std::size_t link, const Vector3& v_C, const std::string& name) const {
+    return meets_in_W(link) ? v_C : statements_.bind(name, transpose(R_CW_[link]) * v_C);
+  }
   /// v_C = R_CW v_W: the identity within a run.
   const Matrix3& R_CW(std::size_t link) const { return R_CW_[link]; }
   /// Origin of the link from that of its parent, in C.
