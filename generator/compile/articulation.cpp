@@ -31,7 +31,8 @@ class Choice {
  public:
   Choice(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options)
       : mechanism_(mechanism), options_(options) {
-    const dynamics::Scene scene(mechanism, options.link_tree);
+    kinematics::Statements statements;
+    const dynamics::Scene scene(mechanism, options.link_tree, statements);
     moves_in_planes_ = dynamics::moves_in_planes(scene);
     velocities_ = scene.layout.velocity_count();
     for (const kinematics::Link& link : scene.tree.links) {

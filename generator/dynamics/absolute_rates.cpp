@@ -11,17 +11,11 @@ using kinematics::Link;
 using kinematics::LinkKind;
 using kinematics::LinkTree;
 
-bool turns_beside_parent(const LinkTree& tree, std::size_t i) {
-  const Link& link = tree.links[i];
-  return link.kind == LinkKind::kTurn && link.parent != kGround && link.parallel &&
-         tree.links[link.parent].kind == LinkKind::kTurn;
-}
-
 bool moves_in_planes(const Scene& scene) {
   std::size_t beside = 0;
   for (std::size_t i = 0; i < scene.link_count(); ++i) {
     const Link& link = scene.tree.links[i];
-    const bool is_beside = turns_beside_parent(scene.tree, i);
+    const bool is_beside = scene.tree.turns_beside_parent(i);
     const bool on_slides = link.parent == kGround || scene.tree.links[link.parent].kind == LinkKind::kSlide;
     const bool is_plain = link.kind == LinkKind::kTurn || link.kind == LinkKind::kSlide;
     if (!is_plain || !scene.states[i].entry || !(is_beside || on_slides)) return false;
@@ -35,7 +29,7 @@ namespace {
 /// Inward sums of forces, and moments about each link's origin of its own body and of what its children pull with.
 class PlanarForces {
  public:
-  PlanarForces(Scene& scene, const AppliedForces& applied)
+  PlanarForces(const Scene& scene, const AppliedForces& applied)
       : scene_(scene), applied_(applied), total_(scene.link_count()), moment_(scene.link_count(), 0) {}
 
   std::vector<Ex> derive() {
@@ -69,7 +63,7 @@ class PlanarForces {
     square_.push_back(link.kind == LinkKind::kTurn ? scene_.statements.bind(named("ww", i), rate * rate)
                                                    : Ex(0));
     Vector3 a = scene_.frames.from_parent(i, from_parent(i), named("g", i));
-    if (turns_beside_parent(scene_.tree, i)) a = a + inward(square_[link.parent], scene_.frames.offset(i));
+    if (scene_.tree.turns_beside_parent(i)) a = a + inward(square_[link.parent], scene_.frames.r_CW(i));
     acceleration_.push_back(scene_.statements.bind(named("a", i), a));
   }
 
@@ -85,8 +79,8 @@ class PlanarForces {
     const std::size_t p = link.parent;
     const Vector3 pull = scene_.frames.to_parent(i, total_[i], named("fp", i));
     total_[p] = scene_.statements.bind(named("fc", i), total_[p] + pull);
-    if (!turns_beside_parent(scene_.tree, i)) return;
-    const Vector3& r = scene_.frames.offset(i);
+    if (!scene_.tree.turns_beside_parent(i)) return;
+    const Vector3& r = scene_.frames.r_CW(i);
     moment_[p] = scene_.statements.bind(named("nc", i), moment_[p] + (r[0] * pull[1] - r[1] * pull[0]));
   }
 
@@ -94,12 +88,12 @@ class PlanarForces {
   Ex along(std::size_t i) const {
     Ex sum = scene_.tree.links[i].sign * applied_.along[i][0];
     for (std::size_t c = i + 1; c < scene_.link_count(); ++c)
-      if (scene_.tree.links[c].parent == i && turns_beside_parent(scene_.tree, c))
+      if (scene_.tree.links[c].parent == i && scene_.tree.turns_beside_parent(c))
         sum = sum - scene_.tree.links[c].sign * applied_.along[c][0];
     return sum;
   }
 
-  Scene& scene_;
+  const Scene& scene_;
   const AppliedForces& applied_;
   std::vector<Ex> square_;
   std::vector<Vector3> acceleration_, total_;
@@ -113,11 +107,11 @@ int relative_sign(const LinkTree& tree, std::size_t i) {
 
 }  // namespace
 
-std::vector<Ex> planar_forces(Scene& scene, const AppliedForces& applied) {
+std::vector<Ex> planar_forces(const Scene& scene, const AppliedForces& applied) {
   return PlanarForces(scene, applied).derive();
 }
 
-void add_planar_rotors(Scene& scene, std::vector<std::vector<Ex>>& M) {
+void add_planar_rotors(const Scene& scene, std::vector<std::vector<Ex>>& M) {
   for (const model::Actuator& actuator : scene.mechanism.actuators) {
     if (actuator.rotor_inertia.is_zero()) continue;
     const std::size_t i = scene.link_of(actuator.joint, actuator.coordinate), e = *scene.states[i].entry;
@@ -127,17 +121,17 @@ void add_planar_rotors(Scene& scene, std::vector<std::vector<Ex>>& M) {
           scene.statements.bind(fmt::format("Mr{}_{}_{}", e, row, column), M[row][column] + value);
     };
     add(e, e, inertia);
-    if (!turns_beside_parent(scene.tree, i)) continue;
+    if (!scene.tree.turns_beside_parent(i)) continue;
     const std::size_t p = *scene.states[scene.tree.links[i].parent].entry;
     add(p, p, inertia);
     add(e, p, -relative_sign(scene.tree, i) * inertia);
   }
 }
 
-std::vector<Ex> joint_rates_of(Scene& scene, const std::vector<Ex>& x) {
+std::vector<Ex> joint_rates_of(const Scene& scene, const std::vector<Ex>& x) {
   std::vector<Ex> zdot = x;
   for (std::size_t i = 0; i < scene.link_count(); ++i) {
-    if (!turns_beside_parent(scene.tree, i)) continue;
+    if (!scene.tree.turns_beside_parent(i)) continue;
     const std::size_t e = *scene.states[i].entry, p = *scene.states[scene.tree.links[i].parent].entry;
     zdot[e] = scene.statements.bind(fmt::format("zdotr_{}", e), x[e] - relative_sign(scene.tree, i) * x[p]);
   }

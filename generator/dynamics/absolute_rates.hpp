@@ -8,19 +8,16 @@
 
 namespace jourdain::dynamics {
 
-/// Does link i turn about an axis parallel to that of its parent? Its rate is then that of the link itself.
-bool turns_beside_parent(const kinematics::LinkTree& tree, std::size_t i);
-
 /// Whether all links slide without ever turning, or turn one beside the other, and at least two do that.
 bool moves_in_planes(const Scene& scene);
 
 /// Forces on the rates of links, at zero accelerations: u of M_abs x = u.
-std::vector<Ex> planar_forces(Scene& scene, const AppliedForces& applied);
+std::vector<Ex> planar_forces(const Scene& scene, const AppliedForces& applied);
 
 /// M_abs in lower triangle: rotors act between a link and its parent.
-void add_planar_rotors(Scene& scene, std::vector<std::vector<Ex>>& M);
+void add_planar_rotors(const Scene& scene, std::vector<std::vector<Ex>>& M);
 
 /// dz/dt of the joints from accelerations x of the links.
-std::vector<Ex> joint_rates_of(Scene& scene, const std::vector<Ex>& x);
+std::vector<Ex> joint_rates_of(const Scene& scene, const std::vector<Ex>& x);
 
 }  // namespace jourdain::dynamics

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/scene.hpp"
+#include "dynamics/inertia_forces.hpp"
 
 namespace jourdain::dynamics {
 
@@ -13,17 +13,11 @@ enum class Gravity { kNone, kAsAcceleration };
 
 /// `zdot` one per entry of z, as the model defines z. Empty: no coordinate accelerates, and the origin of L of
 /// a free link falls with gravity or moves on steadily (that of the child would accelerate where the two differ).
-JointAccelerations joint_accelerations(Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
+JointAccelerations joint_accelerations(const Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                        const std::string& name);
 
-/// v̇ of a free link's child, less gravity where that counts, in inertial axes.
-Vector3 falling(Scene& scene, std::size_t link, const std::vector<Ex>& zdot, Gravity gravity);
-
-/// ω̇ × d + ω × (ω × d) with d the shift of a free link: what the origin of L accelerates beyond the child's origin.
-Vector3 shift_acceleration(Scene& scene, std::size_t link, const Vector3& spin_acceleration);
-
 /// Of each link: α, and a of its origin, in W. With Gravity::kAsAcceleration a is less gravity.
-std::vector<Twist> link_accelerations(Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
+std::vector<Twist> link_accelerations(const Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                       const std::string& name);
 
 }  // namespace jourdain::dynamics

@@ -14,7 +14,7 @@ namespace {
 
 /// Springs, dampers and friction of the joint that link i hangs on.
 void add_joint_element(std::size_t i, ForceSum& sum) {
-  Scene& scene = sum.scene;
+  const Scene& scene = sum.scene;
   const kinematics::Link& link = scene.tree.links[i];
   const model::Joint& joint = scene.mechanism.joints[link.joint.value];
   if (link.kind == kinematics::LinkKind::kBall) {
@@ -40,14 +40,14 @@ void add_joint_element(std::size_t i, ForceSum& sum) {
 
 }  // namespace
 
-AppliedForces derive_applied_forces(Scene& scene, Inputs inputs) {
+AppliedForces derive_applied_forces(const Scene& scene, Inputs inputs) {
   ForceSum sum(scene, inputs);
   for (std::size_t i = 0; i < scene.link_count(); ++i) add_joint_element(i, sum);
   for_each_force_element(scene.mechanism, [&sum](const auto& element) { add_forces(element, sum); });
   return std::move(sum.forces);
 }
 
-Ex derive_elastic_energy(Scene& scene) {
+Ex derive_elastic_energy(const Scene& scene) {
   Ex energy = 0;
   for (std::size_t i = 0; i < scene.link_count(); ++i) {
     const kinematics::Link& link = scene.tree.links[i];

@@ -5,9 +5,9 @@
 
 namespace jourdain::dynamics {
 
-AppliedForces derive_applied_forces(Scene& scene, Inputs inputs);
+AppliedForces derive_applied_forces(const Scene& scene, Inputs inputs);
 
 /// Energy of joint springs and of force elements, J.
-Ex derive_elastic_energy(Scene& scene);
+Ex derive_elastic_energy(const Scene& scene);
 
 }  // namespace jourdain::dynamics

@@ -10,14 +10,8 @@ using kinematics::Statements;
 
 namespace {
 
-Matrix3 bound(const std::string& name, const Matrix3& M, Statements& statements) {
-  Matrix3 result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = statements.bind(fmt::format("{}{}", name, i), M[i]);
-  return result;
-}
-
 ArticulatedInertia bound(const std::string& name, const ArticulatedInertia& inertia, Statements& statements) {
-  return {statements.bind_symmetric(name + "A", inertia.A), bound(name + "H", inertia.H, statements),
+  return {statements.bind_symmetric(name + "A", inertia.A), statements.bind(name + "H", inertia.H),
           statements.bind_symmetric(name + "J", inertia.J)};
 }
 
@@ -48,11 +42,9 @@ std::optional<std::size_t> unit_axis(const Vector3& v) {
   return axis;
 }
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
 /// R M Rᵀ
 Matrix3 rotated(const Matrix3& R, const Matrix3& M, const std::string& name, Statements& statements) {
-  return R * bound(name, M * transpose(R), statements);
+  return R * statements.bind(name, M * transpose(R));
 }
 
 /// Rz M Rzᵀ. With t = s (M_xx − M_yy) + c (M_xy + M_yx): M'_xx = M_xx − s t, M'_xy = c t − M_yx, M'_yx = c t − M_xy.
@@ -122,20 +114,18 @@ ArticulatedInertia give_way(const ArticulatedInertia& inertia, const Wrench& U, 
   return bound(name, result, statements);
 }
 
-ArticulatedInertia moved_to_parent(const kinematics::Link& link, const kinematics::WorkingFrames& frames,
-                                   std::size_t i, const ArticulatedInertia& inertia, const std::string& name,
+ArticulatedInertia moved_to_parent(const kinematics::WorkingFrames& frames, std::size_t i,
+                                   const ArticulatedInertia& inertia, const std::string& name,
                                    Statements& statements) {
-  ArticulatedInertia moved = inertia;
-  if (!link.parallel) {
-    const Matrix3& R = frames.rotation(i);
-    moved = bound(name + "R",
-                  {rotated(R, moved.A, name + "RA", statements), rotated(R, moved.H, name + "RH", statements),
-                   rotated(R, moved.J, name + "RJ", statements)},
-                  statements);
-  }
+  const Matrix3& R = frames.R_CW(i);
+  const ArticulatedInertia moved =
+      bound(name + "R",
+            {rotated(R, inertia.A, name + "RA", statements), rotated(R, inertia.H, name + "RH", statements),
+             rotated(R, inertia.J, name + "RJ", statements)},
+            statements);
   // Force = A (a − r × α) + H α; the moment gains r × force.
-  const Matrix3 r = cross_matrix(frames.offset(i));
-  const Matrix3 H = bound(name + "H", difference(moved.H, moved.A * r), statements);
+  const Matrix3 r = cross_matrix(frames.r_CW(i));
+  const Matrix3 H = statements.bind(name + "H", difference(moved.H, moved.A * r));
   const Matrix3 lever = r * moved.H;
   const Matrix3 J = moved.J + (transpose(lever) + r * H);
   return {moved.A, H, statements.bind_symmetric(name + "J", J)};

@@ -34,10 +34,9 @@ ArticulatedInertia give_way(const ArticulatedInertia& inertia, const Wrench& U, 
 ArticulatedInertia reduced(const ArticulatedInertia& inertia, const Wrench& G, const Wrench& share,
                            const std::string& name, kinematics::Statements& statements);
 
-/// The inertia of link i seen from its parent's origin: in W of the parent where the two are parallel,
-/// otherwise in L of the parent.
-ArticulatedInertia moved_to_parent(const kinematics::Link& link, const kinematics::WorkingFrames& frames,
-                                   std::size_t i, const ArticulatedInertia& inertia, const std::string& name,
+/// The inertia of link i seen from its parent's origin, in C.
+ArticulatedInertia moved_to_parent(const kinematics::WorkingFrames& frames, std::size_t i,
+                                   const ArticulatedInertia& inertia, const std::string& name,
                                    kinematics::Statements& statements);
 
 /// From link axes to the working frame: turned about z by the angle with cosine c and sine s.

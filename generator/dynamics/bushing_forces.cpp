@@ -15,7 +15,8 @@ struct End {
   Vector3 spin;
 };
 
-End end_of(Scene& scene, const kinematics::BodyPose& pose, std::size_t ancestor, const std::string& name) {
+End end_of(const Scene& scene, const kinematics::BodyPose& pose, std::size_t ancestor,
+           const std::string& name) {
   End end{follow_point(scene, pose.link, pose.r_LB, ancestor, name), {}, kinematics::zero_vector()};
   for (std::size_t k = 0; k < 3; ++k)
     end.axes[k] = scene.frames.to_working(pose.link, transpose(pose.R_LB)[k], fmt::format("{}e{}", name, k));
@@ -33,7 +34,7 @@ struct Ends {
   Vector3 difference;  // between the origins
 };
 
-Ends ends_of(const model::Bushing& bushing, Scene& scene) {
+Ends ends_of(const model::Bushing& bushing, const Scene& scene) {
   const std::vector<model::Frame>& frames = scene.mechanism.frames;
   const kinematics::BodyPose from = frame_pose(scene, frames[bushing.from.value]),
                              to = frame_pose(scene, frames[bushing.to.value]);
@@ -46,7 +47,7 @@ Ends ends_of(const model::Bushing& bushing, Scene& scene) {
 }
 
 /// Σ stiffness_i x_i + damping_i rate_i along the axes.
-Vector3 resistance(Scene& scene, const Ends& ends, const model::Vector3& stiffness,
+Vector3 resistance(const Scene& scene, const Ends& ends, const model::Vector3& stiffness,
                    const model::Vector3& damping, const Vector3& x, const Vector3& rate,
                    const std::string& name) {
   Vector3 sum = kinematics::zero_vector();
@@ -62,7 +63,7 @@ Vector3 resistance(Scene& scene, const Ends& ends, const model::Vector3& stiffne
 }
 
 /// G_i.
-Vector3 torsional_weights(const model::Bushing& bushing, Scene& scene) {
+Vector3 torsional_weights(const model::Bushing& bushing, const Scene& scene) {
   Vector3 k;
   for (std::size_t i = 0; i < 3; ++i) k[i] = scene.value("torsional", bushing.torsional_stiffness[i]);
   const Ex half = scene.statements.bind(bushing.name + "_hk", (k[0] + k[1] + k[2]) / 2);
@@ -70,7 +71,7 @@ Vector3 torsional_weights(const model::Bushing& bushing, Scene& scene) {
 }
 
 /// On the end `to`.
-Wrench wrench_of(const model::Bushing& bushing, Scene& scene, const Ends& ends) {
+Wrench wrench_of(const model::Bushing& bushing, const Scene& scene, const Ends& ends) {
   kinematics::Statements& statements = scene.statements;
   const std::string& name = bushing.name;
   const Vector3 carried = statements.bind(name + "c", cross(ends.from.spin, ends.difference));
@@ -90,7 +91,7 @@ Wrench wrench_of(const model::Bushing& bushing, Scene& scene, const Ends& ends) 
 }  // namespace
 
 void add_forces(const model::Bushing& bushing, ForceSum& sum) {
-  Scene& scene = sum.scene;
+  const Scene& scene = sum.scene;
   const Ends ends = ends_of(bushing, scene);
   const auto& [force, moment] = wrench_of(bushing, scene, ends);
   const Vector3 at_from = scene.statements.bind(bushing.name + "l", moment + cross(ends.difference, force));
@@ -100,7 +101,7 @@ void add_forces(const model::Bushing& bushing, ForceSum& sum) {
           bushing.name + "fa");
 }
 
-Ex potential(const model::Bushing& bushing, Scene& scene) {
+Ex potential(const model::Bushing& bushing, const Scene& scene) {
   const Ends ends = ends_of(bushing, scene);
   const Vector3 weights = torsional_weights(bushing, scene);
   Ex energy = 0;

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "dynamics/applied_forces.hpp"
+#include "dynamics/free_root.hpp"
 #include "dynamics/moving_vector.hpp"
 #include "dynamics/points.hpp"
 #include "kinematics/numbers.hpp"
 
 namespace jourdain::dynamics {
 
-using kinematics::kGround;
 using model::Loop;
 using model::LoopType;
 
@@ -18,25 +18,26 @@ namespace {
 /// A frame seen from a link further in: its origin and directions fixed to it, in W of that link.
 class SeenFrame {
  public:
-  SeenFrame(Scene& scene, const model::Frame& frame, std::size_t ancestor, const std::string& name)
-      : scene_(scene), pose_(frame_pose(scene, frame)), inward_(scene, pose_.link, ancestor), name_(name) {
-    path_ = follow_point(scene, pose_.link, pose_.r_LB, ancestor, name);
-  }
+  SeenFrame(const Scene& scene, const model::Frame& frame, std::size_t ancestor, const std::string& name)
+      : scene_(scene),
+        pose_(frame_pose(scene, frame)),
+        path_(follow_point(scene, pose_.link, pose_.r_LB, ancestor, name)),
+        name_(name) {}
 
-  MovingVector position() const { return inward_.point(path_.levers, path_.position, name_ + "m"); }
+  MovingVector position() const { return moving_point(scene_, path_, name_ + "m"); }
 
   /// Of a direction given in the frame.
   MovingVector direction(const Vector3& given) const {
     const Vector3 v_L = kinematics::settled(pose_.R_LB * given);
-    return inward_.direction(scene_.frames.to_working(pose_.link, v_L, name_ + "d"), name_ + "d");
+    const Vector3 v_W = scene_.frames.to_working(pose_.link, v_L, name_ + "d");
+    return moving_direction(scene_, path_, v_W, name_ + "d");
   }
 
   const PointPath& path() const { return path_; }
 
  private:
-  Scene& scene_;
+  const Scene& scene_;
   kinematics::BodyPose pose_;
-  InwardPath inward_;
   PointPath path_;
   std::string name_;
 };
@@ -62,12 +63,12 @@ Axes plane_axes(const std::array<double, 3>& axis) {
 /// One loop.
 class Closure {
  public:
-  Closure(Scene& scene, const Loop& loop)
+  Closure(const Scene& scene, const Loop& loop)
       : scene_(scene),
         loop_(loop),
         from_(scene.mechanism.frames[loop.from.value]),
         to_(scene.mechanism.frames[loop.to.value]),
-        ancestor_(common_ancestor(scene.tree, link_of(from_.body), link_of(to_.body))),
+        ancestor_(common_ancestor(scene.tree, scene.tree.link_of(from_.body), scene.tree.link_of(to_.body))),
         carrier_(model::carrier(scene.mechanism, from_.body, to_.body)),
         a_(scene, from_, ancestor_, loop.name + "a"),
         b_(scene, to_, ancestor_, loop.name + "b"),
@@ -204,23 +205,19 @@ class Closure {
                name);
   }
 
-  void add_link(std::size_t j, Wrench here, const std::string& name) {
+  void add_link(std::size_t j, const Wrench& here, const std::string& name) {
     if (!scene_.states[j].entry) {
       Ex& sum = closure_.time_slopes.back();
       sum = scene_.statements.bind(name + "t", sum + power(here, scene_.relative_twist(j)));
       return;
     }
-    if (scene_.tree.links[j].kind == kinematics::LinkKind::kFree) here = to_external(scene_, j, here, name);
+    const Wrench seen = to_external(scene_, j, here, name);
     for (const Column& column : scene_.columns[j]) {
-      const Ex share = power(here, column.twist);
+      const Ex share = power(seen, column.twist);
       if (share.is_zero()) continue;
       Ex& sum = closure_.slopes.back()[*column.entry];
       sum = scene_.statements.bind(name + "p", sum + share);
     }
-  }
-
-  std::size_t link_of(std::optional<model::BodyIndex> body) const {
-    return body ? scene_.tree.bodies[body->value].link : kGround;
   }
 
   /// Components in the carrier's axes of a vector in W of the carrier's link.
@@ -238,7 +235,7 @@ class Closure {
     return scene_.frames.to_working(pose.link, scene_.statements.bind(name + "e", pose.R_LB * v), name + "e");
   }
 
-  Scene& scene_;
+  const Scene& scene_;
   const Loop& loop_;
   const model::Frame &from_, &to_;
   std::size_t ancestor_;
@@ -251,7 +248,7 @@ class Closure {
 
 }  // namespace
 
-std::vector<LoopClosure> derive_closure(Scene& scene, ClosureRates rates) {
+std::vector<LoopClosure> derive_closure(const Scene& scene, ClosureRates rates) {
   std::vector<LoopClosure> closures;
   for (const Loop& loop : scene.mechanism.loops)
     if (loop.type == LoopType::kResidual)

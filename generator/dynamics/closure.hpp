@@ -41,6 +41,6 @@ struct LoopClosure {
 enum class ClosureRates { kNone, kGiven };
 
 /// By loop.
-std::vector<LoopClosure> derive_closure(Scene& scene, ClosureRates rates);
+std::vector<LoopClosure> derive_closure(const Scene& scene, ClosureRates rates);
 
 }  // namespace jourdain::dynamics

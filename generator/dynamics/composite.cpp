@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "kinematics/inward_sums.hpp"
+
 namespace jourdain::dynamics {
 
 using kinematics::kGround;
@@ -16,9 +18,7 @@ namespace {
 
 /// R S Rᵀ with its intermediate bound (permutations cost nothing).
 Matrix3 rotated(const Matrix3& R, const Matrix3& S, const std::string& name, Statements& statements) {
-  Matrix3 RS = R * S;
-  for (std::size_t i = 0; i < 3; ++i) RS[i] = statements.bind(fmt::format("{}r{}", name, i), RS[i]);
-  return statements.bind_symmetric(name, RS * transpose(R));
+  return statements.bind_symmetric(name, statements.bind(name + "r", R * S) * transpose(R));
 }
 
 /// S and polar turned about z from link to working axes. With d = S_xx − S_yy and t = s d + 2 c S_xy:
@@ -40,9 +40,9 @@ Matrix3 turned(const Matrix3& S, const Ex& polar, const Ex& c, const Ex& s, cons
   return T;
 }
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
-bool is_zero(const Matrix3& S) { return is_zero(S[0]) && is_zero(S[1]) && is_zero(S[2]); }
+bool is_zero(const Matrix3& S) {
+  return kinematics::is_zero(S[0]) && kinematics::is_zero(S[1]) && kinematics::is_zero(S[2]);
+}
 
 /// Whether a link is nothing but a mass on its x or y axis, and turns about an axis that meets that of a parent without
 /// inertia: the pendulum on a universal joint. M is singular where the mass comes to lie on the parent's axis.
@@ -78,50 +78,49 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
                                              Statements& statements,
                                              const std::function<Joins(std::size_t link)>& joins) {
   const std::size_t n = tree.links.size();
-  std::vector<MassMoments> in_link(n), in_working(n);  // sums over the link's body and children so far
-  std::vector<Ex> working_polar(n, 0);
+  kinematics::InwardSums<MassMoments> sums(frames);
+  std::vector<Ex> polar(n, 0);  // S_xx + S_yy of what is in W
   std::vector<CompositeBody> composites(n);
-  for (std::size_t i = 0; i < n; ++i) in_link[i] = tree.links[i].moments;
+  for (std::size_t i = 0; i < n; ++i) sums.in_L[i] = tree.links[i].moments;
   for (std::size_t i = n; i-- > 0;) {
-    const Link& link = tree.links[i];
+    const std::size_t parent = tree.links[i].parent;
     const std::string S = fmt::format("S{}", i), h = fmt::format("h{}", i);
-    const MassMoments& own = in_link[i];
+    const MassMoments &own = sums.in_L[i], &in_W = sums.in_W[i];
     const Ex own_polar = statements.bind(S + "b_zz", own.second[0][0] + own.second[1][1]);
     const Matrix3 own_second =
         is_gimballed_point(tree, i)
             ? turned_point(own.second, frames.cosine(i), frames.sine(i), S + "b", statements)
             : turned(own.second, own_polar, frames.cosine(i), frames.sine(i), S + "b", statements);
     CompositeBody& body = composites[i];
-    body.moments.mass = statements.bind(fmt::format("m{}", i), own.mass + in_working[i].mass);
-    body.moments.first = statements.bind(h, frames.to_working(i, own.first, h + "b") + in_working[i].first);
-    body.J_zz = statements.bind(fmt::format("J{}", i), own_polar + working_polar[i]);
-    body.moments.second = statements.bind_symmetric(S, own_second + in_working[i].second);
-    if (!in_working[i].second[0][0].is_zero())
+    body.moments.mass = statements.bind(fmt::format("m{}", i), own.mass + in_W.mass);
+    body.moments.first = statements.bind(h, frames.to_working(i, own.first, h + "b") + in_W.first);
+    body.J_zz = statements.bind(fmt::format("J{}", i), own_polar + polar[i]);
+    body.moments.second = statements.bind_symmetric(S, own_second + in_W.second);
+    if (!in_W.second[0][0].is_zero())
       body.moments.second[1][1] = statements.bind(S + "_yy", body.J_zz - body.moments.second[0][0]);
     const Matrix3& second = body.moments.second;
     body.J_xx = statements.bind(fmt::format("Jx{}", i), second[1][1] + second[2][2]);
     body.J_yy = statements.bind(fmt::format("Jy{}", i), second[0][0] + second[2][2]);
-    if (link.parent == kGround || joins(i) == Joins::kNot) continue;
+    if (parent == kGround || joins(i) == Joins::kNot) continue;
 
-    const Vector3& r = frames.offset(i);
+    const Vector3& r = frames.r_CW(i);
     const std::string at_parent = fmt::format("at{}", i);
     const bool as_mass = joins(i) == Joins::kMass;
     MassMoments moved = body.moments;
     if (as_mass) {
       moved.first = kinematics::zero_vector();
       moved.second = kinematics::zero_matrix();
-    } else if (!link.parallel) {
-      moved.first = statements.bind(h + at_parent, frames.rotation(i) * moved.first);
-      moved.second = rotated(frames.rotation(i), moved.second, S + at_parent, statements);
+    } else {
+      moved.first = frames.from_W_to_C(i, moved.first, h + at_parent);
+      moved.second = rotated(frames.R_CW(i), moved.second, S + at_parent, statements);
     }
     const Vector3 mr = statements.bind(h + "r", moved.mass * r);
     const Vector3 middle = statements.bind(h + "k", moved.first + Ex(GiNaC::numeric(1, 2)) * mr);
-    MassMoments& target = link.parallel ? in_working[link.parent] : in_link[link.parent];
-    if (link.parallel) {
+    MassMoments& target = sums.joined_by(i, frames);
+    if (frames.meets_in_W(i)) {
       const Ex shift = statements.bind(fmt::format("D{}", i), r[0] * middle[0] + r[1] * middle[1]);
       const Ex half = as_mass ? shift : statements.bind(fmt::format("E{}", i), body.J_zz + shift);
-      working_polar[link.parent] =
-          statements.bind(fmt::format("Jc{}", i), working_polar[link.parent] + half + shift);
+      polar[parent] = statements.bind(fmt::format("Jc{}", i), polar[parent] + half + shift);
     }
     target.mass = statements.bind(fmt::format("mc{}", i), target.mass + moved.mass);
     target.first = statements.bind(h + "c", target.first + (moved.first + mr));
@@ -131,22 +130,23 @@ std::vector<CompositeBody> derive_composites(const LinkTree& tree, const Working
   return composites;
 }
 
-std::vector<Column> derive_columns(const Link& link, const kinematics::LinkState& state,
-                                   const WorkingFrames& frames, std::size_t index) {
-  std::vector<Column> columns;
-  if (!link.has_quaternion()) {
-    Column& column = columns.emplace_back();
-    column.entry = state.entry;
-    if (link.turns_about_z()) column.twist.angular[2] = link.sign;
-    for (std::size_t k = 0; k < 3; ++k) column.twist.linear[k] = link.sign * frames.direction(index)[k];
-    return columns;
-  }
-  const std::size_t count = state.column_count(link);
-  for (std::size_t c = 0; c < count; ++c) {
-    Column& column = columns.emplace_back();
-    column.entry = *state.entry + c;
-    const bool translation = c + 3 < count;
-    (translation ? column.twist.linear : column.twist.angular)[c % 3] = 1;
+std::vector<std::vector<Column>> derive_columns(const LinkTree& tree,
+                                                const std::vector<kinematics::LinkState>& states,
+                                                const WorkingFrames& frames) {
+  std::vector<std::vector<Column>> columns(tree.links.size());
+  for (std::size_t i = 0; i < tree.links.size(); ++i) {
+    const Link& link = tree.links[i];
+    if (!link.has_quaternion()) {
+      const Vector3 turn = {0, 0, link.turns_about_z() ? link.sign : 0};
+      columns[i].push_back({{turn, Ex(link.sign) * frames.direction(i)}, states[i].entry});
+      continue;
+    }
+    const std::size_t count = states[i].column_count(link);
+    for (std::size_t c = 0; c < count; ++c) {
+      Column& column = columns[i].emplace_back();
+      column.entry = *states[i].entry + c;
+      (c + 3 < count ? column.twist.linear : column.twist.angular)[c % 3] = 1;
+    }
   }
   return columns;
 }
@@ -163,46 +163,6 @@ Wrench momentum(const CompositeBody& body, const Twist& twist) {
 
 Ex power(const Wrench& wrench, const Twist& twist) {
   return kinematics::dot(wrench.force, twist.linear) + kinematics::dot(wrench.moment, twist.angular);
-}
-
-Wrench to_parent(const LinkTree& tree, const WorkingFrames& frames, std::size_t i, const Wrench& wrench,
-                 const std::string& name, Statements& statements) {
-  const Link& link = tree.links[i];
-  Wrench moved = wrench;
-  if (!link.parallel) {
-    moved.force = statements.bind(name + "f", frames.rotation(i) * wrench.force);
-    moved.moment = frames.rotation(i) * wrench.moment;
-  }
-  const Vector3 lever = statements.bind(name + "l", kinematics::cross(frames.offset(i), moved.force));
-  moved.moment = statements.bind(name + "n", moved.moment + lever);
-  if (link.parallel || link.parent == kGround) return moved;
-  return {frames.to_working(link.parent, moved.force, name + "F"),
-          frames.to_working(link.parent, moved.moment, name + "N")};
-}
-
-std::vector<Wrench> accumulate_wrenches(const LinkTree& tree, const WorkingFrames& frames,
-                                        const std::vector<Wrench>& own, const std::string& name,
-                                        Statements& statements) {
-  const std::size_t n = tree.links.size();
-  std::vector<Wrench> in_link(n),
-      total = own;  // children that are not parallel are summed in link axes first
-  for (std::size_t i = n; i-- > 0;) {
-    const Link& link = tree.links[i];
-    const std::string f = fmt::format("{}f{}", name, i), m = fmt::format("{}n{}", name, i);
-    total[i].force = statements.bind(f, total[i].force + frames.to_working(i, in_link[i].force, f + "b"));
-    total[i].moment = statements.bind(m, total[i].moment + frames.to_working(i, in_link[i].moment, m + "b"));
-    if (link.parent == kGround) continue;
-    Wrench moved = total[i];
-    if (!link.parallel) {
-      moved.force = statements.bind(f + "p", frames.rotation(i) * moved.force);
-      moved.moment = statements.bind(m + "p", frames.rotation(i) * moved.moment);
-    }
-    Wrench& target = link.parallel ? total[link.parent] : in_link[link.parent];
-    target.force = statements.bind(f + "c", target.force + moved.force);
-    target.moment = statements.bind(
-        m + "c", target.moment + (moved.moment + kinematics::cross(frames.offset(i), moved.force)));
-  }
-  return total;
 }
 
 }  // namespace jourdain::dynamics

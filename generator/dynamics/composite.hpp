@@ -18,6 +18,15 @@ struct Wrench {
   Vector3 moment = kinematics::zero_vector();
 };
 
+inline Wrench operator+(const Wrench& a, const Wrench& b) { return {a.force + b.force, a.moment + b.moment}; }
+inline Wrench operator*(const Ex& a, const Wrench& b) { return {a * b.force, a * b.moment}; }
+
+/// Velocity field `linear` + `angular` × x of a rigid motion, x from the link's origin.
+struct Twist {
+  Vector3 angular = kinematics::zero_vector();
+  Vector3 linear = kinematics::zero_vector();
+};
+
 /// Mass moments of a link and all links outward of it, about the link's origin, in its working frame.
 struct CompositeBody {
   kinematics::MassMoments moments;
@@ -37,37 +46,21 @@ std::vector<CompositeBody> derive_composites(const kinematics::LinkTree& tree,
                                              kinematics::Statements& statements,
                                              const std::function<Joins(std::size_t link)>& joins);
 
-/// Velocity field `linear` + `angular` × x of a rigid motion, x from the link's origin.
-struct Twist {
-  Vector3 angular = kinematics::zero_vector();
-  Vector3 linear = kinematics::zero_vector();
-};
-
 /// Motion of a link relative to its parent per unit of one velocity, in W.
 struct Column {
   Twist twist;
   std::optional<std::size_t> entry;  ///< in z; none where the coordinate is prescribed
 };
 
-/// One per scalar coordinate, three for a ball, six (translations along W, then rotations) for a free link.
-std::vector<Column> derive_columns(const kinematics::Link& link, const kinematics::LinkState& state,
-                                   const kinematics::WorkingFrames& frames, std::size_t index);
+/// By link: one per scalar coordinate, three for a ball, six (translations along W, then rotations) for a free link.
+std::vector<std::vector<Column>> derive_columns(const kinematics::LinkTree& tree,
+                                                const std::vector<kinematics::LinkState>& states,
+                                                const kinematics::WorkingFrames& frames);
 
 /// Momentum of the composite body moving as `twist`, about the link's origin, in W.
 Wrench momentum(const CompositeBody& body, const Twist& twist);
 
 /// Power of a wrench on a twist, both in the same axes and about the same point.
 Ex power(const Wrench& wrench, const Twist& twist);
-
-/// Sums of wrenches over subtrees: W_i of the result is that of `own[i]` and of all links outward, about the
-/// origin of link i, in its working frame.
-std::vector<Wrench> accumulate_wrenches(const kinematics::LinkTree& tree,
-                                        const kinematics::WorkingFrames& frames,
-                                        const std::vector<Wrench>& own, const std::string& name,
-                                        kinematics::Statements& statements);
-
-/// A wrench about the origin of `link`, in its working frame, moved to the parent's origin and working frame.
-Wrench to_parent(const kinematics::LinkTree& tree, const kinematics::WorkingFrames& frames, std::size_t link,
-                 const Wrench& wrench, const std::string& name, kinematics::Statements& statements);
 
 }  // namespace jourdain::dynamics

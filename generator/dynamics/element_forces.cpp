@@ -14,7 +14,7 @@ using model::Variable;
 namespace {
 
 /// Position, velocity or spin of a frame, by component.
-Ex frame_value(Scene& scene, const Variable& variable) {
+Ex frame_value(const Scene& scene, const Variable& variable) {
   const model::Frame& frame = scene.mechanism.frames[variable.index];
   const kinematics::BodyPose pose = frame_pose(scene, frame);
   if (variable.kind == Variable::Kind::kFrameSpin) {
@@ -27,7 +27,7 @@ Ex frame_value(Scene& scene, const Variable& variable) {
                                                          : path.velocity[variable.component];
 }
 
-Ex variable_value(Scene& scene, const Variable& variable, Inputs inputs) {
+Ex variable_value(const Scene& scene, const Variable& variable, Inputs inputs) {
   switch (variable.kind) {
     case Variable::Kind::kTime:
       return scene.leaves.t;
@@ -52,7 +52,7 @@ Ex variable_value(Scene& scene, const Variable& variable, Inputs inputs) {
 
 }  // namespace
 
-ForceSum::ForceSum(Scene& of, Inputs given) : scene(of), inputs(given) {
+ForceSum::ForceSum(const Scene& of, Inputs given) : scene(of), inputs(given) {
   forces.on_link.resize(scene.link_count());
   for (const std::vector<Column>& columns : scene.columns) forces.along.emplace_back(columns.size(), 0);
 }
@@ -81,7 +81,8 @@ void ForceSum::act(const model::Frame& frame, const PointPath& path, const Wrenc
       {*frame.body, {f, scene.statements.bind(name + "n", n + kinematics::cross(lever, f))}});
 }
 
-Ex general_value(Scene& scene, const std::string& name, const model::Expression& expression, Inputs inputs) {
+Ex general_value(const Scene& scene, const std::string& name, const model::Expression& expression,
+                 Inputs inputs) {
   return scene.statements.bind(
       name, kinematics::to_symbolic(expression, scene.leaves.parameters, scene.statements,
                                     [&](const Variable& v) { return variable_value(scene, v, inputs); }));

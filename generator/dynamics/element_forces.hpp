@@ -26,20 +26,21 @@ struct AppliedForces {
 
 /// Applied forces as they are added up.
 struct ForceSum {
-  ForceSum(Scene& scene, Inputs inputs);
+  ForceSum(const Scene& scene, Inputs inputs);
 
   void push(std::size_t link, std::size_t column, const Ex& force);
   /// A force and a moment at the end of a path, in W of its ancestor: their share along each column on the way, and the
   /// wrench on the end's link. Its other half acts at another path of the same ancestor.
   void act(const model::Frame& frame, const PointPath& path, const Wrench& wrench, const std::string& name);
 
-  Scene& scene;
+  const Scene& scene;
   Inputs inputs;
   AppliedForces forces;
 };
 
 /// Value of an expression over time, coordinates, velocities, inputs and frames.
-Ex general_value(Scene& scene, const std::string& name, const model::Expression& expression, Inputs inputs);
+Ex general_value(const Scene& scene, const std::string& name, const model::Expression& expression,
+                 Inputs inputs);
 
 void add_forces(const model::Actuator& actuator, ForceSum& sum);
 void add_forces(const model::CoordinateForce& force, ForceSum& sum);
@@ -48,10 +49,10 @@ void add_forces(const model::Load& load, ForceSum& sum);
 void add_forces(const model::Bushing& bushing, ForceSum& sum);
 
 /// J; of a kind without potential zero.
-Ex potential(const model::Spring& spring, Scene& scene);
-Ex potential(const model::Bushing& bushing, Scene& scene);
-inline Ex potential(const model::Actuator&, Scene&) { return 0; }
-inline Ex potential(const model::CoordinateForce&, Scene&) { return 0; }
-inline Ex potential(const model::Load&, Scene&) { return 0; }
+Ex potential(const model::Spring& spring, const Scene& scene);
+Ex potential(const model::Bushing& bushing, const Scene& scene);
+inline Ex potential(const model::Actuator&, const Scene&) { return 0; }
+inline Ex potential(const model::CoordinateForce&, const Scene&) { return 0; }
+inline Ex potential(const model::Load&, const Scene&) { return 0; }
 
 }  // namespace jourdain::dynamics

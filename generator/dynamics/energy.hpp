@@ -7,12 +7,12 @@ namespace jourdain::dynamics {
 
 /// ½ ∫ |Σ v_i|² dm with v_i the velocity field that link i adds, on its composite body: each link's own half square and
 /// its product with the velocity of the parent. Rotors count with ½ (gear rate)² inertia.
-Ex derive_kinetic_energy(Scene& scene);
+Ex derive_kinetic_energy(const Scene& scene);
 
 /// Of gravity (zero at the inertial origin), joint springs and force elements, J.
-Ex derive_potential_energy(Scene& scene);
+Ex derive_potential_energy(const Scene& scene);
 
 /// gear_ratio² rotor_inertia
-Ex reflected_inertia(Scene& scene, const model::Actuator& actuator);
+Ex reflected_inertia(const Scene& scene, const model::Actuator& actuator);
 
 }  // namespace jourdain::dynamics

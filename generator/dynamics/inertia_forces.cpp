@@ -2,32 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/wrenches.hpp"
+
 namespace jourdain::dynamics {
 
 using kinematics::kGround;
 using kinematics::Link;
 using kinematics::LinkKind;
-using kinematics::LinkTree;
 using kinematics::Matrix3;
 using kinematics::Statements;
-using kinematics::WorkingFrames;
-
-AngularVelocities derive_angular_velocities(const LinkTree& tree, const WorkingFrames& frames,
-                                            const std::vector<kinematics::LinkState>& states,
-                                            Statements& statements) {
-  AngularVelocities omega;
-  for (std::size_t i = 0; i < tree.links.size(); ++i) {
-    const Link& link = tree.links[i];
-    const std::string w = fmt::format("w{}", i);
-    omega.parent.push_back(link.parent == kGround ? kinematics::zero_vector()
-                                                  : frames.from_parent(i, omega.own[link.parent], w + "p"));
-    omega.own.push_back(omega.parent[i]);
-    if (link.turns_about_z())
-      omega.own[i][2] = statements.bind(w + "_z", omega.parent[i][2] + states[i].rate);
-    if (link.has_quaternion()) omega.own[i] = statements.bind(w, omega.parent[i] + states[i].spin);
-  }
-  return omega;
-}
 
 namespace {
 
@@ -46,35 +29,26 @@ Matrix3 acceleration_gradient(const Vector3& omega, const Vector3& alpha, const 
     U[j][k] = products[j][k] - alpha[i];
     U[k][j] = products[j][k] + alpha[i];
   }
-  for (std::size_t i = 0; i < 3; ++i) U[i] = statements.bind(fmt::format("{}U{}", name, i), U[i]);
-  return U;
+  return statements.bind(name + "U", U);
 }
-
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
 
 bool is_diagonal(const Matrix3& S) { return S[0][1].is_zero() && S[0][2].is_zero() && S[1][2].is_zero(); }
 
-Vector3 product(const Matrix3& S, const Vector3& w, const std::string& name, Statements& statements) {
-  return statements.bind(name, S * w);
-}
+/// What the inertia forces of a tree do, link by link.
+struct InertiaForces {
+  /// Wrench on the composite body of the acceleration field that the link adds to its parent's, in W.
+  std::vector<Wrench> relative;
+  /// Along each column of the link, of the parent's field on the composite body.
+  std::vector<std::vector<Ex>> from_parent;
+};
 
 class Recursion {
  public:
-  Recursion(const LinkTree& tree, const WorkingFrames& frames,
-            const std::vector<kinematics::LinkState>& states, const std::vector<CompositeBody>& composites,
-            const AngularVelocities& omega, const JointAccelerations& accelerations, const std::string& name,
-            Statements& statements)
-      : tree_(tree),
-        frames_(frames),
-        states_(states),
-        composites_(composites),
-        omega_(omega),
-        accelerations_(accelerations),
-        name_(name),
-        statements_(statements) {}
+  Recursion(const Scene& scene, const JointAccelerations& accelerations, const std::string& name)
+      : scene_(scene), accelerations_(accelerations), name_(name), statements_(scene.statements) {}
 
   InertiaForces derive() {
-    for (std::size_t i = 0; i < tree_.links.size(); ++i) outward(i);
+    for (std::size_t i = 0; i < scene_.tree.links.size(); ++i) outward(i);
     return std::move(result_);
   }
 
@@ -85,26 +59,24 @@ class Recursion {
 
   /// Acceleration of the link's origin as a point of the parent, in W of the link.
   Vector3 origin_acceleration(std::size_t i) {
-    const Link& link = tree_.links[i];
+    const Link& link = scene_.tree.links[i];
     const std::string a = named("a", i);
-    if (link.kind == LinkKind::kFree) return kinematics::zero_vector();
-    if (link.parent == kGround)
-      return statements_.bind(a, transpose(frames_.rotation(i)) * accelerations_.ground);
+    if (accelerations_.free[i]) return kinematics::zero_vector();
+    if (link.parent == kGround) return scene_.frames.from_C_to_W(i, accelerations_.ground, a);
     const std::size_t p = link.parent;
-    const std::string from = named(link.parallel ? "W" : "L", p);
-    const Vector3 omega = link.parallel ? omega_.own[p] : frames_.to_link(p, omega_.own[p], from + "w");
-    const Vector3 alpha = link.parallel ? alpha_[p] : frames_.to_link(p, alpha_[p], from + "al");
-    const Vector3 acceleration =
-        link.parallel ? acceleration_[p] : frames_.to_link(p, acceleration_[p], from + "a");
-    const Matrix3 U = acceleration_gradient(omega, alpha, from, statements_);
-    const Vector3 sum = statements_.bind(a + "o", acceleration + U * frames_.offset(i));
-    return link.parallel ? sum : statements_.bind(a, transpose(frames_.rotation(i)) * sum);
+    const std::string in_C = named(scene_.frames.meets_in_W(i) ? "W" : "L", p);
+    const Vector3 omega_C = scene_.frames.from_parent_to_C(i, scene_.omega.own[p], in_C + "w");
+    const Vector3 alpha_C = scene_.frames.from_parent_to_C(i, alpha_[p], in_C + "al");
+    const Vector3 a_C = scene_.frames.from_parent_to_C(i, acceleration_[p], in_C + "a");
+    const Matrix3 U_C = acceleration_gradient(omega_C, alpha_C, in_C, statements_);
+    return scene_.frames.from_C_to_W(i, statements_.bind(a + "o", a_C + U_C * scene_.frames.r_CW(i)), a);
   }
 
   void outward(std::size_t i) {
-    const Link& link = tree_.links[i];
-    alpha_.push_back(link.parent == kGround ? kinematics::zero_vector()
-                                            : frames_.from_parent(i, alpha_[link.parent], named("al", i)));
+    const Link& link = scene_.tree.links[i];
+    alpha_.push_back(link.parent == kGround
+                         ? kinematics::zero_vector()
+                         : scene_.frames.from_parent(i, alpha_[link.parent], named("al", i)));
     acceleration_.push_back(origin_acceleration(i));
     result_.relative.emplace_back();
     result_.from_parent.emplace_back();
@@ -129,26 +101,26 @@ class Recursion {
   }
 
   Ex scalar_acceleration(std::size_t i) {
-    return statements_.bind(named("qdd", i), states_[i].acceleration + accelerations_.scalar[i]);
+    return statements_.bind(named("qdd", i), scene_.states[i].acceleration + accelerations_.scalar[i]);
   }
 
   void turn(std::size_t i) {
-    const Vector3 &w = omega_.parent[i], alpha = alpha_[i], a = acceleration_[i];
-    const Ex rate = states_[i].rate, acceleration = scalar_acceleration(i);
-    const Vector3& h = composites_[i].moments.first;
-    const Matrix3& S = composites_[i].moments.second;
-    const Wrench unit = momentum(composites_[i], {{0, 0, 1}, kinematics::zero_vector()});
+    const Vector3 &w = scene_.omega.parent[i], alpha = alpha_[i], a = acceleration_[i];
+    const Ex rate = scene_.states[i].rate, acceleration = scalar_acceleration(i);
+    const Vector3& h = scene_.composites[i].moments.first;
+    const Matrix3& S = scene_.composites[i].moments.second;
+    const Wrench unit = momentum(scene_.composites[i], {{0, 0, 1}, kinematics::zero_vector()});
     // Rows of S ω_p serve the parent's gyroscopic moment about z and the moment of the relative field.
     const Ex Kx = statements_.bind(named("Kx", i), w[0] * S[0][0] + w[1] * S[0][1] + w[2] * S[0][2]);
     const Ex Ky = statements_.bind(named("Ky", i), w[0] * S[0][1] + w[1] * S[1][1] + w[2] * S[1][2]);
     const Ex gyroscopic = w[1] * Kx - w[0] * Ky;
     const Ex along = statements_.bind(named("Qp", i),
                                       dot(unit.moment, alpha) + (gyroscopic + (h[0] * a[1] - h[1] * a[0])));
-    result_.from_parent[i] = {tree_.links[i].sign * along};
+    result_.from_parent[i] = {scene_.tree.links[i].sign * along};
 
     const Ex twice = statements_.bind(fmt::format("z2_{}", i), 2 * rate);
     const Ex square = statements_.bind(fmt::format("zz_{}", i), rate * rate);
-    const Ex spin = statements_.bind(fmt::format("zw_{}", i), rate * (w[2] + omega_.own[i][2]));
+    const Ex spin = statements_.bind(fmt::format("zw_{}", i), rate * (w[2] + scene_.omega.own[i][2]));
     const Ex axial = statements_.bind(named("ax", i), w[0] * h[0] + w[1] * h[1]);
     result_.relative[i].force = statements_.bind(
         named("df", i), Vector3{-spin * h[0], -spin * h[1], twice * axial} + acceleration * unit.force);
@@ -161,13 +133,13 @@ class Recursion {
 
   /// Along `direction`, of the parent's field.
   Ex parent_pull(std::size_t i, const Vector3& direction, const Vector3& alpha, const Vector3& a) {
-    const Matrix3 U = acceleration_gradient(omega_.parent[i], alpha, named("V", i), statements_);
+    const Matrix3 U = acceleration_gradient(scene_.omega.parent[i], alpha, named("V", i), statements_);
     Ex along = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       if (direction[k].is_zero()) continue;
-      const Ex pull =
-          statements_.bind(fmt::format("{}{}", named("Qp", i), k),
-                           composites_[i].moments.mass * a[k] + dot(U[k], composites_[i].moments.first));
+      const Ex pull = statements_.bind(
+          fmt::format("{}{}", named("Qp", i), k),
+          scene_.composites[i].moments.mass * a[k] + dot(U[k], scene_.composites[i].moments.first));
       along = along + direction[k] * pull;
     }
     return statements_.bind(named("Qp", i), along);
@@ -175,18 +147,18 @@ class Recursion {
 
   /// Δa on the composite body; returns Δa.
   Vector3 translate(std::size_t i, Wrench& relative) {
-    const Vector3& w = omega_.parent[i];
-    const Ex rate = states_[i].rate;
+    const Vector3& w = scene_.omega.parent[i];
+    const Ex rate = scene_.states[i].rate;
     const Ex twice = statements_.bind(fmt::format("z2_{}", i), 2 * rate);
-    Vector3 change = scalar_acceleration(i) * frames_.direction(i);
-    if (tree_.links[i].kind == LinkKind::kCurve) {
+    Vector3 change = scalar_acceleration(i) * scene_.frames.direction(i);
+    if (scene_.tree.links[i].kind == LinkKind::kCurve) {
       const Ex square = statements_.bind(fmt::format("zz_{}", i), rate * rate);
-      change = change + square * frames_.curvature(i);
+      change = change + square * scene_.frames.curvature(i);
     }
-    const Vector3 turned = statements_.bind(named("cd", i), cross(w, frames_.direction(i)));
+    const Vector3 turned = statements_.bind(named("cd", i), cross(w, scene_.frames.direction(i)));
     const Vector3 coriolis = statements_.bind(named("co", i), twice * turned + change);
-    relative.force = relative.force + composites_[i].moments.mass * coriolis;
-    relative.moment = relative.moment + cross(composites_[i].moments.first, coriolis);
+    relative.force = relative.force + scene_.composites[i].moments.mass * coriolis;
+    relative.moment = relative.moment + cross(scene_.composites[i].moments.first, coriolis);
     relative = {statements_.bind(named("df", i) + "t", relative.force),
                 statements_.bind(named("dn", i) + "t", relative.moment)};
     return coriolis;
@@ -194,29 +166,31 @@ class Recursion {
 
   void slide(std::size_t i) {
     const Vector3 a = acceleration_[i];
-    result_.from_parent[i] = {tree_.links[i].sign * parent_pull(i, frames_.direction(i), alpha_[i], a)};
+    result_.from_parent[i] = {scene_.tree.links[i].sign *
+                              parent_pull(i, scene_.frames.direction(i), alpha_[i], a)};
     acceleration_[i] = statements_.bind(named("a", i) + "c", a + translate(i, result_.relative[i]));
   }
 
   void screw(std::size_t i) {
     const Vector3 alpha = alpha_[i], a = acceleration_[i];
     turn(i);
-    const Ex along = parent_pull(i, frames_.direction(i), alpha, a);
+    const Ex along = parent_pull(i, scene_.frames.direction(i), alpha, a);
     result_.from_parent[i][0] =
-        statements_.bind(named("Qp", i) + "s", result_.from_parent[i][0] + tree_.links[i].sign * along);
+        statements_.bind(named("Qp", i) + "s", result_.from_parent[i][0] + scene_.tree.links[i].sign * along);
     acceleration_[i] = statements_.bind(named("a", i) + "c", a + translate(i, result_.relative[i]));
   }
 
   /// ΔU of a rotation with all components: force w (u·h) − (u·w) h, moment −w × S u, and those of dw/dt.
   void rotate(std::size_t i) {
-    const Vector3 &w = states_[i].spin, &w_p = omega_.parent[i];
-    const Vector3& h = composites_[i].moments.first;
-    const Matrix3& S = composites_[i].moments.second;
+    const Vector3 &w = scene_.states[i].spin, &w_p = scene_.omega.parent[i];
+    const Vector3& h = scene_.composites[i].moments.first;
+    const Matrix3& S = scene_.composites[i].moments.second;
     const Vector3 u = statements_.bind(named("u", i), w + Ex(2) * w_p);
-    const Vector3 Su = product(S, u, named("Su", i), statements_);
+    const Vector3 Su = statements_.bind(named("Su", i), S * u);
     const Ex uh = statements_.bind(named("uh", i), dot(u, h));
     const Ex uw = statements_.bind(named("uw", i), dot(u, w));
-    const Wrench accelerated = momentum(composites_[i], {accelerations_.spin[i], kinematics::zero_vector()});
+    const Wrench accelerated =
+        momentum(scene_.composites[i], {accelerations_.spin[i], kinematics::zero_vector()});
     result_.relative[i].force = statements_.bind(named("df", i), uh * w - uw * h + accelerated.force);
     const Vector3 gyroscopic = is_diagonal(S) && is_zero(w_p) ? euler_moment(S, w, i) : cross(Su, w);
     result_.relative[i].moment = statements_.bind(named("dn", i), gyroscopic + accelerated.moment);
@@ -236,10 +210,10 @@ class Recursion {
   }
 
   void roll(std::size_t i) {
-    const Vector3& w = omega_.parent[i];
-    const Vector3& h = composites_[i].moments.first;
-    const Vector3 K = product(composites_[i].moments.second, w, named("K", i), statements_);
-    const Wrench turned = momentum(composites_[i], {alpha_[i], kinematics::zero_vector()});
+    const Vector3& w = scene_.omega.parent[i];
+    const Vector3& h = scene_.composites[i].moments.first;
+    const Vector3 K = statements_.bind(named("K", i), scene_.composites[i].moments.second * w);
+    const Wrench turned = momentum(scene_.composites[i], {alpha_[i], kinematics::zero_vector()});
     const Vector3 moment =
         statements_.bind(named("Qp", i), turned.moment + cross(K, w) + cross(h, acceleration_[i]));
     result_.from_parent[i] = {moment[0], moment[1], moment[2]};
@@ -249,20 +223,16 @@ class Recursion {
   void fly(std::size_t i) {
     result_.from_parent[i].assign(6, 0);
     rotate(i);
-    const Vector3& a = accelerations_.linear[i];
-    acceleration_[i] = a;
+    const FreeAcceleration& own = *accelerations_.free[i];
+    acceleration_[i] = own.linear;
     Wrench& relative = result_.relative[i];
-    relative.force = statements_.bind(
-        named("df", i) + "t", relative.force + composites_[i].moments.mass * accelerations_.inside[i]);
-    relative.moment =
-        statements_.bind(named("dn", i) + "t", relative.moment + cross(composites_[i].moments.first, a));
+    relative.force = statements_.bind(named("df", i) + "t",
+                                      relative.force + scene_.composites[i].moments.mass * own.inside);
+    relative.moment = statements_.bind(
+        named("dn", i) + "t", relative.moment + cross(scene_.composites[i].moments.first, own.linear));
   }
 
-  const LinkTree& tree_;
-  const WorkingFrames& frames_;
-  const std::vector<kinematics::LinkState>& states_;
-  const std::vector<CompositeBody>& composites_;
-  const AngularVelocities& omega_;
+  const Scene& scene_;
   const JointAccelerations& accelerations_;
   std::string name_;
   Statements& statements_;
@@ -272,30 +242,23 @@ class Recursion {
 
 }  // namespace
 
-InertiaForces derive_inertia_forces(const LinkTree& tree, const WorkingFrames& frames,
-                                    const std::vector<kinematics::LinkState>& states,
-                                    const std::vector<CompositeBody>& composites,
-                                    const AngularVelocities& omega, const JointAccelerations& accelerations,
-                                    const std::string& name, Statements& statements) {
-  return Recursion(tree, frames, states, composites, omega, accelerations, name, statements).derive();
-}
-
-std::vector<std::vector<Ex>> derive_generalized_forces(const LinkTree& tree, const WorkingFrames& frames,
-                                                       const std::vector<std::vector<Column>>& columns,
-                                                       const InertiaForces& inertia,
+std::vector<std::vector<Ex>> derive_generalized_forces(const Scene& scene,
+                                                       const JointAccelerations& accelerations,
                                                        const std::vector<Wrench>& applied,
-                                                       const std::string& name, Statements& statements) {
+                                                       const std::string& name) {
+  const InertiaForces inertia = Recursion(scene, accelerations, name).derive();
   std::vector<Wrench> own = inertia.relative;
   for (std::size_t i = 0; i < own.size(); ++i) {
-    own[i].force = statements.bind(fmt::format("{}ef{}", name, i), own[i].force - applied[i].force);
-    own[i].moment = statements.bind(fmt::format("{}en{}", name, i), own[i].moment - applied[i].moment);
+    own[i].force = scene.statements.bind(fmt::format("{}ef{}", name, i), own[i].force - applied[i].force);
+    own[i].moment = scene.statements.bind(fmt::format("{}en{}", name, i), own[i].moment - applied[i].moment);
   }
-  const std::vector<Wrench> totals = accumulate_wrenches(tree, frames, own, name, statements);
+  const std::vector<Wrench> totals = accumulate_wrenches(scene, own, name);
   std::vector<std::vector<Ex>> forces(own.size());
   for (std::size_t i = 0; i < own.size(); ++i)
-    for (std::size_t c = 0; c < columns[i].size(); ++c)
-      forces[i].push_back(statements.bind(fmt::format("{}Q{}_{}", name, i, c),
-                                          power(totals[i], columns[i][c].twist) + inertia.from_parent[i][c]));
+    for (std::size_t c = 0; c < scene.columns[i].size(); ++c)
+      forces[i].push_back(
+          scene.statements.bind(fmt::format("{}Q{}_{}", name, i, c),
+                                power(totals[i], scene.columns[i][c].twist) + inertia.from_parent[i][c]));
   return forces;
 }
 

@@ -1,5 +1,6 @@
 // Loads on frames.
 #include "dynamics/element_forces.hpp"
+#include "dynamics/wrenches.hpp"
 
 namespace jourdain::dynamics {
 
@@ -8,11 +9,11 @@ using kinematics::kGround;
 namespace {
 
 /// Components in W of the frame's link.
-Vector3 to_working(Scene& scene, const model::Load& load, const kinematics::BodyPose& pose, const Vector3& v,
-                   const std::string& name) {
+Vector3 to_working(const Scene& scene, const model::Load& load, const kinematics::BodyPose& pose,
+                   const Vector3& v, const std::string& name) {
   if (load.axes == model::LoadAxes::kFrame)
     return scene.frames.to_working(pose.link, scene.statements.bind(name, pose.R_LB * v), name);
-  if (pose.link == kGround || (v[0].is_zero() && v[1].is_zero() && v[2].is_zero())) return v;
+  if (pose.link == kGround || is_zero(v)) return v;
   const PointPath path = follow_point(scene, pose.link, kinematics::zero_vector(), kGround, name);
   return carry_outward(scene, path, v, name).front();
 }
@@ -20,7 +21,7 @@ Vector3 to_working(Scene& scene, const model::Load& load, const kinematics::Body
 }  // namespace
 
 void add_forces(const model::Load& load, ForceSum& sum) {
-  Scene& scene = sum.scene;
+  const Scene& scene = sum.scene;
   const model::Frame& frame = scene.mechanism.frames[load.frame.value];
   const kinematics::BodyPose pose = frame_pose(scene, frame);
   const auto components = [&](const model::Vector3& v, const char* what) {
@@ -35,8 +36,7 @@ void add_forces(const model::Load& load, ForceSum& sum) {
   if (frame.body) sum.forces.on_bodies.push_back({*frame.body, wrench});
   if (pose.link == kGround) return;
   Wrench& on_link = sum.forces.on_link[pose.link];
-  on_link.force = scene.statements.bind(load.name + "sf", on_link.force + wrench.force);
-  on_link.moment = scene.statements.bind(load.name + "sn", on_link.moment + wrench.moment);
+  on_link = bound(scene, load.name + "s", on_link + wrench);
 }
 
 }  // namespace jourdain::dynamics

@@ -4,13 +4,11 @@
 
 namespace jourdain::dynamics {
 
-using kinematics::kGround;
-
 namespace {
 
 class LoopForces {
  public:
-  LoopForces(Scene& scene, AppliedForces applied)
+  LoopForces(const Scene& scene, AppliedForces applied)
       : scene_(scene), statements_(scene.statements), forces_(std::move(applied)) {}
 
   void add(const model::Loop& loop, const LoopClosure& closure, std::size_t first_row) {
@@ -26,7 +24,8 @@ class LoopForces {
     }
     const model::Frame &from = scene_.mechanism.frames[loop.from.value],
                        &to = scene_.mechanism.frames[loop.to.value];
-    const std::size_t ancestor = common_ancestor(scene_.tree, link_of(from), link_of(to));
+    const std::size_t ancestor =
+        common_ancestor(scene_.tree, scene_.tree.link_of(from.body), scene_.tree.link_of(to.body));
     act_at(from, ancestor, {Ex(-1) * force, on_from}, loop.name + "lf");
     act_at(to, ancestor, {force, on_to}, loop.name + "lt");
     if (const auto carrier = model::carrier(scene_.mechanism, from.body, to.body))
@@ -36,10 +35,6 @@ class LoopForces {
   AppliedForces result() { return std::move(forces_); }
 
  private:
-  std::size_t link_of(const model::Frame& frame) const {
-    return frame.body ? scene_.tree.bodies[frame.body->value].link : kGround;
-  }
-
   /// A wrench about the frame's origin, in W of the ancestor: its share along each column on the way, and on the body.
   void act_at(const model::Frame& frame, std::size_t ancestor, const Wrench& wrench,
               const std::string& name) {
@@ -65,14 +60,14 @@ class LoopForces {
     }
   }
 
-  Scene& scene_;
+  const Scene& scene_;
   kinematics::Statements& statements_;
   AppliedForces forces_;
 };
 
 }  // namespace
 
-AppliedForces with_loop_forces(Scene& scene, AppliedForces applied,
+AppliedForces with_loop_forces(const Scene& scene, AppliedForces applied,
                                const std::vector<LoopClosure>& closures) {
   LoopForces forces(scene, std::move(applied));
   std::size_t row = 0;

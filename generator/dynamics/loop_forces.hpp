@@ -11,6 +11,7 @@ namespace jourdain::dynamics {
 /// `applied` with −λ times the gradient of each row on the two bodies of its loop and on their carrier; λ are
 /// the leaves, row by row. A residual adds nothing: what it joins is not known (model::check_loops refuses
 /// such outputs).
-AppliedForces with_loop_forces(Scene& scene, AppliedForces applied, const std::vector<LoopClosure>& closures);
+AppliedForces with_loop_forces(const Scene& scene, AppliedForces applied,
+                               const std::vector<LoopClosure>& closures);
 
 }  // namespace jourdain::dynamics

@@ -2,71 +2,66 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/free_root.hpp"
 #include "kinematics/numbers.hpp"
 
 namespace jourdain::dynamics {
 
-using kinematics::Link;
-using kinematics::LinkKind;
+namespace {
 
-InwardPath::InwardPath(Scene& scene, std::size_t link, std::size_t ancestor) : scene_(scene) {
-  for (std::size_t j = link; j != ancestor; j = scene.tree.links[j].parent) links_.push_back(j);
+/// What the turning of link j relative to its parent adds to the change of a vector, all in W. With w the relative
+/// angular velocity and α its prescribed change: v̇ + w × v, v̈ + α × v + w × (w × v + 2 v̇).
+MovingVector with_turning(const Scene& scene, std::size_t j, const MovingVector& v, const std::string& name) {
+  const kinematics::Link& link = scene.tree.links[j];
+  if (!link.turns_about_z() && !link.has_quaternion()) return v;
+  const Vector3 w = scene.relative_twist(j).angular;
+  const Vector3 alpha = {0, 0, link.turns_about_z() ? scene.states[j].acceleration : Ex(0)};
+  const Vector3 turned = scene.statements.bind(name + "t", cross(w, v.value));
+  const Vector3 both = scene.statements.bind(name + "b", turned + Ex(2) * v.first);
+  const Vector3 second = scene.statements.bind(name + "a", v.second + cross(alpha, v.value) + cross(w, both));
+  return {v.value, scene.statements.bind(name + "v", v.first + turned), second};
 }
 
-/// With w the relative angular velocity and α its prescribed change: v̇ + w × v, v̈ + α × v + w × (w × v + 2 v̇).
-void InwardPath::add_turning(std::size_t j, const Vector3& value, MovingVector& moving,
-                             const std::string& name) const {
-  const Link& link = scene_.tree.links[j];
-  if (!link.turns_about_z() && !link.has_quaternion()) return;
-  const Vector3 w = scene_.relative_twist(j).angular;
-  const Vector3 alpha = {0, 0, link.turns_about_z() ? scene_.states[j].acceleration : kinematics::Ex(0)};
-  const Vector3 turned = scene_.statements.bind(name + "t", cross(w, value));
-  const Vector3 both = scene_.statements.bind(name + "b", turned + Ex(2) * moving.first);
-  moving.second = scene_.statements.bind(name + "a", moving.second + cross(alpha, value) + cross(w, both));
-  moving.first = scene_.statements.bind(name + "v", moving.first + turned);
+/// The same of its translation.
+MovingVector with_sliding(const Scene& scene, std::size_t j, const MovingVector& v, const std::string& name) {
+  const kinematics::LinkState& state = scene.states[j];
+  const Vector3 first = scene.statements.bind(name + "vl", v.first + scene.relative_twist(j).linear);
+  const Vector3 shifted = shift_acceleration(scene, j, kinematics::zero_vector(), name + "s");
+  const Ex square = scene.statements.bind(name + "zz", state.rate * state.rate);
+  const Vector3 own =
+      state.acceleration * scene.frames.direction(j) + square * scene.frames.curvature(j) + shifted;
+  return {v.value, first, scene.statements.bind(name + "al", v.second + own)};
 }
 
-void InwardPath::add_sliding(std::size_t j, MovingVector& moving, const std::string& name) const {
-  const Link& link = scene_.tree.links[j];
-  const kinematics::LinkState& state = scene_.states[j];
-  const Twist twist = scene_.relative_twist(j);
-  moving.first = scene_.statements.bind(name + "vl", moving.first + twist.linear);
-  if (link.kind == LinkKind::kFree) {
-    const Vector3 shifted = scene_.statements.bind(name + "s", cross(state.spin, link.shift));
-    moving.second = scene_.statements.bind(name + "al", moving.second + cross(state.spin, shifted));
-    return;
-  }
-  const Ex square = scene_.statements.bind(name + "zz", state.rate * state.rate);
-  moving.second =
-      scene_.statements.bind(name + "al", moving.second + state.acceleration * scene_.frames.direction(j) +
-                                              square * scene_.frames.curvature(j));
+MovingVector change_to_parent(const Scene& scene, std::size_t j, const MovingVector& v,
+                              const std::string& name) {
+  const Vector3 first = scene.frames.to_parent(j, v.first, name + "vp");
+  return {v.value, first, scene.frames.to_parent(j, v.second, name + "ap")};
 }
 
-MovingVector InwardPath::point(const std::vector<Vector3>& levers, const Vector3& position,
-                               const std::string& name) const {
-  MovingVector moving;
-  for (std::size_t k = 0; k < links_.size(); ++k) {
-    const std::string here = fmt::format("{}{}", name, links_[k]);
-    add_turning(links_[k], levers[k], moving, here);
-    add_sliding(links_[k], moving, here);
-    moving.first = scene_.frames.to_parent(links_[k], moving.first, here + "vp");
-    moving.second = scene_.frames.to_parent(links_[k], moving.second, here + "ap");
-  }
-  moving.value = position;
-  return moving;
-}
+}  // namespace
 
-MovingVector InwardPath::direction(Vector3 v, const std::string& name) const {
-  MovingVector moving;
-  for (const std::size_t j : links_) {
+MovingVector moving_point(const Scene& scene, const PointPath& path, const std::string& name) {
+  MovingVector x;
+  for (std::size_t k = 0; k < path.links.size(); ++k) {
+    const std::size_t j = path.links[k];
     const std::string here = fmt::format("{}{}", name, j);
-    add_turning(j, v, moving, here);
-    v = scene_.frames.to_parent(j, v, here);
-    moving.first = scene_.frames.to_parent(j, moving.first, here + "vp");
-    moving.second = scene_.frames.to_parent(j, moving.second, here + "ap");
+    x.value = path.levers[k];
+    x = change_to_parent(scene, j, with_sliding(scene, j, with_turning(scene, j, x, here), here), here);
   }
-  moving.value = v;
-  return moving;
+  return {path.position, x.first, x.second};
+}
+
+MovingVector moving_direction(const Scene& scene, const PointPath& path, const Vector3& v_W,
+                              const std::string& name) {
+  MovingVector v{.value = v_W};
+  for (const std::size_t j : path.links) {
+    const std::string here = fmt::format("{}{}", name, j);
+    v = with_turning(scene, j, v, here);
+    v.value = scene.frames.to_parent(j, v.value, here);
+    v = change_to_parent(scene, j, v, here);
+  }
+  return v;
 }
 
 MovingVector operator-(const MovingVector& a, const MovingVector& b) {

@@ -1,10 +1,7 @@
 // Vectors fixed to a link, and how they change as seen from a link further in.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "dynamics/scene.hpp"
+#include "dynamics/points.hpp"
 
 namespace jourdain::dynamics {
 
@@ -14,26 +11,11 @@ struct MovingVector {
           second = kinematics::zero_vector();
 };
 
-/// From one link inward to an ancestor, which is left out.
-class InwardPath {
- public:
-  InwardPath(Scene& scene, std::size_t link, std::size_t ancestor);
-
-  /// Derivatives of a point with those positions from the origins of the links on the way, each in W; in W of
-  /// the ancestor.
-  MovingVector point(const std::vector<Vector3>& levers, const Vector3& position,
-                     const std::string& name) const;
-  /// A direction given in W of the outermost link.
-  MovingVector direction(Vector3 v, const std::string& name) const;
-
- private:
-  /// Adds what the motion of link j relative to its parent does to a vector with that value.
-  void add_turning(std::size_t j, const Vector3& value, MovingVector& moving, const std::string& name) const;
-  void add_sliding(std::size_t j, MovingVector& moving, const std::string& name) const;
-
-  Scene& scene_;
-  std::vector<std::size_t> links_;  ///< outermost first
-};
+/// The point at the end of a path, in W of the ancestor.
+MovingVector moving_point(const Scene& scene, const PointPath& path, const std::string& name);
+/// A direction given in W of the outermost link of a path, in W of the ancestor.
+MovingVector moving_direction(const Scene& scene, const PointPath& path, const Vector3& v_W,
+                              const std::string& name);
 
 MovingVector operator-(const MovingVector& a, const MovingVector& b);
 

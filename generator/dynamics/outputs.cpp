@@ -6,6 +6,8 @@
 
 #include "dynamics/accelerations.hpp"
 #include "dynamics/energy.hpp"
+#include "dynamics/free_root.hpp"
+#include "dynamics/wrenches.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::dynamics {
@@ -31,7 +33,7 @@ OutputValues matrix_values(const std::string& member, const std::vector<Vector3>
 /// A frame of the model with its way to the inertial frame.
 class FrameView {
  public:
-  FrameView(Scene& scene, const model::Frame& frame)
+  FrameView(const Scene& scene, const model::Frame& frame)
       : scene_(scene),
         name_(frame.name),
         pose_(frame_pose(scene, frame)),
@@ -87,10 +89,9 @@ class FrameView {
   Twist column_twist(std::size_t k, std::size_t j, std::size_t c) {
     const Twist& column = scene_.columns[j][c].twist;
     const std::string what = fmt::format("J{}_{}", j, c);
-    const bool free = scene_.tree.links[j].kind == kinematics::LinkKind::kFree;
-    if (free && c < 3) return {kinematics::zero_vector(), column.linear};
-    Vector3 lever = path_.levers[k];
-    if (free) lever = bind("lever", lever + scene_.tree.links[j].shift);
+    const kinematics::Link& link = scene_.tree.links[j];
+    if (is_free(link) && c < 3) return {kinematics::zero_vector(), column.linear};
+    const Vector3 lever = bind("lever", path_.levers[k] + link.shift);
     const Vector3 at_point = bind(what, column.linear + cross(column.angular, lever));
     Vector3 angular = column.angular;
     for (std::size_t inner = k; inner-- > 0;)
@@ -117,7 +118,7 @@ class FrameView {
     return v;
   }
 
-  Scene& scene_;
+  const Scene& scene_;
   std::string name_;
   kinematics::BodyPose pose_;
   PointPath path_;
@@ -125,7 +126,8 @@ class FrameView {
 
 class Outputs {
  public:
-  Outputs(Scene& scene, const Equations& equations, const std::vector<Ex>& zdot, const AppliedForces& applied)
+  Outputs(const Scene& scene, const Equations& equations, const std::vector<Ex>& zdot,
+          const AppliedForces& applied)
       : scene_(scene), statements_(scene.statements), equations_(equations), zdot_(zdot), applied_(applied) {}
 
   std::vector<OutputValues> derive(const model::Output& output) {
@@ -232,8 +234,8 @@ class Outputs {
     const kinematics::BodyPose& pose = scene_.tree.bodies[child.value];
     if (pose.link == kGround) return ground_reaction(carried, at, pose);
     std::vector<Wrench> wrenches = carried_wrenches(carried, at, fmt::format("react{}", joint.value));
-    const std::vector<Wrench> totals = accumulate_wrenches(scene_.tree, scene_.frames, wrenches,
-                                                           fmt::format("reacts{}", joint.value), statements_);
+    const std::vector<Wrench> totals =
+        accumulate_wrenches(scene_, wrenches, fmt::format("reacts{}", joint.value));
     return about_child(totals[pose.link], pose, fmt::format("react{}c", joint.value));
   }
 
@@ -241,8 +243,7 @@ class Outputs {
                                        const std::string& prefix) {
     std::vector<Wrench> wrenches(scene_.link_count());
     const auto add = [&](std::size_t link, const Wrench& wrench, const std::string& name) {
-      wrenches[link].force = statements_.bind(name + "sf", wrenches[link].force + wrench.force);
-      wrenches[link].moment = statements_.bind(name + "sn", wrenches[link].moment + wrench.moment);
+      wrenches[link] = bound(scene_, name + "s", wrenches[link] + wrench);
     };
     for (std::size_t b = 0; b < carried.size(); ++b) {
       const std::size_t link = scene_.tree.bodies[b].link;
@@ -253,8 +254,8 @@ class Outputs {
     for (std::size_t k = 0; k < applied_.on_bodies.size(); ++k) {
       const BodyWrench& applied = applied_.on_bodies[k];
       if (!carried[applied.body.value] || scene_.tree.bodies[applied.body.value].link == kGround) continue;
-      add(scene_.tree.bodies[applied.body.value].link,
-          {Ex(-1) * applied.wrench.force, Ex(-1) * applied.wrench.moment}, fmt::format("{}e{}", prefix, k));
+      add(scene_.tree.bodies[applied.body.value].link, Ex(-1) * applied.wrench,
+          fmt::format("{}e{}", prefix, k));
     }
     return wrenches;
   }
@@ -273,27 +274,23 @@ class Outputs {
   std::vector<OutputValues> ground_reaction(const std::vector<bool>& carried, const std::vector<Twist>& at,
                                             const kinematics::BodyPose& pose) {
     const std::string name = "react_ground";
-    std::vector<Wrench> totals = accumulate_wrenches(
-        scene_.tree, scene_.frames, carried_wrenches(carried, at, name), name + "s", statements_);
+    std::vector<Wrench> totals = accumulate_wrenches(scene_, carried_wrenches(carried, at, name), name + "s");
     Wrench sum;
     const Vector3 upward = Ex(-1) * scene_.tree.gravity;
     for (std::size_t b = 0; b < carried.size(); ++b) {
       if (!carried[b] || scene_.tree.bodies[b].link != kGround) continue;
       const kinematics::MassMoments& moments = scene_.tree.body_moments[b];
-      sum.force = statements_.bind(name + "gf", sum.force + moments.mass * upward);
-      sum.moment = statements_.bind(name + "gn", sum.moment + cross(moments.first, upward));
+      sum = bound(scene_, name + "g", sum + Wrench{moments.mass * upward, cross(moments.first, upward)});
     }
     for (const BodyWrench& applied : applied_.on_bodies) {
       if (!carried[applied.body.value] || scene_.tree.bodies[applied.body.value].link != kGround) continue;
-      sum.force = statements_.bind(name + "af", sum.force - applied.wrench.force);
-      sum.moment = statements_.bind(name + "an", sum.moment - applied.wrench.moment);
+      sum = bound(scene_, name + "a", sum + Ex(-1) * applied.wrench);
     }
     for (std::size_t i = 0; i < scene_.link_count(); ++i) {
       if (scene_.tree.links[i].parent != kGround) continue;
       const Vector3 f = scene_.frames.to_parent(i, totals[i].force, name + "tf");
       const Vector3 n = scene_.frames.to_parent(i, totals[i].moment, name + "tn");
-      sum.force = statements_.bind(name + "lf", sum.force + f);
-      sum.moment = statements_.bind(name + "ln", sum.moment + n + cross(scene_.frames.offset(i), f));
+      sum = bound(scene_, name + "l", sum + Wrench{f, n + cross(scene_.frames.r_CW(i), f)});
     }
     const Vector3 at_child = statements_.bind(name + "m", sum.moment - cross(pose.r_LB, sum.force));
     const Matrix3 R = transpose(pose.R_LB);
@@ -305,15 +302,12 @@ class Outputs {
   Ex drive(const model::Output& output) {
     const std::size_t link = scene_.link_of(output.joint, output.coordinate);
     const JointAccelerations motion = joint_accelerations(scene_, zdot_, Gravity::kAsAcceleration, "drive");
-    const InertiaForces inertia =
-        derive_inertia_forces(scene_.tree, scene_.frames, scene_.states, scene_.composites, scene_.omega,
-                              motion, "drive", statements_);
-    const std::vector<std::vector<Ex>> rows = derive_generalized_forces(
-        scene_.tree, scene_.frames, scene_.columns, inertia, applied_.on_link, "drive", statements_);
+    const std::vector<std::vector<Ex>> rows =
+        derive_generalized_forces(scene_, motion, applied_.on_link, "drive");
     return statements_.bind(output.name, rows[link][0] - applied_.along[link][0]);
   }
 
-  Scene& scene_;
+  const Scene& scene_;
   kinematics::Statements& statements_;
   const Equations& equations_;
   const std::vector<Ex>& zdot_;
@@ -322,7 +316,7 @@ class Outputs {
 
 }  // namespace
 
-std::vector<std::vector<OutputValues>> derive_outputs(Scene& scene, const Equations& equations,
+std::vector<std::vector<OutputValues>> derive_outputs(const Scene& scene, const Equations& equations,
                                                       const std::vector<Ex>& zdot,
                                                       const AppliedForces& applied) {
   Outputs outputs(scene, equations, zdot, applied);

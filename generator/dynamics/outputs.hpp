@@ -9,7 +9,7 @@
 namespace jourdain::dynamics {
 
 /// For each output of the mechanism its members; `zdot` are the accelerations that they take.
-std::vector<std::vector<OutputValues>> derive_outputs(Scene& scene, const Equations& equations,
+std::vector<std::vector<OutputValues>> derive_outputs(const Scene& scene, const Equations& equations,
                                                       const std::vector<Ex>& zdot,
                                                       const AppliedForces& applied);
 

@@ -9,17 +9,15 @@
 namespace jourdain::dynamics {
 
 using kinematics::kGround;
-using kinematics::Link;
 using kinematics::Statements;
 
-PointPath follow_point(Scene& scene, std::size_t link, const Vector3& x_L, std::size_t ancestor,
+PointPath follow_point(const Scene& scene, std::size_t link, const Vector3& x_L, std::size_t ancestor,
                        const std::string& name) {
   Statements& statements = scene.statements;
   PointPath path;
   path.position = link == kGround ? x_L : scene.frames.to_working(link, x_L, name + "x");
   path.velocity = kinematics::zero_vector();
   for (std::size_t j = link; j != ancestor; j = scene.tree.links[j].parent) {
-    const Link& at = scene.tree.links[j];
     path.links.push_back(j);
     path.levers.push_back(path.position);
     const Twist twist = scene.relative_twist(j);
@@ -27,19 +25,12 @@ PointPath follow_point(Scene& scene, std::size_t link, const Vector3& x_L, std::
     const std::string v = fmt::format("{}v{}", name, j), x = fmt::format("{}x{}", name, j);
     path.velocity = statements.bind(v, path.velocity + turned + twist.linear);
     path.velocity = scene.frames.to_parent(j, path.velocity, v + "p");
-    if (at.parallel || at.parent == kGround) {
-      const Vector3 moved = at.parallel ? path.position : scene.frames.rotation(j) * path.position;
-      path.position = statements.bind(x, moved + scene.frames.offset(j));
-    } else {
-      const Vector3 x_P =
-          statements.bind(x + "p", scene.frames.rotation(j) * path.position + scene.frames.offset(j));
-      path.position = scene.frames.to_working(at.parent, x_P, x);
-    }
+    path.position = scene.frames.point_to_parent(j, path.position, x);
   }
   return path;
 }
 
-std::vector<Vector3> carry_outward(Scene& scene, const PointPath& path, const Vector3& v,
+std::vector<Vector3> carry_outward(const Scene& scene, const PointPath& path, const Vector3& v,
                                    const std::string& name) {
   std::vector<Vector3> carried(path.links.size());
   Vector3 current = v;
@@ -57,7 +48,7 @@ std::size_t common_ancestor(const kinematics::LinkTree& tree, std::size_t a, std
   return kGround;
 }
 
-kinematics::BodyPose frame_pose(Scene& scene, const model::Frame& frame) {
+kinematics::BodyPose frame_pose(const Scene& scene, const model::Frame& frame) {
   kinematics::BodyPose pose;
   if (frame.body) pose = scene.tree.bodies[frame.body->value];
   Statements& statements = scene.statements;

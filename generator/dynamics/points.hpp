@@ -16,17 +16,17 @@ struct PointPath {
 };
 
 /// `x_L` in link axes from the link's origin.
-PointPath follow_point(Scene& scene, std::size_t link, const Vector3& x_L, std::size_t ancestor,
+PointPath follow_point(const Scene& scene, std::size_t link, const Vector3& x_L, std::size_t ancestor,
                        const std::string& name);
 
 /// A vector of W of the ancestor in the working frames of each of `path.links`.
-std::vector<Vector3> carry_outward(Scene& scene, const PointPath& path, const Vector3& v,
+std::vector<Vector3> carry_outward(const Scene& scene, const PointPath& path, const Vector3& v,
                                    const std::string& name);
 
 /// The last link that both are on or outward of; kGround where there is none.
 std::size_t common_ancestor(const kinematics::LinkTree& tree, std::size_t a, std::size_t b);
 
 /// Where a frame of the model sits in its link.
-kinematics::BodyPose frame_pose(Scene& scene, const model::Frame& frame);
+kinematics::BodyPose frame_pose(const Scene& scene, const model::Frame& frame);
 
 }  // namespace jourdain::dynamics

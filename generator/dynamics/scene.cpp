@@ -2,35 +2,46 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/free_root.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::dynamics {
 
-using kinematics::LinkKind;
-
 namespace {
 
-std::vector<std::vector<Column>> all_columns(const kinematics::LinkTree& tree,
-                                             const std::vector<kinematics::LinkState>& states,
-                                             const kinematics::WorkingFrames& frames) {
-  std::vector<std::vector<Column>> columns;
-  for (std::size_t i = 0; i < tree.links.size(); ++i)
-    columns.push_back(derive_columns(tree.links[i], states[i], frames, i));
-  return columns;
+AngularVelocities derive_angular_velocities(const kinematics::LinkTree& tree,
+                                            const kinematics::WorkingFrames& frames,
+                                            const std::vector<kinematics::LinkState>& states,
+                                            kinematics::Statements& statements) {
+  AngularVelocities omega;
+  for (std::size_t i = 0; i < tree.links.size(); ++i) {
+    const kinematics::Link& link = tree.links[i];
+    const std::string w = fmt::format("w{}", i);
+    omega.parent.push_back(link.parent == kinematics::kGround
+                               ? kinematics::zero_vector()
+                               : frames.from_parent(i, omega.own[link.parent], w + "p"));
+    omega.own.push_back(omega.parent[i]);
+    if (link.turns_about_z())
+      omega.own[i][2] = statements.bind(w + "_z", omega.parent[i][2] + states[i].rate);
+    if (link.has_quaternion()) omega.own[i] = statements.bind(w, omega.parent[i] + states[i].spin);
+  }
+  return omega;
 }
 
 }  // namespace
 
-Scene::Scene(const model::Mechanism& model, const kinematics::LinkTreeOptions& options)
+Scene::Scene(const model::Mechanism& model, const kinematics::LinkTreeOptions& options,
+             kinematics::Statements& record)
     : mechanism(model),
       layout(model::lay_out_coordinates(model)),
+      statements(record),
       leaves(model, layout, statements),
       tree(kinematics::build_link_tree(model, leaves.parameters, statements, options)),
       states(kinematics::derive_link_states(model, layout, tree, leaves, statements)),
       frames(tree, states, statements),
       composites(derive_composites(tree, frames, statements, [](std::size_t) { return Joins::kRigid; })),
       omega(derive_angular_velocities(tree, frames, states, statements)),
-      columns(all_columns(tree, states, frames)) {}
+      columns(derive_columns(tree, states, frames)) {}
 
 std::size_t Scene::link_of(model::JointIndex joint, std::size_t coordinate) const {
   for (std::size_t i = 0; i < tree.links.size(); ++i)
@@ -39,30 +50,19 @@ std::size_t Scene::link_of(model::JointIndex joint, std::size_t coordinate) cons
   return 0;
 }
 
-Twist Scene::relative_twist(std::size_t i) {
+Twist Scene::relative_twist(std::size_t i) const {
   const kinematics::Link& link = tree.links[i];
   const kinematics::LinkState& state = states[i];
   Twist twist;
   if (link.turns_about_z()) twist.angular[2] = state.rate;
   if (link.has_quaternion()) twist.angular = state.spin;
-  const std::string name = fmt::format("vrel{}", i);
-  if (link.kind == LinkKind::kFree) {
-    const Vector3 shifted = kinematics::cross(state.spin, link.shift);
-    twist.linear = statements.bind(name, transpose(frames.rotation(i)) * state.velocity + shifted);
-  } else {
-    twist.linear = statements.bind(name, state.rate * frames.direction(i));
-  }
+  const Vector3 linear = is_free(link) ? free_velocity(*this, i) : state.rate * frames.direction(i);
+  twist.linear = statements.bind(fmt::format("vrel{}", i), linear);
   return twist;
 }
 
-Ex Scene::value(const std::string& name, const model::Expression& expression) {
+Ex Scene::value(const std::string& name, const model::Expression& expression) const {
   return statements.bind(name, kinematics::to_symbolic(expression, leaves.parameters, statements));
-}
-
-Wrench to_external(Scene& scene, std::size_t link, const Wrench& wrench, const std::string& name) {
-  const Vector3 lever = kinematics::cross(scene.tree.links[link].shift, wrench.force);
-  return {scene.statements.bind(name + "f", scene.frames.rotation(link) * wrench.force),
-          scene.statements.bind(name + "n", wrench.moment + lever)};
 }
 
 }  // namespace jourdain::dynamics

@@ -3,20 +3,25 @@
 
 #include <vector>
 
-#include "dynamics/inertia_forces.hpp"
+#include "dynamics/composite.hpp"
 
 namespace jourdain::dynamics {
 
-using kinematics::Ex;
+/// ω of each link and of its parent, in the working frame of the link.
+struct AngularVelocities {
+  std::vector<Vector3> parent, own;
+};
 
-/// Members are the stages' results, filled in by the constructor in order; later stages bind more `statements`.
+/// Members are the stages' results, filled in by the constructor in order. What is derived from them binds more
+/// `statements`, and changes nothing else.
 struct Scene {
-  Scene(const model::Mechanism& mechanism, const kinematics::LinkTreeOptions& options);
+  Scene(const model::Mechanism& mechanism, const kinematics::LinkTreeOptions& options,
+        kinematics::Statements& statements);
   Scene(const Scene&) = delete;
 
   const model::Mechanism& mechanism;
   model::CoordinateLayout layout;
-  kinematics::Statements statements;
+  kinematics::Statements& statements;
   kinematics::Leaves leaves;
   kinematics::LinkTree tree;
   std::vector<kinematics::LinkState> states;
@@ -30,13 +35,9 @@ struct Scene {
   std::size_t link_of(model::JointIndex joint, std::size_t coordinate) const;
 
   /// Motion of a link relative to its parent, at the link's origin, in W. A free link's includes all its velocity.
-  Twist relative_twist(std::size_t link);
+  Twist relative_twist(std::size_t link) const;
 
-  Ex value(const std::string& name, const model::Expression& expression);
+  Ex value(const std::string& name, const model::Expression& expression) const;
 };
-
-/// Rows of a free link (force and moment about the origin of L, in W) as those of its velocities v (inertial frame) and
-/// ω (child axes) of the child's origin.
-Wrench to_external(Scene& scene, std::size_t link, const Wrench& wrench, const std::string& name);
 
 }  // namespace jourdain::dynamics

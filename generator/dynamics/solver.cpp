@@ -5,6 +5,7 @@
 #include "dynamics/absolute_rates.hpp"
 #include "dynamics/articulated.hpp"
 #include "dynamics/energy.hpp"
+#include "dynamics/wrenches.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::dynamics {
@@ -29,7 +30,7 @@ enum class Basis { kJoints, kLinks };
 
 class Solver {
  public:
-  Solver(Scene& scene, const ArticulatedLinks& articulated, const std::vector<Ex>& b, Basis basis)
+  Solver(const Scene& scene, const ArticulatedLinks& articulated, const std::vector<Ex>& b, Basis basis)
       : scene_(scene),
         basis_(basis),
         statements_(scene.statements),
@@ -38,10 +39,8 @@ class Solver {
         rows_(count_),
         H_(count_, std::vector<Ex>(count_, 0)),
         L_(H_),
-        inertia_(scene.link_count()),
-        in_link_(scene.link_count()),
-        force_(scene.link_count()),
-        force_in_link_(scene.link_count()),
+        inertias_(scene.frames),
+        forces_(scene.frames),
         x_(count_) {
     for (std::size_t k = 0; k < count_; ++k) rows_[k].u = b[k];
     rigid_ = derive_composites(scene.tree, scene.frames, statements_, [this](std::size_t i) {
@@ -78,15 +77,7 @@ class Solver {
 
   /// Moved, but not turned, by its parent.
   bool is_carried_along(std::size_t i) const {
-    return basis_ == Basis::kLinks && turns_beside_parent(scene_.tree, i);
-  }
-
-  Wrench bound(const std::string& name, const Wrench& wrench) {
-    return {statements_.bind(name + "f", wrench.force), statements_.bind(name + "n", wrench.moment)};
-  }
-
-  Wrench scaled(const Ex& factor, const Wrench& wrench, const std::string& name) {
-    return bound(name, {factor * wrench.force, factor * wrench.moment});
+    return basis_ == Basis::kLinks && scene_.tree.turns_beside_parent(i);
   }
 
   /// Entries of M among the columns of a bundle, and their momenta on its head.
@@ -98,7 +89,7 @@ class Solver {
       row.link = i;
       row.column = c;
       if (articulated_[i]) continue;
-      Wrench moving = bound(named("p", i, *column.entry), momentum(rigid_[i], column.twist));
+      Wrench moving = bound(scene_, named("p", i, *column.entry), momentum(rigid_[i], column.twist));
       std::size_t j = i;
       for (; j != kGround && !articulated_[j]; j = scene_.tree.links[j].parent) {
         for (std::size_t d = scene_.columns[j].size(); d-- > 0;) {
@@ -110,8 +101,7 @@ class Solver {
         }
         if (is_carried_along(j)) moving.moment = kinematics::zero_vector();
         if (scene_.tree.links[j].parent != kGround)
-          moving =
-              to_parent(scene_.tree, scene_.frames, j, moving, named("p", *column.entry, j), statements_);
+          moving = to_parent(scene_, j, moving, named("p", *column.entry, j));
       }
       row.head = j;
       if (j != kGround) row.G = moving;
@@ -138,74 +128,51 @@ class Solver {
         const std::size_t j = row.inward[next];
         H_[i][j] = statements_.bind(fmt::format("H{}_{}_{}", k, i, j), H_[i][j] - L_[k][i] * H_[k][j]);
       }
-      const std::string name = named("G", k, i);
-      rows_[i].G.force = statements_.bind(name + "f", rows_[i].G.force - L_[k][i] * row.G.force);
-      rows_[i].G.moment = statements_.bind(name + "n", rows_[i].G.moment - L_[k][i] * row.G.moment);
+      rows_[i].G = bound(scene_, named("G", k, i), rows_[i].G + -L_[k][i] * row.G);
     }
     for (const std::size_t i : row.inward)
       rows_[i].u = statements_.bind(named("u", k, i), rows_[i].u - L_[k][i] * row.u);
     if (row.head == kGround) return;
-    row.share = scaled(row.inverse_D, row.G, fmt::format("GD{}", k));
-    inertia_[row.head] =
-        reduced(inertia_[row.head], row.G, row.share, fmt::format("I{}_{}", row.head, k), statements_);
-    add(force_[row.head], row.share, row.u, fmt::format("f{}_{}", row.head, k));
-  }
-
-  void add(Wrench& total, const Wrench& share, const Ex& u, const std::string& name) {
-    total.force = statements_.bind(name + "f", total.force + u * share.force);
-    total.moment = statements_.bind(name + "n", total.moment + u * share.moment);
+    row.share = bound(scene_, fmt::format("GD{}", k), row.inverse_D * row.G);
+    ArticulatedInertia& inertia = inertias_.in_W[row.head];
+    inertia = reduced(inertia, row.G, row.share, fmt::format("I{}_{}", row.head, k), statements_);
+    Wrench& force = forces_.in_W[row.head];
+    force = bound(scene_, fmt::format("f{}_{}", row.head, k), force + row.u * row.share);
   }
 
   /// Eliminates the joint of an articulated link and hands what is left of its inertia and force to its parent.
   void give_way(std::size_t i) {
     const Link& link = scene_.tree.links[i];
     const std::string name = fmt::format("I{}", i);
-    ArticulatedInertia inertia = sum(rigid_inertia(rigid_[i]), inertia_[i], name + "r", statements_);
+    ArticulatedInertia inertia = sum(rigid_inertia(rigid_[i]), inertias_.in_W[i], name + "r", statements_);
     inertia = sum(inertia,
-                  turned_to_working(in_link_[i], scene_.frames.cosine(i), scene_.frames.sine(i), name + "w",
-                                    statements_),
+                  turned_to_working(inertias_.in_L[i], scene_.frames.cosine(i), scene_.frames.sine(i),
+                                    name + "w", statements_),
                   name + "s", statements_);
-    Wrench& force = force_[i];
-    const Wrench& outer = force_in_link_[i];
-    force.force =
-        statements_.bind(name + "ff", force.force + scene_.frames.to_working(i, outer.force, name + "f"));
-    force.moment =
-        statements_.bind(name + "fn", force.moment + scene_.frames.to_working(i, outer.moment, name + "n"));
+    Wrench force = gather(scene_, i, forces_, {name + "ff", name + "fn"}, {name + "f", name + "n"});
     for (std::size_t c = scene_.columns[i].size(); c-- > 0;) {
       const Column& column = scene_.columns[i][c];
       if (!column.entry) continue;
       Row& row = rows_[*column.entry];
       const std::string step = named("U", i, c);
-      row.G = bound(step, product(inertia, column.twist));
+      row.G = bound(scene_, step, product(inertia, column.twist));
       const Ex D =
           statements_.bind(step + "D", power(row.G, column.twist) + H_[*column.entry][*column.entry]);
       row.inverse_D = statements_.bind(step + "i", 1 / D);
-      row.share = scaled(row.inverse_D, row.G, step + "s");
+      row.share = bound(scene_, step + "s", row.inverse_D * row.G);
       row.u = statements_.bind(step + "u", row.u - power(force, column.twist));
       if (link.parent == kGround && c == 0) break;
       const bool rotor = !H_[*column.entry][*column.entry].is_zero();
       inertia = rotor ? reduced(inertia, row.G, row.share, step + "I", statements_)
                       : dynamics::give_way(inertia, row.G, row.share, column.twist, step + "I", statements_);
-      add(force, row.share, row.u, step + "f");
+      force = bound(scene_, step + "f", force + row.u * row.share);
     }
     if (link.parent == kGround) return;
-    const ArticulatedInertia moved =
-        moved_to_parent(link, scene_.frames, i, inertia, name + "p", statements_);
-    ArticulatedInertia& target = link.parallel ? inertia_[link.parent] : in_link_[link.parent];
-    target = sum(target, moved, name + "c", statements_);
-    hand_force_inward(i, force);
-  }
-
-  void hand_force_inward(std::size_t i, const Wrench& force) {
-    const Link& link = scene_.tree.links[i];
-    const std::string name = fmt::format("hand{}", i);
-    Wrench moved = force;
-    if (!link.parallel)
-      moved = bound(name + "R",
-                    {scene_.frames.rotation(i) * force.force, scene_.frames.rotation(i) * force.moment});
-    moved.moment = moved.moment + kinematics::cross(scene_.frames.offset(i), moved.force);
-    Wrench& target = link.parallel ? force_[link.parent] : force_in_link_[link.parent];
-    target = bound(name, {target.force + moved.force, target.moment + moved.moment});
+    ArticulatedInertia& target = inertias_.joined_by(i, scene_.frames);
+    target = sum(target, moved_to_parent(scene_.frames, i, inertia, name + "p", statements_), name + "c",
+                 statements_);
+    const std::string hand = fmt::format("hand{}", i);
+    hand_inward(scene_, i, force, {hand + "f", hand + "n"}, {hand + "Rf", hand + "Rn"}, forces_);
   }
 
   /// Acceleration of an articulated link: its parent's field at its origin, then column by column.
@@ -229,17 +196,13 @@ class Solver {
   }
 
   Twist from_parent(std::size_t i, const std::string& name) {
-    const Link& link = scene_.tree.links[i];
-    const std::size_t p = link.parent;
-    const Twist& outer = accelerations_[p];
-    const bool parallel = link.parallel;
-    const Vector3 alpha = parallel ? outer.angular : scene_.frames.to_link(p, outer.angular, name + "al");
-    const Vector3 a = parallel ? outer.linear : scene_.frames.to_link(p, outer.linear, name + "a");
-    const Vector3 at_origin =
-        statements_.bind(name + "o", a + kinematics::cross(alpha, scene_.frames.offset(i)));
-    if (parallel) return {alpha, at_origin};
-    const Matrix3 R = transpose(scene_.frames.rotation(i));
-    return {statements_.bind(name + "W", R * alpha), statements_.bind(name + "w", R * at_origin)};
+    const kinematics::WorkingFrames& frames = scene_.frames;
+    const Twist& outer = accelerations_[scene_.tree.links[i].parent];
+    const Vector3 alpha_C = frames.from_parent_to_C(i, outer.angular, name + "al");
+    const Vector3 a_C = frames.from_parent_to_C(i, outer.linear, name + "a");
+    const Vector3 at_origin = statements_.bind(name + "o", a_C + kinematics::cross(alpha_C, frames.r_CW(i)));
+    const Vector3 alpha = frames.from_C_to_W(i, alpha_C, name + "W");
+    return {alpha, frames.from_C_to_W(i, at_origin, name + "w")};
   }
 
   void substitute(std::size_t k) {
@@ -251,7 +214,7 @@ class Solver {
     x_[k] = statements_.bind(fmt::format("zdot_{}", k), sum);
   }
 
-  Scene& scene_;
+  const Scene& scene_;
   Basis basis_;
   kinematics::Statements& statements_;
   const ArticulatedLinks& articulated_;
@@ -259,20 +222,20 @@ class Solver {
   std::vector<Row> rows_;               // by entry of z
   std::vector<std::vector<Ex>> H_, L_;  // lower triangle: remainder of M within bundles, and its factor
   std::vector<CompositeBody> rigid_;    // bundles, without what is outward of articulated links
-  std::vector<ArticulatedInertia> inertia_, in_link_;  // from outward, in W and in L
-  std::vector<Wrench> force_, force_in_link_;
+  kinematics::InwardSums<ArticulatedInertia> inertias_;  // from outward
+  WrenchSums forces_;
   std::vector<Twist> accelerations_;
   std::vector<Ex> x_;
 };
 
 }  // namespace
 
-std::vector<Ex> solve_accelerations(Scene& scene, const ArticulatedLinks& articulated,
+std::vector<Ex> solve_accelerations(const Scene& scene, const ArticulatedLinks& articulated,
                                     const std::vector<Ex>& b) {
   return Solver(scene, articulated, b, Basis::kJoints).solve();
 }
 
-std::vector<Ex> solve_planar_accelerations(Scene& scene, const std::vector<Ex>& u) {
+std::vector<Ex> solve_planar_accelerations(const Scene& scene, const std::vector<Ex>& u) {
   const ArticulatedLinks none(scene.link_count(), false);
   return joint_rates_of(scene, Solver(scene, none, u, Basis::kLinks).solve());
 }

@@ -16,10 +16,10 @@ using ArticulatedLinks = std::vector<bool>;
 
 /// M with the rotors' inertia, and `b` one per entry of z, both in internal coordinates (the velocity of a
 /// free link along its W, at the origin of L). Binds the factorisation and the solution.
-std::vector<Ex> solve_accelerations(Scene& scene, const ArticulatedLinks& articulated,
+std::vector<Ex> solve_accelerations(const Scene& scene, const ArticulatedLinks& articulated,
                                     const std::vector<Ex>& b);
 
 /// dz/dt where the scene moves_in_planes, through the accelerations of links; `u` by planar_forces.
-std::vector<Ex> solve_planar_accelerations(Scene& scene, const std::vector<Ex>& u);
+std::vector<Ex> solve_planar_accelerations(const Scene& scene, const std::vector<Ex>& u);
 
 }  // namespace jourdain::dynamics

@@ -16,7 +16,7 @@ struct Stretch {
   Ex length_squared, length, rate;
 };
 
-Stretch stretch_of(Scene& scene, const model::Spring& spring) {
+Stretch stretch_of(const Scene& scene, const model::Spring& spring) {
   kinematics::Statements& statements = scene.statements;
   const std::string& name = spring.name;
   Stretch s;
@@ -34,14 +34,14 @@ Stretch stretch_of(Scene& scene, const model::Spring& spring) {
   return s;
 }
 
-Ex law_value(Scene& scene, const std::string& name, const model::Expression& law, const Stretch& s) {
+Ex law_value(const Scene& scene, const std::string& name, const model::Expression& law, const Stretch& s) {
   return scene.statements.bind(
       name, kinematics::to_symbolic(law, scene.leaves.parameters, scene.statements,
                                     [&](const Variable& v) { return v.component == 0 ? s.length : s.rate; }));
 }
 
 /// Tension over length: the force on `to` is −that Δr, on `from` +that Δr.
-Ex tension_per_length(Scene& scene, const model::Spring& spring, const Stretch& s) {
+Ex tension_per_length(const Scene& scene, const model::Spring& spring, const Stretch& s) {
   Ex stiffness = scene.value("stiffness", spring.stiffness);
   const Ex damping = scene.value("damping", spring.damping);
   const Ex free_length = scene.value("free_length", spring.free_length);
@@ -64,7 +64,7 @@ void add_forces(const model::Spring& spring, ForceSum& sum) {
   sum.act(frames[spring.to.value], s.to, {Ex(-1) * pull, zero}, spring.name + "fb");
 }
 
-Ex potential(const model::Spring& spring, Scene& scene) {
+Ex potential(const model::Spring& spring, const Scene& scene) {
   const Stretch s = stretch_of(scene, spring);
   const Ex stiffness = scene.value("half_stiffness", spring.stiffness) / 2;
   const Ex elastic =

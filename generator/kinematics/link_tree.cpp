@@ -27,6 +27,11 @@ MassMoments moved(const MassMoments& moments, const Matrix3& R, const Vector3& r
   return {moments.mass, statements.bind("h", h + mr), statements.bind_symmetric("S", turned + shift)};
 }
 
+bool LinkTree::turns_beside_parent(std::size_t i) const {
+  const Link& link = links[i];
+  return link.kind == LinkKind::kTurn && link.parallel && links[link.parent].kind == LinkKind::kTurn;
+}
+
 namespace {
 
 MassMoments bind_moments(Statements& statements, const std::string& name, const MassMoments& moments) {

@@ -2,6 +2,7 @@
 // axes, inertial parameters regrouped.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,12 @@ struct LinkTree {
   std::vector<BodyPose> bodies;  ///< by BodyIndex
   std::vector<MassMoments>
       body_moments;  ///< by BodyIndex, about the origin of the body's link, before regrouping
+
+  std::size_t link_of(std::optional<model::BodyIndex> body) const {
+    return body ? bodies[body->value].link : kGround;
+  }
+  /// Does a link turn about an axis parallel to that of its parent? Its rate is then that of the link itself.
+  bool turns_beside_parent(std::size_t link) const;
 };
 
 struct LinkTreeOptions {

@@ -62,6 +62,8 @@ inline Matrix3 transpose(const Matrix3& A) {
   return T;
 }
 
+inline bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
+
 inline Ex dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 inline Vector3 cross(const Vector3& a, const Vector3& b) {

@@ -4,7 +4,6 @@
 
 namespace jourdain::kinematics {
 
-using GiNaC::ex_to;
 using GiNaC::is_a;
 
 bool is_number(const Ex& value) { return is_a<GiNaC::numeric>(value); }
@@ -24,6 +23,12 @@ Ex Statements::bind(const std::string& name, const Ex& value) {
 
 Vector3 Statements::bind(const std::string& name, const Vector3& value) {
   return {bind(name + "_x", value[0]), bind(name + "_y", value[1]), bind(name + "_z", value[2])};
+}
+
+Matrix3 Statements::bind(const std::string& name, const Matrix3& value) {
+  Matrix3 bound;
+  for (std::size_t i = 0; i < 3; ++i) bound[i] = bind(fmt::format("{}{}", name, i), value[i]);
+  return bound;
 }
 
 Matrix3 Statements::bind_symmetric(const std::string& name, const Matrix3& value) {

@@ -34,6 +34,8 @@ class Statements {
   /// Binds `value` to a new symbol and returns that; numbers, symbols and negated symbols come back as they are.
   Ex bind(const std::string& name, const Ex& value);
   Vector3 bind(const std::string& name, const Vector3& value);
+  /// Binds a matrix row by row.
+  Matrix3 bind(const std::string& name, const Matrix3& value);
   /// Binds the upper triangle of a symmetric matrix.
   Matrix3 bind_symmetric(const std::string& name, const Matrix3& value);
 

@@ -18,10 +18,9 @@ Matrix3 quaternion_matrix(const std::array<Ex, 4>& q, const std::string& name, S
   const Ex xx = twice(1, 1), yy = twice(2, 2), zz = twice(3, 3);
   const Ex xy = twice(1, 2), xz = twice(1, 3), yz = twice(2, 3);
   const Ex wx = twice(0, 1), wy = twice(0, 2), wz = twice(0, 3);
-  Matrix3 R = {
+  const Matrix3 R = {
       {{1 - yy - zz, xy - wz, xz + wy}, {xy + wz, 1 - xx - zz, yz - wx}, {xz - wy, yz + wx, 1 - xx - yy}}};
-  for (std::size_t i = 0; i < 3; ++i) R[i] = statements.bind(fmt::format("{}r{}", name, i), R[i]);
-  return R;
+  return statements.bind(name + "r", R);
 }
 
 }  // namespace
@@ -32,12 +31,11 @@ WorkingFrames::WorkingFrames(const LinkTree& tree, const std::vector<LinkState>&
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     const Link& link = tree.links[i];
     set_angle(i, states[i]);
-    Matrix3 R = link.R_PL;
+    R_CW_.push_back(link.R_PL);
     if (link.has_quaternion()) {
-      R = R * quaternion_matrix(states[i].quaternion, fmt::format("q{}", i), statements);
-      for (std::size_t k = 0; k < 3; ++k) R[k] = statements.bind(fmt::format("R{}_{}", i, k), R[k]);
+      const Matrix3 R_LW = quaternion_matrix(states[i].quaternion, fmt::format("q{}", i), statements);
+      R_CW_[i] = statements.bind(fmt::format("R{}_", i), link.R_PL * R_LW);
     }
-    rotation_.push_back(R);
     set_translation(i, states[i]);
   }
 }
@@ -69,14 +67,14 @@ void WorkingFrames::set_translation(std::size_t i, const LinkState& state) {
     direction = statements_.bind(name + "d", link.R_PJ * state.slope);
     curvature = statements_.bind(name + "dd", link.R_PJ * state.curvature);
   }
-  if (link.kind == LinkKind::kFree) offset = state.origin + rotation_[i] * link.shift;
+  if (link.kind == LinkKind::kFree) offset = state.origin + R_CW_[i] * link.shift;
   if (link.parallel) offset = to_working(link.parent, offset, name);
   if (link.moves_along_z()) {
     direction[2] = link.kind == LinkKind::kScrew ? link.pitch : Ex(1);
     const Ex travel = statements_.bind(name + "t", direction[2] * state.position);
     for (std::size_t k = 0; k < 3; ++k) offset[k] = offset[k] + link.R_PL[k][2] * travel;
   }
-  offset_.push_back(statements_.bind(name, offset));
+  r_CW_.push_back(statements_.bind(name, offset));
   direction_.push_back(direction);
   curvature_.push_back(curvature);
 }
@@ -88,22 +86,15 @@ Vector3 WorkingFrames::to_working(std::size_t link, const Vector3& v, const std:
 }
 
 Vector3 WorkingFrames::to_link(std::size_t link, const Vector3& v, const std::string& name) const {
+  if (link == kGround) return v;
   const Ex &c = cosine_[link], &s = sine_[link];
   return statements_.bind(name, Vector3{c * v[0] + s * v[1], c * v[1] - s * v[0], v[2]});
 }
 
-Vector3 WorkingFrames::from_parent(std::size_t link, const Vector3& v, const std::string& name) const {
-  const Link& to = tree_.links[link];
-  if (to.parallel) return v;
-  const Vector3 v_P = to.parent == kGround ? v : to_link(to.parent, v, name + "p");
-  return statements_.bind(name, transpose(rotation_[link]) * v_P);
-}
-
-Vector3 WorkingFrames::to_parent(std::size_t link, const Vector3& v, const std::string& name) const {
-  const Link& from = tree_.links[link];
-  if (from.parallel) return v;
-  const Vector3 v_P = statements_.bind(name + "p", rotation_[link] * v);
-  return from.parent == kGround ? v_P : to_working(from.parent, v_P, name);
+Vector3 WorkingFrames::point_to_parent(std::size_t link, const Vector3& x, const std::string& name) const {
+  const bool in_parent = meets_in_W(link) || parent(link) == kGround;
+  const Vector3 x_C = statements_.bind(in_parent ? name : name + "p", R_CW_[link] * x + r_CW_[link]);
+  return from_C_to_parent(link, x_C, name);
 }
 
 }  // namespace jourdain::kinematics

@@ -71,7 +71,8 @@ TEST(PlanarTrees, MoveAlikeByAccelerationsOfLinksAndOfJoints) {
     const model::Mechanism mechanism = read_scene(planar_tree(seed));
     dynamics::DerivationOptions links;
     links.planar = true;
-    by_links += dynamics::moves_in_planes(dynamics::Scene(mechanism, {}));
+    kinematics::Statements statements;
+    by_links += dynamics::moves_in_planes(dynamics::Scene(mechanism, {}, statements));
     const ir::Program found = lower_accelerations(mechanism, links),
                       wanted = lower_accelerations(mechanism, {});
     for (const validate::Sample& sample : validate::draw_samples(mechanism, 3)) {

@@ -13,7 +13,8 @@ namespace {
 /// Links articulated down to a random depth in each branch, with every link its parent.
 std::vector<bool> random_articulation(const model::Mechanism& mechanism, std::uint64_t seed) {
   tests::Random random(seed);
-  const Scene scene(mechanism, {});
+  kinematics::Statements statements;
+  const Scene scene(mechanism, {}, statements);
   std::vector<bool> articulated;
   for (const kinematics::Link& link : scene.tree.links)
     articulated.push_back((link.parent == kinematics::kGround || articulated[link.parent]) &&

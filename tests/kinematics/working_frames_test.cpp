@@ -43,7 +43,7 @@ class FramesAt {
   std::array<double, 3> from_parent(std::size_t i, const Vector3& v) {
     return numbers(frames_.from_parent(i, v, "v"));
   }
-  std::array<double, 3> offset(std::size_t i) { return numbers(frames_.offset(i)); }
+  std::array<double, 3> r_CW(std::size_t i) { return numbers(frames_.r_CW(i)); }
 
  private:
   std::array<double, 3> numbers(const Vector3& v) const {
@@ -109,7 +109,7 @@ TEST(WorkingFrames, ParallelAxesAddTheirAnglesWithTheirSigns) {
   EXPECT_TRUE(frames.link(1).parallel);
   EXPECT_NEAR(frames.sine(1), std::sin(0.7 - 0.2), kRounding);
   EXPECT_NEAR(frames.cosine(1), std::cos(0.7 - 0.2), kRounding);
-  expect_near(frames.offset(1), {2 * std::cos(0.7), 2 * std::sin(0.7), 0});
+  expect_near(frames.r_CW(1), {2 * std::cos(0.7), 2 * std::sin(0.7), 0});
   expect_near(frames.to_parent(1, {1, 2, 3}), {1, 2, 3});
 }
 
@@ -123,15 +123,15 @@ TEST(WorkingFrames, ATurnAboutXComesBackThroughItsOrientation) {
 
 TEST(WorkingFrames, ASlideMovesItsOriginAlongItsAxis) {
   FramesAt up(tests::one_body("mass = 1", "type = \"prismatic\"\naxis = [0, 0, 1]"), {0.7});
-  expect_near(up.offset(0), {0, 0, 0.7});
+  expect_near(up.r_CW(0), {0, 0, 0.7});
   FramesAt down(tests::one_body("mass = 1", "type = \"prismatic\"\naxis = [0, 0, -1]"), {0.7});
-  expect_near(down.offset(0), {0, 0, -0.7});
+  expect_near(down.r_CW(0), {0, 0, -0.7});
 }
 
 TEST(WorkingFrames, AScrewTurnsAndMovesByItsPitch) {
   FramesAt frames(tests::one_body("mass = 1\ncenter_of_mass = [1, 0, 0]", "type = \"screw\"\npitch = 0.25"),
                   {0.8});
-  expect_near(frames.offset(0), {0, 0, 0.2});
+  expect_near(frames.r_CW(0), {0, 0, 0.2});
   expect_near(frames.to_working(0, {1, 0, 0}), {std::cos(0.8), std::sin(0.8), 0});
 }
 
