@@ -7,6 +7,7 @@
 
 #include "studies/amplification.hpp"
 #include "studies/linearisation.hpp"
+#include "studies/spectra.hpp"
 
 namespace jourdain::commands {
 

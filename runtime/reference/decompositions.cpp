@@ -31,6 +31,11 @@ MatrixX<Scalar> inverse(const MatrixX<Scalar>& A) {
 }
 
 template <class Scalar>
+MatrixX<Scalar> pivoted_inverse(const MatrixX<Scalar>& A) {
+  return Eigen::FullPivLU<MatrixX<Scalar>>(A).inverse();
+}
+
+template <class Scalar>
 Scalar determinant(const MatrixX<Scalar>& A) {
   return A.rows() == 0 ? Scalar(1) : A.partialPivLu().determinant();
 }
@@ -118,25 +123,32 @@ MatrixX<Scalar> positive_inverse(const MatrixX<Scalar>& A) {
 // NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
 #define JOURDAIN_INSTANTIATE(S)                                                        \
   template VectorX<S> solved_by_lu(const MatrixX<S>&, const VectorX<S>&);              \
-  template MatrixX<S> solved_by_lu(const MatrixX<S>&, const MatrixX<S>&);              \
   template MatrixX<S> inverse(const MatrixX<S>&);                                      \
   template S determinant(const MatrixX<S>&);                                           \
   template VectorX<S> solved_by_ldlt(const MatrixX<S>&, const VectorX<S>&);            \
-  template MatrixX<S> solved_by_ldlt(const MatrixX<S>&, const MatrixX<S>&);            \
   template PivotedSolution<S> solved_by_full_lu(const MatrixX<S>&, const VectorX<S>&); \
   template VectorX<S> least_squares(const MatrixX<S>&, const VectorX<S>&);             \
-  template VectorX<S> least_norm(const MatrixX<S>&, const VectorX<S>&, S);             \
   template std::vector<Eigen::Index> pivoted_columns(const MatrixX<S>&);               \
   template MatrixX<S> orthogonal_factor(const MatrixX<S>&);                            \
   template VectorX<S> singular_values(const MatrixX<S>&);                              \
   template MatrixX<S> left_singular_vectors(const MatrixX<S>&);                        \
   template MatrixX<S> range(const MatrixX<S>&, S);                                     \
-  template MatrixX<S> null_space(const MatrixX<S>&, S);                                \
-  template Eigenpairs<S> symmetric_eigenpairs(const MatrixX<S>&);                      \
   template S largest_eigenvalue(const MatrixX<S>&);                                    \
   template MatrixX<S> positive_inverse(const MatrixX<S>&);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)
+
+// What one kind of number alone is asked for.
+#ifdef JOURDAIN_LONG_DOUBLE
+template MatrixX<long double> solved_by_ldlt(const MatrixX<long double>&, const MatrixX<long double>&);
+template VectorX<long double> least_norm(const MatrixX<long double>&, const VectorX<long double>&,
+                                         long double);
+template MatrixX<long double> null_space(const MatrixX<long double>&, long double);
+template Eigenpairs<long double> symmetric_eigenpairs(const MatrixX<long double>&);
+#else
+template MatrixX<double> solved_by_lu(const MatrixX<double>&, const MatrixX<double>&);
+template MatrixX<double> pivoted_inverse(const MatrixX<double>&);
+#endif
 
 }  // namespace jourdain::reference

@@ -20,6 +20,9 @@ template <class Scalar>
 MatrixX<Scalar> solved_by_lu(const MatrixX<Scalar>& A, const MatrixX<Scalar>& B);
 template <class Scalar>
 MatrixX<Scalar> inverse(const MatrixX<Scalar>& A);
+/// By LU with full pivoting.
+template <class Scalar>
+MatrixX<Scalar> pivoted_inverse(const MatrixX<Scalar>& A);
 /// 1 of an empty matrix.
 template <class Scalar>
 Scalar determinant(const MatrixX<Scalar>& A);

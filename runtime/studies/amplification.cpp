@@ -52,7 +52,7 @@ double largest_root(const std::vector<double>& weights, Complex x) {
   for (Eigen::Index j = 0; j < s; ++j) companion(0, j) = x * weights[std::size_t(j)];
   companion(0, 0) += 1.0;
   for (Eigen::Index j = 1; j < s; ++j) companion(j, j - 1) = 1;
-  return eigenvalues(companion).cwiseAbs().maxCoeff();
+  return spectral_radius(companion);
 }
 
 /// First argument at which `unstable` holds, searched from `first` to `last` in ratios of `factor`, then by bisection.
@@ -102,8 +102,6 @@ MatrixXd step_matrix(const StabilityFunction& function, const MatrixXd& A, doubl
     value = h * A * value + function.numerator[k] * identity;
   return value;
 }
-
-double spectral_radius(const MatrixXd& matrix) { return eigenvalues(matrix).cwiseAbs().maxCoeff(); }
 
 double step_limit(const StabilityFunction& function, Complex mu, Allowance allowed) {
   const double speed = std::abs(mu);

@@ -30,9 +30,6 @@ double amplification(const StabilityFunction& function, std::complex<double> x);
 /// polynomial, and partitioned ones.
 Eigen::MatrixXd step_matrix(const StabilityFunction& function, const Eigen::MatrixXd& A, double h);
 
-/// Largest |eigenvalue|.
-double spectral_radius(const Eigen::MatrixXd& matrix);
-
 /// What a mode may do in a step before it counts as unstable: |R(hµ)| ≤ exp(`growth` h) (1 + tolerance).
 struct Allowance {
   double growth = 0;  ///< 1/s

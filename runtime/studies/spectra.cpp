@@ -1,7 +1,9 @@
 #include "studies/spectra.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include "reference/decompositions.hpp"
 
 namespace jourdain::studies {
 
@@ -9,22 +11,41 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
+namespace {
+
+/// (Re −Im; Im Re): what it does to (Re x; Im x) is what A does to x.
+MatrixXd real_form(const MatrixXcd& A) {
+  MatrixXd real(2 * A.rows(), 2 * A.cols());
+  real << A.real(), -A.imag(), A.imag(), A.real();
+  return real;
+}
+
+}  // namespace
+
 Spectrum spectrum(const MatrixXd& A) {
   const Eigen::EigenSolver<MatrixXd> solver(A);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-VectorXcd eigenvalues(const MatrixXd& A) { return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues(); }
-
-VectorXcd eigenvalues(const MatrixXcd& A) {
-  return Eigen::ComplexEigenSolver<MatrixXcd>(A, false).eigenvalues();
+double spectral_radius(const MatrixXd& A) {
+  return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues().cwiseAbs().maxCoeff();
 }
+
+double spectral_radius(const MatrixXcd& A) { return spectral_radius(real_form(A)); }
 
 Eigen::VectorXd singular_values(const MatrixXcd& A) {
-  return Eigen::JacobiSVD<MatrixXcd>(A).singularValues();
+  const Eigen::VectorXd twice = reference::singular_values<double>(real_form(A));
+  return twice(Eigen::seqN(0, twice.size() / 2, 2));
 }
 
-MatrixXcd inverse(const MatrixXcd& A) { return A.fullPivLu().inverse(); }
+MatrixXcd inverse(const MatrixXcd& A) {
+  const Eigen::Index n = A.rows();
+  const MatrixXd real = reference::pivoted_inverse<double>(real_form(A));
+  MatrixXcd inverse(n, n);
+  inverse.real() = real.topLeftCorner(n, n);
+  inverse.imag() = real.bottomLeftCorner(n, n);
+  return inverse;
+}
 
 MatrixXd exponential(const MatrixXd& A) { return A.exp(); }
 

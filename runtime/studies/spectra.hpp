@@ -1,5 +1,6 @@
-// Decompositions that need complex numbers, and the matrix exponential, compiled once: see
-// reference/decompositions.hpp.
+// Decompositions of and into complex matrices, and the matrix exponential, compiled once: see
+// reference/decompositions.hpp. Complex matrices are taken as real ones of twice the size: Eigen's templates for them take
+// fifteen seconds to compile.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +13,10 @@ struct Spectrum {
   Eigen::MatrixXcd vectors;
 };
 Spectrum spectrum(const Eigen::MatrixXd& A);
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXcd& A);
+
+/// Largest absolute value of an eigenvalue.
+double spectral_radius(const Eigen::MatrixXd& A);
+double spectral_radius(const Eigen::MatrixXcd& A);
 
 /// Largest first.
 Eigen::VectorXd singular_values(const Eigen::MatrixXcd& A);
