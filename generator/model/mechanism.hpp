@@ -3,9 +3,7 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -111,14 +109,6 @@ struct Coordinate {
   std::optional<std::array<double, 2>> range;
 };
 
-/// Suffixes of the coordinates' names and whether they are angles, in order; one without suffix for joints with one
-/// coordinate, none for fixed, spherical and free joints.
-struct CoordinateKind {
-  std::string_view suffix;
-  bool angular = true;
-};
-std::span<const CoordinateKind> coordinate_kinds(JointType type);
-
 /// A joint; the child body's frame is the joint frame, moved by the joint's coordinates.
 struct Joint {
   std::string name;
@@ -130,7 +120,7 @@ struct Joint {
   std::array<double, 3> second_axis{1, 0, 0};  ///< universal; in the frame turned about `axis`
   Expression pitch;                            ///< screw, m/rad
   Vector3 curve;                               ///< curve, m: functions of argument 0
-  std::vector<Coordinate> coordinates;         ///< as `coordinate_kinds` says
+  std::vector<Coordinate> coordinates;         ///< those of its motions (see model/joint_kinds.hpp)
   std::array<Expression, 4> initial_orientation{1.0, 0.0, 0.0, 0.0};  ///< spherical, free: (w, x, y, z)
   Vector3 initial_spin;                                               ///< spherical, free: ω, rad/s
   bool mimics = false;              ///< URDF: is to follow another joint, which is not modelled
