@@ -38,6 +38,7 @@ std::string tree_text(const model::Mechanism& mechanism) {
     const std::size_t level = joint.parent ? depth[joint.parent->value] + 1 : 1;
     depth[joint.child.value] = level;
     text += fmt::format("  {:{}}{} [{}", "", 2 * level, joint.name, model::joint_kind(joint).name);
+    if (model::joint_kind(joint).takes("sequence")) text += " " + model::sequence_text(joint);
     if (model::joint_kind(joint).has_axis())
       text += fmt::format(" ({:g}, {:g}, {:g})", joint.axis[0], joint.axis[1], joint.axis[2]);
     if (joint.type != model::JointType::kFixed)

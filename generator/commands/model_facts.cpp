@@ -135,6 +135,7 @@ class Facts {
       if (kind.takes("axis")) fact["axis"] = joint.axis;
       if (kind.takes("second_axis")) fact["second_axis"] = joint.second_axis;
       if (kind.takes("pitch")) fact["pitch"] = number(joint.pitch);
+      if (kind.takes("sequence")) fact["sequence"] = model::sequence_text(joint);
       const auto limited = loaded_.limits.find(joint.name);
       if (limited != loaded_.limits.end() && joint.coordinates.size() == 1)
         fact["limits"] = limits(limited->second, joint.coordinates[0]);

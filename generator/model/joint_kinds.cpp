@@ -26,6 +26,9 @@ constexpr JointMotion kPlanar[] = {{Kind::kSlide, Along::kFirstInPlane, "x"},
 constexpr JointMotion kSpherical[] = {{Kind::kBall}};
 constexpr JointMotion kFree[] = {{Kind::kFree}};
 constexpr JointMotion kCurve[] = {{Kind::kCurve}};
+constexpr JointMotion kGimbal[] = {{Kind::kTurn, Along::kFirstAxis, "first"},
+                                   {Kind::kTurn, Along::kMiddleAxis, "second"},
+                                   {Kind::kTurn, Along::kLastAxis, "third"}};
 
 constexpr std::string_view kAxis[] = {"axis"};
 constexpr std::string_view kAxisAndPitch[] = {"axis", "pitch"};
@@ -34,6 +37,7 @@ constexpr std::string_view kTurning[] = {"damping", "initial_orientation", "init
 constexpr std::string_view kMoving[] = {"initial_position", "initial_velocity", "initial_orientation",
                                         "initial_angular_velocity"};
 constexpr std::string_view kOnCurve[] = {"curve"};
+constexpr std::string_view kSequence[] = {"sequence"};
 
 constexpr auto kKinds = std::to_array<JointKind>({
     {JointType::kFixed, "fixed", {}, {}},
@@ -46,8 +50,15 @@ constexpr auto kKinds = std::to_array<JointKind>({
     {JointType::kSpherical, "spherical", kSpherical, kTurning, LoopType::kBall},
     {JointType::kFree, "free", kFree, kMoving},
     {JointType::kCurve, "curve", kCurve, kOnCurve},
+    {JointType::kGimbal, "gimbal", kGimbal, kSequence, LoopType::kBall},
 });
 static_assert(support::is_complete(kKinds, &JointKind::type), "a row for each JointType, in their order");
+
+std::array<double, 3> unit_axis(std::size_t index) {
+  std::array<double, 3> axis{0, 0, 0};
+  axis.at(index) = 1;
+  return axis;
+}
 
 }  // namespace
 
@@ -76,6 +87,12 @@ const std::vector<std::string>& joint_type_names() {
   return names;
 }
 
+std::string sequence_text(const Joint& joint) {
+  std::string text;
+  for (const std::size_t axis : joint.sequence) text += "xyz"[axis];
+  return text;
+}
+
 void Joint::set_type(JointType new_type) {
   type = new_type;
   coordinates.clear();
@@ -97,6 +114,12 @@ std::array<double, 3> direction(const Joint& joint, const JointMotion& motion) {
       return slide_directions(joint.axis)[0];
     case Along::kSecondInPlane:
       return slide_directions(joint.axis)[1];
+    case Along::kFirstAxis:
+      return unit_axis(joint.sequence[0]);
+    case Along::kMiddleAxis:
+      return unit_axis(joint.sequence[1]);
+    case Along::kLastAxis:
+      return unit_axis(joint.sequence[2]);
     case Along::kNone:
       break;
   }

@@ -30,6 +30,9 @@ enum class Along {
   kSecondAxis,     ///< `Joint::second_axis`
   kFirstInPlane,   ///< the first of the two directions orthogonal to `axis` (see slide_directions)
   kSecondInPlane,  ///< the second
+  kFirstAxis,      ///< x, y or z, as the first of `Joint::sequence` says
+  kMiddleAxis,     ///< the second
+  kLastAxis        ///< the third
 };
 
 /// A joint is a chain of these: each moves the frame in which the next one is given.
@@ -74,6 +77,9 @@ inline const JointKind& joint_kind(const Joint& joint) { return joint_kind(joint
 
 /// In the order of JointType.
 const std::vector<std::string>& joint_type_names();
+
+/// Of a gimbal, such as "xyz".
+std::string sequence_text(const Joint& joint);
 
 /// Of a turn, slide or screw, in the frame that it moves; not normalised.
 std::array<double, 3> direction(const Joint& joint, const JointMotion& motion);

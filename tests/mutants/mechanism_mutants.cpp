@@ -102,6 +102,11 @@ void change_joints(const Mechanism& mechanism, std::vector<MechanismMutant>& mut
     std::swap(cycled.mechanism.joints[j].axis[0], cycled.mechanism.joints[j].axis[1]);
     std::swap(cycled.mechanism.joints[j].axis[1], cycled.mechanism.joints[j].axis[2]);
     mutants.push_back(cycled);
+    if (model::joint_kind(joint).takes("sequence")) {
+      MechanismMutant other{"another sequence", joint.name, mechanism};
+      for (std::size_t& axis : other.mechanism.joints[j].sequence) axis = (axis + 1) % 3;
+      mutants.push_back(other);
+    }
     if (!joint.parent) continue;
     MechanismMutant orphan{"parent is the world", joint.name, mechanism};
     orphan.mechanism.joints[j].parent = std::nullopt;

@@ -6,6 +6,7 @@
 
 #include "model/coordinates.hpp"
 #include "properties/arithmetic.hpp"
+#include "properties/gimbals.hpp"
 #include "properties/random.hpp"
 #include "properties/random_tree.hpp"
 #include "reference/massless.hpp"
@@ -94,6 +95,7 @@ class Decoration {
       joint.curve = {number(0.3, 1) * s, number(-0.3, 0.3) * sine(number(0.5, 2) * s),
                      number(0.1, 0.3) * cosine(s) + number(0.1, 0.2) * s * s};
     }
+    if (joint.type == JointType::kGimbal) joint.sequence = random_sequence(random_);
     if (joint.type == JointType::kSpherical && random_.chance(0.5)) joint.spin_damping = number(0, 1);
     if (joint.type == JointType::kFree || joint.type == JointType::kSpherical) {
       joint.initial_orientation = {0.5, -0.5, 0.5, 0.5};

@@ -136,6 +136,7 @@ class Writer {
     if (key == "second_axis") return axis("second_axis", joint.second_axis);
     if (key == "pitch") return fmt::format("pitch = {}\n", value(joint.pitch));
     if (key == "curve") return fmt::format("curve = {}\n", with({"s"}, joint.curve));
+    if (key == "sequence") return fmt::format("sequence = \"{}\"\n", model::sequence_text(joint));
     if (key == "damping") return fmt::format("damping = {}\n", value(joint.spin_damping));
     if (key == "initial_position")
       return fmt::format("initial_position = {}\n", vector(joint.initial_origin));

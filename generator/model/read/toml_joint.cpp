@@ -128,6 +128,7 @@ class JointReader {
       joint.pitch = table_.number("pitch", needed::kPitch);
     }
     if (kind.takes("curve")) read_curve(joint);
+    if (kind.takes("sequence")) read_sequence(joint);
     if (kind.takes("damping")) joint.spin_damping = table_.number("damping", needed::kAngularDamping);
     if (!kind.has_quaternion()) return;
     joint.initial_orientation = table_.quaternion("initial_orientation");
@@ -163,6 +164,21 @@ class JointReader {
                             table_.where(suffix), model::keys_of("coordinate"));
       read_coordinate(file_, table, coordinate_needs(joint, c), joint.coordinates[c]);
     }
+  }
+
+  /// Two turns in a row about one axis would be one.
+  void read_sequence(Joint& joint) {
+    const std::optional<std::string> text = table_.text("sequence");
+    if (!text) return;
+    const bool letters = text->size() == 3 && text->find_first_not_of("xyz") == std::string::npos;
+    if (!letters)
+      return table_.error("sequence", fmt::format("{} is not three of x, y, z", table_.quoted("sequence")),
+                          "such as \"xyz\" or \"zxz\": the axes of three turns, one after the other");
+    if ((*text)[0] == (*text)[1] || (*text)[1] == (*text)[2])
+      return table_.error("sequence",
+                          fmt::format("{} turns about one axis twice in a row", table_.quoted("sequence")),
+                          "neighbours must differ");
+    for (std::size_t k = 0; k < 3; ++k) joint.sequence[k] = static_cast<std::size_t>((*text)[k] - 'x');
   }
 
   /// The curve must move with its coordinate where it starts.
