@@ -1,14 +1,14 @@
 #include "commands/entries.hpp"
 
-#include <map>
+#include <algorithm>
 
 #include "emit/output_names.hpp"
+#include "model/joint_kinds.hpp"
+#include "model/output_kinds.hpp"
 
 namespace jourdain::commands {
 
 namespace {
-
-using model::JointType;
 
 /// Entries of the tree's joints, in order; names are those of the layout.
 class TreeEntries {
@@ -20,13 +20,13 @@ class TreeEntries {
       joint_ = index;
       for (std::size_t k = 0; k < joint.coordinates.size(); ++k)
         if (!joint.coordinates[k].motion) scalar(joint.coordinates[k], k);
-      if (joint.type == JointType::kFree) {
+      if (model::joint_kind(joint).has_origin()) {
         for (std::size_t k = 0; k < 3; ++k) {
           position("m", joint.initial_origin[k]);
           velocity("m/s", joint.initial_origin_velocity[k]);
         }
       }
-      if (joint.type == JointType::kFree || joint.type == JointType::kSpherical) turning(joint);
+      if (model::joint_kind(joint).has_quaternion()) turning(joint);
     }
     inputs(mechanism);
   }
@@ -75,26 +75,12 @@ class TreeEntries {
 /// Unit of a member of an output.
 std::string output_unit(const model::Mechanism& mechanism, const model::Output& output,
                         const std::string& member) {
-  static const std::map<std::string, std::string> members = {
-      {"position", "m"},  {"rotation", "1"},        {"v", "m/s"},     {"omega", "rad/s"},
-      {"a", "m/s^2"},     {"omega_dot", "rad/s^2"}, {"v_bar", "m/s"}, {"omega_bar", "rad/s"},
-      {"a_bar", "m/s^2"}, {"zeta_bar", "rad/s^2"},  {"force", "N"},   {"moment", "N m"}};
-  switch (output.kind) {
-    case model::OutputKind::kKineticEnergy:
-    case model::OutputKind::kPotentialEnergy:
-      return "J";
-    case model::OutputKind::kDrive:
-      return force_unit(mechanism.joints[output.joint.value].coordinates[output.coordinate]);
-    case model::OutputKind::kPose:
-    case model::OutputKind::kVelocity:
-    case model::OutputKind::kAcceleration:
-    case model::OutputKind::kJacobian:
-    case model::OutputKind::kReaction:
-    case model::OutputKind::kExpression:
-      break;
-  }
-  const auto found = members.find(member);
-  return found == members.end() ? "" : found->second;
+  const std::span<const model::OutputMemberKind> members = model::output_kind(output.kind).members;
+  const auto found = std::ranges::find(members, member, &model::OutputMemberKind::name);
+  if (found == members.end()) return "";
+  if (found->unit == model::kForceOnCoordinate)
+    return force_unit(mechanism.joints[output.joint.value].coordinates[output.coordinate]);
+  return std::string(found->unit);
 }
 
 }  // namespace

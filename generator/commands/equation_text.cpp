@@ -7,6 +7,7 @@
 #include "emit/unique_names.hpp"
 #include "loops/record/loop_plan.hpp"
 #include "model/coordinates.hpp"
+#include "model/joint_kinds.hpp"
 #include "programs/tree_functions.hpp"
 
 namespace jourdain::commands {
@@ -184,7 +185,7 @@ std::string legend(const model::Mechanism& mechanism, bool latex) {
 /// Sums of products of sines and cosines of angles: joints that turn about and move along axes, and nothing else.
 bool has_expanded_form(const model::Mechanism& mechanism) {
   for (const model::Joint& joint : mechanism.joints) {
-    if (joint.type == model::JointType::kCurve) return false;
+    if (model::joint_kind(joint).has(model::MotionKind::kCurve)) return false;
     for (const model::Coordinate& c : joint.coordinates)
       if (c.motion || !c.friction.is_zero()) return false;
   }

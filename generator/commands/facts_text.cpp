@@ -60,7 +60,8 @@ std::string joints_text(const Json& joints) {
   report::TextTable table({"joints", "type", "axis", "second axis", ">pitch", "position, m",
                            "roll pitch yaw, rad", "depends on", "prescribed"});
   for (const Json& joint : joints)
-    table.add({cell(joint, "name"), cell(joint, "type"), cell(joint, "axis"), cell(joint, "second_axis"),
+    table.add({cell(joint, "name"), cell(joint, "type"),
+               cell(joint, joint.contains("sequence") ? "sequence" : "axis"), cell(joint, "second_axis"),
                cell(joint, "pitch"), cell(joint, "position"), cell(joint, "rpy"), cell(joint, "depends_on"),
                cell(joint, "prescribed")});
   return table.text();

@@ -8,12 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/kind_names.hpp"
 #include "commands/load.hpp"
 #include "commands/model_facts.hpp"
 #include "commands/report_text.hpp"
 #include "loops/plan/plan_text.hpp"
 #include "model/coordinates.hpp"
+#include "model/joint_kinds.hpp"
+#include "model/loop_kinds.hpp"
 
 namespace jourdain::commands {
 
@@ -36,8 +37,9 @@ std::string tree_text(const model::Mechanism& mechanism) {
     const model::Joint& joint = mechanism.joints[index.value];
     const std::size_t level = joint.parent ? depth[joint.parent->value] + 1 : 1;
     depth[joint.child.value] = level;
-    text += fmt::format("  {:{}}{} [{}", "", 2 * level, joint.name, joint_type_name(joint.type));
-    if (!joint.coordinates.empty() && joint.type != model::JointType::kCurve)
+    text += fmt::format("  {:{}}{} [{}", "", 2 * level, joint.name, model::joint_kind(joint).name);
+    if (model::joint_kind(joint).takes("sequence")) text += " " + model::sequence_text(joint);
+    if (model::joint_kind(joint).has_axis())
       text += fmt::format(" ({:g}, {:g}, {:g})", joint.axis[0], joint.axis[1], joint.axis[2]);
     if (joint.type != model::JointType::kFixed)
       text += fmt::format(", {}", entries_text(layout.joints[index.value]));
@@ -55,11 +57,10 @@ std::string loops_text(const model::Mechanism& mechanism) {
   };
   std::string text;
   for (const model::Loop& loop : mechanism.loops) {
-    std::string type = loop_type_name(loop.type);
+    std::string type(model::loop_kind(loop).name);
     std::replace(type.begin(), type.end(), '_', ' ');
     text += fmt::format("  loop {} [{}]", loop.name, type);
-    if (loop.type != model::LoopType::kResidual)
-      text += fmt::format(": {}, {}", end(loop.from), end(loop.to));
+    if (model::loop_kind(loop).has_ends()) text += fmt::format(": {}, {}", end(loop.from), end(loop.to));
     text += "\n";
   }
   return text;

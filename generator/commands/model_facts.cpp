@@ -5,7 +5,9 @@
 #include <set>
 
 #include "commands/entries.hpp"
-#include "commands/kind_names.hpp"
+#include "model/joint_kinds.hpp"
+#include "model/loop_kinds.hpp"
+#include "model/output_kinds.hpp"
 
 namespace jourdain::commands {
 
@@ -125,13 +127,15 @@ class Facts {
     Json list = Json::array();
     for (const model::JointIndex index : model::depth_first(mechanism_)) {
       const model::Joint& joint = mechanism_.joints[index.value];
+      const model::JointKind& kind = model::joint_kind(joint);
       Json fact = {{"name", joint.name},
-                   {"type", joint_type_name(joint.type)},
+                   {"type", kind.name},
                    {"parent", body_name(joint.parent)},
                    {"child", body_name(joint.child)}};
-      if (!joint.coordinates.empty() && joint.type != model::JointType::kCurve) fact["axis"] = joint.axis;
-      if (joint.type == model::JointType::kUniversal) fact["second_axis"] = joint.second_axis;
-      if (joint.type == model::JointType::kScrew) fact["pitch"] = number(joint.pitch);
+      if (kind.takes("axis")) fact["axis"] = joint.axis;
+      if (kind.takes("second_axis")) fact["second_axis"] = joint.second_axis;
+      if (kind.takes("pitch")) fact["pitch"] = number(joint.pitch);
+      if (kind.takes("sequence")) fact["sequence"] = model::sequence_text(joint);
       const auto limited = loaded_.limits.find(joint.name);
       if (limited != loaded_.limits.end() && joint.coordinates.size() == 1)
         fact["limits"] = limits(limited->second, joint.coordinates[0]);
@@ -146,8 +150,8 @@ class Facts {
   Json loops() const {
     Json list = Json::array();
     for (const model::Loop& loop : mechanism_.loops) {
-      Json fact = {{"name", loop.name}, {"type", loop_type_name(loop.type)}};
-      if (loop.type != model::LoopType::kResidual) {
+      Json fact = {{"name", loop.name}, {"type", model::loop_kind(loop).name}};
+      if (model::loop_kind(loop).has_ends()) {
         fact["from"] = mechanism_.frames[loop.from.value].name;
         fact["to"] = mechanism_.frames[loop.to.value].name;
       }
@@ -195,32 +199,12 @@ class Facts {
       Json rows = Json::array();
       for (const OutputNumber& number : numbers)
         if (number.output == output.name) rows.push_back({{"name", number.name}, {"unit", number.unit}});
-      Json fact = {{"name", output.name}, {"kind", output_kind_name(output.kind)}};
-      if (const std::string of = subject_of(output); !of.empty()) fact["of"] = of;
+      Json fact = {{"name", output.name}, {"kind", model::output_kind(output.kind).name}};
+      if (const std::string of = model::subject_name(mechanism_, output); !of.empty()) fact["of"] = of;
       fact["numbers"] = rows;
       list.push_back(std::move(fact));
     }
     return list;
-  }
-
-  /// The frame or joint that an output is about; empty where it is about none.
-  std::string subject_of(const model::Output& output) const {
-    switch (output.kind) {
-      case model::OutputKind::kPose:
-      case model::OutputKind::kVelocity:
-      case model::OutputKind::kAcceleration:
-      case model::OutputKind::kJacobian:
-        return mechanism_.frames[output.frame.value].name;
-      case model::OutputKind::kReaction:
-        return mechanism_.joints[output.joint.value].name;
-      case model::OutputKind::kDrive:
-        return mechanism_.joints[output.joint.value].coordinates[output.coordinate].name;
-      case model::OutputKind::kKineticEnergy:
-      case model::OutputKind::kPotentialEnergy:
-      case model::OutputKind::kExpression:
-        break;
-    }
-    return "";
   }
 
   Json parameters() const {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/joint_kinds.hpp"
 #include "reference/massless.hpp"
 
 namespace jourdain {
@@ -60,7 +61,7 @@ support::SourceRange suspect(const model::Mechanism& mechanism) {
   }
   for (const model::Joint& joint : mechanism.joints)
     for (const model::Coordinate& coordinate : joint.coordinates)
-      if (coordinate.motion || joint.type == model::JointType::kCurve) return joint.where;
+      if (coordinate.motion || model::joint_kind(joint).has(model::MotionKind::kCurve)) return joint.where;
   return mechanism.joints.front().where;
 }
 

@@ -12,6 +12,7 @@
 #include "dynamics/scene.hpp"
 #include "dynamics/solver.hpp"
 #include "dynamics/wrenches.hpp"
+#include "model/joint_kinds.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::dynamics {
@@ -241,12 +242,12 @@ class Derivation {
         push(y, coordinate.initial_position);
         push(z, coordinate.initial_velocity);
       }
-      if (joint.type == model::JointType::kFree)
+      if (model::joint_kind(joint).has_origin())
         for (std::size_t k = 0; k < 3; ++k) {
           push(y, joint.initial_origin[k]);
           push(z, joint.initial_origin_velocity[k]);
         }
-      if (joint.type != model::JointType::kFree && joint.type != model::JointType::kSpherical) continue;
+      if (!model::joint_kind(joint).has_quaternion()) continue;
       for (const model::Expression& component : joint.initial_orientation) push(y, component);
       for (const model::Expression& component : joint.initial_spin) push(z, component);
     }

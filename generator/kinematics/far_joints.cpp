@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/coordinates.hpp"
+#include "model/joint_kinds.hpp"
 
 namespace jourdain::kinematics {
 
@@ -56,11 +56,12 @@ class Distances {
     const double distance =
         length(joint.placement.position) + (joint.parent ? base_[joint.parent->value] : 0);
     const double reach = reach_[joint.child.value];
-    const bool fixed = joint.type == model::JointType::kFixed;
-    const double ratio = joint.type == model::JointType::kPrismatic ? kFarSlide : kFarAway;
-    const bool far = !fixed && reach > 0 && distance > ratio * reach;
-    const bool at_joint = far || joint.type == model::JointType::kSpherical ||
-                          joint.type == model::JointType::kFree || joint.type == model::JointType::kCurve;
+    const std::span<const model::JointMotion> motions = model::joint_kind(joint).motions;
+    const bool only_slides = std::ranges::all_of(
+        motions, [](const model::JointMotion& m) { return m.kind == model::MotionKind::kSlide; });
+    const double ratio = only_slides ? kFarSlide : kFarAway;
+    const bool far = !motions.empty() && reach > 0 && distance > ratio * reach;
+    const bool at_joint = far || model::joint_kind(joint).has(model::Along::kNone);
     base_[joint.child.value] = at_joint ? 0 : distance;
     return far;
   }

@@ -1,37 +1,39 @@
 #include "kinematics/joint_steps.hpp"
 
+#include "model/joint_kinds.hpp"
+
 namespace jourdain::kinematics {
 
-using model::JointType;
+namespace {
+
+LinkKind link_kind(model::MotionKind kind) {
+  switch (kind) {
+    case model::MotionKind::kTurn:
+      return LinkKind::kTurn;
+    case model::MotionKind::kSlide:
+      return LinkKind::kSlide;
+    case model::MotionKind::kScrew:
+      return LinkKind::kScrew;
+    case model::MotionKind::kCurve:
+      return LinkKind::kCurve;
+    case model::MotionKind::kBall:
+      return LinkKind::kBall;
+    case model::MotionKind::kFree:
+      return LinkKind::kFree;
+  }
+  return LinkKind::kTurn;
+}
+
+}  // namespace
 
 std::vector<JointStep> joint_steps(const model::Joint& joint) {
-  switch (joint.type) {
-    case JointType::kFixed:
-      return {};
-    case JointType::kRevolute:
-      return {{LinkKind::kTurn, joint.axis, 0}};
-    case JointType::kPrismatic:
-      return {{LinkKind::kSlide, joint.axis, 0}};
-    case JointType::kScrew:
-      return {{LinkKind::kScrew, joint.axis, 0}};
-    case JointType::kCylindrical:
-      return {{LinkKind::kTurn, joint.axis, 0}, {LinkKind::kSlide, joint.axis, 1}};
-    case JointType::kUniversal:
-      return {{LinkKind::kTurn, joint.axis, 0}, {LinkKind::kTurn, joint.second_axis, 1}};
-    case JointType::kPlanar: {
-      const auto directions = model::slide_directions(joint.axis);
-      return {{LinkKind::kSlide, directions[0], 0},
-              {LinkKind::kSlide, directions[1], 1},
-              {LinkKind::kTurn, joint.axis, 2}};
-    }
-    case JointType::kSpherical:
-      return {{LinkKind::kBall}};
-    case JointType::kFree:
-      return {{LinkKind::kFree}};
-    case JointType::kCurve:
-      return {{LinkKind::kCurve}};
+  std::vector<JointStep> steps;
+  for (const model::JointMotion& motion : model::joint_kind(joint).motions) {
+    JointStep step{.kind = link_kind(motion.kind), .coordinate = motion.has_coordinate() ? steps.size() : 0};
+    if (motion.along != model::Along::kNone) step.axis = model::direction(joint, motion);
+    steps.push_back(step);
   }
-  return {};
+  return steps;
 }
 
 }  // namespace jourdain::kinematics

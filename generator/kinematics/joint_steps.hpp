@@ -1,4 +1,4 @@
-// Every joint as a chain of elementary motions. A joint that is made of known motions is one entry here.
+// Every joint as a chain of elementary motions: those of its row in model/joint_kinds.cpp, with their directions.
 #pragma once
 
 #include <array>

@@ -2,18 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+
+#include "model/joint_kinds.hpp"
 
 namespace jourdain::model {
 
 namespace {
-
-constexpr CoordinateKind kAngle[] = {{"", true}};
-constexpr CoordinateKind kDisplacement[] = {{"", false}};
-constexpr CoordinateKind kCylindrical[] = {{"angle", true}, {"slide", false}};
-constexpr CoordinateKind kUniversal[] = {{"first", true}, {"second", true}};
-constexpr CoordinateKind kPlanar[] = {{"x", false}, {"y", false}, {"angle", true}};
 
 /// Appends "<joint>_<suffix>" for each suffix.
 void add_names(std::vector<std::string>& names, const Joint& joint,
@@ -22,39 +17,6 @@ void add_names(std::vector<std::string>& names, const Joint& joint,
 }
 
 }  // namespace
-
-std::span<const CoordinateKind> coordinate_kinds(JointType type) {
-  switch (type) {
-    case JointType::kFixed:
-    case JointType::kSpherical:
-    case JointType::kFree:
-      return {};
-    case JointType::kRevolute:
-    case JointType::kScrew:
-      return kAngle;
-    case JointType::kPrismatic:
-    case JointType::kCurve:
-      return kDisplacement;
-    case JointType::kCylindrical:
-      return kCylindrical;
-    case JointType::kUniversal:
-      return kUniversal;
-    case JointType::kPlanar:
-      return kPlanar;
-  }
-  return {};
-}
-
-void Joint::set_type(JointType new_type) {
-  type = new_type;
-  coordinates.clear();
-  for (const CoordinateKind& kind : coordinate_kinds(type)) {
-    Coordinate coordinate;
-    coordinate.name = kind.suffix.empty() ? name : fmt::format("{}_{}", name, kind.suffix);
-    coordinate.angular = kind.angular;
-    coordinates.push_back(coordinate);
-  }
-}
 
 std::array<std::array<double, 3>, 2> plane_axes(const std::array<double, 3>& n) {
   if (n[2] == 1) return {{{1, 0, 0}, {0, 1, 0}}};
@@ -77,8 +39,7 @@ Tangent tangent_of(const Mechanism& mechanism, const std::vector<JointEntries>& 
   Tangent tangent;
   for (const JointIndex index : depth_first(mechanism)) {
     const JointEntries& entries = joints[index.value];
-    const JointType type = mechanism.joints[index.value].type;
-    const bool turns = type == JointType::kFree || type == JointType::kSpherical;
+    const bool turns = joint_kind(mechanism.joints[index.value]).has_quaternion();
     const std::size_t scalars = entries.velocity_count - (turns ? 3 : 0);
     for (std::size_t k = 0; k < scalars; ++k)
       tangent.scalars.push_back({entries.first_position + k, entries.first_velocity + k});
@@ -107,11 +68,11 @@ CoordinateLayout lay_out_coordinates(const Mechanism& mechanism) {
       layout.position_names.push_back(coordinate.name);
       layout.velocity_names.push_back(coordinate.name);
     }
-    if (joint.type == JointType::kFree) {
+    if (joint_kind(joint).has_origin()) {
       add_names(layout.position_names, joint, {"x", "y", "z"});
       add_names(layout.velocity_names, joint, {"vx", "vy", "vz"});
     }
-    if (joint.type == JointType::kFree || joint.type == JointType::kSpherical) {
+    if (joint_kind(joint).has_quaternion()) {
       layout.quaternions.push_back(layout.position_names.size());
       add_names(layout.position_names, joint, {"qw", "qx", "qy", "qz"});
       add_names(layout.velocity_names, joint, {"wx", "wy", "wz"});

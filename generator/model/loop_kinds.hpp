@@ -1,6 +1,7 @@
-// The types of loop joints by name, with the rows that each keeps at zero.
+// The types of loop joints: one row for each, with the rows that each keeps at zero and what generic code asks.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,11 +17,20 @@ struct LoopRow {
 };
 
 struct LoopKind {
+  LoopType type = LoopType::kBall;
   std::string_view name;  ///< as a model file has it
-  std::vector<LoopRow> rows;
+  std::span<const LoopRow> rows;
+  std::span<const std::string_view> keys;  ///< of a file, beside the name and the type
+
+  bool takes(std::string_view key) const;
+  /// Whether it joins two frames; otherwise it is a residual.
+  bool has_ends() const { return takes("from"); }
+  /// Whether it keeps two points a length apart.
+  bool is_bar() const { return takes("length"); }
 };
 
 const LoopKind& loop_kind(LoopType type);
+inline const LoopKind& loop_kind(const Loop& loop) { return loop_kind(loop.type); }
 
 /// In the order of LoopType.
 const std::vector<std::string>& loop_type_names();

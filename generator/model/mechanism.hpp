@@ -3,9 +3,7 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -85,7 +83,8 @@ enum class JointType {
                ///< child components
   kFree,       ///< parent is the world, no placement: position, quaternion; z: velocity of the child's origin
                ///< (inertial frame), ω (child components)
-  kCurve       ///< the child's origin is at `curve`(y) in the joint frame; the child does not turn
+  kCurve,  ///< the child's origin is at `curve`(y) in the joint frame; the child does not turn
+  kGimbal  ///< three angles, each about the axis of the frame turned so far that `sequence` names
 };
 
 /// One scalar coordinate of a joint. Force on it: −stiffness (y − rest) − damping z − friction z/√(z² +
@@ -111,14 +110,6 @@ struct Coordinate {
   std::optional<std::array<double, 2>> range;
 };
 
-/// Suffixes of the coordinates' names and whether they are angles, in order; one without suffix for joints with one
-/// coordinate, none for fixed, spherical and free joints.
-struct CoordinateKind {
-  std::string_view suffix;
-  bool angular = true;
-};
-std::span<const CoordinateKind> coordinate_kinds(JointType type);
-
 /// A joint; the child body's frame is the joint frame, moved by the joint's coordinates.
 struct Joint {
   std::string name;
@@ -130,7 +121,8 @@ struct Joint {
   std::array<double, 3> second_axis{1, 0, 0};  ///< universal; in the frame turned about `axis`
   Expression pitch;                            ///< screw, m/rad
   Vector3 curve;                               ///< curve, m: functions of argument 0
-  std::vector<Coordinate> coordinates;         ///< as `coordinate_kinds` says
+  std::array<std::size_t, 3> sequence{0, 1, 2};  ///< gimbal; 0, 1, 2: x, y, z; neighbours differ
+  std::vector<Coordinate> coordinates;           ///< those of its motions (see model/joint_kinds.hpp)
   std::array<Expression, 4> initial_orientation{1.0, 0.0, 0.0, 0.0};  ///< spherical, free: (w, x, y, z)
   Vector3 initial_spin;                                               ///< spherical, free: ω, rad/s
   bool mimics = false;              ///< URDF: is to follow another joint, which is not modelled

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/output_kinds.hpp"
+
 namespace jourdain::model {
 
 namespace {
@@ -35,19 +37,14 @@ class OutputTime {
   OutputTime(const Mechanism& mechanism, const TimeDependence& time) : mechanism_(mechanism), time_(time) {}
 
   bool depends(const Output& output) const {
-    switch (output.kind) {
-      case OutputKind::kPose:
-      case OutputKind::kVelocity:
-      case OutputKind::kJacobian:
+    switch (output_kind(output.kind).clock) {
+      case OutputClock::kFrame:
         return frame_depends(output.frame);
-      case OutputKind::kAcceleration:
-      case OutputKind::kReaction:
-      case OutputKind::kDrive:
-        return time_.dynamics;
-      case OutputKind::kKineticEnergy:
-      case OutputKind::kPotentialEnergy:
+      case OutputClock::kPositions:
         return time_.positions;
-      case OutputKind::kExpression:
+      case OutputClock::kDynamics:
+        return time_.dynamics;
+      case OutputClock::kValue:
         return any_variable(output.value, [this](const Variable& v) { return depends(v); });
     }
     return true;

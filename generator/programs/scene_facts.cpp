@@ -2,73 +2,35 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
+
+#include "model/output_kinds.hpp"
 
 namespace jourdain::programs {
 
 namespace {
 
-/// What an output is, in words.
-std::string describe(const model::Mechanism& mechanism, const model::Output& output) {
-  const auto frame = [&] { return mechanism.frames[output.frame.value].name; };
-  const auto joint = [&] { return mechanism.joints[output.joint.value].name; };
-  switch (output.kind) {
-    case model::OutputKind::kPose:
-      return fmt::format("Position (inertial frame) and rotation matrix (frame to inertial) of '{}'.",
-                         frame());
-    case model::OutputKind::kVelocity:
-      return fmt::format("Velocity (inertial frame) and angular velocity (frame components) of '{}'.",
-                         frame());
-    case model::OutputKind::kAcceleration:
-      return fmt::format("Acceleration (inertial frame) and angular acceleration (frame components) of '{}'.",
-                         frame());
-    case model::OutputKind::kJacobian:
-      return fmt::format(
-          "Jacobians of '{}': v = J_t z + v_bar, a = J_t zdot + a_bar (inertial frame); omega = J_r z + "
-          "omega_bar, "
-          "omega_dot = J_r zdot + zeta_bar (frame components).",
-          frame());
-    case model::OutputKind::kReaction:
-      return fmt::format("What joint '{}' transmits to its child, at the child's origin, child components.",
-                         joint());
-    case model::OutputKind::kDrive:
-      return fmt::format("Force or torque that the prescribed motion of '{}' needs.",
-                         mechanism.joints[output.joint.value].coordinates[output.coordinate].name);
-    case model::OutputKind::kKineticEnergy:
-      return "Kinetic energy, J.";
-    case model::OutputKind::kPotentialEnergy:
-      return "Potential energy, J.";
-    case model::OutputKind::kExpression:
-      return "Expression of the model description.";
-  }
-  return "";
-}
-
 std::vector<OutputMember> members_of(model::OutputKind kind, std::size_t velocities) {
-  const auto vector = [](const char* name) { return OutputMember{name, 3, 1, false}; };
-  const auto matrix = [](const char* name, std::size_t columns) {
-    return OutputMember{name, 3, static_cast<int>(columns), true};
-  };
-  switch (kind) {
-    case model::OutputKind::kPose:
-      return {vector("position"), matrix("rotation", 3)};
-    case model::OutputKind::kVelocity:
-      return {vector("v"), vector("omega")};
-    case model::OutputKind::kAcceleration:
-      return {vector("a"), vector("omega_dot")};
-    case model::OutputKind::kJacobian:
-      if (velocities == 0) return {vector("v_bar"), vector("omega_bar"), vector("a_bar"), vector("zeta_bar")};
-      return {matrix("J_t", velocities), matrix("J_r", velocities), vector("v_bar"),
-              vector("omega_bar"),       vector("a_bar"),           vector("zeta_bar")};
-    case model::OutputKind::kReaction:
-      return {vector("force"), vector("moment")};
-    case model::OutputKind::kDrive:
-    case model::OutputKind::kKineticEnergy:
-    case model::OutputKind::kPotentialEnergy:
-    case model::OutputKind::kExpression:
-      return {{}};
+  std::vector<OutputMember> members;
+  for (const model::OutputMemberKind& member : model::output_kind(kind).members) {
+    const std::string name(member.name);
+    switch (member.shape) {
+      case model::MemberShape::kScalar:
+        members.push_back({name});
+        break;
+      case model::MemberShape::kVector:
+        members.push_back({name, 3});
+        break;
+      case model::MemberShape::kRotation:
+        members.push_back({name, 3, 3, true});
+        break;
+      case model::MemberShape::kPerVelocity:
+        if (velocities > 0) members.push_back({name, 3, static_cast<int>(velocities), true});
+        break;
+    }
   }
-  return {};
+  return members;
 }
 
 /// Position of each velocity of the tree among the independent ones.
@@ -135,8 +97,10 @@ SceneFacts scene_facts(const model::Mechanism& mechanism, const loops::LoopPlan*
   facts.clock = wishes.clock || facts.time.any() || !facts.inputs.empty();
   if (plan) set_loop_facts(mechanism, *plan, facts);
   for (const model::Output& output : mechanism.outputs)
-    facts.outputs.push_back(
-        {output.name, describe(mechanism, output), members_of(output.kind, facts.velocities.size())});
+    facts.outputs.push_back({output.name,
+                             fmt::format(fmt::runtime(model::output_kind(output.kind).text),
+                                         model::subject_name(mechanism, output)),
+                             members_of(output.kind, facts.velocities.size())});
   return facts;
 }
 

@@ -2,25 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "model/joint_kinds.hpp"
+#include "model/loop_kinds.hpp"
 
 namespace jourdain::report {
 
 namespace {
 
-using model::JointType;
 using model::Mechanism;
 using model::Numbers3;
 
-bool turns(JointType type) {
-  return type != JointType::kFixed && type != JointType::kPrismatic && type != JointType::kCurve &&
-         type != JointType::kFree;
+bool turns(const model::JointMotion& motion) {
+  return motion.is_angular() || motion.kind == model::MotionKind::kBall;
 }
 
-bool slides(JointType type) { return type == JointType::kPrismatic || type == JointType::kCylindrical; }
+/// What the joint is drawn about: where it turns, else where it slides; nothing where neither has a direction.
+const model::JointMotion* drawn_motion(const model::JointKind& kind) {
+  const auto turn = std::ranges::find_if(kind.motions, &model::JointMotion::is_angular);
+  if (turn != kind.motions.end()) return &*turn;
+  const auto slide = std::ranges::find(kind.motions, model::MotionKind::kSlide, &model::JointMotion::kind);
+  return slide == kind.motions.end() ? nullptr : &*slide;
+}
 
-bool has_axis(JointType type) {
-  return (turns(type) && type != JointType::kSpherical) || type == JointType::kPrismatic;
+bool slides_along_axis(const model::JointMotion& motion) {
+  return motion.kind == model::MotionKind::kSlide && motion.along == model::Along::kAxis;
 }
 
 Numbers3 unit(const Numbers3& v) {
@@ -105,21 +113,26 @@ class FigureMaker {
   }
 
   void add_joint(const model::Joint& joint) {
-    figure_.flies |= joint.type == JointType::kFree || joint.type == JointType::kSpherical;
-    if (joint.type == JointType::kFree) return;
-    FigureJoint drawn{
-        point(joint.parent, joint.placement), {}, turns(joint.type), slides(joint.type), joint.child.value};
-    if (has_axis(joint.type)) drawn.axis = axis_in(joint.placement, joint.axis);
+    const model::JointKind& kind = model::joint_kind(joint);
+    figure_.flies |= kind.has_quaternion();
+    if (kind.has_origin()) return;
+    const model::JointMotion* about = drawn_motion(kind);
+    FigureJoint drawn{point(joint.parent, joint.placement),
+                      {},
+                      std::ranges::any_of(kind.motions, turns),
+                      std::ranges::any_of(kind.motions, slides_along_axis),
+                      joint.child.value};
+    if (about) drawn.axis = axis_in(joint.placement, model::direction(joint, *about));
     figure_.joints.push_back(drawn);
-    if (!drawn.turns || drawn.slides || joint.type == JointType::kPlanar || joint.type == JointType::kScrew)
+    if (!drawn.turns || std::ranges::any_of(kind.motions, &model::JointMotion::displaces))
       figure_.lines.push_back({LineKind::kSlide, drawn.at, {joint.child.value, {}}});
   }
 
   void add_loop(const model::Loop& loop) {
-    if (loop.type == model::LoopType::kResidual) return;
+    const model::LoopKind& kind = model::loop_kind(loop);
+    if (!kind.has_ends()) return;
     const FigurePoint from = attached(loop.from), to = attached(loop.to);
-    const bool is_rod = loop.type == model::LoopType::kRod;
-    figure_.lines.push_back({is_rod ? LineKind::kBody : LineKind::kSlide, from, to});
+    figure_.lines.push_back({kind.is_bar() ? LineKind::kBody : LineKind::kSlide, from, to});
     for (const FigurePoint& end : {from, to}) figure_.joints.push_back({end, {}, true, false, {}});
   }
 

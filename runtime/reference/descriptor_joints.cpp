@@ -102,6 +102,10 @@ class Measuring {
         orientation_is_locked();
         measure_curve();
         break;
+      case JointType::kGimbal:
+        points_coincide();
+        measure_gimbal();
+        break;
     }
     return std::move(result_);
   }
@@ -180,6 +184,28 @@ class Measuring {
     add_coordinate(unwrapped(atan2(across.dot(first_seen), (axis_ - cosine * second).dot(first_seen))));
   }
 
+  /// The middle axis is the direction across the outer two, i fixed in the joint frame and k in the child: e_i × w_k is
+  /// along it or against it, as the angle near by says. Whether i = k or not decides from where the middle turn counts.
+  void measure_gimbal() {
+    const auto unit = [](Eigen::Index i) -> Vector3<T> {
+      return Vector3<Scalar>::Unit(i).template cast<T>();
+    };
+    const auto [i, j, k] = joint_.sequence;
+    const Vector3<T> e_i = unit(i), e_j = unit(j), e_k = unit(k), w_k = R_JC_ * e_k;
+    const bool proper = i == k;
+    const T hand = proper ? T(1) : e_i.cross(e_j).dot(e_k);
+    using std::cos;
+    using std::sin;
+    const Scalar across_near = proper ? sin(near_[1]) : -hand.value * cos(near_[1]);
+    const T sense(across_near < 0 ? -1 : 1);
+    const Vector3<T> middle = sense * e_i.cross(w_k);
+    const T across = sense * sqrt(middle.dot(middle)), along = e_i.dot(w_k);
+    const Vector3<T> middle_seen = R_JC_.transpose() * middle;
+    add_coordinate(unwrapped(atan2(middle.dot(e_i.cross(e_j)), middle.dot(e_j))));
+    add_coordinate(unwrapped(proper ? atan2(across, along) : atan2(hand * along, -hand * across)));
+    add_coordinate(unwrapped(atan2(middle_seen.dot(e_j.cross(e_k)), middle_seen.dot(e_j))));
+  }
+
   /// The coordinate follows the foot of the perpendicular on the tangent; the origin may not leave the curve across it.
   void measure_curve() {
     const Scalar s0 = near_[0];
@@ -225,6 +251,8 @@ Joint<Scalar> read_joint(const model::Joint& joint, std::span<const Scalar> para
                        .second_axis = unit_vector<Scalar>(joint.second_axis),
                        .normals = {},
                        .pitch = joint.pitch.evaluate(parameters),
+                       .sequence = {Eigen::Index(joint.sequence[0]), Eigen::Index(joint.sequence[1]),
+                                    Eigen::Index(joint.sequence[2])},
                        .curve = joint.curve,
                        .parameters = {parameters.begin(), parameters.end()}};
   if (joint.parent) result.parent = joint.parent->value;
@@ -271,6 +299,10 @@ Pose<TimeJet<Scalar>> child_pose(const Joint<Scalar>& joint, const Pose<TimeJet<
                                                             joint.normals[1].template cast<T>() * y[1]);
     case JointType::kCurve:
       return frame.moved(aligned, curve_point(joint, y[0]));
+    case JointType::kGimbal:
+      for (std::size_t k = 0; k < 3; ++k)
+        frame.R_WF *= rotation_about<T>(Vector3<Scalar>::Unit(joint.sequence[k]).template cast<T>(), y[k]);
+      return frame;
     case JointType::kSpherical:
     case JointType::kFree:
       break;

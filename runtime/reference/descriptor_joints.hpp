@@ -2,6 +2,7 @@
 // constraints and coordinates that two bodies' absolute poses imply.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,8 +45,9 @@ struct Joint {
   Matrix3<Scalar> R_PJ;  ///< joint frame to parent components
   Vector3<Scalar> p_PJ;  ///< m
   Vector3<Scalar> axis, second_axis;
-  Vector3<Scalar> normals[2];  ///< right-handed with `axis`; planar: the directions of sliding
-  Scalar pitch = 0;            ///< m/rad
+  Vector3<Scalar> normals[2];              ///< right-handed with `axis`; planar: the directions of sliding
+  Scalar pitch = 0;                        ///< m/rad
+  std::array<Eigen::Index, 3> sequence{};  ///< gimbal: x, y or z as 0, 1, 2, of each turn
   model::Vector3 curve;
   std::vector<Scalar> parameters;  ///< for `curve`
 };
@@ -75,8 +77,9 @@ struct Measurement {
 /// approximate coordinates: an angle is the one within half a turn of them, and a curve is followed from there (its
 /// tangent must not vanish). Six minus the number of degrees of freedom constraints, independent of each other where
 /// the joint holds. A coordinate's gradient does no work along the constraints: on a turning coordinate it is a moment
-/// along the axis (universal joint: the moment without component along the locked direction), on a sliding one a
-/// force at the child's origin along the direction (curve: along the tangent).
+/// along the axis (universal joint: the moment without component along the locked direction; gimbal: the one without
+/// component along the two other axes, where the three span space), on a sliding one a force at the child's origin
+/// along the direction (curve: along the tangent).
 template <class Scalar>
 Measurement<Scalar> measure(const Joint<Scalar>& joint, const Pose<TimeJet<Scalar>>& parent,
                             const Pose<TimeJet<Scalar>>& child, std::span<const Scalar> near,

@@ -111,27 +111,14 @@ Pose<TimeJet<Scalar>> DescriptorReference<Scalar>::body_pose(std::size_t joint,
   using T = TimeJet<Scalar>;
   const auto first_position = Eigen::Index(layout_.joints[joint].first_position);
   const auto first_velocity = Eigen::Index(layout_.joints[joint].first_velocity);
-  switch (joints_[joint].type) {
-    case model::JointType::kSpherical:
-      return descriptor::joint_frame(joints_[joint], parent)
-          .moved(
-              turning<Scalar>(y.template segment<4>(first_position), z.template segment<3>(first_velocity)),
-              Vector3<T>::Zero());
-    case model::JointType::kFree:
-      return {
-          turning<Scalar>(y.template segment<4>(first_position + 3),
-                          z.template segment<3>(first_velocity + 3)),
-          moving<T, Scalar>(y.template segment<3>(first_position), z.template segment<3>(first_velocity))};
-    case model::JointType::kFixed:
-    case model::JointType::kRevolute:
-    case model::JointType::kPrismatic:
-    case model::JointType::kScrew:
-    case model::JointType::kCylindrical:
-    case model::JointType::kUniversal:
-    case model::JointType::kPlanar:
-    case model::JointType::kCurve:
-      break;
-  }
+  if (joints_[joint].type == model::JointType::kSpherical)
+    return descriptor::joint_frame(joints_[joint], parent)
+        .moved(turning<Scalar>(y.template segment<4>(first_position), z.template segment<3>(first_velocity)),
+               Vector3<T>::Zero());
+  if (joints_[joint].type == model::JointType::kFree)
+    return {
+        turning<Scalar>(y.template segment<4>(first_position + 3), z.template segment<3>(first_velocity + 3)),
+        moving<T, Scalar>(y.template segment<3>(first_position), z.template segment<3>(first_velocity))};
   return descriptor::child_pose(joints_[joint], parent, std::span<const T>(coordinates[joint]));
 }
 

@@ -129,6 +129,9 @@ typename Reference<Scalar>::FrameMotion Reference<Scalar>::child_motion(const Fr
       child.slide(child.R * place, child.R * slope, child.R * curvature, q.first, column_of(index, 0));
       break;
     }
+    case JointType::kGimbal:
+      for (std::size_t k = 0; k < 3; ++k) turn(k, Vector3<Scalar>::Unit(Eigen::Index(joint.sequence[k])));
+      break;
     case JointType::kSpherical:
     case JointType::kFree:
       turn_freely(child, index, state);

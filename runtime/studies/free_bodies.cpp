@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/coordinates.hpp"
+#include "model/joint_kinds.hpp"
 #include "reference/massless.hpp"
 #include "reference/minimal.hpp"
 
@@ -16,34 +17,18 @@ namespace {
 using model::Expression;
 using model::Joint;
 using model::JointType;
-using model::LoopType;
 using model::Mechanism;
 using Vector = std::array<double, 3>;
 
-std::optional<LoopType> loop_type(JointType type) {
-  switch (type) {
-    case JointType::kRevolute:
-      return LoopType::kRevolute;
-    case JointType::kPrismatic:
-      return LoopType::kPrismatic;
-    case JointType::kCylindrical:
-      return LoopType::kCylindrical;
-    case JointType::kUniversal:
-      return LoopType::kUniversal;
-    case JointType::kSpherical:
-      return LoopType::kBall;
-    case JointType::kFixed:
-    case JointType::kFree:
-    case JointType::kScrew:
-    case JointType::kPlanar:
-    case JointType::kCurve:
-      return {};
-  }
-  return {};
+bool is_rewritten(const Joint& joint) {
+  const model::JointKind& kind = model::joint_kind(joint);
+  return !kind.motions.empty() && !kind.has_origin();
 }
 
-bool is_rewritten(const Joint& joint) {
-  return joint.type != JointType::kFixed && joint.type != JointType::kFree;
+/// Whether all that the joint does is turn about its axis.
+bool only_turns(const Joint& joint) {
+  const model::JointMotion* motion = model::joint_kind(joint).plain_motion();
+  return motion && motion->kind == model::MotionKind::kTurn;
 }
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -61,17 +46,17 @@ bool is_plain(const model::Coordinate& coordinate, bool damped) {
 
 bool can_be_rewritten(const Joint& joint) {
   if (!is_rewritten(joint)) return true;
-  if (!loop_type(joint.type) || !joint.spin_damping.is_zero()) return false;
-  if (joint.type == JointType::kUniversal && dot(joint.axis, joint.second_axis) != 0) return false;
-  return std::all_of(joint.coordinates.begin(), joint.coordinates.end(), [&](const model::Coordinate& c) {
-    return is_plain(c, joint.type == JointType::kRevolute);
-  });
+  const model::JointKind& kind = model::joint_kind(joint);
+  if (!kind.as_loop || !joint.spin_damping.is_zero()) return false;
+  if (kind.has(model::Along::kSecondAxis) && dot(joint.axis, joint.second_axis) != 0) return false;
+  return std::all_of(joint.coordinates.begin(), joint.coordinates.end(),
+                     [&](const model::Coordinate& c) { return is_plain(c, only_turns(joint)); });
 }
 
 /// What a force element may be while its bodies' joints become loops: it must name no coordinate that goes.
 bool can_stay(const model::Actuator& actuator, const Mechanism& mechanism) {
-  const JointType type = mechanism.joints[actuator.joint.value].type;
-  return actuator.rotor_inertia.is_zero() && (type == JointType::kRevolute || type == JointType::kPrismatic);
+  return actuator.rotor_inertia.is_zero() &&
+         model::joint_kind(mechanism.joints[actuator.joint.value]).plain_motion();
 }
 bool can_stay(const model::CoordinateForce&, const Mechanism&) { return false; }
 bool can_stay(const model::Load&, const Mechanism&) { return false; }
@@ -115,15 +100,16 @@ class Rewriting {
   /// Makes the child free and the joint a loop.
   void cut(std::size_t index) {
     const Joint& joint = given_.joints[index];
+    const model::JointKind& kind = model::joint_kind(joint);
     const model::FrameIndex on_parent = add_frame(joint.parent, joint.placement),
                             on_child = add_frame(joint.child, {});
     model::Loop loop;
     loop.name = joint.name + "_closed";
-    loop.type = *loop_type(joint.type);
+    loop.type = *kind.as_loop;
     loop.from = on_parent;
     loop.to = on_child;
     loop.axis = joint.axis;
-    loop.to_axis = joint.type == JointType::kUniversal ? joint.second_axis : joint.axis;
+    loop.to_axis = kind.has(model::Along::kSecondAxis) ? joint.second_axis : joint.axis;
     free_.loops.push_back(loop);
     Joint& released = free_.joints[index];
     released = Joint();
@@ -149,7 +135,7 @@ class Rewriting {
   void act(std::size_t index, model::FrameIndex on_parent, model::FrameIndex on_child) {
     const Joint& joint = given_.joints[index];
     Expression effort = driving(index);
-    if (joint.type == JointType::kRevolute) effort = sum(effort, damping(joint, on_parent, on_child));
+    if (only_turns(joint)) effort = sum(effort, damping(joint, on_parent, on_child));
     if (effort.is_zero()) return;
     load(joint, on_child, effort);
     if (joint.parent) load(joint, on_parent, negative(effort));
@@ -189,7 +175,7 @@ class Rewriting {
     model::Load load;
     load.name = fmt::format("{}_{}", joint.name, free_.loads.size());
     load.frame = frame;
-    model::Vector3& components = joint.type == JointType::kRevolute ? load.moment : load.force;
+    model::Vector3& components = only_turns(joint) ? load.moment : load.force;
     for (std::size_t i = 0; i < 3; ++i) components[i] = product(n[i], effort);
     free_.loads.push_back(load);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dynamics/equations_at.hpp"
+#include "properties/gimbals.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -147,6 +148,23 @@ TEST(OneJoint, AQuaternionTurnsTheBodyNotTheWorld) {
   const EquationsAt e =
       equations_at(one_body(kBody, "type = \"spherical\""), {{0.5, 0.5, 0.5, 0.5}, {0, 0, 0}});
   EXPECT_NEAR(e.potential_energy, m * g * b, kRounding);
+}
+
+TEST(OneJoint, AGimbalIsThreeHingesWithNothingBetween) {
+  const StateNumbers state{{0.4, 0.9, -2.3}, {1.3, -2.1, 0.8}};
+  for (const Sequence& sequence : all_sequences()) {
+    model::Mechanism gimbal =
+        one_body(kBody, "type = \"gimbal\"\nfirst = { stiffness = 3 }\nthird = { damping = 2 }");
+    gimbal.joints[0].sequence = sequence;
+    const EquationsAt e = equations_at(gimbal, state), hinges = equations_at(on_hinges(gimbal), state);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_THAT(e.M[i], ElementsAre(near(hinges.M[i][0]), near(hinges.M[i][1]), near(hinges.M[i][2])));
+      EXPECT_NEAR(e.k_bar[i], hinges.k_bar[i], kRounding);
+      EXPECT_NEAR(e.q_bar[i], hinges.q_bar[i], kRounding);
+    }
+    EXPECT_NEAR(e.kinetic_energy, hinges.kinetic_energy, kRounding);
+    EXPECT_NEAR(e.potential_energy, hinges.potential_energy, kRounding);
+  }
 }
 
 // m v̇ = m g, I ω̇ = −ω × I ω with diagonal I.

@@ -6,9 +6,11 @@
 #include <set>
 #include <sstream>
 
+#include "model/joint_kinds.hpp"
 #include "model/loop_kinds.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/read.hpp"
+#include "support/enumerators.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::model {
@@ -43,11 +45,11 @@ TEST(Keys, OfTheExamplesMakeOneModel) { EXPECT_EQ(problems(examples()), ""); }
 
 TEST(Keys, OfJointsAreThoseOfAllTypesAndTheirCoordinates) {
   std::set<std::string> known;
-  for (const char* type : {"fixed", "revolute", "prismatic", "screw", "cylindrical", "universal", "planar",
-                           "spherical", "free", "curve"})
-    known.merge(known_in("joint", type));
-  std::set<std::string> listed = {"angle",  "slide", "first",
-                                  "second", "x",     "y"};  // tables of a coordinate each
+  for (const std::string& type : joint_type_names()) known.merge(known_in("joint", type));
+  std::set<std::string> listed;
+  for (const JointType type : support::entries_of<JointType>())
+    for (const JointMotion& motion : joint_kind(type).coordinates())
+      if (!motion.suffix.empty()) listed.emplace(motion.suffix);  // a table of its own
   for (const char* section : {"joint", "coordinate"})
     for (const std::string& key : keys_of(section)) listed.insert(key);
   EXPECT_EQ(known, listed);

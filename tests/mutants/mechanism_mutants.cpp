@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "model/joint_kinds.hpp"
+#include "model/loop_kinds.hpp"
+#include "model/output_kinds.hpp"
+
 namespace jourdain::tests {
 
 using model::Expression;
@@ -27,7 +31,7 @@ class Numbers {
     for (model::Output& output : mechanism_.outputs)
       if (output.kind == model::OutputKind::kExpression) visit_("output " + output.name, output.value);
     for (model::Loop& loop : mechanism_.loops)
-      if (loop.type == model::LoopType::kRod) visit_("length of " + loop.name, loop.length);
+      if (model::loop_kind(loop).takes("length")) visit_("length of " + loop.name, loop.length);
   }
 
  private:
@@ -48,8 +52,8 @@ class Numbers {
   }
   void visit_joint(model::Joint& joint) {
     placement("joint " + joint.name, joint.placement);
-    if (joint.type == model::JointType::kScrew) visit_("pitch of " + joint.name, joint.pitch);
-    if (joint.type == model::JointType::kCurve) vector("curve of " + joint.name, joint.curve);
+    if (model::joint_kind(joint).takes("pitch")) visit_("pitch of " + joint.name, joint.pitch);
+    if (model::joint_kind(joint).takes("curve")) vector("curve of " + joint.name, joint.curve);
     for (model::Coordinate& c : joint.coordinates) {
       for (Expression* number : {&c.stiffness, &c.rest, &c.damping, &c.friction})
         visit_("force of " + c.name, *number);
@@ -58,7 +62,7 @@ class Numbers {
       visit_("initial position of " + c.name, c.initial_position);
       visit_("initial velocity of " + c.name, c.initial_velocity);
     }
-    if (joint.coordinates.empty() && joint.type != model::JointType::kFixed) {
+    if (model::joint_kind(joint).has_quaternion()) {
       visit_("spin damping of " + joint.name, joint.spin_damping);
       vector("initial spin of " + joint.name, joint.initial_spin);
     }
@@ -98,6 +102,11 @@ void change_joints(const Mechanism& mechanism, std::vector<MechanismMutant>& mut
     std::swap(cycled.mechanism.joints[j].axis[0], cycled.mechanism.joints[j].axis[1]);
     std::swap(cycled.mechanism.joints[j].axis[1], cycled.mechanism.joints[j].axis[2]);
     mutants.push_back(cycled);
+    if (model::joint_kind(joint).takes("sequence")) {
+      MechanismMutant other{"another sequence", joint.name, mechanism};
+      for (std::size_t& axis : other.mechanism.joints[j].sequence) axis = (axis + 1) % 3;
+      mutants.push_back(other);
+    }
     if (!joint.parent) continue;
     MechanismMutant orphan{"parent is the world", joint.name, mechanism};
     orphan.mechanism.joints[j].parent = std::nullopt;
@@ -128,7 +137,7 @@ void change_ends(const Mechanism& mechanism, std::vector<MechanismMutant>& mutan
     });
   }
   for (std::size_t i = 0; i < mechanism.outputs.size(); ++i)
-    if (mechanism.outputs[i].kind <= model::OutputKind::kJacobian)
+    if (model::output_kind(mechanism.outputs[i].kind).subject == model::OutputSubject::kFrame)
       add("another frame", mechanism.outputs[i].name,
           [&](Mechanism& m) { m.outputs[i].frame = next(m.outputs[i].frame); });
   for (std::size_t i = 0; i < mechanism.loops.size(); ++i) {

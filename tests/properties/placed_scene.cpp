@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/joint_kinds.hpp"
+
 namespace jourdain::tests {
 
 using model::JointType;
@@ -19,18 +21,8 @@ std::array<double, 3> numbers(const Point3& p) { return {p.x(), p.y(), p.z()}; }
 Eigen::Matrix3d about_z(double angle) { return Eigen::AngleAxisd(angle, Point3::UnitZ()).toRotationMatrix(); }
 
 LoopType loop_type(JointType type, bool pins) {
-  switch (type) {
-    case JointType::kRevolute:
-      return pins ? LoopType::kPlanarPin : LoopType::kRevolute;
-    case JointType::kPrismatic:
-      return LoopType::kPrismatic;
-    case JointType::kCylindrical:
-      return LoopType::kCylindrical;
-    case JointType::kUniversal:
-      return LoopType::kUniversal;
-    default:
-      return LoopType::kBall;
-  }
+  if (pins && type == JointType::kRevolute) return LoopType::kPlanarPin;
+  return model::joint_kind(type).as_loop.value_or(LoopType::kBall);
 }
 
 }  // namespace

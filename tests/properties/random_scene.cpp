@@ -6,9 +6,11 @@
 
 #include "model/coordinates.hpp"
 #include "properties/arithmetic.hpp"
+#include "properties/gimbals.hpp"
 #include "properties/random.hpp"
 #include "properties/random_tree.hpp"
 #include "reference/massless.hpp"
+#include "support/enumerators.hpp"
 
 namespace jourdain::tests {
 
@@ -58,12 +60,17 @@ class Decoration {
   }
 
   void change_type(model::Joint& joint) {
-    static constexpr JointType kTypes[] = {
-        JointType::kScrew,     JointType::kCylindrical, JointType::kUniversal, JointType::kPlanar,
-        JointType::kSpherical, JointType::kCurve,       JointType::kRevolute,  JointType::kPrismatic};
     const bool fixed = joint.type == JointType::kFixed;
     if (random_.chance(fixed ? 0.7 : 0.3)) return;
-    joint.set_type(kTypes[random_.below(8)]);
+    joint.set_type(moving_type());
+  }
+
+  /// Any that may hang on a body.
+  JointType moving_type() {
+    constexpr auto kTypes = support::entries_of<JointType>();
+    JointType type = JointType::kFree;
+    while (type == JointType::kFixed || type == JointType::kFree) type = kTypes[random_.below(kTypes.size())];
+    return type;
   }
 
   void make_one_free() {
@@ -88,6 +95,7 @@ class Decoration {
       joint.curve = {number(0.3, 1) * s, number(-0.3, 0.3) * sine(number(0.5, 2) * s),
                      number(0.1, 0.3) * cosine(s) + number(0.1, 0.2) * s * s};
     }
+    if (joint.type == JointType::kGimbal) joint.sequence = random_sequence(random_);
     if (joint.type == JointType::kSpherical && random_.chance(0.5)) joint.spin_damping = number(0, 1);
     if (joint.type == JointType::kFree || joint.type == JointType::kSpherical) {
       joint.initial_orientation = {0.5, -0.5, 0.5, 0.5};
@@ -249,7 +257,7 @@ class Decoration {
   void add_output() {
     model::Output output;
     output.name = fmt::format("out{}", mechanism_.outputs.size());
-    output.kind = static_cast<model::OutputKind>(random_.below(9));
+    output.kind = static_cast<model::OutputKind>(random_.below(support::entry_count<model::OutputKind>()));
     output.frame = model::FrameIndex(random_.below(3));
     output.joint = model::JointIndex(random_.below(mechanism_.joints.size()));
     if (output.kind == model::OutputKind::kExpression) output.value = expression();

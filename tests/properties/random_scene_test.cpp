@@ -10,6 +10,7 @@
 #include "properties/effort.hpp"
 #include "properties/random_tree.hpp"
 #include "properties/to_toml.hpp"
+#include "support/enumerators.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -24,7 +25,7 @@ TEST(RandomScene, DrawsEveryJointAndElement) {
   std::set<model::OutputKind> outputs;
   int motions = 0, free = 0, loads = 0, springs = 0, bushings = 0, laws = 0, inputs = 0, rotors = 0,
       frictions = 0;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const model::Mechanism scene = random_scene(seed);
     motions += has_motion(scene);
     free += has_free_joint(scene);
@@ -40,8 +41,8 @@ TEST(RandomScene, DrawsEveryJointAndElement) {
       for (const model::Coordinate& c : joint.coordinates) frictions += !c.friction.is_zero();
     }
   }
-  EXPECT_EQ(joints.size(), 10u);
-  EXPECT_EQ(outputs.size(), 9u);
+  EXPECT_EQ(joints.size(), support::entry_count<model::JointType>());
+  EXPECT_EQ(outputs.size(), support::entry_count<model::OutputKind>());
   for (const int count : {motions, free, loads, springs, bushings, laws, inputs, rotors, frictions})
     EXPECT_GE(count, 5);
 }

@@ -6,7 +6,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "model/coordinates.hpp"
+#include "model/joint_kinds.hpp"
+#include "model/loop_kinds.hpp"
+#include "model/output_kinds.hpp"
 
 namespace jourdain::tests {
 
@@ -125,39 +127,40 @@ class Writer {
                          body.lumped ? "lumped" : "rigid");
   }
 
-  static const char* type_name(model::JointType type) {
-    static constexpr const char* kTypes[] = {"fixed",     "revolute", "prismatic", "screw", "cylindrical",
-                                             "universal", "planar",   "spherical", "free",  "curve"};
-    return kTypes[std::size_t(type)];
-  }
-
   static std::string axis(const char* key, const std::array<double, 3>& a) {
     return fmt::format("{} = [{}, {}, {}]\n", key, number(a[0]), number(a[1]), number(a[2]));
   }
 
+  std::string own_key(const model::Joint& joint, std::string_view key) {
+    if (key == "axis") return axis("axis", joint.axis);
+    if (key == "second_axis") return axis("second_axis", joint.second_axis);
+    if (key == "pitch") return fmt::format("pitch = {}\n", value(joint.pitch));
+    if (key == "curve") return fmt::format("curve = {}\n", with({"s"}, joint.curve));
+    if (key == "sequence") return fmt::format("sequence = \"{}\"\n", model::sequence_text(joint));
+    if (key == "damping") return fmt::format("damping = {}\n", value(joint.spin_damping));
+    if (key == "initial_position")
+      return fmt::format("initial_position = {}\n", vector(joint.initial_origin));
+    if (key == "initial_velocity")
+      return fmt::format("initial_velocity = {}\n", vector(joint.initial_origin_velocity));
+    if (key == "initial_angular_velocity")
+      return fmt::format("initial_angular_velocity = {}\n", vector(joint.initial_spin));
+    JD_CHECK(key == "initial_orientation", "no words for the key '{}' of a joint", key);
+    const auto& q = joint.initial_orientation;
+    return fmt::format("initial_orientation = [{}, {}, {}, {}]\n", value(q[0]), value(q[1]), value(q[2]),
+                       value(q[3]));
+  }
+
   void add(const model::Joint& joint) {
-    using Type = model::JointType;
+    const model::JointKind& kind = model::joint_kind(joint);
     text_ += fmt::format("\n[[joint]]\nname = \"{}\"\ntype = \"{}\"\nparent = \"{}\"\nchild = \"{}\"\n",
-                         joint.name, type_name(joint.type),
+                         joint.name, kind.name,
                          joint.parent ? mechanism_.bodies[joint.parent->value].name : "world",
                          mechanism_.bodies[joint.child.value].name);
-    if (joint.type != Type::kFree)
+    if (!kind.has_origin())
       text_ += fmt::format("position = {}\nrpy = {}\n", vector(joint.placement.position),
                            vector(joint.placement.rotation.rpy));
-    if (!joint.coordinates.empty() && joint.type != Type::kCurve) text_ += axis("axis", joint.axis);
-    if (joint.type == Type::kUniversal) text_ += axis("second_axis", joint.second_axis);
-    if (joint.type == Type::kScrew) text_ += fmt::format("pitch = {}\n", value(joint.pitch));
-    if (joint.type == Type::kCurve) text_ += fmt::format("curve = {}\n", with({"s"}, joint.curve));
-    if (joint.type == Type::kSpherical) text_ += fmt::format("damping = {}\n", value(joint.spin_damping));
-    if (joint.type == Type::kFree)
-      text_ += fmt::format("initial_position = {}\ninitial_velocity = {}\n", vector(joint.initial_origin),
-                           vector(joint.initial_origin_velocity));
-    if (joint.type == Type::kFree || joint.type == Type::kSpherical) {
-      const auto& q = joint.initial_orientation;
-      text_ += fmt::format("initial_orientation = [{}, {}, {}, {}]\ninitial_angular_velocity = {}\n",
-                           value(q[0]), value(q[1]), value(q[2]), value(q[3]), vector(joint.initial_spin));
-    }
-    const std::span<const model::CoordinateKind> kinds = model::coordinate_kinds(joint.type);
+    for (const std::string_view key : kind.keys) text_ += own_key(joint, key);
+    const std::span<const model::JointMotion> kinds = kind.coordinates();
     for (std::size_t c = 0; c < kinds.size(); ++c)
       if (kinds.size() == 1)
         text_ += element(joint.coordinates[c], "\n") + "\n";
@@ -188,7 +191,7 @@ class Writer {
 
   std::string coordinate(model::JointIndex joint, std::size_t which) const {
     const model::Joint& j = mechanism_.joints[joint.value];
-    const std::span<const model::CoordinateKind> kinds = model::coordinate_kinds(j.type);
+    const std::span<const model::JointMotion> kinds = model::joint_kind(j).coordinates();
     return fmt::format("joint = \"{}\"\n", j.name) +
            (kinds.size() > 1 ? fmt::format("coordinate = \"{}\"\n", kinds[which].suffix) : "");
   }
@@ -247,20 +250,19 @@ class Writer {
   }
 
   void add(const model::Loop& loop) {
-    using Type = model::LoopType;
-    static constexpr const char* kTypes[] = {"ball",        "revolute",   "universal",      "prismatic",
-                                             "cylindrical", "planar_pin", "point_in_plane", "point_on_line",
-                                             "rod",         "residual"};
-    const Type type = loop.type;
-    text_ += fmt::format("\n[[loop]]\nname = \"{}\"\ntype = \"{}\"\n", loop.name, kTypes[std::size_t(type)]);
-    if (type == Type::kResidual) {
-      text_ += fmt::format("residual = {}\n", value(loop.residual));
-      return;
-    }
-    text_ += fmt::format("from = \"{}\"\nto = \"{}\"\n", frame(loop.from), frame(loop.to));
-    if (type == Type::kRod) text_ += fmt::format("length = {}\n", value(loop.length));
-    if (type != Type::kRod && type != Type::kBall) text_ += axis("axis", loop.axis);
-    if (type >= Type::kRevolute && type <= Type::kCylindrical) text_ += axis("to_axis", loop.to_axis);
+    const model::LoopKind& kind = model::loop_kind(loop);
+    text_ += fmt::format("\n[[loop]]\nname = \"{}\"\ntype = \"{}\"\n", loop.name, kind.name);
+    for (const std::string_view key : kind.keys) text_ += own_key(loop, key);
+  }
+
+  std::string own_key(const model::Loop& loop, std::string_view key) const {
+    if (key == "from") return fmt::format("from = \"{}\"\n", frame(loop.from));
+    if (key == "to") return fmt::format("to = \"{}\"\n", frame(loop.to));
+    if (key == "axis") return axis("axis", loop.axis);
+    if (key == "to_axis") return axis("to_axis", loop.to_axis);
+    if (key == "length") return fmt::format("length = {}\n", value(loop.length));
+    JD_CHECK(key == "residual", "no words for the key '{}' of a loop", key);
+    return fmt::format("residual = {}\n", value(loop.residual));
   }
 
   void add(const model::LoopOptions& options) {
@@ -280,17 +282,24 @@ class Writer {
   }
 
   void add(const model::Output& output) {
-    using Kind = model::OutputKind;
-    static constexpr const char* kKinds[] = {"pose",           "velocity",         "acceleration",
-                                             "jacobian",       "reaction",         "drive",
-                                             "kinetic_energy", "potential_energy", "expression"};
-    text_ += fmt::format("\n[[output]]\nname = \"{}\"\nkind = \"{}\"\n", output.name,
-                         kKinds[std::size_t(output.kind)]);
-    if (output.kind <= Kind::kJacobian) text_ += fmt::format("frame = \"{}\"\n", frame(output.frame));
-    if (output.kind == Kind::kReaction)
-      text_ += fmt::format("joint = \"{}\"\n", mechanism_.joints[output.joint.value].name);
-    if (output.kind == Kind::kDrive) text_ += coordinate(output.joint, output.coordinate);
-    if (output.kind == Kind::kExpression) text_ += fmt::format("value = {}\n", value(output.value));
+    const model::OutputKindRow& kind = model::output_kind(output.kind);
+    text_ += fmt::format("\n[[output]]\nname = \"{}\"\nkind = \"{}\"\n", output.name, kind.name);
+    switch (kind.subject) {
+      case model::OutputSubject::kNone:
+        break;
+      case model::OutputSubject::kFrame:
+        text_ += fmt::format("frame = \"{}\"\n", frame(output.frame));
+        break;
+      case model::OutputSubject::kJoint:
+        text_ += fmt::format("joint = \"{}\"\n", mechanism_.joints[output.joint.value].name);
+        break;
+      case model::OutputSubject::kCoordinate:
+        text_ += coordinate(output.joint, output.coordinate);
+        break;
+      case model::OutputSubject::kValue:
+        text_ += fmt::format("value = {}\n", value(output.value));
+        break;
+    }
   }
 
   const model::Mechanism& mechanism_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "properties/gimbals.hpp"
 #include "properties/random.hpp"
 
 namespace jourdain::tests {
@@ -57,6 +58,7 @@ class ChainDraw {
     joint.axis = direction();
     joint.second_axis = {1, number(0.5), number(0.5)};
     joint.pitch = number(1);
+    if (type == JointType::kGimbal) joint.sequence = random_sequence(random_);
     joint.spin_damping = random_.unit();
     const Expression s = Expression::variable({model::Variable::Kind::kArgument});
     joint.curve = {Expression::unary(Op::kCos, s), scaled(0.7, Expression::unary(Op::kSin, s)),

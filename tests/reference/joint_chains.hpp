@@ -8,15 +8,12 @@
 
 #include "model/coordinates.hpp"
 #include "model/mechanism.hpp"
+#include "support/enumerators.hpp"
 
 namespace jourdain::tests {
 
 /// Every type of joint.
-inline constexpr model::JointType kJointTypes[] = {
-    model::JointType::kFixed,  model::JointType::kRevolute,    model::JointType::kPrismatic,
-    model::JointType::kScrew,  model::JointType::kCylindrical, model::JointType::kUniversal,
-    model::JointType::kPlanar, model::JointType::kSpherical,   model::JointType::kFree,
-    model::JointType::kCurve};
+inline constexpr auto kJointTypes = support::entries_of<model::JointType>();
 
 /// One body per joint, each the child of the one before it, the first joint on the world; kFree only there. Placements,
 /// axes, masses, joint springs, dampers, friction and gravity are random; inertias about the centre of mass along the

@@ -8,6 +8,7 @@
 
 #include "loops/record/loop_plan.hpp"
 #include "model/coordinates.hpp"
+#include "model/joint_kinds.hpp"
 #include "reference/minimal.hpp"
 
 namespace jourdain::loops {
@@ -45,10 +46,10 @@ GivenValues given_values(const model::Mechanism& mechanism, const model::Coordin
       given.position[*entries.velocity[c]] = joint.coordinates[c].position_where;
       given.velocity[*entries.velocity[c]] = joint.coordinates[c].velocity_where;
     }
-    const bool is_free = joint.type == model::JointType::kFree;
-    if (is_free) three(entries.first_velocity, joint.origin_where, joint.origin_velocity_where);
-    if (is_free || joint.type == model::JointType::kSpherical)
-      three(entries.first_velocity + (is_free ? 3 : 0), joint.orientation_where, joint.spin_where);
+    const model::JointKind& kind = model::joint_kind(joint);
+    if (kind.has_origin()) three(entries.first_velocity, joint.origin_where, joint.origin_velocity_where);
+    if (kind.has_quaternion())
+      three(entries.first_velocity + (kind.has_origin() ? 3 : 0), joint.orientation_where, joint.spin_where);
   }
   return given;
 }

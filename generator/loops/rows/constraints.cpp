@@ -7,6 +7,7 @@
 #include "lowering/cheapest_elimination.hpp"
 #include "lowering/lower.hpp"
 #include "model/coordinates.hpp"
+#include "model/loop_kinds.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::loops {
@@ -61,7 +62,7 @@ class LoopLowering {
  private:
   /// Coordinates that the loop does not feel.
   std::map<std::size_t, double> inward(const model::Loop& loop) const {
-    if (loop.type == model::LoopType::kResidual) return {};
+    if (!model::loop_kind(loop).has_ends()) return {};
     return positions_inward(mechanism_, layout_,
                             model::carrier(mechanism_, mechanism_.frames[loop.from.value].body,
                                            mechanism_.frames[loop.to.value].body));

@@ -73,7 +73,7 @@ class Settlement {
     std::vector<bool> is_expression;
     for (const model::Loop& loop : mechanism_.loops)
       is_expression.resize(is_expression.size() + model::row_count(loop.type),
-                           loop.type == model::LoopType::kResidual);
+                           !model::loop_kind(loop).has_ends());
     return tolerance <= kRowTolerance ||
            std::none_of(rows.begin(), rows.end(), [&](std::size_t r) { return is_expression[r]; });
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/check/checks.hpp"
+#include "model/joint_kinds.hpp"
 
 namespace jourdain::model {
 
@@ -55,16 +56,16 @@ class NumberCheck {
       values({c.stiffness, c.rest, c.damping}, joint.where, "stiffness, rest or damping " + name);
       values({c.initial_position, c.initial_velocity, Expression(0.0)}, joint.where, "initial state " + name);
     }
-    if (joint.type == JointType::kFree) check_free(joint);
-    if (joint.type == JointType::kFixed || joint.coordinates.empty() || joint.type == JointType::kCurve)
-      return;
+    const JointKind& kind = joint_kind(joint);
+    if (kind.has_origin()) check_free(joint);
+    if (!kind.has_axis()) return;
     const SourceRange where = first_known(joint.axis_where, joint.where);
     const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);
     if (!std::isfinite(length)) diagnostics_.error(where, fmt::format("axis {} is not finite", name));
     if (length == 0)
       diagnostics_.error(where, fmt::format("axis {} is zero", name),
                          "an axis is a direction, such as [0, 0, 1]");
-    if (joint.type == JointType::kUniversal) check_second_axis(joint, where, name);
+    if (kind.has(Along::kSecondAxis)) check_second_axis(joint, where, name);
   }
 
  private:

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "model/check/checks.hpp"
+#include "model/loop_kinds.hpp"
+#include "model/output_kinds.hpp"
 
 namespace jourdain::model {
 
@@ -22,8 +24,12 @@ class LoopCheck {
 
   void run() {
     for (const Loop& loop : mechanism_.loops) {
-      loop.type == LoopType::kResidual ? residual(loop) : ends(loop);
-      if (loop.type == LoopType::kResidual) outputs_beside(loop);
+      if (loop_kind(loop).has_ends()) {
+        ends(loop);
+      } else {
+        residual(loop);
+        outputs_beside(loop);
+      }
     }
   }
 
@@ -87,12 +93,11 @@ class LoopCheck {
   /// A residual's force pushes coordinates; what transmits it to which bodies is not known.
   void outputs_beside(const Loop& loop) {
     for (const Output& output : mechanism_.outputs)
-      if (output.kind == OutputKind::kReaction || output.kind == OutputKind::kDrive)
-        diagnostics_.error(
-            output.where,
-            fmt::format("output '{}' is a {} in a mechanism with the residual '{}'", shown(output.name),
-                        output.kind == OutputKind::kReaction ? "reaction" : "drive", shown(loop.name)),
-            "a residual does not say on which bodies its force acts: use a joint as the loop");
+      if (output_kind(output.kind).is_of_joint())
+        diagnostics_.error(output.where,
+                           fmt::format("output '{}' is a {} in a mechanism with the residual '{}'",
+                                       shown(output.name), output_kind(output.kind).name, shown(loop.name)),
+                           "a residual does not say on which bodies its force acts: use a joint as the loop");
   }
 
   const Mechanism& mechanism_;

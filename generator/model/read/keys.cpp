@@ -84,7 +84,7 @@ KeySection joint_section() {
       "Joints make a tree: each body is the child of one. A joint with one coordinate gives its name to it.",
       {{"name", "name", "", kRequired, "an identifier"},
        {"type", "word", "", kRequired,
-        "fixed, revolute, prismatic, screw, cylindrical, universal, planar, spherical, free, curve"},
+        "fixed, revolute, prismatic, screw, cylindrical, universal, planar, spherical, free, curve, gimbal"},
        {"parent", "name", "", kRequired,
         "a body, or \"world\", the inertial frame; of a free joint the world"},
        {"child", "name", "", kRequired, "a body"},
@@ -95,6 +95,8 @@ KeySection joint_section() {
        {"second_axis", "3 constants", "", "[1, 0, 0]", "universal: in the frame turned about axis"},
        {"pitch", "number", "m/rad", kRequired, "screw"},
        {"curve", "3 expressions", "m", kRequired, "curve: of its coordinate s; the child does not turn"},
+       {"sequence", "3 letters", "", "\"xyz\"",
+        "gimbal: the axes of its turns, x, y or z of the frame turned so far; neighbours differ"},
        {"initial_orientation", "4 numbers", "", "[1, 0, 0, 0]", "spherical, free: unit quaternion w x y z"},
        {"initial_angular_velocity", "3 numbers", "rad/s", "[0, 0, 0]", "spherical, free: child axes"}},
       R"([[joint]]
@@ -129,7 +131,8 @@ KeySection coordinate_section() {
           "keys of a coordinate",
           "In the joint's table where it has one coordinate, otherwise in a table for each: cylindrical "
           "angle, slide; "
-          "universal first, second; planar x, y, angle (angle = { damping = 5 }). Units are those of an "
+          "universal first, second; planar x, y, angle (angle = { damping = 5 }); gimbal first, second, "
+          "third. Units are those of an "
           "angle; of a "
           "slide m, N, N/m and so on. Spherical joints have damping, free ones initial_position and "
           "initial_velocity, three numbers each.",

@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "model/output_kinds.hpp"
+
 namespace jourdain::model {
 
 namespace {
@@ -32,7 +34,7 @@ void lock(Mechanism& mechanism, JointIndex joint) {
   });
   std::erase_if(mechanism.loop_options.independent, on_joint);
   std::erase_if(mechanism.outputs, [&](const Output& output) {
-    return output.kind == OutputKind::kDrive && output.joint == joint;
+    return output_kind(output.kind).subject == OutputSubject::kCoordinate && output.joint == joint;
   });
   for_general_expressions(mechanism, [&](Expression& expression) {
     expression = expression.substituted([&](const Variable& variable) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "model/joint_kinds.hpp"
 #include "model/read/toml_sections.hpp"
 #include "model/taylor.hpp"
 
@@ -33,7 +34,7 @@ void read_range(TomlFile& file, const TomlTable& table, const Needed& position, 
 }  // namespace
 
 CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate) {
-  if (joint.type == JointType::kCurve) return {};
+  if (joint_kind(joint).motions[coordinate].kind == MotionKind::kCurve) return {};
   if (joint.coordinates[coordinate].angular)
     return {needed::kAngle, needed::kAngularRate, needed::kMoment, needed::kAngularStiffness,
             needed::kAngularDamping};

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/joint_kinds.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
@@ -16,62 +17,35 @@ namespace {
 
 using support::shown;
 
-const std::vector<std::string> kTypes{"fixed",     "revolute", "prismatic", "screw", "cylindrical",
-                                      "universal", "planar",   "spherical", "free",  "curve"};
 const std::vector<std::string> kCommonKeys{"name", "type", "parent", "child", "position", "rpy"};
 
-/// Keys that a joint of this type has beside the common ones.
-std::vector<std::string> keys_of(JointType type) {
+/// Keys that a joint of this kind has beside the common ones.
+std::vector<std::string> keys_of(const JointKind& kind) {
   std::vector<std::string> keys;
-  const auto add = [&keys](std::initializer_list<const char*> more) {
-    keys.insert(keys.end(), more.begin(), more.end());
-  };
-  const std::span<const CoordinateKind> kinds = coordinate_kinds(type);
-  if (kinds.size() == 1) keys = model::keys_of("coordinate");
-  if (kinds.size() > 1)
-    for (const CoordinateKind& kind : kinds) keys.emplace_back(kind.suffix);
-  switch (type) {
-    case JointType::kFixed:
-      break;
-    case JointType::kRevolute:
-    case JointType::kPrismatic:
-    case JointType::kCylindrical:
-    case JointType::kPlanar:
-      add({"axis"});
-      break;
-    case JointType::kScrew:
-      add({"axis", "pitch"});
-      break;
-    case JointType::kUniversal:
-      add({"axis", "second_axis"});
-      break;
-    case JointType::kCurve:
-      add({"curve"});
-      break;
-    case JointType::kSpherical:
-      add({"damping", "initial_orientation", "initial_angular_velocity"});
-      break;
-    case JointType::kFree:
-      add({"initial_position", "initial_velocity", "initial_orientation", "initial_angular_velocity"});
-      break;
-  }
+  const std::span<const JointMotion> coordinates = kind.coordinates();
+  if (coordinates.size() == 1) keys = model::keys_of("coordinate");
+  if (coordinates.size() > 1)
+    for (const JointMotion& motion : coordinates) keys.emplace_back(motion.suffix);
+  keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
   return keys;
 }
 
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys = kCommonKeys;
-  for (std::size_t type = 0; type < kTypes.size(); ++type)
-    for (const std::string& key : keys_of(static_cast<JointType>(type)))
+  for (std::size_t type = 0; type < joint_type_names().size(); ++type)
+    for (const std::string& key : keys_of(joint_kind(static_cast<JointType>(type))))
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   return keys;
 }
 
 /// Those of a joint whose type can be read, or of a revolute one.
 std::vector<std::string> shown_keys(const toml::table& table) {
-  const auto type = std::find(kTypes.begin(), kTypes.end(), table["type"].value_or(std::string()));
-  const auto index = type == kTypes.end() ? 1 : type - kTypes.begin();
+  const std::vector<std::string>& types = joint_type_names();
+  const auto type = std::find(types.begin(), types.end(), table["type"].value_or(std::string()));
+  const auto known =
+      type == types.end() ? JointType::kRevolute : static_cast<JointType>(type - types.begin());
   std::vector<std::string> keys = kCommonKeys;
-  for (const std::string& key : keys_of(static_cast<JointType>(index))) keys.push_back(key);
+  for (const std::string& key : keys_of(joint_kind(known))) keys.push_back(key);
   return keys;
 }
 
@@ -105,8 +79,9 @@ class JointReader {
 
  private:
   bool read_type(Joint& joint) {
-    if (!table_.has("type")) table_.missing("type", fmt::format("one of {}", fmt::join(kTypes, ", ")));
-    const auto type = table_.choice("type", kTypes);
+    if (!table_.has("type"))
+      table_.missing("type", fmt::format("one of {}", fmt::join(joint_type_names(), ", ")));
+    const auto type = table_.choice("type", joint_type_names());
     if (!type || !table_.has("type")) {
       joint.set_type(JointType::kRevolute);
       return false;
@@ -147,19 +122,20 @@ class JointReader {
     if (joint.coordinates.size() == 1)
       read_coordinate(file_, table_, coordinate_needs(joint, 0), joint.coordinates[0]);
     if (joint.coordinates.size() > 1) read_coordinate_tables(joint);
-    if (joint.type == JointType::kScrew) {
+    const JointKind& kind = joint_kind(joint);
+    if (kind.takes("pitch")) {
       if (!table_.has("pitch")) table_.missing("pitch", "m/rad");
       joint.pitch = table_.number("pitch", needed::kPitch);
     }
-    if (joint.type == JointType::kCurve) read_curve(joint);
-    if (joint.type == JointType::kSpherical)
-      joint.spin_damping = table_.number("damping", needed::kAngularDamping);
-    if (joint.type != JointType::kSpherical && joint.type != JointType::kFree) return;
+    if (kind.takes("curve")) read_curve(joint);
+    if (kind.takes("sequence")) read_sequence(joint);
+    if (kind.takes("damping")) joint.spin_damping = table_.number("damping", needed::kAngularDamping);
+    if (!kind.has_quaternion()) return;
     joint.initial_orientation = table_.quaternion("initial_orientation");
     joint.initial_spin = table_.vector("initial_angular_velocity", needed::kAngularRate);
     joint.orientation_where = table_.where_given("initial_orientation");
     joint.spin_where = table_.where_given("initial_angular_velocity");
-    if (joint.type == JointType::kSpherical) return;
+    if (!kind.has_origin()) return;
     joint.initial_origin = table_.vector("initial_position", needed::kLength);
     joint.initial_origin_velocity = table_.vector("initial_velocity", needed::kSpeed);
     joint.origin_where = table_.where_given("initial_position");
@@ -167,26 +143,42 @@ class JointReader {
   }
 
   void refuse_foreign_keys(const Joint& joint) {
-    const std::vector<std::string> own = keys_of(joint.type);
-    const std::string& type = kTypes[static_cast<std::size_t>(joint.type)];
+    const JointKind& kind = joint_kind(joint);
+    const std::vector<std::string> own = keys_of(kind);
     for (const std::string& key : all_keys()) {
       const bool common = std::find(kCommonKeys.begin(), kCommonKeys.end(), key) != kCommonKeys.end();
       if (common || !table_.has(key) || std::find(own.begin(), own.end(), key) != own.end()) continue;
-      const bool rotates = joint.type == JointType::kSpherical || joint.type == JointType::kFree;
-      table_.error(key, fmt::format("{} is {} and has no '{}'", table_.what(), type, key),
-                   key == "motion" && rotates ? "only scalar coordinates can be prescribed" : "");
+      table_.error(
+          key, fmt::format("{} is {} and has no '{}'", table_.what(), kind.name, key),
+          key == "motion" && kind.has_quaternion() ? "only scalar coordinates can be prescribed" : "");
     }
   }
 
   void read_coordinate_tables(Joint& joint) {
-    const std::span<const CoordinateKind> kinds = coordinate_kinds(joint.type);
-    for (std::size_t c = 0; c < kinds.size(); ++c) {
-      const toml::table* section = table_.table(kinds[c].suffix);
+    const std::span<const JointMotion> motions = joint_kind(joint).coordinates();
+    for (std::size_t c = 0; c < motions.size(); ++c) {
+      const std::string_view suffix = motions[c].suffix;
+      const toml::table* section = table_.table(suffix);
       if (!section) continue;
-      const TomlTable table(file_, *section, fmt::format("'{}' of {}", kinds[c].suffix, table_.what()),
-                            table_.where(kinds[c].suffix), model::keys_of("coordinate"));
+      const TomlTable table(file_, *section, fmt::format("'{}' of {}", suffix, table_.what()),
+                            table_.where(suffix), model::keys_of("coordinate"));
       read_coordinate(file_, table, coordinate_needs(joint, c), joint.coordinates[c]);
     }
+  }
+
+  /// Two turns in a row about one axis would be one.
+  void read_sequence(Joint& joint) {
+    const std::optional<std::string> text = table_.text("sequence");
+    if (!text) return;
+    const bool letters = text->size() == 3 && text->find_first_not_of("xyz") == std::string::npos;
+    if (!letters)
+      return table_.error("sequence", fmt::format("{} is not three of x, y, z", table_.quoted("sequence")),
+                          "such as \"xyz\" or \"zxz\": the axes of three turns, one after the other");
+    if ((*text)[0] == (*text)[1] || (*text)[1] == (*text)[2])
+      return table_.error("sequence",
+                          fmt::format("{} turns about one axis twice in a row", table_.quoted("sequence")),
+                          "neighbours must differ");
+    for (std::size_t k = 0; k < 3; ++k) joint.sequence[k] = static_cast<std::size_t>((*text)[k] - 'x');
   }
 
   /// The curve must move with its coordinate where it starts.
@@ -239,21 +231,21 @@ std::vector<Joint> read_joints(TomlFile& file, const toml::array& section, const
 }
 
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint) {
-  const std::span<const CoordinateKind> kinds = coordinate_kinds(joint.type);
-  if (kinds.empty()) {
+  const std::span<const JointMotion> motions = joint_kind(joint).coordinates();
+  if (motions.empty()) {
     const std::string reason =
         joint.type == JointType::kFixed ? "is fixed and takes no force" : "has no scalar coordinate";
     table.error("joint", fmt::format("joint '{}' {}", shown(joint.name), reason),
                 joint.type == JointType::kFixed ? "" : "a load on a frame of its child takes its place");
     return {};
   }
-  if (kinds.size() == 1) {
+  if (motions.size() == 1) {
     if (table.has("coordinate"))
       table.error("coordinate", fmt::format("joint '{}' has one coordinate only", shown(joint.name)));
     return 0;
   }
   std::vector<std::string> names;
-  for (const CoordinateKind& kind : kinds) names.emplace_back(kind.suffix);
+  for (const JointMotion& motion : motions) names.emplace_back(motion.suffix);
   if (table.has("coordinate")) return table.choice("coordinate", names);
   table.missing("coordinate", fmt::format("one of {}", fmt::join(names, ", ")));
   return {};

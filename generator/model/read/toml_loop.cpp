@@ -21,33 +21,8 @@ const std::vector<std::string> kCommonKeys{"name", "type"};
 const std::vector<std::string> kOwnKeys{"from", "to", "axis", "to_axis", "length", "residual"};
 constexpr int kMostIterations = 20;
 
-/// Keys that a loop of this type has beside the common ones.
-std::vector<std::string> keys_of(LoopType type) {
-  switch (type) {
-    case LoopType::kBall:
-      return {"from", "to"};
-    case LoopType::kRevolute:
-    case LoopType::kUniversal:
-    case LoopType::kPrismatic:
-    case LoopType::kCylindrical:
-      return {"from", "to", "axis", "to_axis"};
-    case LoopType::kPlanarPin:
-    case LoopType::kPointInPlane:
-    case LoopType::kPointOnLine:
-      return {"from", "to", "axis"};
-    case LoopType::kRod:
-      return {"from", "to", "length"};
-    case LoopType::kResidual:
-      return {"residual"};
-  }
-  return {};
-}
-
-bool contains(const std::vector<std::string>& list, const std::string& word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
+template <class Keys>
+std::vector<std::string> joined(std::vector<std::string> first, const Keys& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
@@ -57,7 +32,7 @@ std::vector<std::string> shown_keys(const toml::table& table) {
   const auto type =
       std::find(loop_type_names().begin(), loop_type_names().end(), table["type"].value_or(std::string()));
   const auto index = type == loop_type_names().end() ? 0 : type - loop_type_names().begin();
-  return joined(kCommonKeys, keys_of(static_cast<LoopType>(index)));
+  return joined(kCommonKeys, loop_kind(static_cast<LoopType>(index)).keys);
 }
 
 /// The general scope, in which what is no position is refused.
@@ -102,8 +77,8 @@ class LoopReader {
     if (!read_type(loop)) return {};
     const bool ends = read_ends(loop, mechanism);
     read_axes(loop);
-    if (loop.type == LoopType::kRod) read_length(loop, mechanism);
-    if (loop.type == LoopType::kResidual) read_residual(loop, mechanism);
+    if (loop_kind(loop).takes("length")) read_length(loop, mechanism);
+    if (loop_kind(loop).takes("residual")) read_residual(loop, mechanism);
     if (!ends || file_.error_count() != mark) return {};
     return loop;
   }
@@ -115,16 +90,15 @@ class LoopReader {
     const auto type = table_.choice("type", loop_type_names());
     if (!type || !table_.has("type")) return false;
     loop.type = static_cast<LoopType>(*type);
-    const std::vector<std::string> own = keys_of(loop.type);
+    const LoopKind& kind = loop_kind(loop);
     for (const std::string& key : kOwnKeys)
-      if (table_.has(key) && !contains(own, key))
-        table_.error(key,
-                     fmt::format("{} is a {} and has no '{}'", table_.what(), loop_type_names()[*type], key));
+      if (table_.has(key) && !kind.takes(key))
+        table_.error(key, fmt::format("{} is a {} and has no '{}'", table_.what(), kind.name, key));
     return true;
   }
 
   bool read_ends(Loop& loop, Mechanism& mechanism) {
-    if (loop.type == LoopType::kResidual) return true;
+    if (!loop_kind(loop).has_ends()) return true;
     const auto from = find_frame(file_, table_, "from", mechanism),
                to = find_frame(file_, table_, "to", mechanism);
     if (!from || !to) return false;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "model/names.hpp"
+#include "model/output_kinds.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
@@ -13,26 +14,19 @@ namespace {
 
 using support::shown;
 
-const std::vector<std::string> kKinds{"pose",  "velocity",       "acceleration",     "jacobian",  "reaction",
-                                      "drive", "kinetic_energy", "potential_energy", "expression"};
-
-/// Keys that an output of this kind needs beside its name and kind.
-std::vector<std::string> keys_of(OutputKind kind) {
-  switch (kind) {
-    case OutputKind::kPose:
-    case OutputKind::kVelocity:
-    case OutputKind::kAcceleration:
-    case OutputKind::kJacobian:
-      return {"frame"};
-    case OutputKind::kReaction:
-      return {"joint"};
-    case OutputKind::kDrive:
-      return {"joint", "coordinate"};
-    case OutputKind::kExpression:
-      return {"value"};
-    case OutputKind::kKineticEnergy:
-    case OutputKind::kPotentialEnergy:
+/// Keys that an output about such a thing needs beside its name and kind.
+std::vector<std::string> keys_of(OutputSubject subject) {
+  switch (subject) {
+    case OutputSubject::kNone:
       return {};
+    case OutputSubject::kFrame:
+      return {"frame"};
+    case OutputSubject::kJoint:
+      return {"joint"};
+    case OutputSubject::kCoordinate:
+      return {"joint", "coordinate"};
+    case OutputSubject::kValue:
+      return {"value"};
   }
   return {};
 }
@@ -44,7 +38,7 @@ bool read_joint(TomlFile& file, const TomlTable& table, Output& output, const Me
                                 mechanism.joints, file.complete().structure);
   if (!joint) return false;
   output.joint = JointIndex(*joint);
-  if (output.kind == OutputKind::kReaction) return true;
+  if (output_kind(output.kind).subject == OutputSubject::kJoint) return true;
   const auto coordinate = find_coordinate(table, mechanism.joints[*joint]);
   if (!coordinate) return false;
   output.coordinate = *coordinate;
@@ -59,11 +53,11 @@ bool read_joint(TomlFile& file, const TomlTable& table, Output& output, const Me
 
 bool read_content(TomlFile& file, const TomlTable& table, Output& output, const Scope& scope,
                   Mechanism& mechanism) {
-  const std::vector<std::string> keys = keys_of(output.kind);
+  const OutputKindRow& kind = output_kind(output.kind);
+  const std::vector<std::string> keys = keys_of(kind.subject);
   for (const char* key : {"frame", "joint", "coordinate", "value"})
     if (table.has(key) && std::find(keys.begin(), keys.end(), key) == keys.end())
-      table.error(key, fmt::format("an output of kind '{}' has no '{}'",
-                                   kKinds[static_cast<std::size_t>(output.kind)], key));
+      table.error(key, fmt::format("an output of kind '{}' has no '{}'", kind.name, key));
   if (keys.empty()) return true;
   if (keys[0] == "joint") return read_joint(file, table, output, mechanism);
   if (keys[0] == "frame") {
@@ -88,8 +82,9 @@ void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechani
                           file.range(node.source()), keys_of("output"));
     table.required_text("name");
     output.where = table.where("name");
-    if (!table.has("kind")) table.missing("kind", fmt::format("one of {}", fmt::join(kKinds, ", ")));
-    const auto kind = table.choice("kind", kKinds);
+    if (!table.has("kind"))
+      table.missing("kind", fmt::format("one of {}", fmt::join(output_kind_names(), ", ")));
+    const auto kind = table.choice("kind", output_kind_names());
     if (!kind || !table.has("kind") || output.name.empty()) continue;
     output.kind = static_cast<OutputKind>(*kind);
     check_identifier(file, output.where, "output", output.name);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "model/joint_kinds.hpp"
+#include "model/output_kinds.hpp"
 #include "model/read/lock.hpp"
 
 namespace jourdain::model {
@@ -32,8 +34,8 @@ bool starts_at_zero(const Joint& joint) {
 
 /// Of its own, apart from what other lists hang on it.
 bool acts_by_itself(const Joint& joint) {
-  return joint.type == JointType::kFree || joint.type == JointType::kCurve || joint.mimics ||
-         !starts_at_zero(joint) ||
+  const JointKind& kind = joint_kind(joint);
+  return kind.has_origin() || kind.has(MotionKind::kCurve) || joint.mimics || !starts_at_zero(joint) ||
          std::any_of(joint.coordinates.begin(), joint.coordinates.end(),
                      [](const Coordinate& c) { return !c.stiffness.is_zero() || c.motion.has_value(); });
 }
@@ -84,7 +86,7 @@ class Ends {
     });
     for (const auto& coordinate : mechanism_.loop_options.independent) hold(coordinate.joint);
     for (const Output& output : mechanism_.outputs)
-      if (output.kind == OutputKind::kReaction || output.kind == OutputKind::kDrive) hold(output.joint);
+      if (output_kind(output.kind).is_of_joint()) hold(output.joint);
   }
 
   void mark_variables() {
