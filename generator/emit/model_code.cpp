@@ -148,7 +148,7 @@ class CodeBuilder {
         break;
     }
     JD_CHECK(false, "{} has no outputs", info.name);
-    return {};
+    return {Return{value}};
   }
 
   /// The function with the last part as its body, after calls of the others.

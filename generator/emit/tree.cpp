@@ -7,6 +7,37 @@ namespace jourdain::emit {
 using ir::Op;
 using Kind = Expression::Kind;
 
+Expression::Expression() = default;
+Expression::Expression(double real) : kind(Kind::kReal), number(real) {}
+Expression::Expression(int integer) : number(integer) {}
+Expression::Expression(std::size_t integer) : number(static_cast<double>(integer)) {}
+Expression::Expression(Kind k, std::string n, std::vector<Expression> o)
+    : kind(k), name(std::move(n)), operands(std::move(o)) {}
+Expression::Expression(const Expression&) = default;
+Expression::Expression(Expression&&) noexcept = default;
+Expression& Expression::operator=(const Expression&) = default;
+Expression& Expression::operator=(Expression&&) noexcept = default;
+Expression::~Expression() = default;
+
+Expression Expression::operator[](const Expression& index) const {
+  return {Kind::kEntry, "", {*this, index}};
+}
+Expression Expression::from(const Expression& index) const { return {Kind::kFrom, "", {*this, index}}; }
+Expression Expression::dot(const std::string& member) const { return {Kind::kMember, member, {*this}}; }
+
+Statement::Statement(Declare declare) : is(std::move(declare)) {}
+Statement::Statement(Set set) : is(std::move(set)) {}
+Statement::Statement(SineCosine pair) : is(std::move(pair)) {}
+Statement::Statement(Loop loop) : is(std::move(loop)) {}
+Statement::Statement(AtStart start) : is(std::move(start)) {}
+Statement::Statement(Call call) : is(std::move(call)) {}
+Statement::Statement(Return result) : is(std::move(result)) {}
+Statement::Statement(const Statement&) = default;
+Statement::Statement(Statement&&) noexcept = default;
+Statement& Statement::operator=(const Statement&) = default;
+Statement& Statement::operator=(Statement&&) noexcept = default;
+Statement::~Statement() = default;
+
 Expression name(const std::string& variable) { return {Kind::kName, variable}; }
 
 Expression operation(Op op, std::vector<Expression> operands) {

@@ -35,16 +35,21 @@ struct Expression {
   ir::Op operation = ir::Op::kLiteral;
   std::vector<Expression> operands;
 
-  Expression() = default;
-  Expression(Kind k, std::string n, std::vector<Expression> o = {})
-      : kind(k), name(std::move(n)), operands(std::move(o)) {}
-  Expression(double real) : kind(Kind::kReal), number(real) {}
-  Expression(int integer) : number(integer) {}
-  Expression(std::size_t integer) : number(static_cast<double>(integer)) {}
+  // Out of line, as those of Statement: the sources that make trees would take three times as long to compile.
+  Expression();
+  Expression(double real);
+  Expression(int integer);
+  Expression(std::size_t integer);
+  Expression(Kind kind, std::string name, std::vector<Expression> operands = {});
+  Expression(const Expression& other);
+  Expression(Expression&& other) noexcept;
+  Expression& operator=(const Expression& other);
+  Expression& operator=(Expression&& other) noexcept;
+  ~Expression();
 
-  Expression operator[](const Expression& index) const { return {Kind::kEntry, "", {*this, index}}; }
-  Expression from(const Expression& index) const { return {Kind::kFrom, "", {*this, index}}; }
-  Expression dot(const std::string& member) const { return {Kind::kMember, member, {*this}}; }
+  Expression operator[](const Expression& index) const;
+  Expression from(const Expression& index) const;
+  Expression dot(const std::string& member) const;
 };
 
 Expression name(const std::string& variable);
@@ -133,6 +138,19 @@ struct Return {
 
 struct Statement {
   std::variant<Declare, Set, SineCosine, Loop, AtStart, Call, Return> is;
+
+  Statement(Declare declare);
+  Statement(Set set);
+  Statement(SineCosine pair);
+  Statement(Loop loop);
+  Statement(AtStart start);
+  Statement(Call call);
+  Statement(Return result);
+  Statement(const Statement& other);
+  Statement(Statement&& other) noexcept;
+  Statement& operator=(const Statement& other);
+  Statement& operator=(Statement&& other) noexcept;
+  ~Statement();
 };
 
 using Statements = std::vector<Statement>;
