@@ -22,11 +22,11 @@ namespace {
 using Vector = reference::VectorX<long double>;
 
 /// The comparison at one sample.
-class Comparison {
+class TreeComparison {
  public:
-  Comparison(const model::Mechanism& mechanism, const dynamics::Equations& equations,
-             const dynamics::Equations* load, const ir::Module& module, const Sample& sample,
-             Verdict& verdict, Agreement& agreement)
+  TreeComparison(const model::Mechanism& mechanism, const dynamics::Equations& equations,
+                 const dynamics::Equations* load, const ir::Module& module, const Sample& sample,
+                 Verdict& verdict, Agreement& agreement)
       : mechanism_(mechanism),
         equations_(equations),
         load_(load),
@@ -116,7 +116,7 @@ Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::
   verdict.states = affordable_states(mechanism, states);
   const std::vector<Sample> samples = draw_samples(mechanism, verdict.states);
   for (std::size_t i = samples.size(); i-- > 0;)  // the initial state last, see Agreement::same
-    Comparison(mechanism, equations, load, module, samples[i], verdict, agreement).run();
+    TreeComparison(mechanism, equations, load, module, samples[i], verdict, agreement).run();
   conclude(agreement, verdict);
   return verdict;
 }

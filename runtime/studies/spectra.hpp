@@ -1,5 +1,6 @@
-// Decompositions of and into complex matrices, and the matrix exponential, compiled once: see reference/decompositions.hpp.
-// Complex matrices are taken as real ones of twice the size: Eigen's templates for them take fifteen seconds to compile.
+// Decompositions of and into complex matrices, and the matrix exponential, compiled once: see
+// reference/decompositions.hpp. Complex matrices are taken as real ones of twice the size: Eigen's templates for them
+// take fifteen seconds to compile.
 #pragma once
 
 #include <Eigen/Core>

@@ -104,9 +104,9 @@ Point opened(Point point, const LoopScene& scene, double size) {
   return point;
 }
 
-class Comparison {
+class LoopComparison {
  public:
-  Comparison(const LoopScene& scene, const ir::Module& module, Agreement& agreement, Verdict& verdict)
+  LoopComparison(const LoopScene& scene, const ir::Module& module, Agreement& agreement, Verdict& verdict)
       : scene_(scene),
         functions_(part_of(module, false)),
         closing_(part_of(module, true)),
@@ -192,7 +192,7 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   const ExactClosure closure(mechanism, closures, plan);
   const LoopScene scene{mechanism, equations, plan, closure};
   Agreement agreement;
-  Comparison comparison(scene, module, agreement, verdict);
+  LoopComparison comparison(scene, module, agreement, verdict);
   const std::size_t output_numbers = programs::scene_facts(mechanism, &plan).output_numbers();
   const std::vector<Ray> rays = draw_rays(numeric, plan, mechanism, states);
   support::Uniform uniform(23);
