@@ -4,6 +4,8 @@
 #include <array>
 #include <iterator>
 
+#include "support/enumerators.hpp"
+
 namespace jourdain::ir {
 
 namespace {
@@ -27,7 +29,7 @@ constexpr std::array kNames = {"initial_state",
                                "residual_derivatives",
                                "forward_dynamics_derivatives",
                                "linearize"};
-static_assert(kNames.size() == static_cast<std::size_t>(FunctionId::kLinearize) + 1);
+static_assert(kNames.size() == support::entry_count<FunctionId>());
 
 }  // namespace
 

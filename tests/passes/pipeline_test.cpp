@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "agreement/shared_data.hpp"
 #include "compile/compile.hpp"
 #include "compile/module_check.hpp"
 #include "ir/builder.hpp"
+#include "ir/interpret.hpp"
 #include "passes/random_program.hpp"
 
 namespace jourdain::passes {
@@ -39,6 +41,27 @@ void expect_idempotent(const ir::Module& lowered, const std::string& what) {
 TEST(Passes, AreIdempotentOnRandomPrograms) {
   for (std::uint64_t seed = 0; seed < kPrograms; ++seed)
     expect_idempotent({{}, {random_program(seed)}}, std::to_string(seed));
+}
+
+std::vector<double> values(const ir::Module& module, ir::LeafValues<double> leaves) {
+  leaves[ir::LeafKind::kConstant] = ir::interpret(module.constants, leaves);
+  return ir::interpret(module.functions[0], leaves);
+}
+
+TEST(Passes, KeepValuesAsFarAsTheySay) {
+  for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
+    ir::Module module{{}, {random_program(seed)}};
+    const ir::LeafValues<double> leaves = tests::random_leaves(seed);
+    for (const Pass& pass : pipeline()) {
+      const std::vector<double> before = values(module, leaves);
+      module = pass.run(module);
+      const std::vector<double> after = values(module, leaves);
+      for (std::size_t k = 0; k < before.size(); ++k)
+        EXPECT_NEAR(after[k], before[k],
+                    pass.effect == Effect::kExact ? 0 : 1e-9 * (1 + std::fabs(before[k])))
+            << pass.name << " of " << seed;
+    }
+  }
 }
 
 /// The programs of a model with every function, as lowered and after each pass.

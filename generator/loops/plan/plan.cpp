@@ -137,7 +137,7 @@ class Planner {
     take(*partition);
     if (options.treatment != LoopTreatment::kPartitioned && close_explicitly()) return true;
     if (options.treatment == LoopTreatment::kExplicit) return refuse_explicit();
-    prove();
+    if (const std::string why = prove(); !why.empty()) warn_unproven("coordinates follow from time", why);
     return true;
   }
 
@@ -236,14 +236,16 @@ class Planner {
   /// singular M.
   void go_without_proof(const std::string& why) {
     if (plan_.is_named || !massless_.empty())
-      return diagnostics_.warning(
-          mechanism_.loop_options.where,
-          fmt::format("it is not proven that the other coordinates follow from the independent ones: {}",
-                      why),
-          "watch 'regularity' of State, declare ranges, or use treatment = \"multipliers\"");
+      return warn_unproven("the other coordinates follow from the independent ones", why);
     if (!plan_.reason.empty()) plan_.reason += "; ";
     plan_.reason += "no choice of independent coordinates proven: " + why;
     keep_all();
+  }
+
+  void warn_unproven(const char* what, const std::string& why) {
+    diagnostics_.warning(mechanism_.loop_options.where,
+                         fmt::format("it is not proven that {}: {}", what, why),
+                         "watch 'regularity' of State, declare ranges, or use treatment = \"multipliers\"");
   }
 
   void share() {
