@@ -11,7 +11,6 @@
 #include "compile/compile.hpp"
 #include "compile/module_check.hpp"
 #include "ir/builder.hpp"
-#include "ir/interpret.hpp"
 #include "passes/random_program.hpp"
 
 namespace jourdain::passes {
