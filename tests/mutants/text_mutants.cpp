@@ -240,8 +240,9 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
     return "stage.state is a copy of state";
   const bool of_number = site.fault == TextFault::kIndex || site.fault == TextFault::kDigit;
   if (of_number && (is_in_line("], sum_z[") || is_in_line("  Real y["))) return "a scratch array is longer";
-  const bool of_coupled = is_in_line("W[i][k] =") || is_in_line("W[i][coupled[q]] =") ||
-                          is_in_line("step.r_z[i][k] * c[k]") || is_in_line("first_coupled[k]");
+  const bool of_coupled = is_in_line("W[i][k] =") || is_in_line("W[k][i] =") || is_in_line("[i][k] * c[k]") ||
+                          is_in_line("[k][i] * c[i]") || is_in_line("coupled[p]") ||
+                          is_in_line("coupled[q]") || is_in_line("first_coupled[k]");
   if (of_coupled && text.find("int coupled[] = {0};") != std::string::npos)
     return "velocities are not coupled, so it is never executed";
   if (site.fault == TextFault::kNegative && line.find("= first_coupled[k]; ") != std::string::npos &&
