@@ -156,7 +156,7 @@ class Recursion {
       change = change + square * scene_.frames.curvature(i);
     }
     const Vector3 turned = statements_.bind(named("cd", i), cross(w, scene_.frames.direction(i)));
-    const Vector3 coriolis = statements_.bind(named("co", i), twice * turned + change);
+    Vector3 coriolis = statements_.bind(named("co", i), twice * turned + change);
     relative.force = relative.force + scene_.composites[i].moments.mass * coriolis;
     relative.moment = relative.moment + cross(scene_.composites[i].moments.first, coriolis);
     relative = {statements_.bind(named("df", i) + "t", relative.force),
