@@ -29,16 +29,10 @@ std::string Names::unique(const std::string& wanted, const std::string& fallback
   return candidate;
 }
 
-std::string comment_text(const std::string& text) {
-  std::string safe;
-  for (char c : text) safe += (c >= ' ' && c <= '~' && c != '\\') ? c : '?';
-  return safe;
-}
-
 std::string quoted_text(const std::string& text) {
   std::string safe;
   for (char c : text) {
-    const unsigned char byte = static_cast<unsigned char>(c);
+    const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\')
       safe += {'\\', c};
     else if (byte < 0x20 || byte == 0x7f)

@@ -1,4 +1,4 @@
-// C++ names for values, unique within one function.
+// Names for values, unique within one function, and quoted text.
 #pragma once
 
 #include <set>
@@ -19,10 +19,8 @@ class Names {
   std::set<std::string> taken_;
 };
 
-/// Text for a `//` comment of the emitted code: printable ASCII on one line, no trailing backslash.
-std::string comment_text(const std::string& text);
-
-/// Text between double quotes of a C++ or JSON string literal. Bytes of valid UTF-8 stay; controls are escaped.
+/// Text between double quotes of a string literal, as C++ and JSON have them. Bytes of valid UTF-8 stay, controls
+/// do not.
 std::string quoted_text(const std::string& text);
 
 }  // namespace jourdain::emit

@@ -64,7 +64,7 @@ TEST(Outputs, HaveNumbersWithTheNamesOfTheirMembers) {
 }
 
 TEST(Text, CannotLeaveCommentsOrStrings) {
-  EXPECT_EQ(comment_text("a\nint main() {} \\"), "a?int main() {} ?");
+  EXPECT_EQ(cpp::comment_text("a\nint main() {} \\"), "a?int main() {} ?");
   EXPECT_EQ(quoted_text("a\"b\\c\n"), "a\\\"b\\\\c?");
 }
 

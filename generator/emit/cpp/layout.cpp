@@ -45,6 +45,12 @@ std::string wrapped_doc(const std::string& content, std::size_t indent) {
 
 std::string wrapped_comment(const std::string& content) { return broken("// " + content, "//   ", 8); }
 
+std::string comment_text(const std::string& text) {
+  std::string safe;
+  for (char c : text) safe += (c >= ' ' && c <= '~' && c != '\\') ? c : '?';
+  return safe;
+}
+
 std::string prefixed(const std::string& prefix, const std::string& lines) {
   std::string text;
   for (std::size_t begin = 0; begin <= lines.size();) {

@@ -23,6 +23,9 @@ std::string wrapped_doc(const std::string& content, std::size_t indent);
 /// A `// ` comment of one or more lines.
 std::string wrapped_comment(const std::string& content);
 
+/// Text for a `//` comment of the emitted code: printable ASCII on one line, no trailing backslash.
+std::string comment_text(const std::string& text);
+
 /// Every line of `lines` with `prefix` in front.
 std::string prefixed(const std::string& prefix, const std::string& lines);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "emit/cpp/layout.hpp"
-#include "emit/unique_names.hpp"
 
 namespace jourdain::emit::cpp {
 

@@ -9,7 +9,6 @@
 #include "emit/cpp/printer.hpp"
 #include "emit/output_names.hpp"
 #include "emit/parameters.hpp"
-#include "emit/unique_names.hpp"
 
 namespace jourdain::emit::cpp {
 
