@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "commands/kinematic_choice.hpp"
 #include "commands/load.hpp"
 #include "commands/method_names.hpp"
 #include "commands/report_text.hpp"
@@ -17,7 +18,7 @@ namespace {
 struct Arguments {
   ModelArguments model;
   std::string folder;
-  std::vector<std::string> functions;
+  std::vector<std::string> functions, frames;
   bool clock = false, explain = false;
   std::string dump;  ///< pass whose programs are printed, or kAllPasses; empty: none
 };
@@ -32,14 +33,6 @@ std::string check_pass(const std::string& pass) {
   return fmt::format("no pass '{}'; there are {}", pass, fmt::join(known, ", "));
 }
 
-std::string check_function(const std::string& function) {
-  const std::vector<std::string> known = programs::function_names();
-  if (std::find(known.begin(), known.end(), function) != known.end()) return "";
-  const std::string near = support::nearest(function, known);
-  return near.empty() ? fmt::format("no function '{}'; there are {}", function, fmt::join(known, ", "))
-                      : fmt::format("no function '{}'; did you mean '{}'?", function, near);
-}
-
 int run(const Arguments& arguments) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
@@ -48,8 +41,14 @@ int run(const Arguments& arguments) {
     fmt::print(stderr, "error: {}\n", conflict);
     return kUsage;
   }
+  std::vector<std::string> functions = arguments.functions;
+  if (const std::string wrong = choose_kinematics(arguments.frames, functions, loaded->mechanism);
+      !wrong.empty()) {
+    fmt::print(stderr, "error: {}\n", wrong);
+    return kUsage;
+  }
   loaded->options.clock = arguments.clock;
-  if (!arguments.functions.empty()) loaded->options.functions = arguments.functions;
+  if (!arguments.functions.empty()) loaded->options.functions = functions;
   if (!arguments.dump.empty())
     loaded->options.watch = [&](const passes::PassRecord& pass, const ir::Module& module) {
       if (arguments.dump == kAllPasses || arguments.dump == pass.name)
@@ -78,10 +77,12 @@ void add_compile(CLI::App& app, int& status) {
   arguments->model.add_to(*command);
   command->add_option("-o,--output", arguments->folder, "folder to write into")->required();
   command
-      ->add_option("--functions", arguments->functions,
-                   "functions to emit (default: all, of the steps rk4_step)")
-      ->delimiter(',')
-      ->check(check_function);
+      ->add_option(
+          "--functions", arguments->functions,
+          "functions to emit (default: all, of the steps rk4_step), those of momentum and weight too: "
+          "gravity_compensation, centroidal_momentum_matrix, …")
+      ->delimiter(',');
+  command->add_option("--frame", arguments->frames, kFrameHelp)->expected(1)->take_all();
   command->add_flag("--clock", arguments->clock, "keep the time in State, though nothing depends on it");
   command->add_flag("--explain", arguments->explain,
                     "print what was compared with what, what each pass did and what was left out");

@@ -66,6 +66,8 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
   const loops::LoopPlan* plan = options.loops ? &*options.loops : nullptr;
   result.facts = programs::scene_facts(mechanism, plan, options.wishes());
   result.functions = programs::with_needed(options.functions, result.facts);
+  for (programs::FunctionInfo& function : programs::kinematic_functions(result.facts))
+    result.functions.push_back(std::move(function));
   CompileOptions chosen = options;
   Equations equations;
   ir::Module lowered;

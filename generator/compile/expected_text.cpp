@@ -2,6 +2,7 @@
 
 #include "loops/plan/plan_text.hpp"
 #include "loops/record/loop_plan.hpp"
+#include "model/kinematic_kinds.hpp"
 #include "model/names.hpp"
 
 namespace jourdain {
@@ -32,6 +33,22 @@ void expect_loops(const model::Mechanism& mechanism, const loops::LoopPlan& plan
   }
 }
 
+readback::ExpectedKinematics expected_kinematics(const model::KinematicFunction& function,
+                                                 const programs::SceneFacts& facts) {
+  readback::ExpectedKinematics expected{function.name, model::takes_acceleration(function), {}};
+  for (const model::KinematicQuantity quantity : function.quantities)
+    for (const model::KinematicArray& array : model::quantity_row(quantity).arrays) {
+      if (array.if_driven && !facts.time.positions) continue;
+      readback::ExpectedArray& declared = expected.arrays.emplace_back();
+      declared.name = array.name;
+      for (const model::ArrayExtent extent : array.extents)
+        declared.extents.push_back(extent == model::ArrayExtent::kThree ? 3
+                                   : extent == model::ArrayExtent::kSix ? 6
+                                                                        : facts.velocities.size());
+    }
+  return expected;
+}
+
 }  // namespace
 
 readback::Expected expected_text(const model::Mechanism& mechanism, const CompileOptions& options,
@@ -53,6 +70,8 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
     for (const programs::OutputMember& member : output.members)
       declared.members.push_back({member.name, member.rows, member.columns, member.is_matrix});
   }
+  for (const model::KinematicFunction& function : mechanism.kinematics)
+    expected.kinematics.push_back(expected_kinematics(function, facts));
   expected.constraints = facts.constraints;
   expected.dependents = facts.dependents;
   expected.closings = facts.closings;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "ir/verify.hpp"
 
@@ -14,7 +15,9 @@ namespace {
 
 /// Leaves that the arguments of a function are.
 ir::LeafCounts leaves_of(const std::string& name, const programs::SceneFacts& scene) {
-  const std::vector<programs::FunctionInfo>& all = programs::all_functions();
+  std::vector<programs::FunctionInfo> all = programs::all_functions();
+  for (programs::FunctionInfo& function : programs::kinematic_functions(scene))
+    all.push_back(std::move(function));
   const auto function =
       std::find_if(all.begin(), all.end(), [&](const programs::FunctionInfo& f) { return f.name == name; });
   ir::LeafCounts leaves;

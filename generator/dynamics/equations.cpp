@@ -7,6 +7,7 @@
 #include "dynamics/applied_forces.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/free_root.hpp"
+#include "dynamics/kinematic_functions.hpp"
 #include "dynamics/loop_forces.hpp"
 #include "dynamics/outputs.hpp"
 #include "dynamics/scene.hpp"
@@ -64,6 +65,7 @@ class Derivation {
                                           with_loop_forces(scene_, applied, equations_.closures));
     else
       equations_.outputs = derive_outputs(scene_, equations_, equations_.zdot, applied);
+    equations_.kinematics = derive_kinematic_functions(scene_, [this] { return gravity_forces(); });
     return std::move(equations_);
   }
 
@@ -174,7 +176,14 @@ class Derivation {
   }
 
   std::vector<Ex> q_bar(const AppliedForces& applied) {
-    std::vector<Ex> q = external_rows(pushes(applied, "q"), "q");
+    return with_weights(external_rows(pushes(applied, "q"), "q"), "q");
+  }
+
+  /// q̄ of gravity alone.
+  std::vector<Ex> gravity_forces() { return with_weights(std::vector<Ex>(count_, 0), "qg"); }
+
+  /// Less the forces `q`.
+  std::vector<Ex> with_weights(std::vector<Ex> q, const std::string& name) {
     std::vector<Vector3> gravity;
     for (std::size_t i = 0; i < scene_.link_count(); ++i) {
       const Link& link = scene_.tree.links[i];
@@ -185,7 +194,7 @@ class Derivation {
       const Wrench weight{body.moments.mass * gravity[i], kinematics::cross(body.moments.first, gravity[i])};
       const Wrench seen = external_weight(scene_, i, weight);
       for (const Column& column : scene_.columns[i])
-        q[*column.entry] = statements_.bind(fmt::format("q_{}", *column.entry),
+        q[*column.entry] = statements_.bind(fmt::format("{}_{}", name, *column.entry),
                                             -power(seen, column.twist) - q[*column.entry]);
     }
     return q;

@@ -31,6 +31,14 @@ struct OutputValues {
   std::vector<Ex> values;
 };
 
+/// An array of a function of the kinematics: entries row by row.
+struct KinematicValues {
+  std::string name;
+  int rows = 3;
+  int columns = 0;  ///< 0: a vector
+  std::vector<Ex> values;
+};
+
 /// The symbolic equations of motion M ż = k̄ − q̄ (signs as printed; generator/README.md) and what belongs to
 /// them. Entries are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout.
 struct Equations {
@@ -49,7 +57,8 @@ struct Equations {
   std::vector<Ex> initial_position;
   std::vector<Ex> initial_velocity;
   std::vector<std::string> output_names;
-  std::vector<std::vector<OutputValues>> outputs;  ///< for each output of the mechanism its members
+  std::vector<std::vector<OutputValues>> outputs;        ///< for each output of the mechanism its members
+  std::vector<std::vector<KinematicValues>> kinematics;  ///< for each function of the kinematics its arrays
   bool outputs_take_leaves = false;  ///< ż and λ of the outputs are leaves; otherwise ż is `zdot`
 };
 

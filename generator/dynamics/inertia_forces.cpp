@@ -262,4 +262,16 @@ std::vector<std::vector<Ex>> derive_generalized_forces(const Scene& scene,
   return forces;
 }
 
+std::vector<Wrench> derive_relative_inertia_forces(const Scene& scene,
+                                                   const JointAccelerations& accelerations,
+                                                   const std::string& name) {
+  std::vector<Wrench> forces = Recursion(scene, accelerations, name).derive().relative;
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    if (const auto& free = accelerations.free[i]) {
+      const Vector3 outside = scene.composites[i].moments.mass * (free->linear - free->inside);
+      forces[i].force = scene.statements.bind(fmt::format("{}of{}", name, i), forces[i].force + outside);
+    }
+  return forces;
+}
+
 }  // namespace jourdain::dynamics

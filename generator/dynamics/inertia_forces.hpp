@@ -40,4 +40,10 @@ std::vector<std::vector<Ex>> derive_generalized_forces(const Scene& scene,
                                                        const std::vector<Wrench>& applied,
                                                        const std::string& name);
 
+/// Of each link, about its origin, in W: inertia forces of the difference field on its composite body. The sum over a
+/// subtree on the ground is the rate of its momentum, gravity not counted.
+std::vector<Wrench> derive_relative_inertia_forces(const Scene& scene,
+                                                   const JointAccelerations& accelerations,
+                                                   const std::string& name);
+
 }  // namespace jourdain::dynamics

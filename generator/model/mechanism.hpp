@@ -10,6 +10,7 @@
 #include "model/expression.hpp"
 #include "model/force_elements.hpp"
 #include "model/indices.hpp"
+#include "model/kinematic_function.hpp"
 #include "support/diagnostics.hpp"
 
 namespace jourdain::model {
@@ -259,6 +260,7 @@ struct Mechanism : ForceElements {
   std::vector<Frame> frames;
   std::vector<Input> inputs;
   std::vector<Output> outputs;
+  std::vector<KinematicFunction> kinematics;
   std::vector<Loop> loops;
   LoopOptions loop_options;
   /// Constant angles that are a multiple of a quarter turn but for rounding are that multiple: their matrices

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "lowering/cheapest_elimination.hpp"
+#include "programs/kinematic_programs.hpp"
 #include "programs/tree_functions.hpp"
 
 namespace jourdain::programs {
@@ -52,6 +53,10 @@ const ir::Program& ClosedSystem::tree(FunctionId function) {
 }
 
 ir::Program ClosedSystem::program(FunctionId function) const { return loop_program(system_, function); }
+
+ir::Program ClosedSystem::kinematic_program(std::size_t k) const {
+  return loop_kinematics(equations_, system_, k);
+}
 
 DerivativeSources ClosedSystem::derivative_sources() const { return programs::derivative_sources(system_); }
 

@@ -17,6 +17,7 @@ class ClosedSystem : public ScenePrograms {
   ClosedSystem(const ClosedSystem&) = delete;
 
   ir::Program program(ir::FunctionId function) const override;
+  ir::Program kinematic_program(std::size_t k) const override;
   DerivativeSources derivative_sources() const override;
 
   const dynamics::Equations& equations() const { return equations_; }  ///< of the tree, for derivatives

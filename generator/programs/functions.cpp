@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "model/kinematic_kinds.hpp"
+
 namespace jourdain::programs {
 
 using ir::FunctionId;
@@ -159,6 +161,25 @@ FunctionInfo step_function(const Stepper& stepper) {
   return info;
 }
 
+Extent extent_of(model::ArrayExtent extent) {
+  switch (extent) {
+    case model::ArrayExtent::kThree:
+      return Extent::kThree;
+    case model::ArrayExtent::kSix:
+      return Extent::kSix;
+    case model::ArrayExtent::kVelocities:
+      break;
+  }
+  return Extent::kVelocities;
+}
+
+ArrayResult array_result(const model::KinematicArray& array) {
+  ArrayResult result{std::string(array.name), {}};
+  for (const model::ArrayExtent extent : array.extents) result.extents.push_back(extent_of(extent));
+  if (array.if_driven) result.only_if = &TimeDependence::positions;
+  return result;
+}
+
 }  // namespace
 
 std::size_t count(const SceneFacts& scene, Extent extent) {
@@ -173,6 +194,10 @@ std::size_t count(const SceneFacts& scene, Extent extent) {
       return scene.output_numbers();
     case Extent::kConstraints:
       return scene.constraints.size();
+    case Extent::kThree:
+      return 3;
+    case Extent::kSix:
+      return 6;
   }
   return 0;
 }
@@ -229,7 +254,8 @@ bool has_function(const FunctionInfo& function, const SceneFacts& scene) {
     case Shape::kLinearization:
       return !scene.velocities.empty();
     case Shape::kArrays:
-      return has_entries(scene, function.arrays.front());
+      return std::any_of(function.arrays.begin(), function.arrays.end(),
+                         [&](const ArrayResult& array) { return has_entries(scene, array); });
     case Shape::kRate:
       return scene.has_rate();
     case Shape::kCorrection:
@@ -251,6 +277,24 @@ std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, co
   for (const FunctionInfo& function : all_functions())
     if (names.count(function.name) && has_function(function, scene)) chosen.push_back(function);
   return chosen;
+}
+
+std::vector<FunctionInfo> kinematic_functions(const SceneFacts& scene) {
+  std::vector<FunctionInfo> list;
+  for (std::size_t k = 0; k < scene.kinematics.size(); ++k) {
+    FunctionInfo info;
+    info.name = scene.kinematics[k].name;
+    info.shape = Shape::kArrays;
+    info.comment = scene.kinematics[k].comment;
+    info.kinematic = k;
+    for (const model::KinematicQuantity quantity : scene.kinematics[k].quantities) {
+      const model::QuantityRow& row = model::quantity_row(quantity);
+      info.takes_acceleration = info.takes_acceleration || row.takes_acceleration;
+      for (const model::KinematicArray& array : row.arrays) info.arrays.push_back(array_result(array));
+    }
+    if (has_function(info, scene)) list.push_back(std::move(info));
+  }
+  return list;
 }
 
 }  // namespace jourdain::programs

@@ -21,7 +21,7 @@ enum class Shape {
   kArrays,         ///< fills several arrays
   kLinearization,  ///< fills a Linearization, whose members are the arrays
   kCorrection,     ///< replaces entries of a State
-  kStep            ///< advances a State; its body is a template file, not a program
+  kStep            ///< advances a State; it calls other functions and has no program
 };
 
 /// How far a subscript runs.
@@ -31,6 +31,8 @@ enum class Extent {
   kInputs,
   kOutputs,      ///< numbers of all outputs
   kConstraints,  ///< rows of all loops
+  kThree,
+  kSix,  ///< linear before angular
 };
 
 /// An array that a function fills; entries without an output of the program are zero.
@@ -41,20 +43,21 @@ struct ArrayResult {
 };
 
 struct FunctionInfo {
-  std::optional<ir::FunctionId> id = {};  ///< none: a step
+  std::optional<ir::FunctionId> id = {};  ///< none: a step, or of the kinematics
   std::string name = {};
   Shape shape = Shape::kVector;
   std::string result = {};  ///< name of the array, and of the program's outputs
   bool takes_input = false;
-  bool takes_acceleration = false;       ///< Real (&zdot)[nz]
-  std::vector<std::string> needs = {};   ///< functions that its body calls
-  std::string comment = {};              ///< doc comment, lines separated by '\n'
-  std::string comment_reduced = {};      ///< a line more where coordinates depend on others
-  std::string comment_multipliers = {};  ///< a line more where loops are held by multipliers
-  const Stepper* stepper = nullptr;      ///< of a step
-  bool on_request = false;               ///< not emitted unless asked for or needed
-  bool holds_derivatives = false;        ///< its program is not lowered from the equations alone
-  std::vector<ArrayResult> arrays = {};  ///< kArrays, kLinearization
+  bool takes_acceleration = false;            ///< Real (&zdot)[nz]
+  std::vector<std::string> needs = {};        ///< functions that its body calls
+  std::string comment = {};                   ///< doc comment, lines separated by '\n'
+  std::string comment_reduced = {};           ///< a line more where coordinates depend on others
+  std::string comment_multipliers = {};       ///< a line more where loops are held by multipliers
+  const Stepper* stepper = nullptr;           ///< of a step
+  std::optional<std::size_t> kinematic = {};  ///< in SceneFacts::kinematics
+  bool on_request = false;                    ///< not emitted unless asked for or needed
+  bool holds_derivatives = false;             ///< its program is not lowered from the equations alone
+  std::vector<ArrayResult> arrays = {};       ///< kArrays, kLinearization
 };
 
 std::size_t count(const SceneFacts& scene, Extent extent);
@@ -82,5 +85,8 @@ std::vector<std::string> default_functions();
 
 /// `wanted` with the functions they need, in the order of emission, as far as the scene has them.
 std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, const SceneFacts& scene);
+
+/// The scene's own functions of the kinematics, as asked for.
+std::vector<FunctionInfo> kinematic_functions(const SceneFacts& scene);
 
 }  // namespace jourdain::programs

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/kinematic_kinds.hpp"
 #include "model/output_kinds.hpp"
 
 namespace jourdain::programs {
@@ -74,6 +75,20 @@ void set_loop_facts(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   facts.velocities = independent;
 }
 
+/// What each quantity is, and in which axes.
+std::string comment_of(const model::KinematicFunction& function, const model::Mechanism& mechanism) {
+  const std::string frame = function.frame ? mechanism.frames[function.frame->value].name : "";
+  std::string comment;
+  bool has_axes = false;
+  for (const model::KinematicQuantity quantity : function.quantities) {
+    const model::QuantityRow& row = model::quantity_row(quantity);
+    comment += (comment.empty() ? "" : "\n") + fmt::format(fmt::runtime(row.text), frame);
+    has_axes = has_axes || row.has_axes;
+  }
+  if (has_axes) comment += fmt::format("\n{}", model::axes_text(function.axes));
+  return comment;
+}
+
 }  // namespace
 
 std::size_t SceneFacts::output_numbers() const {
@@ -101,6 +116,8 @@ SceneFacts scene_facts(const model::Mechanism& mechanism, const loops::LoopPlan*
                              fmt::format(fmt::runtime(model::output_kind(output.kind).text),
                                          model::subject_name(mechanism, output)),
                              members_of(output.kind, facts.velocities.size())});
+  for (const model::KinematicFunction& function : mechanism.kinematics)
+    facts.kinematics.push_back({function.name, comment_of(function, mechanism), function.quantities});
   return facts;
 }
 

@@ -26,11 +26,19 @@ struct OutputFacts {
   std::vector<OutputMember> members;
 };
 
+/// A function of the kinematics, see model::KinematicFunction.
+struct KinematicFacts {
+  std::string name;
+  std::string comment;  ///< sentences, lines separated by '\n'
+  std::vector<model::KinematicQuantity> quantities;
+};
+
 struct SceneFacts {
   std::vector<std::string> positions, inputs;  ///< names by entry
   std::vector<std::string> velocities;         ///< of the independent coordinates
   std::vector<model::Parameter> parameters;
   std::vector<OutputFacts> outputs;
+  std::vector<KinematicFacts> kinematics;
   model::Tangent tangent;  ///< of the independent coordinates
   model::TimeDependence time;
   bool clock = false;  ///< states hold the time: something depends on it, inputs may, or it was asked for

@@ -15,6 +15,8 @@ class ScenePrograms {
 
   /// Of a function that holds no derivatives.
   virtual ir::Program program(ir::FunctionId function) const = 0;
+  /// Of the mechanism's k-th function of the kinematics.
+  virtual ir::Program kinematic_program(std::size_t k) const = 0;
   /// What its derivatives are taken of.
   virtual DerivativeSources derivative_sources() const = 0;
 };

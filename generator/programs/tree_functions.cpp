@@ -1,6 +1,7 @@
 #include "programs/tree_functions.hpp"
 
 #include "lowering/lower.hpp"
+#include "programs/kinematic_programs.hpp"
 
 namespace jourdain::programs {
 
@@ -98,6 +99,10 @@ ir::Module lower_functions(const Equations& equations, const std::vector<Functio
 }
 
 ir::Program TreePrograms::program(FunctionId function) const { return lower_function(equations_, function); }
+
+ir::Program TreePrograms::kinematic_program(std::size_t k) const {
+  return tree_kinematics(equations_, mechanism_, k);
+}
 
 DerivativeSources TreePrograms::derivative_sources() const { return tree_sources(mechanism_, options_); }
 

@@ -23,6 +23,7 @@ class TreePrograms : public ScenePrograms {
       : mechanism_(mechanism), equations_(equations), options_(options) {}
 
   ir::Program program(ir::FunctionId function) const override;
+  ir::Program kinematic_program(std::size_t k) const override;
   DerivativeSources derivative_sources() const override;
 
  private:

@@ -94,6 +94,12 @@ std::optional<FunctionApi> step(const std::string& name) {
 std::optional<FunctionApi> api_of(const std::string& name, const Expected& expected) {
   for (const FunctionApi& api : programs(expected))
     if (api.name == name) return api;
+  for (const ExpectedKinematics& kinematics : expected.kinematics) {
+    if (kinematics.name != name) continue;
+    std::vector<ArrayArgument> list;
+    for (const ExpectedArray& array : kinematics.arrays) list.push_back({array.name, array.extents});
+    return sparse(arrays(name, std::move(list), false, kinematics.takes_acceleration));
+  }
   return step(name);
 }
 

@@ -30,6 +30,18 @@ struct ExpectedOutput {
   std::vector<ExpectedMember> members;
 };
 
+struct ExpectedArray {
+  std::string name;
+  std::vector<std::size_t> extents;
+};
+
+/// A function of the kinematics and the arrays that it fills.
+struct ExpectedKinematics {
+  std::string name;
+  bool takes_acceleration = false;
+  std::vector<ExpectedArray> arrays;
+};
+
 /// A position or parameter and the values that something is proven for.
 struct ExpectedRange {
   std::size_t index = 0;
@@ -48,6 +60,7 @@ struct Expected {
   std::vector<std::string> positions, velocities, inputs, constraints;  ///< names in order
   std::vector<ExpectedParameter> parameters;
   std::vector<ExpectedOutput> outputs;
+  std::vector<ExpectedKinematics> kinematics;
   std::vector<ExpectedTangent> scalars, quaternions;  ///< of the independent coordinates
   std::vector<std::size_t> dependents;                ///< entries of y that close_loops sets
   bool dynamics_depend_on_time = false, outputs_depend_on_time = false;

@@ -40,6 +40,15 @@ void compare_with_reference(const model::Mechanism& mechanism, const dynamics::E
     same("initial y", symbolic.values(equations.initial_position), to_list(start.y));
     same("initial z", symbolic.values(equations.initial_velocity), to_list(start.z));
   }
+  const ExactVector given = to_exact(leaves[LeafKind::kAcceleration]);
+  const ExactVector bias = mechanism.loops.empty() ? ExactVector(ExactVector::Zero(given.size())) : given;
+  const auto kinematics = reference.kinematics(state, given, bias);
+  for (std::size_t k = 0; k < kinematics.size(); ++k) {
+    JD_CHECK(kinematics[k].size() == equations.kinematics[k].size(), "arrays of function {}", k);
+    for (std::size_t a = 0; a < kinematics[k].size(); ++a)
+      same(mechanism.kinematics[k].name.c_str(), symbolic.values(equations.kinematics[k][a].values),
+           kinematics[k][a].second);
+  }
   if (mechanism.outputs.empty()) return;
   const ExactVector zdot =
       equations.outputs_take_leaves ? to_exact(leaves[LeafKind::kAcceleration]) : symbolic.zdot();

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "dynamics/kinematic_functions.hpp"
 #include "dynamics/outputs.hpp"
 #include "model/coordinates.hpp"
+#include "model/kinematic_kinds.hpp"
+#include "validate/kinematic_arrays.hpp"
 
 namespace jourdain::validate {
 
@@ -39,7 +42,8 @@ dynamics::LeafValue leaves_at(const ir::LeafValues<ScaledReal>& values) {
 
 TreeOracle::TreeOracle(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                        const dynamics::Equations* load, const Point& point)
-    : equations_(equations),
+    : mechanism_(mechanism),
+      equations_(equations),
       load_(load),
       point_(point),
       tangent_(model::lay_out_coordinates(mechanism).tangent),
@@ -54,6 +58,8 @@ TreeOracle::TreeOracle(const model::Mechanism& mechanism, const dynamics::Equati
 }
 
 std::vector<Expected> TreeOracle::operator()(const ir::Program& program) const {
+  if (const auto k = model::kinematic_function_named(mechanism_, program.name))
+    return kinematics(program, *k);
   switch (function_of(program)) {
     case FunctionId::kInitialState:
       return {state(program)};
@@ -109,6 +115,14 @@ std::vector<Expected> TreeOracle::linearization() const {
   rows.insert(rows.end(), change.data(), change.data() + change.size());
   return {{"the state's rate differentiated along a direction", rows},
           {"outputs differentiated along a direction", output_rate()}};
+}
+
+std::vector<Expected> TreeOracle::kinematics(const ir::Program& program, std::size_t k) const {
+  KinematicArrays arrays = kinematic_arrays(equations_.kinematics[k], exact_);
+  const auto J = arrays.find(dynamics::kOperationalJacobian);
+  if (J != arrays.end())
+    arrays["inverse_inertia"] = J->second * solved(M_, ExactMatrix(J->second.transpose()));
+  return expecting("kinematics and momentum of the equations", entries_of(program, arrays));
 }
 
 ExactVector TreeOracle::given_accelerations() const {

@@ -32,6 +32,7 @@ class TreeOracle {
  private:
   std::vector<Expected> acceleration_derivatives() const;
   std::vector<Expected> linearization() const;
+  std::vector<Expected> kinematics(const ir::Program& program, std::size_t k) const;
   ExactVector given_accelerations() const;
   ExactVector forces_without_inputs() const;
   Expected state(const ir::Program& program) const;
@@ -43,6 +44,7 @@ class TreeOracle {
   std::vector<ScaledReal> displacement_rate() const;
   std::vector<ScaledReal> output_rate() const;
 
+  const model::Mechanism& mechanism_;
   const dynamics::Equations &equations_, *load_;
   const Point& point_;
   model::Tangent tangent_;

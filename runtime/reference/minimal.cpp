@@ -6,6 +6,7 @@
 #include "reference/minimal_bushing.hpp"
 #include "reference/minimal_elements.hpp"
 #include "reference/minimal_forces.hpp"
+#include "reference/minimal_kinematics.hpp"
 #include "reference/minimal_motion.hpp"
 #include "reference/minimal_outputs.hpp"
 #include "support/check.hpp"

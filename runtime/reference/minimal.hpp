@@ -18,6 +18,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -82,6 +83,15 @@ struct OutputValue {
   std::vector<Scalar> values, scales;
 };
 
+/// Arrays of one function of the kinematics by name, row by row; of the operational inertia the Jacobian.
+template <class Scalar>
+using KinematicArrays = std::vector<std::pair<std::string, std::vector<Scalar>>>;
+
+namespace detail {
+template <class Scalar>
+struct CentroidalMotion;
+}
+
 /// A mechanism with its parameters' values put in. Evaluations are const and independent of each other.
 template <class Scalar>
 class Reference {
@@ -111,6 +121,9 @@ class Reference {
   std::vector<OutputValue<Scalar>> outputs(const State<Scalar>& state, const VectorX<Scalar>& u,
                                            const VectorX<Scalar>& zdot,
                                            const VectorX<Scalar>& zdot_scale) const;
+  /// In the order of `Mechanism::kinematics`, with the accelerations ż; biases with `bias_zdot`.
+  std::vector<KinematicArrays<Scalar>> kinematics(const State<Scalar>& state, const VectorX<Scalar>& zdot,
+                                                  const VectorX<Scalar>& bias_zdot) const;
 
  private:
   struct Body {
@@ -138,6 +151,8 @@ class Reference {
   void turn_freely(FrameMotion& child, std::size_t joint, const State<Scalar>& state) const;
   FrameMotion placed(const std::vector<FrameMotion>& bodies, const model::Frame& frame) const;
   BodyMotion<Scalar> seen(const FrameMotion& frame, const State<Scalar>& state) const;
+
+  detail::CentroidalMotion<Scalar> centroidal_motion(const State<Scalar>& state) const;
 
   Forces forces(const State<Scalar>& state, const VectorX<Scalar>& u) const;
   VectorX<Scalar> prescribed_accelerations(const State<Scalar>& state) const;

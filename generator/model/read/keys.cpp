@@ -305,6 +305,36 @@ independent = ["crank"]
 )"};
 }
 
+KeySection kinematics_section() {
+  return {
+      "kinematics",
+      "[[kinematics]]",
+      "Functions of a frame's motion, or of the centre of mass, momentum and weight of all bodies: each "
+      "entry of "
+      "quantities is emitted as one function NAME_QUANTITY, with the state (and zdot where it takes "
+      "accelerations) as its argument.",
+      {{"name", "text", "", "none", "how the functions' names begin; required with a frame"},
+       {"frame", "name", "", "none", "a [[frame]], a body or \"world\""},
+       {"quantities", "texts", "", kRequired,
+        "of a frame: \"pose\", \"velocity\", \"acceleration\", \"imu\", \"jacobian\", \"jacobian_bias\", "
+        "\"inverse_operational_inertia\"; otherwise \"center_of_mass\", \"center_of_mass_jacobian\", "
+        "\"center_of_mass_bias\", \"momentum\", \"centroidal_momentum_matrix\", "
+        "\"centroidal_momentum_bias\", \"gravity_compensation\"; \"pose+jacobian\" is one function of both, "
+        "which share their work"},
+       {"axes", "\"world_aligned\", \"frame\", \"world\"", "", "\"world_aligned\"",
+        "of velocities, accelerations and Jacobians: of the frame's origin in world axes, of its origin in "
+        "its own "
+        "axes, or spatial, at the world's origin"}},
+      R"([[kinematics]]
+name = "tip"
+frame = "piston_body"
+quantities = ["pose", "pose+jacobian"]
+
+[[kinematics]]
+quantities = ["gravity_compensation"]
+)"};
+}
+
 KeySection output_section() {
   return {
       "output",
@@ -334,9 +364,9 @@ joint = "crank"
 
 std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
-      model_section(),   parameter_section(), body_section(),  joint_section(), coordinate_section(),
-      frame_section(),   actuator_section(),  input_section(), force_section(), spring_section(),
-      bushing_section(), loop_section(),      loops_section(), output_section()};
+      model_section(),   parameter_section(), body_section(),  joint_section(),  coordinate_section(),
+      frame_section(),   actuator_section(),  input_section(), force_section(),  spring_section(),
+      bushing_section(), loop_section(),      loops_section(), output_section(), kinematics_section()};
   return sections;
 }
 

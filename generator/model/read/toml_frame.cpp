@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "model/coordinates.hpp"
+#include "model/read/frames.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
 
@@ -15,17 +16,6 @@ using support::shown;
 
 /// Bodies in a scope stand behind the declared frames until an expression uses them.
 constexpr std::size_t kBodies = 1'000'000;
-
-FrameIndex frame_of(Mechanism& mechanism, std::optional<BodyIndex> body) {
-  const std::string name = body ? mechanism.bodies[body->value].name : "world";
-  for (std::size_t i = 0; i < mechanism.frames.size(); ++i)
-    if (mechanism.frames[i].name == name) return FrameIndex(i);
-  Frame frame;
-  frame.name = name;
-  frame.body = body;
-  mechanism.frames.push_back(frame);
-  return FrameIndex(mechanism.frames.size() - 1);
-}
 
 void add_frame(Scope& scope, const std::string& name, std::size_t index) {
   using Kind = Variable::Kind;
@@ -51,11 +41,7 @@ std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std
                                      Mechanism& mechanism) {
   const std::optional<std::string> name = table.required_text(key);
   if (!name) return {};
-  for (std::size_t i = 0; i < mechanism.frames.size(); ++i)
-    if (mechanism.frames[i].name == *name) return FrameIndex(i);
-  if (*name == "world") return frame_of(mechanism, {});
-  for (std::size_t i = 0; i < mechanism.bodies.size(); ++i)
-    if (mechanism.bodies[i].name == *name) return frame_of(mechanism, BodyIndex(i));
+  if (const std::optional<FrameIndex> frame = frame_named(mechanism, *name)) return frame;
   std::vector<std::string> names;
   for (const Frame& frame : mechanism.frames) names.push_back(frame.name);
   for (const Body& body : mechanism.bodies) names.push_back(body.name);

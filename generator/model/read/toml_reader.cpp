@@ -25,9 +25,9 @@ class TomlReader {
   TomlReader(Diagnostics& diagnostics, const toml::table& root) : file_(diagnostics), root_(root) {}
 
   Mechanism read() {
-    const std::vector<std::string> known{"model",    "parameters", "body",  "joint",  "frame",
-                                         "actuator", "input",      "force", "spring", "bushing",
-                                         "loop",     "loops",      "output"};
+    const std::vector<std::string> known{"model",    "parameters", "body",   "joint",     "frame",
+                                         "actuator", "input",      "force",  "spring",    "bushing",
+                                         "loop",     "loops",      "output", "kinematics"};
     const TomlTable top(file_, root_, "the file", {}, known);
     Mechanism mechanism;
     if (const toml::table* section = top.table("parameters"))
@@ -47,6 +47,7 @@ class TomlReader {
     if (const auto* section = tables(top, "spring")) read_springs(file_, *section, mechanism);
     if (const auto* section = tables(top, "bushing")) read_bushings(file_, *section, mechanism);
     if (const auto* section = tables(top, "output")) read_outputs(file_, *section, mechanism);
+    if (const auto* section = tables(top, "kinematics")) read_kinematics(file_, *section, mechanism);
     if (const auto* section = tables(top, "loop")) read_loops(file_, *section, mechanism);
     if (const auto* section = top.table("loops"))
       mechanism.loop_options = read_loop_options(file_, *section, top.where("loops"), mechanism);

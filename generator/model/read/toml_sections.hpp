@@ -47,6 +47,9 @@ const Scope& time_scope();
 /// The scalar coordinate of `joint` that the table's 'coordinate' names; nothing after a diagnostic.
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint);
 
+/// All [[kinematics]] tables; each makes one function per entry of its quantities.
+void read_kinematics(TomlFile& file, const toml::array& section, Mechanism& mechanism);
+
 /// All [[frame]] tables.
 std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies);
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "dynamics/kinematic_functions.hpp"
 #include "loops/plan/schur_solution.hpp"
 #include "loops/rows/regular_rows.hpp"
+#include "model/kinematic_kinds.hpp"
+#include "validate/kinematic_arrays.hpp"
 #include "validate/tree_oracle.hpp"
 
 namespace jourdain::validate {
@@ -42,6 +45,8 @@ LoopOracle::LoopOracle(const LoopScene& scene, const Point& point)
     : scene_(scene), point_(point), e_(exact_motion(scene, point.exact)) {}
 
 std::vector<Expected> LoopOracle::operator()(const ir::Program& program) const {
+  if (const auto k = model::kinematic_function_named(scene_.mechanism, program.name))
+    return kinematics(program, *k);
   switch (function_of(program)) {
     case FunctionId::kInitialState:
       return expecting("the assembled start", start(program));
@@ -105,6 +110,50 @@ std::vector<Expected> LoopOracle::linearization() const {
   return {{"differences of the constrained system", rows, true},
           {"differences of the outputs of the constrained system",
            change([](const LoopOracle& o) { return to_exact(o.outputs()); }, true), true}};
+}
+
+std::vector<Expected> LoopOracle::kinematics(const ir::Program& program, std::size_t k) const {
+  const auto at_accelerations = [&](const ExactVector& zdot) {
+    ir::LeafValues<ScaledReal> tree = point_.exact;
+    tree[LeafKind::kVelocity] = to_list(e_.z);
+    tree[LeafKind::kAcceleration] = to_list(zdot);
+    return kinematic_arrays(scene_.equations.kinematics[k],
+                            dynamics::HighPrecision(scene_.equations.statements, leaves_at(tree)));
+  };
+  KinematicArrays arrays = at_accelerations(of_tree(to_exact(point_.exact[LeafKind::kAcceleration])));
+  for (auto& [name, values] : at_accelerations(e_.beta))
+    if (name.starts_with("bias")) arrays[name] = values;
+  const std::pair<const char*, const char*> jacobians[] = {
+      {"J", "drift"}, {"J_com", "drift_com"}, {"A", "drift_momentum"}};
+  for (const auto& [matrix, drift] : jacobians) {
+    const auto J = arrays.find(matrix);
+    if (J == arrays.end()) continue;
+    arrays[drift] += J->second * e_.b;
+    J->second = ExactMatrix(J->second * e_.B);
+  }
+  if (const auto tau = arrays.find("tau_gravity"); tau != arrays.end())
+    tau->second = ExactMatrix(e_.B.transpose() * tau->second);
+  if (const auto J = arrays.find(dynamics::kOperationalJacobian); J != arrays.end())
+    arrays["inverse_inertia"] = inverse_inertia(J->second);
+  return expecting("kinematics and momentum, velocities as the loops allow", entries_of(program, arrays));
+}
+
+/// Accelerations of the frame by unit forces on it.
+ExactMatrix LoopOracle::inverse_inertia(const ExactMatrix& J) const {
+  if (scene_.plan.is_reduced()) {
+    const ExactMatrix reduced = J * e_.B;
+    if (reduced.cols() == 0) return ExactMatrix::Zero(J.rows(), J.rows());
+    return reduced * solved(e_.B.transpose() * e_.M * e_.B, ExactMatrix(reduced.transpose()));
+  }
+  const std::vector<std::size_t> rows = scene_.plan.solved_rows();
+  const ExactMatrix G = e_.G(rows, Eigen::all), back = solved(e_.M, ExactMatrix(G.transpose()));
+  const loops::SchurSolution schur(scene_.plan, rows, G * back, scene_.plan.regularisation);
+  ExactMatrix moved = solved(e_.M, ExactMatrix(J.transpose()));
+  for (Eigen::Index a = 0; a < moved.cols(); ++a) {
+    const ExactVector free = moved.col(a);
+    moved.col(a) -= back * schur.corrected(G * free, scene_.plan.corrections);
+  }
+  return J * moved;
 }
 
 LoopOracle::Constrained LoopOracle::constrained(const std::vector<std::size_t>& rows) const {

@@ -50,6 +50,8 @@ class LoopOracle {
   ExactVector residual() const;
   std::vector<ScaledReal> acceleration_change(bool with_inputs_and_time) const;
   std::vector<Expected> linearization() const;
+  std::vector<Expected> kinematics(const ir::Program& program, std::size_t k) const;
+  ExactMatrix inverse_inertia(const ExactMatrix& J) const;
   std::vector<ScaledReal> position_rate() const;
   std::vector<ScaledReal> outputs() const;
   std::vector<ScaledReal> mass_entries(const ir::Program& program) const;

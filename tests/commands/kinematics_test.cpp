@@ -1,0 +1,105 @@
+// Functions of the kinematics as a user asks for them on the command line; the README's controller is one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "support/files.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+using testing::HasSubstr;
+
+class Kinematics : public testing::Test {
+ protected:
+  /// In the project's folder.
+  static support::ProcessResult run(std::vector<std::string> command) {
+    command.insert(command.begin(), {"env", "-C", JOURDAIN_SOURCE_DIR});
+    return support::run_process(command);
+  }
+  static support::ProcessResult compile(const std::vector<std::string>& options) {
+    std::vector<std::string> command = {JOURDAIN_BINARY, "compile", "tests/data/robots/rail_arm.urdf"};
+    command.insert(command.end(), options.begin(), options.end());
+    return run(command);
+  }
+  std::string in_folder(const std::string& name) const { return folder_.path() + "/" + name; }
+
+  support::TemporaryFolder folder_;
+};
+
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const std::size_t from = text.find(begin);
+  if (from == std::string::npos) return "";
+  return text.substr(from + begin.size(), text.find(end, from + begin.size()) - from - begin.size());
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// The four commands and the program between them, as they stand there.
+TEST_F(Kinematics, ControllerOfTheReadmeRuns) {
+  const std::string section =
+      between(support::read_file(JOURDAIN_SOURCE_DIR "/README.md"), "## Kinematics\n", "\n## ");
+  support::write_file(in_folder("controller.cpp"), between(section, "```cpp\n", "```"));
+  std::istringstream lines(between(section, "four commands:\n\n", "\n\nwhere"));
+  std::string output;
+  int commands = 0;
+  for (std::string line; std::getline(lines, line); ++commands) {
+    std::string command = replaced(line, "    ", "");
+    command = replaced(command, "jourdain ", JOURDAIN_BINARY " ");
+    command = replaced(command, "tests/data", JOURDAIN_SOURCE_DIR "/tests/data");
+    const support::ProcessResult result =
+        support::run_process({"env", "-C", folder_.path(), "sh", "-c", command});
+    ASSERT_EQ(result.status, 0) << command << "\n" << result.output;
+    output = result.output;
+  }
+  EXPECT_EQ(commands, 4);
+  // The arm's chain of offsets at zero, from the file.
+  double x = 0, y = 0, z = 0, upward = 0;
+  ASSERT_EQ(
+      std::sscanf(output.c_str(), "tool at %lf %lf %lf\nit accelerates upward with %lf", &x, &y, &z, &upward),
+      4)
+      << output;
+  EXPECT_GT(upward, 0);
+}
+
+TEST_F(Kinematics, MessagesSayWhatThereIs) {
+  const auto refused = [&](const std::vector<std::string>& options, const std::string& part) {
+    std::vector<std::string> all = {"-o", in_folder("out")};
+    all.insert(all.end(), options.begin(), options.end());
+    const support::ProcessResult result = compile(all);
+    EXPECT_EQ(result.status, 2) << result.output;
+    EXPECT_THAT(result.output, HasSubstr(part));
+  };
+  refused({"--frame", "tool"}, "--frame tool: write NAME=FRAME, as in tool=hand");
+  refused({"--frame", "2=tool"}, "'2' is not an identifier");
+  refused({"--frame", "t=toool"}, "no frame or body 'toool'; did you mean 'tool'?");
+  refused({"--frame", "t=tool:posee"}, "there is no quantity 'posee'; did you mean 'pose'?");
+  refused({"--frame", "t=tool:pose+pose"}, "'pose' stands twice in 'pose+pose'");
+  refused({"--frame", "t=tool:momentum"}, "'momentum' is of the whole mechanism, not of a frame");
+  refused({"--frame", "t=tool:pose:local"}, "no axes 'local'; there are world_aligned, frame, world");
+  refused({"--frame", "t=tool:pose:world:x"}, "more than FRAME:QUANTITIES:AXES");
+  refused({"--frame", "t=tool", "--frame", "t=hand"}, "there are two functions 't_pose'");
+  refused({"--functions", "gravity_compensatio"}, "did you mean 'gravity_compensation'?");
+}
+
+TEST_F(Kinematics, OnlyWhatIsAskedForIsEmitted) {
+  ASSERT_EQ(
+      compile({"-o", in_folder("a"), "--functions", "momentum", "--frame", "t=hand:velocity:frame"}).status,
+      0);
+  const std::string header = support::read_file(in_folder("a/rail_arm.hpp"));
+  EXPECT_THAT(header, HasSubstr("t_velocity("));
+  EXPECT_THAT(header, HasSubstr("momentum("));
+  EXPECT_THAT(header, Not(HasSubstr("mass_matrix(")));
+  EXPECT_THAT(header, HasSubstr("Pinocchio: LOCAL;"));
+}
+
+}  // namespace
+}  // namespace jourdain::tests
