@@ -73,6 +73,9 @@ class MjcfBodyReader {
   bool moves_origin(const PlacedElement& joint);
   void read_joint(const PlacedElement& placed, Chain& chain, bool alone, std::optional<BodyIndex> last,
                   const std::string& body_name);
+  void read_free(const XmlElement& element, const Chain& chain, bool alone, Joint& joint);
+  static void step_back(Pose& pose, const Joint& joint, double reference);
+  BodyIndex add_carried_body(const std::string& body_name, const Joint& joint);
   void read_motion(const XmlElement& element, Joint& joint, MjcfBodies::NamedJoint& named);
   void read_range(const XmlElement& element, double unit, Coordinate& coordinate);
   void read_sites(const std::vector<PlacedElement>& sites, std::optional<BodyIndex> body);

@@ -134,6 +134,12 @@ std::optional<MjcfInertia::Solid> MjcfInertia::solid(const PlacedElement& geom) 
   const bool weighed = file_.holder(e, "mass") != nullptr;
   const double given = file_.number(e, weighed ? "mass" : "density", kWaterDensity);
   if (!is_counted(e) || type == "plane" || type == "hfield" || given == 0) return {};
+  if (given < 0) {
+    const XmlElement& holder = *file_.holder(e, weighed ? "mass" : "density");
+    file_.xml().complete().numbers = false;
+    file_.error(file_.xml().value(holder, weighed ? "mass" : "density"), "a geom's mass is negative");
+    return {};
+  }
   if (file_.holder(e, "mesh") || type == "mesh" || type == "sdf" || file_.truth(e, "shellinertia", false)) {
     const SourceRange where = file_.xml().element(e);
     file_.xml().complete().numbers = false;

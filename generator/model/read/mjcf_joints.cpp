@@ -21,58 +21,30 @@ JointType MjcfBodyReader::joint_type(const XmlElement& e) {
 void MjcfBodyReader::read_joint(const PlacedElement& placed, Chain& chain, bool alone,
                                 std::optional<BodyIndex> last, const std::string& body_name) {
   const XmlElement& e = *placed.element;
-  UrdfFile& xml = file_.xml();
   if (!last && !has_room(e)) return;
   Joint joint;
   joint.name = given_name(e, body_name, joint_names_);
-  joint.where = e.Attribute("name") ? xml.value(e, "name") : xml.element(e);
+  joint.where = e.Attribute("name") ? file_.xml().value(e, "name") : file_.xml().element(e);
   joint.set_type(joint_type(e));
   MjcfBodies::NamedJoint named;
   named.joint = JointIndex(result_.mechanism.joints.size());
   named.type = joint.type;
-  Pose pose = chain.pose;
   Numbers3 anchor{};
   if (joint.type == JointType::kFree) {
-    if (!alone || chain.parent) {
-      xml.complete().structure = false;
-      file_.error(xml.element(e),
-                  fmt::format("free joint '{}' {}", shown(joint.name),
-                              alone ? "is of a body within another" : "is not its body's only joint"));
-    }
-    const Placement start = placement_of(chain.world, joint.where);
-    joint.initial_origin = start.position;
-    const std::array<double, 4> q = quaternion_of(chain.world.R);
-    joint.initial_orientation = {q[0], q[1], q[2], q[3]};
-    pose = {};
+    read_free(e, chain, alone, joint);
   } else {
-    if (joint.type != JointType::kPrismatic) anchor = point_at(placed.frame, file_.triple(e, "pos", {}));
-    pose.origin = point_at(chain.pose, anchor);
-  }
-  if (joint.coordinates.size() == 1) {
-    const Numbers3 axis = product(placed.frame.R, file_.triple(e, "axis", {0, 0, 1}));
-    joint.axis = axis;
-    const XmlElement* holder = file_.holder(e, "axis");
-    joint.axis_where = holder ? xml.value(*holder, "axis") : joint.where;
-    read_motion(e, joint, named);
-    const double length = std::hypot(axis[0], axis[1], axis[2]);
-    if (length > 0 && named.reference != 0) {
-      // The coordinate is zero where the joint has gone back by its reference.
-      if (joint.type == JointType::kPrismatic)
-        pose.origin = sum(pose.origin, product(pose.R, times(axis, -named.reference / length)));
-      else
-        pose.R = product(pose.R, rotation_about(axis, -named.reference).value_or(kIdentity3));
+    const bool turns = joint.type != JointType::kPrismatic;
+    if (turns) anchor = point_at(placed.frame, file_.triple(e, "pos", {}));
+    Pose pose{point_at(chain.pose, anchor), chain.pose.R};
+    if (joint.coordinates.size() == 1) {
+      joint.axis = product(placed.frame.R, file_.triple(e, "axis", {0, 0, 1}));
+      read_motion(e, joint, named);
+      step_back(pose, joint, named.reference);
     }
-  } else {
-    not_of_scalars(e, joint);
+    joint.placement = placement_of(pose, joint.where);
   }
-  joint.placement = placement_of(pose, joint.where);
-  if (!last) {
-    Body carried;
-    carried.name = new_name(fmt::format("{}_{}", body_name, joint.name), body_names_);
-    carried.where = joint.where;
-    body_names_[carried.name] = joint.where;
-    last = add_body(std::move(carried));
-  }
+  if (joint.coordinates.empty()) not_of_scalars(e, joint);
+  if (!last) last = add_carried_body(body_name, joint);
   result_.joints[joint.name] = named;
   result_.joint_order.push_back(joint.name);
   join(chain.parent, *last, std::move(joint));
@@ -80,9 +52,44 @@ void MjcfBodyReader::read_joint(const PlacedElement& placed, Chain& chain, bool 
   chain.pose = {times(anchor, -1), kIdentity3};
 }
 
-/// Of a hinge or slide: its reference, spring, damper, range and armature.
+/// A free joint starts where the body is drawn.
+void MjcfBodyReader::read_free(const XmlElement& e, const Chain& chain, bool alone, Joint& joint) {
+  if (!alone || chain.parent) {
+    file_.xml().complete().structure = false;
+    file_.error(file_.xml().element(e),
+                fmt::format("free joint '{}' {}", shown(joint.name),
+                            alone ? "is of a body within another" : "is not its body's only joint"));
+  }
+  joint.initial_origin = placement_of(chain.world, joint.where).position;
+  const std::array<double, 4> q = quaternion_of(chain.world.R);
+  joint.initial_orientation = {q[0], q[1], q[2], q[3]};
+}
+
+/// The joint's frame is where the coordinate is zero: back by the reference from where the joint is drawn.
+void MjcfBodyReader::step_back(Pose& pose, const Joint& joint, double reference) {
+  const Numbers3 axis = joint.axis;
+  const double length = std::hypot(axis[0], axis[1], axis[2]);
+  if (!(length > 0) || reference == 0) return;
+  if (joint.type == JointType::kPrismatic)
+    pose.origin = sum(pose.origin, product(pose.R, times(axis, -reference / length)));
+  else
+    pose.R = product(pose.R, rotation_about(axis, -reference).value_or(kIdentity3));
+}
+
+/// Without mass, between two joints of one body or at the anchor of its last one.
+BodyIndex MjcfBodyReader::add_carried_body(const std::string& body_name, const Joint& joint) {
+  Body carried;
+  carried.name = new_name(fmt::format("{}_{}", body_name, joint.name), body_names_);
+  carried.where = joint.where;
+  body_names_[carried.name] = joint.where;
+  return add_body(std::move(carried));
+}
+
+/// Of a hinge or slide: its axis, reference, spring, damper, range and armature.
 void MjcfBodyReader::read_motion(const XmlElement& e, Joint& joint, MjcfBodies::NamedJoint& named) {
   UrdfFile& xml = file_.xml();
+  const XmlElement* axis = file_.holder(e, "axis");
+  joint.axis_where = axis ? xml.value(*axis, "axis") : joint.where;
   Coordinate& coordinate = joint.coordinates.front();
   const double unit = coordinate.angular ? file_.angle_unit() : 1;
   named.reference = file_.number(e, "ref", 0) * unit;
@@ -92,6 +99,8 @@ void MjcfBodyReader::read_motion(const XmlElement& e, Joint& joint, MjcfBodies::
   if (options_.damping) coordinate.damping = file_.number(e, "damping", 0);
   named.armature = file_.number(e, "armature", 0);
   if (const XmlElement* holder = file_.holder(e, "armature")) named.where = xml.value(*holder, "armature");
+  if (named.armature < 0)
+    file_.error(named.where, fmt::format("armature of joint '{}' is negative", shown(joint.name)));
   if (const XmlElement* holder = file_.holder(e, "springdamper")) {
     const std::vector<double> pair = file_.numbers(e, "springdamper", {0, 0}, 2);
     if (pair[0] > 0 && pair[1] > 0)

@@ -30,6 +30,17 @@ support::SourceRange first_of_line(std::string_view text, int line) {
   return {line, static_cast<int>(blanks) + 1, 1};
 }
 
+/// Attributes of the start tag at `begin`, as far as they can be told without parsing it.
+std::size_t attribute_count(std::string_view text, std::size_t begin) {
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < text.size() && text[i] != '>'; ++i) {
+    if (text[i] == '=') ++count;
+    if (text[i] != '"' && text[i] != '\'') continue;
+    i = std::min(text.find(text[i], i + 1), text.size());
+  }
+  return count;
+}
+
 }  // namespace
 
 std::unique_ptr<XmlText> parse_xml(support::Diagnostics& diagnostics) {
@@ -40,6 +51,13 @@ std::unique_ptr<XmlText> parse_xml(support::Diagnostics& diagnostics) {
                       fmt::format("nested deeper than {} levels", kMaximumNesting));
     return nullptr;
   }
+  // The parser compares each attribute with all before it.
+  for (const std::size_t start : tags.starts)
+    if (const std::size_t count = attribute_count(text, start); count > kMaximumAttributes) {
+      diagnostics.error(support::LineIndex(text).range(start, 1),
+                        fmt::format("an element has {} attributes, more than {}", count, kMaximumAttributes));
+      return nullptr;
+    }
   auto xml = std::make_unique<XmlText>();
   xml->starts = std::move(tags.starts);
   xml->document.Parse(text.data(), text.size());

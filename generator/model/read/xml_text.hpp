@@ -17,7 +17,10 @@ struct XmlText {
   std::vector<std::size_t> starts;
 };
 
-/// Parses the text of `diagnostics`. Null after an error: nested too deeply, no XML.
+/// Attributes that an element may have.
+inline constexpr std::size_t kMaximumAttributes = 1000;
+
+/// Parses the text of `diagnostics`. Null after an error: nested too deeply, an element too wide, no XML.
 std::unique_ptr<XmlText> parse_xml(support::Diagnostics& diagnostics);
 
 /// The one element <`name`> that `format`, such as "a URDF file", is; null after an error. Another element behind it is
