@@ -158,7 +158,7 @@ std::string MjcfBodyReader::given_name(const XmlElement& e, const std::string& o
                                        std::map<std::string, SourceRange>& names) {
   const std::optional<std::string> given = e.Attribute("name") ? file_.xml().name(e) : std::nullopt;
   const SourceRange where = given ? file_.xml().value(e, "name") : file_.xml().element(e);
-  const std::string name = given ? *given : new_name(otherwise, names);
+  std::string name = given ? *given : new_name(otherwise, names);
   SourceRange& first = names[name];
   if (first.line != 0) {
     file_.xml().complete().structure = false;

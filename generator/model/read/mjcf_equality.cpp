@@ -10,7 +10,6 @@ namespace jourdain::model {
 
 namespace {
 
-using support::shown;
 using Op = Expression::Op;
 
 class EqualityReader {

@@ -65,9 +65,12 @@ void MjcfFile::read_class(const XmlElement& block, const std::string& outer) {
   const char* const given = block.Attribute("class");
   if (!given && !outer.empty())
     return error(xml_.element(block), "a <default> within another needs the attribute 'class'");
-  // The outermost class may have a name of its own; elements without a class take it by any name.
-  if (outer.empty() && given && std::strcmp(given, kMain) != 0) classes_[given].outer = kMain;
-  const std::string name = outer.empty() ? kMain : given;
+  std::string name = given ? given : kMain;
+  if (outer.empty() && name != kMain) {
+    // The outermost class may have a name of its own; elements without a class take it by any name.
+    classes_[name].outer = kMain;
+    name = kMain;
+  }
   Class& entry = classes_[name];
   if (!outer.empty() && entry.where.line != 0)
     return error(xml_.value(block, "class"), fmt::format("there are two classes '{}'", shown(name)),

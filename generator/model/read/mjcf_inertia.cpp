@@ -10,7 +10,6 @@ namespace jourdain::model {
 
 namespace {
 
-using support::shown;
 constexpr double kPi = std::numbers::pi;
 constexpr double kWaterDensity = 1000;  // kg/m³, MuJoCo's default
 

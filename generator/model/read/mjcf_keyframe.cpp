@@ -9,8 +9,6 @@ namespace jourdain::model {
 
 namespace {
 
-using support::shown;
-
 const XmlElement* home(const XmlElement& root) {
   for (const auto* section = root.FirstChildElement("keyframe"); section;
        section = section->NextSiblingElement("keyframe"))

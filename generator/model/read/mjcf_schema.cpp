@@ -123,7 +123,7 @@ class SchemaCheck {
   /// "joint", "equality joint", "actuator motor": joints of bodies and of defaults have their name alone.
   static std::string key(const XmlElement& element) {
     const XmlElement* parent = element.Parent()->ToElement();
-    const std::string name = element.Name();
+    std::string name = element.Name();
     const std::string section = parent ? parent->Name() : "";
     if (section == "equality") return "equality " + name;
     if (section == "actuator" || (section == "default" && is_actuator_name(name))) return "actuator " + name;
