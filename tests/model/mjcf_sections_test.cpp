@@ -157,6 +157,9 @@ TEST(MjcfEqualities, JointsFollowAPolynomialFromTheirReferences) {
   const Mechanism line =
       read_cleanly(two(R"(<equality><joint joint1="p" joint2="q" polycoef="0.1 -3 0 0 0"/></equality>)"));
   EXPECT_NEAR(rows(line, kQuarter + 0.5, 0.2)[0], 0.5 - (0.1 - 0.6), kRounding);
+  const Mechanism from_reference =
+      read_cleanly(two(R"(<equality><joint joint1="q" joint2="p" polycoef="0.1 -3 0 0 0"/></equality>)"));
+  EXPECT_NEAR(rows(from_reference, kQuarter + 0.5, 0.2)[0], 0.2 - (0.1 - 1.5), kRounding);
   const Mechanism curve =
       read_cleanly(two(R"(<equality><joint joint1="q" joint2="p" polycoef="0.1 -3 2 0.5 4"/></equality>)"));
   EXPECT_NEAR(rows(curve, kQuarter + 0.5, 0.2)[0], 0.2 - (0.1 - 1.5 + 0.5 + 0.0625 + 0.25), kRounding);
