@@ -35,7 +35,8 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
 /// the model too: a second value that is a model file is moved to the front.
 std::vector<std::string> reversed_arguments(int argc, char** argv) {
   const auto is_model = [](std::string_view text) {
-    return text.ends_with(".toml") || text.ends_with(".urdf");
+    return text.ends_with(".toml") || text.ends_with(".urdf") || text.ends_with(".mjcf") ||
+           text.ends_with(".xml");
   };
   const auto is_option = [](std::string_view text) {
     return text.starts_with("-") && text.find_first_of("0123456789.") != 1;

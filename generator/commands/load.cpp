@@ -59,12 +59,12 @@ void refuse_warnings(support::Diagnostics& diagnostics) {
 }  // namespace
 
 void ModelArguments::add_to(CLI::App& command) {
-  command.add_option("MODEL", path, "model description: .toml, or .urdf")->required();
+  command.add_option("MODEL", path, "model description: .toml, .urdf or .mjcf")->required();
   command.add_option("--name", name, "namespace and file name of the emitted code")->check(check_name);
   command.add_option("--root", root, "URDF: root link fixed to the world, or free")
       ->check(CLI::IsMember({"fixed", "free"}));
   command.add_option("--lock", read.locked_joints, "joints to lock at coordinate zero")->delimiter(',');
-  command.add_flag("!--no-damping", read.damping, "URDF: leave out joint damping");
+  command.add_flag("!--no-damping", read.damping, "URDF, MJCF: leave out joint damping");
   CLI::Option* snap =
       command.add_option("--snap", read.snap, "angles, rad, and axes this near to a right angle are that")
           ->check(CLI::Range(0.0, model::kMaximumSnap))

@@ -49,7 +49,9 @@ bool is_readable(Diagnostics& diagnostics) {
 std::optional<Mechanism> read_mechanism(Diagnostics& diagnostics, const ReadOptions& options) {
   if (!is_readable(diagnostics)) return {};
   const std::string& path = diagnostics.path();
-  const bool urdf = path.ends_with(".urdf") || path.ends_with(".xml");
+  const bool xml = path.ends_with(".xml");
+  if (path.ends_with(".mjcf") || (xml && is_mjcf(diagnostics.text()))) return read_mjcf(diagnostics, options);
+  const bool urdf = path.ends_with(".urdf") || xml;
   return urdf ? read_urdf(diagnostics, options) : read_toml(diagnostics, options);
 }
 

@@ -1,4 +1,4 @@
-// Reading a mechanism from TOML or URDF. Every problem becomes a diagnostic; none throws.
+// Reading a mechanism from TOML, URDF or MJCF. Every problem becomes a diagnostic; none throws.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ enum class RootJoint { kFixed, kFree };
 struct ReadOptions {
   RootJoint root = RootJoint::kFixed;           ///< URDF only
   std::vector<std::string> locked_joints = {};  ///< become fixed joints at coordinate zero
-  bool damping = true;                          ///< URDF: import <dynamics damping>
+  bool damping = true;                          ///< URDF, MJCF: import joint damping
   double snap = kDefaultSnap;                   ///< rad, see model/snap.hpp; 0: directions as they are read
 };
 
@@ -23,13 +23,17 @@ struct ReadOptions {
 inline constexpr std::size_t kMaximumFileSize = 4'000'000;
 inline constexpr std::size_t kMaximumBodies = 1000;
 
-/// Reads and checks the text of `diagnostics` (TOML, or URDF when the path ends in .urdf or .xml). Nothing is returned
-/// when an error was found.
+/// Reads and checks the text of `diagnostics` (TOML; URDF when the path ends in .urdf; MJCF when it ends in .mjcf; in
+/// .xml one of these two, by the first element). Nothing is returned when an error was found.
 std::optional<Mechanism> read_mechanism(support::Diagnostics& diagnostics, const ReadOptions& options = {});
 
-/// The two formats; they do what `read_mechanism` does for a text that is valid UTF-8, without control characters and
+/// The formats; they do what `read_mechanism` does for a text that is valid UTF-8, without control characters and
 /// not too long.
 std::optional<Mechanism> read_toml(support::Diagnostics& diagnostics, const ReadOptions& options);
 std::optional<Mechanism> read_urdf(support::Diagnostics& diagnostics, const ReadOptions& options);
+std::optional<Mechanism> read_mjcf(support::Diagnostics& diagnostics, const ReadOptions& options);
+
+/// Whether the first element of an XML text is <mujoco>.
+bool is_mjcf(const std::string& text);
 
 }  // namespace jourdain::model

@@ -1,0 +1,216 @@
+#include <fmt/format.h>
+
+#include <cstring>
+#include <set>
+
+#include "model/read/mjcf_sections.hpp"
+
+namespace jourdain::model {
+
+namespace {
+
+using support::shown;
+using Op = Expression::Op;
+
+constexpr std::size_t kParameters = 10;
+
+/// Force of an actuator: gain[0] ctrl + bias[0] + bias[1] length + bias[2] speed, before the gear.
+struct Law {
+  std::vector<double> gain = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  std::vector<double> bias = std::vector<double>(kParameters);
+  bool biased = false;
+  bool known = true;  ///< that it is this
+};
+
+class ActuatorReader {
+ public:
+  ActuatorReader(MjcfFile& file, MjcfBodies& bodies) : file_(file), bodies_(bodies) {}
+
+  void read() {
+    const XmlElement& root = file_.root();
+    for (const auto* section = root.FirstChildElement("actuator"); section;
+         section = section->NextSiblingElement("actuator"))
+      for (const auto* e = section->FirstChildElement(); e; e = e->NextSiblingElement())
+        if (is_actuator_name(e->Name()) && std::strcmp(e->Name(), "plugin") != 0 && is_few(*e))
+          read_actuator(*e);
+    force_limits_.report(file_, "forcerange of actuator", "is ignored", "forces are not clipped");
+    carry_armatures();
+  }
+
+ private:
+  UrdfFile& xml() { return file_.xml(); }
+
+  /// Names are made one by one: no more than anyone has.
+  bool is_few(const XmlElement& e) {
+    if (++count_ <= kMaximumBodies) return true;
+    xml().complete().structure = false;
+    if (count_ == kMaximumBodies + 1)
+      file_.error(xml().element(e), fmt::format("the file has more than {} actuators", kMaximumBodies));
+    return false;
+  }
+
+  void read_actuator(const XmlElement& e) {
+    const char* const attribute = e.Attribute("jointinparent") ? "jointinparent" : "joint";
+    const char* const given = e.Attribute("name");
+    const std::string label =
+        given ? fmt::format("<{}> '{}'", e.Name(), shown(given)) : fmt::format("<{}>", e.Name());
+    if (!e.Attribute(attribute))
+      return file_.warning(xml().element(e), label + " acts on no joint: not read",
+                           "actuators of tendons, sites and bodies have no counterpart");
+    const MjcfBodies::NamedJoint* named = find_named(file_, e, attribute, "joint", bodies_.joints);
+    if (!named) return;
+    if (named->type != JointType::kRevolute && named->type != JointType::kPrismatic)
+      return file_.warning(xml().value(e, attribute), label + " acts on a joint that turns freely: not read",
+                           "actuators of hinges and slides are");
+    const double gear = file_.numbers(e, "gear", {1, 0, 0, 0, 0, 0}, 1)[0];
+    const Law law = law_of(e, label);
+    Actuator actuator;
+    actuator.name = new_name(e);
+    actuator.joint = named->joint;
+    actuator.gear_ratio = gear * law.gain[0];
+    actuator.where = given ? xml().value(e, "name") : xml().element(e);
+    if (gear * law.gain[0] == 0)
+      return file_.warning(actuator.where, label + " has no effect: its gear or gain is zero");
+    if (file_.holder(e, "forcerange") && file_.word(e, "forcelimited").value_or("auto") != "false")
+      force_limits_.add(xml().value(*file_.holder(e, "forcerange"), "forcerange"), actuator.name);
+    add_bias(actuator, gear, law);
+    bodies_.mechanism.actuators.push_back(std::move(actuator));
+  }
+
+  std::string new_name(const XmlElement& e) {
+    const bool given = e.Attribute("name") != nullptr;
+    const std::optional<std::string> own = given ? xml().name(e) : std::nullopt;
+    const char* joint = e.Attribute("joint") ? e.Attribute("joint") : e.Attribute("jointinparent");
+    std::string name = own.value_or(joint);
+    if (own && names_.contains(name)) {
+      xml().complete().structure = false;
+      file_.error(xml().value(e, "name"), fmt::format("there are two actuators '{}'", shown(name)));
+    }
+    for (int i = 2; names_.contains(name); ++i) name = fmt::format("{}_{}", own.value_or(joint), i);
+    names_.insert(name);
+    return name;
+  }
+
+  /// Each level, of the classes from outside in and then the element, changes what the one before left.
+  Law law_of(const XmlElement& e, const std::string& label) {
+    Law law;
+    const std::vector<const XmlElement*> levels = file_.levels(e);
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+      law = changed(std::move(law), **level);
+    if (law.known) {
+      if (!law.biased) law.bias.assign(kParameters, 0);
+      warn_of_servo(e, label);
+      return law;
+    }
+    file_.warning(xml().element(e), label + " is read as a motor: its own law is not",
+                  "the input is the force before the gear");
+    return {};
+  }
+
+  Law changed(Law law, const XmlElement& level) {
+    const std::string kind = level.Name();
+    if (kind == "general") return generally_changed(std::move(law), level);
+    if (kind == "motor") {
+      law.gain[0] = 1;
+      law.biased = false;
+      law.known = true;
+      return law;
+    }
+    if (kind == "position") {
+      law.gain[0] = xml().number(level, "kp", law.gain[0]);
+      law.bias[1] = -law.gain[0];
+      law.bias[2] = -xml().number(level, "kv", -law.bias[2]);
+    } else if (kind == "velocity") {
+      law.gain[0] = xml().number(level, "kv", law.gain[0]);
+      law.bias.assign(kParameters, 0);
+      law.bias[2] = -law.gain[0];
+    }
+    law.biased = true;
+    law.known = kind == "position" || kind == "velocity";
+    return law;
+  }
+
+  Law generally_changed(Law law, const XmlElement& level) {
+    file_.overlay(level, "gainprm", law.gain, 1);
+    file_.overlay(level, "biasprm", law.bias, 1);
+    const auto type = [&](const char* attribute) {
+      const char* text = level.Attribute(attribute);
+      return std::string(text ? text : "");
+    };
+    const std::string bias = type("biastype"), gain = type("gaintype"), dynamics = type("dyntype");
+    if (!bias.empty()) law.biased = bias != "none";
+    law.known = law.known && (bias.empty() || bias == "none" || bias == "affine") &&
+                (gain.empty() || gain == "fixed") && (dynamics.empty() || dynamics == "none");
+    return law;
+  }
+
+  void warn_of_servo(const XmlElement& e, const std::string& label) {
+    for (const char* attribute : {"dampratio", "timeconst"})
+      if (file_.number(e, attribute, 0) != 0)
+        file_.warning(xml().value(*file_.holder(e, attribute), attribute),
+                      fmt::format("{} of {} is ignored", attribute, label),
+                      std::string_view(attribute) == "dampratio" ? "kv damps" : "the servo acts at once");
+  }
+
+  /// gear (b₀ + b₁ gear q + b₂ gear q̇) on the joint.
+  void add_bias(const Actuator& actuator, double gear, const Law& law) {
+    const auto times_variable = [&](double factor, Variable::Kind kind) {
+      return Expression::binary(Op::kMultiply, factor, Expression::variable({kind, actuator.joint.value, 0}));
+    };
+    CoordinateForce force;
+    force.force = Expression::binary(
+        Op::kAdd, gear * law.bias[0],
+        Expression::binary(Op::kAdd, times_variable(gear * gear * law.bias[1], Variable::Kind::kPosition),
+                           times_variable(gear * gear * law.bias[2], Variable::Kind::kVelocity)));
+    if (force.force.is_zero()) return;
+    force.name = actuator.name;
+    force.joint = actuator.joint;
+    force.where = actuator.where;
+    bodies_.mechanism.coordinate_forces.push_back(std::move(force));
+  }
+
+  /// An armature adds to the joint's own inertia, whatever the gear: divided by what the rotor's is multiplied by.
+  void carry_armatures() {
+    Mechanism& mechanism = bodies_.mechanism;
+    std::size_t count = 0;
+    std::string first;
+    SourceRange where;
+    for (const std::string& name : bodies_.joint_order) {
+      const MjcfBodies::NamedJoint& joint = bodies_.joints.at(name);
+      if (joint.armature == 0) continue;
+      Actuator* carrier = nullptr;
+      for (Actuator& actuator : mechanism.actuators)
+        if (!carrier && actuator.joint == joint.joint) carrier = &actuator;
+      if (!carrier) {
+        if (++count == 1) std::tie(first, where) = std::tie(name, joint.where);
+        std::string input = name;
+        while (!names_.insert(input).second) input += '_';
+        mechanism.actuators.push_back({.name = input,
+                                       .joint = joint.joint,
+                                       .rotor_inertia = 0.0,
+                                       .where = joint.where,
+                                       .implied = true});
+        carrier = &mechanism.actuators.back();
+      }
+      const double ratio = carrier->gear_ratio.constant();
+      carrier->rotor_inertia = joint.armature / (ratio * ratio);
+    }
+    if (count == 0) return;
+    const std::string others = count == 1 ? "" : fmt::format(" and {} more", count - 1);
+    xml().diagnostics().note(
+        where, fmt::format("joint '{}'{} with an armature and no actuator: an input is made for it",
+                           shown(first), others));
+  }
+
+  MjcfFile& file_;
+  MjcfBodies& bodies_;
+  std::set<std::string> names_;
+  std::size_t count_ = 0;
+  Repeated force_limits_;
+};
+
+}  // namespace
+
+void read_mjcf_actuators(MjcfFile& file, MjcfBodies& bodies) { ActuatorReader(file, bodies).read(); }
+
+}  // namespace jourdain::model
