@@ -7,7 +7,6 @@
 #include <cctype>
 #include <unordered_map>
 
-#include "model/read/finish.hpp"
 #include "model/read/nesting.hpp"
 #include "model/read/read.hpp"
 #include "model/read/urdf_file.hpp"
@@ -188,8 +187,10 @@ class UrdfReader {
     const XmlElement* mimic = file_.child(element, "mimic");
     joint.mimics = mimic != nullptr;
     if (mimic && !locked)
-      file_.diagnostics().warning(file_.element(*mimic), "<mimic> is ignored: the joint moves freely",
-                                  fmt::format("--lock {} fixes it", shown(joint.name)));
+      file_.diagnostics().warning(
+          file_.element(*mimic), "<mimic> is ignored: the joint moves freely",
+          options_.importing ? fmt::format("lock = [\"{}\"] of its import fixes it", shown(joint.name))
+                             : fmt::format("--lock {} fixes it", shown(joint.name)));
   }
 
   /// One warning for all joints, at the first.
@@ -274,7 +275,7 @@ SourceRange first_of_line(std::string_view text, int line) {
 
 }  // namespace
 
-std::optional<Mechanism> read_urdf(Diagnostics& diagnostics, const ReadOptions& options) {
+std::optional<Part> read_urdf(Diagnostics& diagnostics, const ReadOptions& options) {
   const std::string& text = diagnostics.text();
   const XmlTags tags = scan_xml_tags(text);
   if (tags.deep_nesting) {
@@ -299,8 +300,7 @@ std::optional<Mechanism> read_urdf(Diagnostics& diagnostics, const ReadOptions& 
     diagnostics.error(file.element(*second),
                       fmt::format("<{}> stands behind the end of <robot>", shown(second->Name())));
   Mechanism mechanism = UrdfReader(file, options).read(*robot);
-  return finish_reading(std::move(mechanism), file.complete(), options, support::Severity::kWarning,
-                        diagnostics);
+  return Part{std::move(mechanism), file.complete(), support::Severity::kWarning};
 }
 
 }  // namespace jourdain::model
