@@ -341,6 +341,47 @@ TEST(Import, ThatIsTurnedHangsOnAMount) {
   EXPECT_EQ(mechanism.joints[0].placement.position[2].constant(), 0.3);
 }
 
+/// The axis of a pin is in the axes of the body that carries both ends, which is the imported world.
+TEST(Import, ThatIsTurnedKeepsTheAxesOfItsPins) {
+  Files files;
+  files.add("linkage.toml", support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/four_bar.toml"))
+      .add("model.toml",
+           kHead + "[[import]]\nfile = \"linkage.toml\"\nprefix = \"a_\"\nrpy = [\"90 deg\", 0, 0]\n");
+  const Mechanism mechanism = files.cleanly("model.toml");
+  const Loop& pin = mechanism.loops[0];
+  ASSERT_EQ(pin.type, LoopType::kPlanarPin);
+  const auto body =
+      carrier(mechanism, mechanism.frames[pin.from.value].body, mechanism.frames[pin.to.value].body);
+  ASSERT_TRUE(body);
+  EXPECT_EQ(mechanism.bodies[body->value].name, "a_mount");
+}
+
+/// First where the frame is, then where the import is in it, then where the joint is in that.
+TEST(Import, OnATurnedFrameHangsOnAMountForEachTurn) {
+  Files files;
+  files.add("arm.toml", kArm)
+      .add("model.toml",
+           kHead + link("base", "lift", "world") +
+               "[[frame]]\nname = \"flange\"\nbody = \"base\"\nposition = [1, 0, 0]\nrpy = [0.1, 0, 0]\n"
+               "[[import]]\nfile = \"arm.toml\"\nparent = \"flange\"\nposition = [2, 0, 0]\nrpy = [0, 0.2, "
+               "0]\n");
+  const Mechanism mechanism = files.cleanly("model.toml");
+  const Joint& shoulder = mechanism.joints[0];
+  const auto carrying = [&](std::optional<BodyIndex> body) {
+    for (const Joint& joint : mechanism.joints)
+      if (joint.child == *body) return joint;
+    return Joint();
+  };
+  const Joint second = carrying(shoulder.parent), first = carrying(second.parent),
+              lift = carrying(first.parent);
+  EXPECT_EQ(lift.name, "lift");
+  EXPECT_EQ(first.placement.position[0].constant(), 1);
+  EXPECT_EQ(first.placement.rotation.rpy[0].constant(), 0.1);
+  EXPECT_EQ(second.placement.position[0].constant(), 2);
+  EXPECT_EQ(second.placement.rotation.rpy[1].constant(), 0.2);
+  EXPECT_EQ(shoulder.placement.position[2].constant(), 0.3);
+}
+
 TEST(Override, ChangesOneKeyAndLeavesTheOthers) {
   Files files;
   files.add("arm.toml", kArm)

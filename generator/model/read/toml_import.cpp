@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "model/names.hpp"
 #include "model/read/import_file.hpp"
 #include "model/read/import_merge.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/lock.hpp"
-#include "model/read/toml_names.hpp"
 
 namespace jourdain::model {
 

@@ -4,7 +4,10 @@
 #include <toml++/toml.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "model/read/toml_table.hpp"
