@@ -24,7 +24,7 @@ std::string page() {
       "parameters may (`\"m/3*l^2\"`, `\"30*deg\"`), or a number with its unit (`\"30 deg\"`, `{ value = "
       "100, unit = \"mm\" }`); bare numbers\n"
       "have the unit of the table. Constants may not use parameters. The examples, in order, are one "
-      "model.\n\n"
+      "model, of this folder.\n\n"
       "The models of this folder say at their heads where their numbers come from.\n";
   for (const model::KeySection& section : model::key_sections()) {
     text += fmt::format("\n## {}\n\n{}\n\n| key | type | unit | where left out | |\n|---|---|---|---|---|\n",

@@ -12,6 +12,10 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "compile/start_check.hpp"
 #include "loops/plan/plan.hpp"
@@ -37,6 +41,31 @@ std::string sha256(const std::string& text) {
 
 /// Emitted files name no folder: they are the same from wherever the command was called.
 std::string printed_path(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+/// Each once, in the order of the imports.
+std::vector<support::FileHash> imported_files(const support::Diagnostics& diagnostics) {
+  std::vector<support::FileHash> files;
+  std::set<std::string> paths;
+  for (const support::SourceFile& file : diagnostics.files())
+    if (paths.insert(file.path).second) files.push_back({printed_path(file.path), sha256(file.text)});
+  files.erase(files.begin());
+  return files;
+}
+
+/// Of the joints of the description and of what it imports.
+std::map<std::string, model::Limits> limits_of(const model::Mechanism& mechanism,
+                                               const support::Diagnostics& diagnostics) {
+  std::vector<model::ImportedFile> files = mechanism.imports;
+  files.insert(files.begin(), model::ImportedFile{});
+  std::map<std::string, model::Limits> limits;
+  for (const model::ImportedFile& imported : files) {
+    const support::SourceFile& file = diagnostics.files()[static_cast<std::size_t>(imported.file)];
+    if (file.path.ends_with(".toml")) continue;
+    for (const auto& [joint, limit] : model::read_urdf_limits(file.text))
+      limits[imported.prefix + joint] = limit;
+  }
+  return limits;
+}
 
 std::string check_name(const std::string& name) {
   if (!model::is_identifier(name) || name.find("__") != std::string::npos || name[0] == '_')
@@ -99,12 +128,13 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   fmt::print(stderr, "{}", diagnostics.format());
   if (!mechanism || diagnostics.has_errors()) return std::nullopt;
   LoadedMechanism loaded{std::move(*mechanism), {}};
-  if (!arguments.path.ends_with(".toml")) loaded.limits = model::read_urdf_limits(diagnostics.text());
+  loaded.limits = limits_of(loaded.mechanism, diagnostics);
   loaded.options.name = arguments.name.empty() ? model::cpp_name(loaded.mechanism.name) : arguments.name;
   loaded.options.loops = std::move(plan);
   if (loaded.options.loops) fmt::print(stderr, "{}", loops::assembly_text(*loaded.options.loops));
   loaded.options.path = printed_path(arguments.path);
   loaded.options.sha256 = sha256(diagnostics.text());
+  loaded.options.imported = imported_files(diagnostics);
   loaded.options.damping = read.damping;
   if (arguments.derivatives == "applied")
     loaded.options.derivative_terms = programs::DerivativeTerms::kApplied;

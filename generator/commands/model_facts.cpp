@@ -42,12 +42,16 @@ class Facts {
     Json roots = Json::array();
     for (const model::Joint& joint : mechanism_.joints)
       if (!joint.parent) roots.push_back(mechanism_.bodies[joint.child.value].name);
+    Json imported = Json::array();
+    for (const support::FileHash& file : loaded_.options.imported)
+      imported.push_back({{"model", file.path}, {"sha256", file.sha256}});
     return {{"name", loaded_.options.name},
             {"title", mechanism_.name},
             {"description", mechanism_.description},
             {"source", mechanism_.source},
             {"model", loaded_.options.path},
             {"sha256", loaded_.options.sha256},
+            {"imported", imported},
             {"gravity", numbers(mechanism_.gravity)},
             {"degrees_of_freedom", loaded_.freedom()},
             {"roots", roots}};

@@ -14,6 +14,7 @@
 #include "programs/derivatives.hpp"
 #include "readback/readback.hpp"
 #include "support/diagnostics.hpp"
+#include "support/files.hpp"
 #include "validate/translation.hpp"
 
 namespace jourdain {
@@ -27,6 +28,8 @@ struct CompileOptions {
   passes::Watch watch;  ///< is shown the programs as lowered (pass "lower") and after each pass
   std::string path;     ///< of the description, as printed in the emitted files
   std::string sha256;   ///< of the description
+  std::vector<support::FileHash>
+      imported;  ///< files that it imports, each once, as printed in the emitted files
   std::optional<loops::LoopPlan> loops;  ///< of a mechanism with loops; none: planned by `compile`
   bool clock = false;                    ///< states hold the time though nothing depends on it
   bool damping = true;  ///< printed as an assumption when joint damping was switched off on reading

@@ -58,6 +58,7 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   expected.title = mechanism.name;
   expected.path = options.path;
   expected.sha256 = options.sha256;
+  expected.imported = options.imported;
   const programs::SceneFacts& facts = compiled.facts;
   expected.positions = facts.positions;
   expected.velocities = facts.velocities;
@@ -86,6 +87,8 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   expected.sentences.insert(expected.sentences.end(), compiled.assumptions.begin(),
                             compiled.assumptions.end());
   expected.sentences.push_back("SHA-256 " + options.sha256);
+  for (const support::FileHash& file : options.imported)
+    expected.sentences.push_back("imports " + file.path + ", SHA-256 " + file.sha256);
   if (!mechanism.source.empty()) expected.sentences.push_back("Numbers from: " + mechanism.source);
   expected.backward_error = compiled.verdict.backward_error;
   expected.condition = compiled.verdict.condition;

@@ -15,9 +15,10 @@ struct ModelText {
   std::string name;   ///< namespace and file name
   std::string title;  ///< the model's own name
   std::string description;
-  std::string numbers_from;  ///< source of the model's numbers
-  std::string path;          ///< relative path of the description
-  std::string sha256;        ///< of the description
+  std::string numbers_from;                 ///< source of the model's numbers
+  std::string path;                         ///< relative path of the description
+  std::string sha256;                       ///< of the description
+  std::vector<support::FileHash> imported;  ///< files that it imports
   programs::SceneFacts facts;
   std::vector<std::string> loops;  ///< sentences on how loops are closed
   double least_regularity = 0,

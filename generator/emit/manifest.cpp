@@ -17,6 +17,14 @@ std::string string_array(const std::vector<std::string>& entries) {
   return "[" + text + "]";
 }
 
+std::string files_array(const std::vector<support::FileHash>& files) {
+  std::string text;
+  for (const support::FileHash& file : files)
+    text += fmt::format(R"({}{{"model": "{}", "sha256": "{}"}})", text.empty() ? "" : ", ",
+                        quoted_text(file.path), file.sha256);
+  return "[" + text + "]";
+}
+
 std::string operations_object(const ir::Operations& count) {
   return fmt::format(
       R"({{"arithmetic": {}, "add": {}, "sub": {}, "mul": {}, "div": {}, "sqrt": {}, "neg": {}, "sin": {}, "cos": {}{}}})",
@@ -57,6 +65,7 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   field("title", string(model.title));
   field("model", string(model.path));
   field("sha256", string(model.sha256));
+  if (!model.imported.empty()) field("imported", files_array(model.imported));
   field("position_count", fmt::format("{}", model.facts.positions.size()));
   field("velocity_count", fmt::format("{}", model.facts.velocities.size()));
   field("input_count", fmt::format("{}", model.facts.inputs.size()));

@@ -75,15 +75,13 @@ Expression Expression::variable(const Variable& variable) {
   return result;
 }
 
-Expression Expression::substituted(const std::function<Expression(const Variable&)>& replacement) const {
+template <class Replacement>
+Expression Expression::with_leaves(const Replacement& replacement) const {
   std::vector<Expression> values;
   for (const Node& node : nodes_) {
     switch (operand_count(node.op)) {
       case 0:
-        if (node.op == Op::kVariable)
-          values.push_back(replacement(node.variable));
-        else
-          values.push_back(node.op == Op::kParameter ? parameter(node.parameter) : Expression(node.value));
+        values.push_back(node.op == Op::kLiteral ? Expression(node.value) : replacement(node));
         break;
       case 1:
         values.push_back(node.op == Op::kPower ? power(values[node.left], node.exponent)
@@ -94,6 +92,18 @@ Expression Expression::substituted(const std::function<Expression(const Variable
     }
   }
   return values.back();
+}
+
+Expression Expression::substituted(const std::function<Expression(const Variable&)>& replacement) const {
+  return with_leaves([&replacement](const Node& leaf) {
+    return leaf.op == Op::kVariable ? replacement(leaf.variable) : parameter(leaf.parameter);
+  });
+}
+
+Expression Expression::with_parameters(const std::function<Expression(ParameterIndex)>& replacement) const {
+  return with_leaves([&replacement](const Node& leaf) {
+    return leaf.op == Op::kParameter ? replacement(leaf.parameter) : variable(leaf.variable);
+  });
 }
 
 bool Expression::has_no_variable() const {

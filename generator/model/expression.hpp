@@ -83,6 +83,8 @@ class Expression {
   bool is_constant() const { return nodes_.size() == 1 && nodes_[0].op == Op::kLiteral; }
   /// The same expression with each variable replaced.
   Expression substituted(const std::function<Expression(const Variable&)>& replacement) const;
+  /// The same expression with each parameter replaced.
+  Expression with_parameters(const std::function<Expression(ParameterIndex)>& replacement) const;
 
   /// Refers to no variable.
   bool has_no_variable() const;
@@ -109,6 +111,10 @@ class Expression {
   }
 
  private:
+  /// The same expression with each leaf that is no number replaced.
+  template <class Replacement>
+  Expression with_leaves(const Replacement& replacement) const;
+
   std::vector<Node> nodes_;
 };
 

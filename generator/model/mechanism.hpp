@@ -40,6 +40,14 @@ struct Parameter {
   std::optional<std::array<double, 2>> range = {};
 };
 
+/// A name that a description gives to an expression of its parameters. What names it holds the expression itself.
+struct DerivedParameter {
+  std::string name;  ///< an identifier that no parameter has
+  Expression value;  ///< of parameters, SI units
+  std::string unit;  ///< empty: not known
+  SourceRange where = {};
+};
+
 /// Inertia tensor (kg m²), symmetric.
 struct Inertia {
   Expression xx, yy, zz, xy, xz, yz;
@@ -67,6 +75,8 @@ struct Body {
   std::optional<Shape> shape = {};  ///< that the inertia follows from, about the centre of mass in its axes
   bool lumped =
       false;  ///< published parameter set that need not be one rigid body's (no triangle inequality)
+  bool lenient =
+      false;  ///< where no rigid body has its inertia, that is a warning: its file is of such a format
   SourceRange where = {};
   SourceRange mass_where = {};     ///< of the mass (or of what it follows from); line 0: use `where`
   SourceRange inertia_where = {};  ///< of the inertia or shape; line 0: use `where`
@@ -249,12 +259,19 @@ struct SnappedDirections {
   bool empty() const { return rotations.empty() && axes.empty(); }
 };
 
+/// A file that the description imports.
+struct ImportedFile {
+  int file = 0;        ///< of its SourceRanges
+  std::string prefix;  ///< of the names that it declares
+};
+
 struct Mechanism : ForceElements {
   std::string name;  ///< as the user wrote it; see `cpp_name`
   std::string description;
   std::string source;  ///< where its numbers come from
   Vector3 gravity;     ///< m/s², inertial frame
   std::vector<Parameter> parameters;
+  std::vector<DerivedParameter> derived;
   std::vector<Body> bodies;
   std::vector<Joint> joints;  ///< as declared
   std::vector<Frame> frames;
@@ -269,7 +286,8 @@ struct Mechanism : ForceElements {
   SnappedDirections snapped;
   std::vector<std::string> welded;      ///< joints that were locked because nothing with mass is beyond them
   std::vector<std::string> indefinite;  ///< bodies whose inertia no rigid body has, used as it is
-  SourceRange where = {};               ///< of what describes it as a whole
+  std::vector<ImportedFile> imports;
+  SourceRange where = {};  ///< of what describes it as a whole
 };
 
 /// By which a double that stands for a multiple of a quarter turn may be off, times the larger of 1 and that multiple.

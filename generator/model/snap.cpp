@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace jourdain::model {
@@ -121,7 +122,8 @@ class Snapping {
   }
 
   void found(const SourceRange& where) {
-    if (first_.line == 0 || where.line < first_.line) first_ = where;
+    if (first_.line == 0 || std::pair(where.file, where.line) < std::pair(first_.file, first_.line))
+      first_ = where;
   }
 
   Mechanism& mechanism_;

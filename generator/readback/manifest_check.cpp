@@ -68,6 +68,7 @@ class ManifestCheck {
     expect("title", shown({expected_.title})[0]);
     expect("model", shown({expected_.path})[0]);
     expect("sha256", expected_.sha256);
+    if (!expected_.imported.empty()) imported();
     expect("position_count", expected_.positions.size());
     expect("velocity_count", expected_.velocities.size());
     expect("input_count", expected_.inputs.size());
@@ -78,6 +79,13 @@ class ManifestCheck {
     expect("inputs", expected_.inputs);
     expect("outputs", outputs);
     expect("functions", expected_.functions);
+  }
+
+  void imported() {
+    json wanted = json::array();
+    for (const support::FileHash& file : expected_.imported)
+      wanted.push_back({{"model", shown({file.path})[0]}, {"sha256", file.sha256}});
+    expect("imported", wanted);
   }
 
   json ranges(const std::vector<ExpectedRange>& list, const std::vector<std::string>& names) const {

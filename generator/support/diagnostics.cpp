@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 #include <tuple>
 
 #include "support/line_index.hpp"
@@ -42,12 +44,8 @@ std::string_view severity_name(Severity severity) {
 }
 
 bool before(const Diagnostic& a, const Diagnostic& b) {
-  return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
-}
-
-bool same(const Diagnostic& a, const Diagnostic& b) {
-  return a.severity == b.severity && a.where.line == b.where.line && a.where.column == b.where.column &&
-         a.message == b.message;
+  return std::tie(a.where.file, a.where.line, a.where.column) <
+         std::tie(b.where.file, b.where.line, b.where.column);
 }
 
 /// Bytes of `line` from the character at `first` up to the one at `last` (from 1, inclusive).
@@ -102,36 +100,72 @@ bool Diagnostics::has_errors() const {
                      [](const Diagnostic& d) { return d.severity == Severity::kError; });
 }
 
-std::string Diagnostics::format(std::size_t limit) const {
+int Diagnostics::absorb(Diagnostics imported, SourceRange where) {
+  const int shift = static_cast<int>(files_.size());
+  imported.files_[0].imported_at = where;
+  for (std::size_t i = 1; i < imported.files_.size(); ++i) imported.files_[i].imported_at.file += shift;
+  for (Diagnostic& diagnostic : imported.all_) diagnostic.where.file += shift;
+  std::move(imported.files_.begin(), imported.files_.end(), std::back_inserter(files_));
+  std::move(imported.all_.begin(), imported.all_.end(), std::back_inserter(all_));
+  return shift;
+}
+
+std::string Diagnostics::line_in_words(const SourceRange& where, const SourceRange& from) const {
+  const std::string line = fmt::format("line {}", where.line);
+  return where.file == from.file ? line : fmt::format("{} of {}", line, shown(file(where).path));
+}
+
+/// A file that is imported twice says everything once.
+std::vector<Diagnostic> Diagnostics::sorted_and_unique() const {
   std::vector<Diagnostic> sorted = all_;
   std::stable_sort(sorted.begin(), sorted.end(), before);
+  std::set<std::tuple<std::string_view, int, int, Severity, std::string>> seen;
   std::vector<Diagnostic> unique;
   for (Diagnostic& diagnostic : sorted) {
-    const auto seen = [&](const Diagnostic& other) { return same(other, diagnostic); };
-    const auto first = std::lower_bound(unique.begin(), unique.end(), diagnostic, before);
-    if (std::none_of(first, unique.end(), seen)) unique.push_back(std::move(diagnostic));
+    const SourceRange& where = diagnostic.where;
+    if (seen.emplace(file(where).path, where.line, where.column, diagnostic.severity, diagnostic.message)
+            .second)
+      unique.push_back(std::move(diagnostic));
   }
+  return unique;
+}
 
-  const LineIndex lines(text_);
+/// A line for each import that leads to the file of `where`, outermost last.
+std::string Diagnostics::imports_of(SourceRange where) const {
+  std::string lines;
+  while (where.file != 0) {
+    where = file(where).imported_at;
+    lines += fmt::format("{:>5} | imported at {}:{}:{}\n", "", printable(file(where).path), where.line,
+                         where.column);
+  }
+  return lines;
+}
+
+std::string Diagnostics::format(std::size_t limit) const {
+  std::vector<LineIndex> lines;
+  for (const SourceFile& source : files_) lines.emplace_back(source.text);
   std::string out;
   std::size_t errors = 0;
   std::size_t others = 0;
-  for (const Diagnostic& diagnostic : unique) {
+  for (const Diagnostic& diagnostic : sorted_and_unique()) {
     std::size_t& count = diagnostic.severity == Severity::kError ? errors : others;
     if (++count > limit) continue;
+    const SourceRange& where = diagnostic.where;
+    const std::string& path = file(where).path;
     const std::string message = printable(diagnostic.message);
-    if (diagnostic.where.line == 0) {
-      out += fmt::format("{}: {}: {}\n", path_, severity_name(diagnostic.severity), message);
+    if (where.line == 0) {
+      out += fmt::format("{}: {}: {}\n", path, severity_name(diagnostic.severity), message);
       if (!diagnostic.hint.empty()) out += fmt::format("{:>5} | {}\n", "", printable(diagnostic.hint));
-      continue;
+    } else {
+      out += fmt::format("{}:{}:{}: {}: {}\n", path, where.line, where.column,
+                         severity_name(diagnostic.severity), message);
+      out += excerpt(lines[static_cast<std::size_t>(where.file)].line(where.line), diagnostic);
     }
-    out += fmt::format("{}:{}:{}: {}: {}\n", path_, diagnostic.where.line, diagnostic.where.column,
-                       severity_name(diagnostic.severity), message);
-    out += excerpt(lines.line(diagnostic.where.line), diagnostic);
+    out += imports_of(where);
   }
-  if (errors > limit) out += fmt::format("{}: {} more errors are not shown\n", path_, errors - limit);
+  if (errors > limit) out += fmt::format("{}: {} more errors are not shown\n", path(), errors - limit);
   if (others > limit)
-    out += fmt::format("{}: {} more warnings and notes are not shown\n", path_, others - limit);
+    out += fmt::format("{}: {} more warnings and notes are not shown\n", path(), others - limit);
   return out;
 }
 

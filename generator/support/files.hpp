@@ -13,6 +13,12 @@ struct FileText {
   std::string text;
 };
 
+/// A file and the hash of its text.
+struct FileHash {
+  std::string path;
+  std::string sha256;
+};
+
 /// Reads a whole file or pipe. Throws EnvironmentError naming the path when it cannot be read, is a device or
 /// larger than 256 MiB, or a pipe keeps silent for ten seconds.
 std::string read_file(const std::string& path);

@@ -1,6 +1,6 @@
-// One case per message: cases/NAME.toml or NAME.urdf, and NAME.expected with the exact text a user sees.
-// Reader options may stand in a comment on the first line ("# options: --lock elbow"). With JOURDAIN_UPDATE=1
-// in the environment the expected files are rewritten.
+// One case per message: cases/NAME.toml or NAME.urdf, and NAME.expected with the exact text a user sees. What cases
+// import stands in cases/parts. Reader options may stand in a comment on the first line ("# options: --lock elbow").
+// With JOURDAIN_UPDATE=1 in the environment the expected files are rewritten.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,8 @@ ReadOptions options_in(const std::string& text) {
 std::vector<std::string> case_names() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(kCases))
-    if (entry.path().extension() != ".expected") names.push_back(entry.path().filename().string());
+    if (entry.is_regular_file() && entry.path().extension() != ".expected")
+      names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -48,6 +49,7 @@ class DiagnosticCase : public testing::TestWithParam<std::string> {};
 
 TEST_P(DiagnosticCase, ShowsTheExpectedText) {
   const std::string text = support::read_file((kCases / GetParam()).string());
+  std::filesystem::current_path(kCases);
   support::Diagnostics diagnostics(GetParam(), text);
   const std::optional<Mechanism> mechanism = read_mechanism(diagnostics, options_in(text));
   EXPECT_EQ(mechanism.has_value(), !diagnostics.has_errors());

@@ -23,7 +23,7 @@ std::string examples() {
 }
 
 std::string problems(const std::string& text) {
-  support::Diagnostics diagnostics("keys.toml", text);
+  support::Diagnostics diagnostics(JOURDAIN_SOURCE_DIR "/models/keys.toml", text);
   read_mechanism(diagnostics);
   return diagnostics.format();
 }

@@ -26,6 +26,24 @@ TEST(Diagnostics, AreSortedByPositionWithoutDuplicates) {
             "f:2:1: warning: second\n    2 | b\n      | ^\n");
 }
 
+TEST(Diagnostics, OfAnImportedFileShowItsLinesAndWhereItIsImported) {
+  Diagnostics inner("c", "see\n"), middle("b", "bee\n"), outer("a", "a\nway\n");
+  inner.error({1, 2, 2}, "wrong");
+  EXPECT_EQ(middle.absorb(std::move(inner), {1, 3, 1}), 1);
+  middle.warning({1, 1, 1}, "odd");
+  EXPECT_EQ(outer.absorb(middle, {2, 1, 1}), 1);
+  EXPECT_EQ(outer.absorb(middle, {2, 3, 1}), 3);
+  outer.error({2, 1, 3}, "own");
+  EXPECT_EQ(outer.format(),
+            "a:2:1: error: own\n    2 | way\n      | ^~~\n"
+            "b:1:1: warning: odd\n    1 | bee\n      | ^\n      | imported at a:2:1\n"
+            "c:1:2: error: wrong\n    1 | see\n      |  ^~\n      | imported at b:1:3\n"
+            "      | imported at a:2:1\n");
+  EXPECT_TRUE(outer.has_errors());
+  EXPECT_EQ(outer.line_in_words({1, 1, 1, 2}, {2, 1, 1}), "line 1 of c");
+  EXPECT_EQ(outer.line_in_words({1, 1, 1, 2}, {4, 1, 1, 2}), "line 1");
+}
+
 TEST(Diagnostics, CountWhatIsNotShown) {
   Diagnostics diagnostics("f", "abc\n");
   for (int i = 1; i <= 3; ++i) diagnostics.error({1, i, 1}, "wrong");

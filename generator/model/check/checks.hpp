@@ -32,7 +32,7 @@ void check_loops(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 /// moments after merging bodies joined by fixed joints, both at the parameters' default values. Lumped bodies
 /// need no more than moments of inertia about their origin that are not negative; nothing is merged with
 /// them. The joints must have passed `check_graph`. Where `triangle` is a warning, so is an indefinite
-/// inertia; the bodies that have one are returned.
+/// inertia; the bodies that have one are returned. For bodies that are lenient it is one always.
 std::vector<std::string> check_inertias(const Mechanism& mechanism, support::Diagnostics& diagnostics,
                                         support::Severity triangle);
 

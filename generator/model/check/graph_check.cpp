@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <string>
 
 #include "model/check/checks.hpp"
 
@@ -14,10 +15,6 @@ using support::shown;
 
 SourceRange child_range(const Joint& joint) {
   return joint.child_where.line == 0 ? joint.where : joint.child_where;
-}
-
-std::string at_line(const SourceRange& where) {
-  return where.line == 0 ? "" : fmt::format(" at line {}", where.line);
 }
 
 class GraphCheck {
@@ -50,7 +47,10 @@ class GraphCheck {
           fmt::format("body '{}' is the child of two joints, '{}' and '{}'", shown(child), shown(other.name),
                       shown(joint.name)),
           fmt::format("'{}' is declared{}; the joint that closes a loop is a [[loop]] of a TOML model",
-                      shown(other.name), at_line(other.where)));
+                      shown(other.name),
+                      other.where.line == 0
+                          ? ""
+                          : " at " + diagnostics_.line_in_words(other.where, child_range(joint))));
     }
     if (!first) first = j;
   }

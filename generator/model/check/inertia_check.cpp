@@ -128,7 +128,7 @@ class InertiaCheck {
   }
 
   void report_indefinite(const Body& body, const SourceRange& where, const std::string& message) {
-    if (triangle_ == support::Severity::kError)
+    if (triangle_ == support::Severity::kError && !body.lenient)
       return diagnostics_.error(where, message, hint_at_point(body));
     indefinite_.push_back(body.name);
     diagnostics_.warning(where, message, "no rigid body has it: used as it is");
@@ -191,7 +191,9 @@ class InertiaCheck {
         shown(body.name), with, moment[0], moment[1], moment[2]);
     const SourceRange where = body.inertia_where.line == 0 ? body.where : body.inertia_where;
     const bool is_rounding = moment[2] - moment[0] - moment[1] <= kTriangleRounding * moment[2];
-    if (triangle_ == support::Severity::kError && !is_rounding)
+    const bool lenient = std::any_of(group.bodies.begin(), group.bodies.end(),
+                                     [this](std::size_t b) { return mechanism_.bodies[b].lenient; });
+    if (triangle_ == support::Severity::kError && !lenient && !is_rounding)
       diagnostics_.error(where, message, "inertia_kind = \"lumped\" takes it as it is");
     else
       diagnostics_.warning(where, message, "used as it is");

@@ -35,9 +35,8 @@ void lock_joints(Mechanism& mechanism, const ReadOptions& options, Diagnostics& 
 
 }  // namespace
 
-std::optional<Mechanism> finish_reading(Mechanism mechanism, const Completeness& complete,
-                                        const ReadOptions& options, support::Severity triangle,
-                                        Diagnostics& diagnostics) {
+std::optional<Mechanism> finish_reading(Part part, const ReadOptions& options, Diagnostics& diagnostics) {
+  auto& [mechanism, complete, triangle] = part;
   mechanism.snap = options.snap > 0;
   if (complete.structure) lock_joints(mechanism, options, diagnostics);
   if (mechanism.snap) snap_directions(mechanism, options.snap, diagnostics);
@@ -47,7 +46,7 @@ std::optional<Mechanism> finish_reading(Mechanism mechanism, const Completeness&
   if (tree && complete.numbers) weld_massless_ends(mechanism, diagnostics);
   if (tree && complete.numbers) mechanism.indefinite = check_inertias(mechanism, diagnostics, triangle);
   if (diagnostics.has_errors()) return {};
-  return mechanism;
+  return std::move(mechanism);
 }
 
 }  // namespace jourdain::model

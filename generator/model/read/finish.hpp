@@ -1,4 +1,4 @@
-// What all readers do once a file is read: lock joints, note snapped rotations, check.
+// What is done once all files of a description are read: lock joints, snap rotations, check.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,9 @@
 
 namespace jourdain::model {
 
-/// Which parts of a file could be read; checks that need a missing part are left out, so that one mistake in
-/// a file does not show up as several.
-struct Completeness {
-  bool structure = true;  ///< all bodies and joints, with their names and ends
-  bool numbers = true;    ///< all masses, inertias and placements
-};
-
 /// Applies `options.locked_joints` and `options.snap` and checks what can be checked. Nothing is returned
-/// when `diagnostics` has an error. `triangle`: see `check_mechanism`.
-std::optional<Mechanism> finish_reading(Mechanism mechanism, const Completeness& complete,
-                                        const ReadOptions& options, support::Severity triangle,
+/// when `diagnostics` has an error.
+std::optional<Mechanism> finish_reading(Part part, const ReadOptions& options,
                                         support::Diagnostics& diagnostics);
 
 }  // namespace jourdain::model

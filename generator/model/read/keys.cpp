@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/read/keys_of_imports.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::model {
@@ -27,17 +28,20 @@ gravity = [-9.81, 0, 0]
 }
 
 KeySection parameter_section() {
-  return {"parameter",
-          "[parameters]",
-          "Values that stay tunable at run time: a number, or a table with the keys below.",
-          {{"value", "number", "its unit", kRequired, "the default; may not use parameters"},
-           {"unit", "text", "", "none", "strict once given: expressions must fit it"},
-           {"description", "text", "", "empty", "printed in the header"},
-           {"range", "2 numbers", "its unit", "the default only",
-            "values it may have: what is proven of loops is proven for them all"}},
-          R"([parameters]
+  return {
+      "parameter",
+      "[parameters]",
+      "Values that stay tunable at run time: a number, or a table with the keys below.",
+      {{"value", "number", "its unit", kRequired,
+        "the default; an expression of other parameters makes a name for it, which is not tunable by itself"},
+       {"unit", "text", "", "none", "strict once given: expressions must fit it"},
+       {"description", "text", "", "empty", "printed in the header"},
+       {"range", "2 numbers", "its unit", "the default only",
+        "values it may have: what is proven of loops is proven for them all"}},
+      R"([parameters]
 flywheel = { value = 0.12, unit = "kg m^2", description = "crankshaft and flywheel", range = [0.1, 0.2] }
 drag = 0.5
+rim = "0.9*flywheel"
 )"};
 }
 
@@ -364,9 +368,10 @@ joint = "crank"
 
 std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
-      model_section(),   parameter_section(), body_section(),  joint_section(),  coordinate_section(),
-      frame_section(),   actuator_section(),  input_section(), force_section(),  spring_section(),
-      bushing_section(), loop_section(),      loops_section(), output_section(), kinematics_section()};
+      model_section(),    parameter_section(), body_section(),  joint_section(),  coordinate_section(),
+      frame_section(),    actuator_section(),  input_section(), force_section(),  spring_section(),
+      bushing_section(),  loop_section(),      loops_section(), output_section(), kinematics_section(), import_section(),
+      override_section(), repeat_section()};
   return sections;
 }
 

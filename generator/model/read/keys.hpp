@@ -17,7 +17,7 @@ struct Key {
   const char* meaning;
 };
 
-/// One kind of table. Its example is a fragment; those of all sections, in order, are one model.
+/// One kind of table. Its example is a fragment; those of all sections, in order, are one model of models/.
 struct KeySection {
   const char* name;     ///< "joint"
   const char* heading;  ///< "[[joint]]"

@@ -1,34 +1,14 @@
 #include "model/read/lock.hpp"
 
-#include <optional>
-#include <vector>
-
 #include "model/output_kinds.hpp"
+#include "model/read/input_numbers.hpp"
 
 namespace jourdain::model {
-
-namespace {
-
-/// Calls `change` with each expression that may name coordinates and inputs.
-template <class Change>
-void for_general_expressions(Mechanism& mechanism, Change&& change) {
-  for_each_force_element(mechanism, [&](auto& element) {
-    for (Expression* expression : element.expressions()) change(*expression);
-  });
-  for (Output& output : mechanism.outputs) change(output.value);
-  for (Loop& loop : mechanism.loops) change(loop.residual);
-}
-
-}  // namespace
 
 void lock(Mechanism& mechanism, JointIndex joint) {
   mechanism.joints[joint.value].set_type(JointType::kFixed);
   const auto on_joint = [joint](const auto& element) { return element.joint == joint; };
-  std::vector<std::optional<std::size_t>> input;  // new index of each input
-  std::size_t kept = 0;
-  for (const Actuator& actuator : mechanism.actuators)
-    input.push_back(on_joint(actuator) ? std::nullopt : std::optional(kept++));
-  for (std::size_t i = 0; i < mechanism.inputs.size(); ++i) input.emplace_back(kept++);
+  remove_actuators(mechanism, on_joint);
   for_each_force_list(mechanism, [&](auto& list) {
     std::erase_if(list, [&](const auto& element) { return element.pushed() && on_joint(*element.pushed()); });
   });
@@ -40,10 +20,7 @@ void lock(Mechanism& mechanism, JointIndex joint) {
     expression = expression.substituted([&](const Variable& variable) {
       using Kind = Variable::Kind;
       const bool coordinate = variable.kind == Kind::kPosition || variable.kind == Kind::kVelocity;
-      if (coordinate && variable.index == joint.value) return Expression(0.0);
-      if (variable.kind != Kind::kInput) return Expression::variable(variable);
-      const std::optional<std::size_t> index = input[variable.index];
-      return index ? Expression::variable({Kind::kInput, *index, 0}) : Expression(0.0);
+      return coordinate && variable.index == joint.value ? Expression(0.0) : Expression::variable(variable);
     });
   });
 }

@@ -109,7 +109,7 @@ Mechanism read_root(MjcfFile& file, const ReadOptions& options) {
 
 }  // namespace
 
-std::optional<Mechanism> read_mjcf(Diagnostics& diagnostics, const ReadOptions& options) {
+std::optional<Part> read_mjcf(Diagnostics& diagnostics, const ReadOptions& options) {
   if (options.root == RootJoint::kFree) {
     diagnostics.error({}, "a free root can be asked for with URDF files only",
                       "declare the root's joint in the file: <freejoint/>");
@@ -126,8 +126,7 @@ std::optional<Mechanism> read_mjcf(Diagnostics& diagnostics, const ReadOptions& 
   UrdfFile xml(diagnostics, text->starts, text->document);
   MjcfFile file(xml, *root);
   Mechanism mechanism = read_root(file, options);
-  return finish_reading(std::move(mechanism), xml.complete(), options, support::Severity::kWarning,
-                        diagnostics);
+  return Part{std::move(mechanism), xml.complete(), support::Severity::kWarning};
 }
 
 bool is_mjcf(const std::string& text) {

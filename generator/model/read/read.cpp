@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "model/read/finish.hpp"
 #include "support/line_index.hpp"
 #include "support/utf8.hpp"
 
@@ -46,13 +47,19 @@ bool is_readable(Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::optional<Mechanism> read_mechanism(Diagnostics& diagnostics, const ReadOptions& options) {
+std::optional<Part> read_part(Diagnostics& diagnostics, const ReadOptions& options) {
   if (!is_readable(diagnostics)) return {};
   const std::string& path = diagnostics.path();
   const bool xml = path.ends_with(".xml");
   if (path.ends_with(".mjcf") || (xml && is_mjcf(diagnostics.text()))) return read_mjcf(diagnostics, options);
   const bool urdf = path.ends_with(".urdf") || xml;
   return urdf ? read_urdf(diagnostics, options) : read_toml(diagnostics, options);
+}
+
+std::optional<Mechanism> read_mechanism(Diagnostics& diagnostics, const ReadOptions& options) {
+  std::optional<Part> part = read_part(diagnostics, options);
+  if (!part) return {};
+  return finish_reading(std::move(*part), options, diagnostics);
 }
 
 }  // namespace jourdain::model

@@ -1,6 +1,9 @@
 // [[body]]
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "model/read/keys.hpp"
 #include "model/read/shapes.hpp"
 #include "model/read/toml_names.hpp"
@@ -14,31 +17,45 @@ using support::shown;
 
 class BodyReader {
  public:
-  BodyReader(TomlFile& file, const toml::table& table, const std::string& name, SourceRange header)
+  BodyReader(TomlFile& file, const toml::table& table, const std::string& name, SourceRange header,
+             const std::vector<std::string>& keys, bool changes = false)
       : file_(file),
-        table_(file, table, name.empty() ? "a body" : fmt::format("body '{}'", shown(name)), header,
-               keys_of("body")) {}
+        table_(file, table, name.empty() ? "a body" : fmt::format("body '{}'", shown(name)), header, keys),
+        changes_(changes) {}
 
   Body read() {
     Body body;
     body.name = table_.required_text("name").value_or("");
     body.where = table_.where("name");
-    body.center_of_mass = table_.vector("center_of_mass", needed::kLength);
-    body.inertia_axes = table_.rotation("inertia_rpy");
-    body.lumped = table_.choice("inertia_kind", {"rigid", "lumped"}) == 1;
-    if (table_.choice("inertia_at", {"center_of_mass", "origin"}) == 1)
-      body.inertia_point = InertiaPoint::kOrigin;
+    read_over(body);
+    return body;
+  }
+
+  /// Keys that are left out change nothing.
+  void read_over(Body& body) {
+    body.center_of_mass = table_.vector("center_of_mass", needed::kLength, body.center_of_mass);
+    if (table_.has("inertia_rpy")) body.inertia_axes = table_.rotation("inertia_rpy");
+    if (table_.has("inertia_kind")) body.lumped = table_.choice("inertia_kind", {"rigid", "lumped"}) == 1;
+    if (table_.has("inertia_at"))
+      body.inertia_point = table_.choice("inertia_at", {"center_of_mass", "origin"}) == 1
+                               ? InertiaPoint::kOrigin
+                               : InertiaPoint::kCenterOfMass;
+    if (table_.has("shape") || table_.has("inertia")) body.lenient = false;
     if (table_.has("shape"))
       read_shape(body);
     else
       read_inertia(body);
-    return body;
   }
 
  private:
   void read_inertia(Body& body) {
     read_mass(body, "mass = 0 makes it massless");
+    if (body.shape && !table_.has("inertia")) {
+      refuse_beside_shape({"inertia_at"});
+      body.inertia = shape_inertia(*body.shape, body.mass);
+    }
     if (!table_.has("inertia")) return;
+    body.shape.reset();
     body.inertia_where = table_.where("inertia");
     const toml::table* entries = table_.find("inertia")->as_table();
     if (entries && !entries->contains("value")) {
@@ -52,7 +69,15 @@ class BodyReader {
     }
   }
 
+  void refuse_beside_shape(std::initializer_list<const char*> keys) {
+    for (const char* key : keys)
+      if (table_.has(key))
+        table_.error(key, fmt::format("{} has a shape and '{}'", table_.what(), key),
+                     "the shape gives the inertia about the centre of mass");
+  }
+
   void read_mass(Body& body, const std::string& hint) {
+    if (changes_ && !table_.has("mass")) return;
     body.mass_where = table_.where("mass");
     body.mass = table_.number("mass", needed::kMass);
     if (table_.has("mass")) return;
@@ -61,10 +86,7 @@ class BodyReader {
   }
 
   void read_shape(Body& body) {
-    for (const char* key : {"inertia", "inertia_at"})
-      if (table_.has(key))
-        table_.error(key, fmt::format("{} has a shape and '{}'", table_.what(), key),
-                     "the shape gives the inertia about the centre of mass");
+    refuse_beside_shape({"inertia", "inertia_at"});
     body.inertia_point = InertiaPoint::kCenterOfMass;
     body.inertia_where = table_.where("shape");
     const toml::table* entries = table_.table("shape");
@@ -148,32 +170,39 @@ class BodyReader {
 
   TomlFile& file_;
   TomlTable table_;
+  bool changes_;  ///< a body that is there already
 };
 
-bool keeps(TomlFile& file, const Body& body, const std::vector<Body>& earlier) {
+bool keeps(TomlFile& file, const Body& body, const Mechanism& mechanism) {
   if (body.name.empty()) return false;
   check_identifier(file, body.where, "body", body.name);
   if (body.name == "world") {
     file.error(body.where, "no body may be called 'world'", "it is the inertial frame");
     return false;
   }
-  return is_new_name(file, body.where, "bodies", body.name, earlier);
+  return is_new_name(file, body.where, "bodies", body.name, mechanism.bodies) &&
+         is_new_name(file, body.where, "frames", body.name, mechanism.frames);
 }
 
 }  // namespace
 
-std::vector<Body> read_bodies(TomlFile& file, const toml::array& section) {
-  std::vector<Body> bodies;
+void read_bodies(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   for (const toml::node& node : section) {
     const toml::table& table = *node.as_table();
     Body body =
-        BodyReader(file, table, table["name"].value_or(std::string()), file.range(node.source())).read();
-    if (keeps(file, body, bodies))
-      bodies.push_back(std::move(body));
+        BodyReader(file, table, file.text_or(table, "name"), file.range(node.source()), keys_of("body"))
+            .read();
+    if (keeps(file, body, mechanism))
+      mechanism.bodies.push_back(std::move(body));
     else
       file.complete().structure = false;
   }
-  return bodies;
+}
+
+void change_body(TomlFile& file, const toml::table& table, SourceRange where, Body& body) {
+  std::vector<std::string> keys = keys_of("body");
+  std::replace(keys.begin(), keys.end(), std::string("name"), std::string("body"));
+  BodyReader(file, table, body.name, where, keys, true).read_over(body);
 }
 
 }  // namespace jourdain::model

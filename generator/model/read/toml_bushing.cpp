@@ -22,11 +22,11 @@ Vector3 read_damping(TomlFile& file, const TomlTable& table, std::string_view ke
 
 }  // namespace
 
-void read_bushings(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+void read_bushings(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   std::size_t number = 0;
   for (const toml::node& node : section) {
     Bushing bushing;
-    bushing.name = name_or_number(*node.as_table(), "bushing", ++number);
+    bushing.name = name_or_number(file, *node.as_table(), "bushing", ++number);
     const TomlTable table(file, *node.as_table(), fmt::format("bushing '{}'", support::shown(bushing.name)),
                           file.range(node.source()), keys_of("bushing"));
     const auto ends = find_ends(file, table, mechanism);

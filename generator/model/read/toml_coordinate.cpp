@@ -14,21 +14,22 @@ namespace {
 /// The initial position must lie in the range, at the parameters' default values.
 void read_range(TomlFile& file, const TomlTable& table, const Needed& position, Coordinate& coordinate) {
   const std::size_t mark = file.error_count();
-  const std::optional<std::array<double, 2>> range = table.constant_pair("range", position, {});
+  const std::optional<std::array<double, 2>> given = table.constant_pair("range", position, {});
   if (coordinate.motion && table.has("range"))
     table.error("range", fmt::format("{} has a prescribed motion and no 'range'", table.what()),
                 "the motion says where it goes");
-  if (!range || file.error_count() != mark) return;
-  const auto [least, greatest] = *range;
+  if (given) coordinate.range = given;
+  const char* const key = given ? "range" : "initial_position";
+  if (!coordinate.range || !table.has(key) || file.error_count() != mark) return;
+  const auto [least, greatest] = *coordinate.range;
   const double start = file.value(coordinate.initial_position);
   if (!(least < greatest))
     table.error("range",
                 fmt::format("{} is empty: {} is not below {}", table.quoted("range"), least, greatest),
                 "write the smaller number first");
   else if (!(least <= start && start <= greatest))
-    table.error("range", fmt::format("{} starts at {}, outside its range from {} to {}", table.what(), start,
-                                     least, greatest));
-  coordinate.range = range;
+    table.error(key, fmt::format("{} starts at {}, outside its range from {} to {}", table.what(), start,
+                                 least, greatest));
 }
 
 }  // namespace
@@ -73,22 +74,22 @@ Expression read_time_function(TomlFile& file, const TomlTable& table, std::strin
 
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
                      Coordinate& coordinate) {
-  coordinate.stiffness = table.number("stiffness", needs.stiffness);
-  coordinate.rest = table.number("rest", needs.position);
-  coordinate.damping = table.number("damping", needs.damping);
-  coordinate.friction = table.number("friction", needs.force);
+  coordinate.stiffness = table.number("stiffness", needs.stiffness, coordinate.stiffness);
+  coordinate.rest = table.number("rest", needs.position, coordinate.rest);
+  coordinate.damping = table.number("damping", needs.damping, coordinate.damping);
+  coordinate.friction = table.number("friction", needs.force, coordinate.friction);
   if (table.has("friction") && file.value(coordinate.friction) < 0)
     table.error("friction", fmt::format("{} is negative", table.quoted("friction")));
   if (table.has("friction_speed")) coordinate.friction_speed = table.positive("friction_speed", needs.rate);
-  coordinate.initial_position = table.number("initial_position", needs.position);
-  coordinate.initial_velocity = table.number("initial_velocity", needs.rate);
-  coordinate.position_where = table.where_given("initial_position");
-  coordinate.velocity_where = table.where_given("initial_velocity");
+  coordinate.initial_position = table.number("initial_position", needs.position, coordinate.initial_position);
+  coordinate.initial_velocity = table.number("initial_velocity", needs.rate, coordinate.initial_velocity);
+  if (table.has("initial_position")) coordinate.position_where = table.where("initial_position");
+  if (table.has("initial_velocity")) coordinate.velocity_where = table.where("initial_velocity");
   if (table.has("motion"))
     coordinate.motion = read_time_function(file, table, "motion", needs.position, time_scope());
   read_range(file, table, needs.position, coordinate);
   if (!coordinate.motion) return;
-  coordinate.motion_where = table.where("motion");
+  if (table.has("motion")) coordinate.motion_where = table.where("motion");
   for (const char* key : {"initial_position", "initial_velocity"})
     if (table.has(key))
       table.error(key, fmt::format("{} has a prescribed motion and no '{}'", table.what(), key),

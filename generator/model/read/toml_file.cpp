@@ -40,6 +40,7 @@ std::optional<toml::table> parse_toml(support::Diagnostics& diagnostics) {
 
 void TomlFile::declare(const std::vector<Parameter>& parameters) {
   parameters_.clear();
+  meanings_.clear();
   values_.clear();
   for (const Parameter& parameter : parameters) {
     parameters_.push_back({parameter.name, Measure::parameter(parameter.unit)});
@@ -47,8 +48,36 @@ void TomlFile::declare(const std::vector<Parameter>& parameters) {
   }
 }
 
+void TomlFile::declare(const DerivedParameter& derived) {
+  parameters_.push_back({derived.name, Measure::parameter(derived.unit)});
+  meanings_.push_back(derived.value);
+}
+
+void TomlFile::declare(const Mechanism& mechanism) {
+  declare(mechanism.parameters);
+  for (const DerivedParameter& derived : mechanism.derived) declare(derived);
+}
+
+std::optional<Expression> TomlFile::with_meanings(const Expression& expression) const {
+  if (meanings_.empty()) return expression;
+  const auto meaning = [this](ParameterIndex index) {
+    return index.value < values_.size() ? Expression::parameter(index)
+                                        : meanings_[index.value - values_.size()];
+  };
+  std::size_t size = 0;
+  for (const Expression::Node& node : expression.nodes())
+    size += node.op == Expression::Op::kParameter ? meaning(node.parameter).nodes().size() : 1;
+  if (size > kMaximumExpressionSize) return {};
+  return expression.with_parameters(meaning);
+}
+
 void TomlFile::error(SourceRange where, std::string message, std::string hint) {
   ++error_count_;
+  if (repetition_) {
+    const auto [first, is_new] =
+        repeated_errors_.emplace(std::pair(where.line, where.column), repetition_->value);
+    if (!is_new && first->second != repetition_->value) return;
+  }
   diagnostics_.error(where, std::move(message), std::move(hint));
 }
 
@@ -105,13 +134,20 @@ bool TomlFile::is_underflow(const toml::node& node) const {
 }
 
 Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& place, const Scope& scope) {
-  const auto result = parse_expression(text.get(), parameters_, scope);
+  const auto result = parse_expression(this->text(text), parameters_, scope);
   if (const auto* wrong = std::get_if<ExpressionError>(&result))
     return number_error(inside(text, wrong->offset, wrong->length), wrong->message, wrong->hint);
   const auto& [expression, measure] = std::get<MeasuredExpression>(result);
   if (!measure.fits(place.needed))
     return misfit(text, measure, place, measure.has_counts() ? kCountHint : "");
-  Expression in_si_units = in_unit(expression, measure, range(text.source()), place);
+  const std::optional<Expression> of_parameters = with_meanings(expression);
+  if (!of_parameters)
+    return number_error(
+        range(text.source()),
+        fmt::format("{} has more than {} operations where the parameters that follow from others "
+                    "are written out",
+                    place.what, kMaximumExpressionSize));
+  Expression in_si_units = in_unit(*of_parameters, measure, range(text.source()), place);
   if (!expression.has_no_variable()) return in_si_units;
   const double at_defaults = value(in_si_units);
   if (!std::isfinite(at_defaults))
@@ -128,13 +164,15 @@ SourceRange TomlFile::inside(const toml::value<std::string>& text, std::size_t o
   const std::size_t quote = lines_.offset(static_cast<int>(begin.line), static_cast<int>(begin.column));
   const std::string_view written = std::string_view(diagnostics_.text()).substr(quote);
   const std::size_t first = written.find_first_not_of(written.substr(0, 1));
-  const bool as_written =
-      !text.get().empty() && first != std::string_view::npos && written.substr(first).starts_with(text.get());
+  const bool as_written = !text.get().empty() &&
+                          !(repetition_ && text.get().find('{') != std::string::npos) &&
+                          first != std::string_view::npos && written.substr(first).starts_with(text.get());
   return as_written ? lines_.range(quote + first + offset, length) : range(text.source());
 }
 
 std::optional<Unit> TomlFile::unit(const toml::value<std::string>& text, std::size_t offset) {
-  const auto result = parse_unit(std::string_view(text.get()).substr(offset));
+  const std::string meant = this->text(text);
+  const auto result = parse_unit(std::string_view(meant).substr(std::min(offset, meant.size())));
   if (const auto* unit = std::get_if<Unit>(&result)) return *unit;
   const auto& wrong = std::get<UnitError>(result);
   error(inside(text, offset + wrong.offset, wrong.length), wrong.message, wrong.hint);

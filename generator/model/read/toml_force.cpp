@@ -59,11 +59,11 @@ void read_coordinate_force(TomlFile& file, const TomlTable& table, const std::st
 
 }  // namespace
 
-void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+void read_forces(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   const Scope scope = general_scope(mechanism);
   std::size_t number = 0;
   for (const toml::node& node : section) {
-    const std::string name = name_or_number(*node.as_table(), "force", ++number);
+    const std::string name = name_or_number(file, *node.as_table(), "force", ++number);
     const TomlTable table(file, *node.as_table(), fmt::format("force '{}'", shown(name)),
                           file.range(node.source()), keys_of("force"));
     if (table.has("frame") == table.has("joint"))

@@ -109,8 +109,8 @@ Expression settled(const Expression& expression, Mechanism& mechanism) {
   });
 }
 
-std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies) {
-  std::vector<Frame> frames;
+void read_frames(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
+  const std::vector<Body>& bodies = mechanism.bodies;
   for (const toml::node& node : section) {
     const TomlTable table(file, *node.as_table(), "a frame", file.range(node.source()), keys_of("frame"));
     const std::optional<std::string> name = table.required_text("name"), body = table.required_text("body");
@@ -132,9 +132,9 @@ std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const
       if (!found) continue;
       frame.body = BodyIndex(*found);
     }
-    if (is_new_name(file, frame.where, "frames", frame.name, frames)) frames.push_back(frame);
+    if (is_new_name(file, frame.where, "frames", frame.name, mechanism.frames))
+      mechanism.frames.push_back(frame);
   }
-  return frames;
 }
 
 namespace {
@@ -149,8 +149,7 @@ std::optional<SourceRange> coordinate_named(const Mechanism& mechanism, const st
 
 }  // namespace
 
-std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism) {
-  std::vector<Input> inputs;
+void read_inputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   for (const toml::node& node : section) {
     const TomlTable table(file, *node.as_table(), "an input", file.range(node.source()), keys_of("input"));
     Input input;
@@ -167,12 +166,11 @@ std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const
     check_identifier(file, input.where, "input", input.name);
     if (const auto joint = coordinate_named(mechanism, input.name))
       table.error("name", fmt::format("input '{}' has the name of a coordinate", shown(input.name)),
-                  fmt::format("declared at line {}", joint->line));
+                  "declared at " + file.line_in_words(*joint));
     if (is_new_name(file, input.where, "actuators and inputs", input.name, mechanism.actuators) &&
-        is_new_name(file, input.where, "inputs", input.name, inputs))
-      inputs.push_back(input);
+        is_new_name(file, input.where, "inputs", input.name, mechanism.inputs))
+      mechanism.inputs.push_back(input);
   }
-  return inputs;
 }
 
 }  // namespace jourdain::model

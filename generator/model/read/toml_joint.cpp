@@ -1,4 +1,4 @@
-// [[joint]] and [[actuator]]
+// [[joint]]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,32 +49,87 @@ std::vector<std::string> shown_keys(const toml::table& table) {
   return keys;
 }
 
+/// The bodies that a joint names.
+struct Ends {
+  TomlFile& file;
+  const TomlTable& table;
+  const std::vector<Body>& bodies;
+  bool bodies_complete;
+
+  bool read(Joint& joint) const {
+    const std::optional<std::string> parent = table.required_text("parent");
+    const std::optional<std::string> child = table.required_text("child");
+    joint.child_where = table.where("child");
+    bool known = parent && child;
+    if (parent && *parent != "world") known = find(*parent, "parent", joint.parent) && known;
+    if (child == "world") {
+      table.error("child", fmt::format("{} has the world as its child", table.what()),
+                  "the world cannot move");
+      return false;
+    }
+    std::optional<BodyIndex> body;
+    if (child) known = find(*child, "child", body) && known;
+    if (body) joint.child = *body;
+    return known;
+  }
+
+ private:
+  bool find(const std::string& name, std::string_view key, std::optional<BodyIndex>& body) const {
+    const auto found =
+        find_named(file, table.where(key), table.what() + " names", "body", name, bodies, bodies_complete);
+    if (found) body = BodyIndex(*found);
+    return found.has_value();
+  }
+};
+
 class JointReader {
  public:
   JointReader(TomlFile& file, const toml::table& table, const std::string& name, SourceRange header,
-              const std::vector<Body>& bodies, bool bodies_complete)
+              const std::vector<std::string>& known, const std::vector<std::string>& shown_keys)
       : file_(file),
-        bodies_(bodies),
-        bodies_complete_(bodies_complete),
-        table_(file, table, name.empty() ? "a joint" : fmt::format("joint '{}'", shown(name)), header,
-               all_keys(), shown_keys(table)) {}
+        table_(file, table, name.empty() ? "a joint" : fmt::format("joint '{}'", shown(name)), header, known,
+               shown_keys) {}
 
   /// A joint whose type or one of whose ends is unknown leaves the file's structure incomplete.
-  Joint read(const std::vector<Joint>& earlier) {
+  Joint read(const Mechanism& mechanism, bool bodies_complete) {
     Joint joint;
     joint.name = table_.required_text("name").value_or("");
     joint.where = table_.where("name");
     bool sound = !joint.name.empty();
     if (sound) {
       check_identifier(file_, joint.where, "joint", joint.name);
-      sound = is_new_name(file_, joint.where, "joints", joint.name, earlier);
+      sound = is_new_name(file_, joint.where, "joints", joint.name, mechanism.joints);
     }
     sound = read_type(joint) && sound;
-    sound = read_ends(joint) && sound;
-    joint.placement = {table_.vector("position", needed::kLength), table_.rotation("rpy")};
-    read_motion(joint);
+    sound = Ends{file_, table_, mechanism.bodies, bodies_complete}.read(joint) && sound;
+    joint.axis_where = table_.where("axis");
+    read_over(joint);
+    for (const auto& [key, hint] :
+         {std::pair("pitch", "m/rad"), std::pair("curve", "three expressions of s, m")})
+      if (joint_kind(joint).takes(key) && !table_.has(key)) table_.missing(key, hint);
     if (!sound) file_.complete().structure = false;
     return joint;
+  }
+
+  /// Keys that are left out change nothing.
+  void read_over(Joint& joint) {
+    refuse_foreign_keys(joint);
+    joint.placement.position = table_.vector("position", needed::kLength, joint.placement.position);
+    if (table_.has("rpy")) joint.placement.rotation = table_.rotation("rpy");
+    if (table_.has("axis")) joint.axis_where = table_.where("axis");
+    joint.axis = table_.direction("axis", joint.axis);
+    joint.second_axis = table_.direction("second_axis", joint.second_axis);
+    if (joint.coordinates.size() == 1)
+      read_coordinate(file_, table_, coordinate_needs(joint, 0), joint.coordinates[0]);
+    if (joint.coordinates.size() > 1) read_coordinate_tables(joint);
+    const JointKind& kind = joint_kind(joint);
+    if (kind.takes("pitch")) joint.pitch = table_.number("pitch", needed::kPitch, joint.pitch);
+    if (kind.takes("curve") && table_.has("curve")) read_curve(joint);
+    if (kind.takes("sequence")) read_sequence(joint);
+    if (kind.takes("damping"))
+      joint.spin_damping = table_.number("damping", needed::kAngularDamping, joint.spin_damping);
+    if (kind.has_quaternion()) read_turning_start(joint);
+    if (kind.has_origin()) read_origin_start(joint);
   }
 
  private:
@@ -90,56 +145,21 @@ class JointReader {
     return true;
   }
 
-  bool read_ends(Joint& joint) {
-    const std::optional<std::string> parent = table_.required_text("parent");
-    const std::optional<std::string> child = table_.required_text("child");
-    joint.child_where = table_.where("child");
-    bool known = parent && child;
-    if (parent && *parent != "world") known = find(*parent, "parent", joint.parent) && known;
-    if (child == "world") {
-      table_.error("child", fmt::format("{} has the world as its child", table_.what()),
-                   "the world cannot move");
-      return false;
+  void read_turning_start(Joint& joint) {
+    if (table_.has("initial_orientation")) {
+      joint.initial_orientation = table_.quaternion("initial_orientation");
+      joint.orientation_where = table_.where("initial_orientation");
     }
-    std::optional<BodyIndex> body;
-    if (child) known = find(*child, "child", body) && known;
-    if (body) joint.child = *body;
-    return known;
+    joint.initial_spin = table_.vector("initial_angular_velocity", needed::kAngularRate, joint.initial_spin);
+    if (table_.has("initial_angular_velocity")) joint.spin_where = table_.where("initial_angular_velocity");
   }
 
-  bool find(const std::string& name, std::string_view key, std::optional<BodyIndex>& body) {
-    const auto found = find_named(file_, table_.where(key), table_.what() + " names", "body", name, bodies_,
-                                  bodies_complete_);
-    if (found) body = BodyIndex(*found);
-    return found.has_value();
-  }
-
-  void read_motion(Joint& joint) {
-    refuse_foreign_keys(joint);
-    joint.axis = table_.direction("axis", joint.axis);
-    joint.axis_where = table_.where("axis");
-    joint.second_axis = table_.direction("second_axis", joint.second_axis);
-    if (joint.coordinates.size() == 1)
-      read_coordinate(file_, table_, coordinate_needs(joint, 0), joint.coordinates[0]);
-    if (joint.coordinates.size() > 1) read_coordinate_tables(joint);
-    const JointKind& kind = joint_kind(joint);
-    if (kind.takes("pitch")) {
-      if (!table_.has("pitch")) table_.missing("pitch", "m/rad");
-      joint.pitch = table_.number("pitch", needed::kPitch);
-    }
-    if (kind.takes("curve")) read_curve(joint);
-    if (kind.takes("sequence")) read_sequence(joint);
-    if (kind.takes("damping")) joint.spin_damping = table_.number("damping", needed::kAngularDamping);
-    if (!kind.has_quaternion()) return;
-    joint.initial_orientation = table_.quaternion("initial_orientation");
-    joint.initial_spin = table_.vector("initial_angular_velocity", needed::kAngularRate);
-    joint.orientation_where = table_.where_given("initial_orientation");
-    joint.spin_where = table_.where_given("initial_angular_velocity");
-    if (!kind.has_origin()) return;
-    joint.initial_origin = table_.vector("initial_position", needed::kLength);
-    joint.initial_origin_velocity = table_.vector("initial_velocity", needed::kSpeed);
-    joint.origin_where = table_.where_given("initial_position");
-    joint.origin_velocity_where = table_.where_given("initial_velocity");
+  void read_origin_start(Joint& joint) {
+    joint.initial_origin = table_.vector("initial_position", needed::kLength, joint.initial_origin);
+    joint.initial_origin_velocity =
+        table_.vector("initial_velocity", needed::kSpeed, joint.initial_origin_velocity);
+    if (table_.has("initial_position")) joint.origin_where = table_.where("initial_position");
+    if (table_.has("initial_velocity")) joint.origin_velocity_where = table_.where("initial_velocity");
   }
 
   void refuse_foreign_keys(const Joint& joint) {
@@ -183,12 +203,11 @@ class JointReader {
 
   /// The curve must move with its coordinate where it starts.
   void read_curve(Joint& joint) {
-    if (!table_.has("curve")) table_.missing("curve", "three expressions of s, m");
     const std::size_t mark = file_.error_count();
     // The coordinate may be an angle, a length or neither.
     const Scope scope = {{"s", {.kind = Variable::Kind::kArgument}, Measure::open()}};
     joint.curve = table_.functions("curve", needed::kLength, scope);
-    if (file_.error_count() != mark || !table_.has("curve")) return;
+    if (file_.error_count() != mark) return;
     std::vector<Taylor<double>> parameters;
     for (const double value : file_.values()) parameters.push_back({value, 0, 0});
     const double start = file_.value(joint.coordinates[0].initial_position);
@@ -211,23 +230,31 @@ class JointReader {
   }
 
   TomlFile& file_;
-  const std::vector<Body>& bodies_;
-  bool bodies_complete_;
   TomlTable table_;
 };
 
 }  // namespace
 
-std::vector<Joint> read_joints(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies) {
+void read_joints(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   const bool bodies_complete = file.complete().structure;
-  std::vector<Joint> joints;
   for (const toml::node& node : section) {
     const toml::table& table = *node.as_table();
-    const std::string name = table["name"].value_or(std::string());
-    JointReader reader(file, table, name, file.range(node.source()), bodies, bodies_complete);
-    joints.push_back(reader.read(joints));
+    JointReader reader(file, table, file.text_or(table, "name"), file.range(node.source()), all_keys(),
+                       shown_keys(table));
+    mechanism.joints.push_back(reader.read(mechanism, bodies_complete));
   }
-  return joints;
+}
+
+void change_joint(TomlFile& file, const toml::table& table, SourceRange where, Joint& joint) {
+  const auto changeable = [](std::vector<std::string> keys) {
+    std::erase_if(keys,
+                  [](const std::string& key) { return key == "type" || key == "parent" || key == "child"; });
+    std::replace(keys.begin(), keys.end(), std::string("name"), std::string("joint"));
+    return keys;
+  };
+  std::vector<std::string> own = kCommonKeys;
+  for (const std::string& key : keys_of(joint_kind(joint))) own.push_back(key);
+  JointReader(file, table, joint.name, where, changeable(all_keys()), changeable(own)).read_over(joint);
 }
 
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint) {
@@ -249,40 +276,6 @@ std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& 
   if (table.has("coordinate")) return table.choice("coordinate", names);
   table.missing("coordinate", fmt::format("one of {}", fmt::join(names, ", ")));
   return {};
-}
-
-std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
-                                     const std::vector<Joint>& joints) {
-  std::vector<Actuator> actuators;
-  for (const toml::node& node : section) {
-    const TomlTable table(file, *node.as_table(), "an actuator", file.range(node.source()),
-                          model::keys_of("actuator"));
-    const std::optional<std::string> joint_name = table.required_text("joint");
-    if (!joint_name) continue;
-    const auto joint =
-        find_named(file, table.where("joint"), "an actuator names", "joint", *joint_name, joints, true);
-    if (!joint) continue;
-    const auto coordinate = find_coordinate(table, joints[*joint]);
-    Actuator actuator;
-    actuator.joint = JointIndex(*joint);
-    actuator.coordinate = coordinate.value_or(0);
-    actuator.name = coordinate ? joints[*joint].coordinates[*coordinate].name : *joint_name;
-    if (const auto name = table.text("name")) actuator.name = *name;
-    actuator.gear_ratio = table.number("gear_ratio", needed::kGearRatio, 1.0);
-    actuator.rotor_inertia = table.number("rotor_inertia", needed::kRotorInertia);
-    actuator.where = table.where(table.has("name") ? "name" : "joint");
-    if (table.has("rotor_inertia") && file.value(actuator.rotor_inertia) < 0)
-      table.error("rotor_inertia", fmt::format("{} is negative", table.quoted("rotor_inertia")));
-    if (coordinate && joints[*joint].coordinates[*coordinate].motion)
-      table.error("joint",
-                  fmt::format("coordinate '{}' is prescribed and actuated at once",
-                              shown(joints[*joint].coordinates[*coordinate].name)),
-                  "an output of kind \"drive\" tells the force that the motion needs");
-    if (table.has("name")) check_identifier(file, actuator.where, "actuator", actuator.name);
-    if (is_new_name(file, actuator.where, "actuators", actuator.name, actuators))
-      actuators.push_back(actuator);
-  }
-  return actuators;
 }
 
 }  // namespace jourdain::model

@@ -62,7 +62,7 @@ class KinematicsReader {
 
 }  // namespace
 
-void read_kinematics(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+void read_kinematics(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   for (const toml::node& node : section) {
     const TomlTable table(file, *node.as_table(), "[[kinematics]]", file.range(node.source()),
                           keys_of("kinematics"));

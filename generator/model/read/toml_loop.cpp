@@ -62,7 +62,7 @@ class LoopReader {
  public:
   LoopReader(TomlFile& file, const toml::table& table, std::size_t number)
       : file_(file),
-        name_(table["name"].value_or(fmt::format("loop{}", number))),
+        name_(name_or_number(file, table, "loop", number)),
         table_(file, table, fmt::format("loop '{}'", shown(name_)), file.range(table.source()),
                joined(kCommonKeys, kOwnKeys), shown_keys(table)) {}
 
@@ -274,7 +274,7 @@ class OptionsReader {
 
 }  // namespace
 
-void read_loops(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+void read_loops(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   std::size_t number = 0;
   for (const toml::node& node : section)
     if (auto loop = LoopReader(file, *node.as_table(), ++number).read(mechanism))

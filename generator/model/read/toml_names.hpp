@@ -30,7 +30,7 @@ bool is_new_name(TomlFile& file, SourceRange where, const std::string& what, con
       std::find_if(earlier.begin(), earlier.end(), [&](const Named& n) { return n.name == name; });
   if (first == earlier.end()) return true;
   file.error(where, fmt::format("there are two {} '{}'", what, support::shown(name)),
-             fmt::format("first declared at line {}", first->where.line));
+             "first declared at " + file.line_in_words(first->where));
   return false;
 }
 
@@ -50,15 +50,17 @@ std::optional<std::size_t> find_named(TomlFile& file, SourceRange where, const s
   std::string hint;
   if (!close.empty()) {
     const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), close) - names.begin());
-    hint = fmt::format("did you mean '{}', declared at line {}?", close, elements[index].where.line);
+    hint =
+        fmt::format("did you mean '{}', declared at {}?", close, file.line_in_words(elements[index].where));
   }
   file.error(where, fmt::format("{} unknown {} '{}'", who, what, support::shown(name)), hint);
   return {};
 }
 
 /// The name that a table gives, or "<what><number>".
-inline std::string name_or_number(const toml::table& table, const char* what, std::size_t number) {
-  return table["name"].value_or(fmt::format("{}{}", what, number));
+inline std::string name_or_number(TomlFile& file, const toml::table& table, const char* what,
+                                  std::size_t number) {
+  return file.text_or(table, "name", fmt::format("{}{}", what, number));
 }
 
 }  // namespace jourdain::model

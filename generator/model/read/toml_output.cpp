@@ -72,11 +72,11 @@ bool read_content(TomlFile& file, const TomlTable& table, Output& output, const 
 
 }  // namespace
 
-void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+void read_outputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   const Scope scope = general_scope(mechanism);
   for (const toml::node& node : section) {
     Output output;
-    output.name = (*node.as_table())["name"].value_or(std::string());
+    output.name = file.text_or(*node.as_table(), "name");
     const TomlTable table(file, *node.as_table(),
                           output.name.empty() ? "an output" : fmt::format("output '{}'", shown(output.name)),
                           file.range(node.source()), keys_of("output"));

@@ -27,7 +27,7 @@ std::string_view first_word(std::string_view text) { return text.substr(0, text.
 
 }  // namespace
 
-std::optional<Measure> TomlFile::declared(std::string_view name, const Scope& scope) const {
+std::optional<Measure> TomlFile::measure_of(std::string_view name, const Scope& scope) const {
   for (const DeclaredParameter& parameter : parameters_)
     if (parameter.name == name) return parameter.measure;
   for (const ScopeEntry& entry : scope)
@@ -39,14 +39,15 @@ std::optional<Measure> TomlFile::declared(std::string_view name, const Scope& sc
 /// would not fit. Where the text is none ("2 l" with a parameter l) the expression's own message says more.
 std::optional<Quantity> TomlFile::quantity(const toml::value<std::string>& text, const Needed& needed,
                                            const Scope& scope) {
-  if (text.get().size() > kMaximumExpressionLength) return {};
-  const auto split = split_quantity(text.get());
+  const std::string meant = this->text(text);
+  if (meant.size() > kMaximumExpressionLength) return {};
+  const auto split = split_quantity(meant);
   if (!split) return {};
   const std::string& unit_text = split->second;
-  const std::size_t offset = text.get().size() - unit_text.size();
-  const bool apart = kBlanks.find(text.get()[offset - 1]) != std::string_view::npos;
+  const std::size_t offset = meant.size() - unit_text.size();
+  const bool apart = kBlanks.find(meant[offset - 1]) != std::string_view::npos;
   const std::string_view word = first_word(unit_text);
-  const std::optional<Measure> parameter = declared(word, scope);
+  const std::optional<Measure> parameter = measure_of(word, scope);
   if (std::holds_alternative<Unit>(parse_unit(unit_text))) {
     if (parameter && !apart && parameter->fits(needed)) return {};
   } else if (parameter || !apart || !starts_word(word) || is_expression_word(word)) {
@@ -87,7 +88,7 @@ std::optional<Unit> TomlFile::unit_apart(const toml::table& table, const Place& 
   std::optional<Unit> unit = apart.unit("unit");
   if (!unit || error_count_ != mark) return {};
   const auto& text = *table.get("unit")->as_string();
-  const Measure measure = Measure::parameter(text.get());
+  const Measure measure = Measure::parameter(this->text(text));
   if (measure.fits(place.needed)) return unit;
   misfit(text, measure, place, "");
   return {};
@@ -106,7 +107,7 @@ Expression TomlFile::misfit(const toml::value<std::string>& text, const Measure&
                             const std::string& hint) {
   return number_error(inside(text, 0, text.get().size()),
                       fmt::format("{} needs {}, but '{}' is in {}", place.what, in_words(place.needed),
-                                  support::shown(text.get()), measure.unit()),
+                                  support::shown(this->text(text)), measure.unit()),
                       hint);
 }
 

@@ -6,9 +6,11 @@
 // Keys: keys.cpp.
 #include <fmt/format.h>
 
-#include "model/read/finish.hpp"
+#include "model/read/import_file.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/read.hpp"
+#include "model/read/toml_import.hpp"
+#include "model/read/toml_repeat.hpp"
 #include "model/read/toml_sections.hpp"
 #include "support/utf8.hpp"
 
@@ -20,53 +22,90 @@ using support::Diagnostics;
 
 constexpr double kStandardGravity = 9.81;
 
+/// Tables that a file may have any number of, and that [[repeat]] may hold.
+const std::vector<std::string> kLists{"import", "override", "body",   "joint",   "frame",  "actuator",
+                                      "input",  "force",    "spring", "bushing", "output", "kinematics", "loop"};
+
 class TomlReader {
  public:
-  TomlReader(Diagnostics& diagnostics, const toml::table& root) : file_(diagnostics), root_(root) {}
+  TomlReader(Diagnostics& diagnostics, const toml::table& root, const ReadOptions& options)
+      : file_(diagnostics),
+        top_(file_, root, "the file", {}, known_tables()),
+        repeats_(file_, root, kLists),
+        options_(options),
+        chain_(options.importing ? *options.importing
+                                 : ImportChain{canonical_path(diagnostics.path()), nullptr, &budget_}) {}
 
   Mechanism read() {
-    const std::vector<std::string> known{"model",    "parameters", "body",   "joint",     "frame",
-                                         "actuator", "input",      "force",  "spring",    "bushing",
-                                         "loop",     "loops",      "output", "kinematics"};
-    const TomlTable top(file_, root_, "the file", {}, known);
     Mechanism mechanism;
-    if (const toml::table* section = top.table("parameters"))
-      mechanism.parameters = read_parameters(file_, *section);
-    file_.declare(mechanism.parameters);
-    read_model(top, mechanism);
-    if (const auto* section = tables(top, "body")) mechanism.bodies = read_bodies(file_, *section);
-    if (const auto* section = tables(top, "joint"))
-      mechanism.joints = read_joints(file_, *section, mechanism.bodies);
-    if (const auto* section = tables(top, "actuator"))
-      mechanism.actuators = read_actuators(file_, *section, mechanism.joints);
-    if (const auto* section = tables(top, "frame"))
-      mechanism.frames = read_frames(file_, *section, mechanism.bodies);
-    if (const auto* section = tables(top, "input"))
-      mechanism.inputs = read_inputs(file_, *section, mechanism);
-    if (const auto* section = tables(top, "force")) read_forces(file_, *section, mechanism);
-    if (const auto* section = tables(top, "spring")) read_springs(file_, *section, mechanism);
-    if (const auto* section = tables(top, "bushing")) read_bushings(file_, *section, mechanism);
-    if (const auto* section = tables(top, "output")) read_outputs(file_, *section, mechanism);
-    if (const auto* section = tables(top, "kinematics")) read_kinematics(file_, *section, mechanism);
-    if (const auto* section = tables(top, "loop")) read_loops(file_, *section, mechanism);
-    if (const auto* section = top.table("loops"))
-      mechanism.loop_options = read_loop_options(file_, *section, top.where("loops"), mechanism);
-    if (top.has("loops") && !top.has("loop"))
-      top.error("loops", "the file has [loops] and no [[loop]]", "each loop joint is a [[loop]]");
+    if (const toml::table* section = top_.table("parameters")) read_parameters(file_, *section, mechanism);
+    take_given_values(mechanism);
+    read_model(mechanism);
+    const TomlTables importing = repeats_.tables("import", true);
+    const std::vector<Import> imports = read_imports(file_, importing, options_, chain_, mechanism);
+    take_given_values(mechanism);
+    // Names that an import would have declared are unknown then: not each is one more mistake.
+    if (imports.size() < importing.size()) return mechanism;
+    check_loop_options(imports);
+    read_bodies(file_, repeats_.tables("body"), mechanism);
+    read_joints(file_, repeats_.tables("joint"), mechanism);
+    read_overrides(file_, repeats_.tables("override"), mechanism);
+    read_actuators(file_, repeats_.tables("actuator"), mechanism);
+    read_frames(file_, repeats_.tables("frame"), mechanism);
+    attach_imports(file_, imports, mechanism);
+    read_inputs(file_, repeats_.tables("input"), mechanism);
+    read_forces(file_, repeats_.tables("force"), mechanism);
+    read_springs(file_, repeats_.tables("spring"), mechanism);
+    read_bushings(file_, repeats_.tables("bushing"), mechanism);
+    read_outputs(file_, repeats_.tables("output"), mechanism);
+    read_kinematics(file_, repeats_.tables("kinematics"), mechanism);
+    read_loops(file_, repeats_.tables("loop"), mechanism);
+    if (const toml::table* section = top_.table("loops"))
+      mechanism.loop_options = read_loop_options(file_, *section, top_.where("loops"), mechanism);
+    if (top_.has("loops") && mechanism.loops.empty() && !top_.has("loop"))
+      top_.error("loops", "the file has [loops] and no [[loop]]", "each loop joint is a [[loop]]");
     return mechanism;
   }
 
   const Completeness& complete() { return file_.complete(); }
 
  private:
-  void read_model(const TomlTable& top, Mechanism& mechanism) {
+  static std::vector<std::string> known_tables() {
+    std::vector<std::string> known{"model", "parameters", "repeat", "loops"};
+    known.insert(known.end(), kLists.begin(), kLists.end());
+    return known;
+  }
+
+  /// Those of the file that imports this one.
+  void take_given_values(Mechanism& mechanism) {
+    if (options_.parameters.empty()) return;
+    for (Parameter& parameter : mechanism.parameters)
+      if (const auto given = options_.parameters.find(parameter.name); given != options_.parameters.end())
+        parameter.value = given->second;
+    file_.declare(mechanism);
+  }
+
+  void check_loop_options(const std::vector<Import>& imports) {
+    bool found = false;
+    for (const Import& import : imports) {
+      if (import.has_loop_options && found && !top_.has("loops"))
+        file_.error(import.where,
+                    fmt::format("'{}' has [loops], and so has a file that is imported before",
+                                support::shown(import.file)),
+                    "[loops] of this file would take their place");
+      found = found || import.has_loop_options;
+    }
+  }
+
+  void read_model(Mechanism& mechanism) {
     mechanism.gravity = {0.0, 0.0, -kStandardGravity};
-    if (!top.has("model"))
+    if (!top_.has("model") && options_.importing) return;
+    if (!top_.has("model"))
       return file_.error({1, 1, 1}, "the file has no [model]", "it needs at least [model] and a name");
-    const toml::table* section = top.table("model");
+    const toml::table* section = top_.table("model");
     if (!section) return;
-    mechanism.where = top.where("model");
-    const TomlTable table(file_, *section, "[model]", top.where("model"), keys_of("model"));
+    mechanism.where = top_.where("model");
+    const TomlTable table(file_, *section, "[model]", top_.where("model"), keys_of("model"));
     mechanism.name = table.required_text("name").value_or("");
     check_model_name(table, mechanism.name);
     mechanism.description = table.text("description").value_or("");
@@ -84,29 +123,17 @@ class TomlReader {
       table.error("name", fmt::format("the model's name is longer than {} characters", kLongest));
   }
 
-  /// The array of tables [[key]], or nothing (after a diagnostic if it is something else).
-  const toml::array* tables(const TomlTable& top, const std::string& key) {
-    if (!top.has(key)) return nullptr;
-    const toml::array* array = top.find(key)->as_array();
-    const bool list_of_tables = array && (array->empty() || array->is_homogeneous(toml::node_type::table));
-    if (list_of_tables && array->size() <= kMaximumBodies) return array;
-    file_.complete().structure = false;
-    if (list_of_tables)
-      top.error(key, fmt::format("the file has {} [[{}]] tables, more than {}", array->size(), key,
-                                 kMaximumBodies));
-    else
-      top.error(key, fmt::format("'{}' must be a list of tables", key),
-                fmt::format("write [[{}]] for each one", key));
-    return nullptr;
-  }
-
   TomlFile file_;
-  const toml::table& root_;
+  TomlTable top_;
+  Repeats repeats_;
+  const ReadOptions& options_;
+  ImportBudget budget_;
+  ImportChain chain_;
 };
 
 }  // namespace
 
-std::optional<Mechanism> read_toml(Diagnostics& diagnostics, const ReadOptions& options) {
+std::optional<Part> read_toml(Diagnostics& diagnostics, const ReadOptions& options) {
   if (options.root == RootJoint::kFree) {
     diagnostics.error({}, "a free root can be asked for with URDF files only",
                       "declare the root's joint in the file");
@@ -114,10 +141,9 @@ std::optional<Mechanism> read_toml(Diagnostics& diagnostics, const ReadOptions& 
   }
   const std::optional<toml::table> root = parse_toml(diagnostics);
   if (!root) return {};
-  TomlReader reader(diagnostics, *root);
+  TomlReader reader(diagnostics, *root, options);
   Mechanism mechanism = reader.read();
-  return finish_reading(std::move(mechanism), reader.complete(), options, support::Severity::kError,
-                        diagnostics);
+  return Part{std::move(mechanism), reader.complete(), support::Severity::kError};
 }
 
 }  // namespace jourdain::model

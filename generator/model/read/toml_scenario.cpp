@@ -89,7 +89,7 @@ std::optional<Scenario> read_scenario(support::Diagnostics& diagnostics, const M
   const std::optional<toml::table> root = parse_toml(diagnostics);
   if (!root) return {};
   TomlFile file(diagnostics);
-  file.declare(mechanism.parameters);
+  file.declare(mechanism);
   Scenario scenario = read_root(file, *root, mechanism);
   if (file.error_count() > 0) return {};
   return scenario;

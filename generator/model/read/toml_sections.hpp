@@ -8,23 +8,25 @@
 #include <vector>
 
 #include "model/mechanism.hpp"
+#include "model/read/toml_repeat.hpp"
 #include "model/read/toml_table.hpp"
 
 namespace jourdain::model {
 
-/// [parameters], in the order of the file.
-std::vector<Parameter> read_parameters(TomlFile& file, const toml::table& section);
+/// [parameters]: those with a value of their own in the order of the file, derived ones behind what they name. `file`
+/// has declared them then.
+void read_parameters(TomlFile& file, const toml::table& section, Mechanism& mechanism);
+
+// Each of the following appends to what `mechanism` has, which may be imported.
 
 /// All [[body]] tables, without those whose name is missing or taken.
-std::vector<Body> read_bodies(TomlFile& file, const toml::array& section);
+void read_bodies(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
-/// All [[joint]] tables; `bodies` are those they may name. A joint whose end is unknown names body 0 and
-/// leaves the file's structure incomplete.
-std::vector<Joint> read_joints(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies);
+/// All [[joint]] tables. A joint whose end is unknown names body 0 and leaves the file's structure incomplete.
+void read_joints(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
-/// All [[actuator]] tables whose joint is known and can move.
-std::vector<Actuator> read_actuators(TomlFile& file, const toml::array& section,
-                                     const std::vector<Joint>& joints);
+/// All [[actuator]] tables whose joint is known and can move. One takes the place of an implied one.
+void read_actuators(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
 /// Units of a scalar coordinate, of the force on it and of their ratios; the coordinate of a curve may be anything.
 struct CoordinateNeeds {
@@ -32,8 +34,8 @@ struct CoordinateNeeds {
 };
 CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate);
 
-/// What belongs to one scalar coordinate, from the table of its joint or from its own; and the keys that such
-/// a table has.
+/// What belongs to one scalar coordinate, from the table of its joint or from its own. Keys that are left out change
+/// nothing.
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
                      Coordinate& coordinate);
 
@@ -48,21 +50,27 @@ const Scope& time_scope();
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint);
 
 /// All [[kinematics]] tables; each makes one function per entry of its quantities.
-void read_kinematics(TomlFile& file, const toml::array& section, Mechanism& mechanism);
+void read_kinematics(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
 /// All [[frame]] tables.
-std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const std::vector<Body>& bodies);
+void read_frames(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
 /// All [[input]] tables.
-std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism);
+void read_inputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
 /// [[force]], [[spring]], [[bushing]], [[output]] and [[loop]]: what refers to bodies, joints, frames and
 /// inputs, which `mechanism` has already. Bodies that are named where a frame may stand become frames.
-void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanism);
-void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
-void read_bushings(TomlFile& file, const toml::array& section, Mechanism& mechanism);
-void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
-void read_loops(TomlFile& file, const toml::array& section, Mechanism& mechanism);
+void read_forces(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_springs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_bushings(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_outputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_loops(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+
+/// All [[override]] tables: keys of bodies and joints that are imported.
+void read_overrides(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+/// The keys of a body or joint that the table has; the table's key 'body' or 'joint' names it.
+void change_body(TomlFile& file, const toml::table& table, SourceRange where, Body& body);
+void change_joint(TomlFile& file, const toml::table& table, SourceRange where, Joint& joint);
 
 /// [loops]; `mechanism` has its joints already.
 LoopOptions read_loop_options(TomlFile& file, const toml::table& section, SourceRange where,

@@ -23,11 +23,11 @@ Scope spring_scope(bool with_rate) {
 
 }  // namespace
 
-void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechanism) {
+void read_springs(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   std::size_t number = 0;
   for (const toml::node& node : section) {
     Spring spring;
-    spring.name = name_or_number(*node.as_table(), "spring", ++number);
+    spring.name = name_or_number(file, *node.as_table(), "spring", ++number);
     const TomlTable table(file, *node.as_table(), fmt::format("spring '{}'", shown(spring.name)),
                           file.range(node.source()), keys_of("spring"));
     const auto ends = find_ends(file, table, mechanism);

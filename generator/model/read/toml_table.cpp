@@ -96,13 +96,16 @@ std::optional<Unit> TomlTable::unit(std::string_view key) const {
 
 std::optional<std::string> TomlTable::text(std::string_view key) const {
   if (!has(key)) return {};
-  const auto* text = find(key)->as_string();
-  if (!text)
+  const auto* written = find(key)->as_string();
+  if (!written) {
     wrong_type(key, "a string");
-  else if (!is_printable(text->get()))
-    error(key, fmt::format("{} has characters that cannot be printed", quoted(key)));
-  else
-    return text->get();
+    return {};
+  }
+  const std::size_t mark = file_.error_count();
+  std::string text = file_.text(*written);
+  if (file_.error_count() != mark) return {};
+  if (is_printable(text)) return text;
+  error(key, fmt::format("{} has characters that cannot be printed", quoted(key)));
   return {};
 }
 

@@ -3,14 +3,17 @@
 
 #include <toml++/toml.h>
 #include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/dimensions.hpp"
 #include "model/mechanism.hpp"
-#include "model/read/finish.hpp"
+#include "model/read/read.hpp"
 #include "model/units.hpp"
 #include "support/diagnostics.hpp"
 #include "support/line_index.hpp"
@@ -34,17 +37,41 @@ struct Quantity {
   std::string hint;
 };
 
+/// What a [[repeat]] puts for its index into the texts of its tables.
+struct Repetition {
+  std::string index;
+  std::int64_t value = 0;
+};
+
 /// One TOML file while it is read.
 class TomlFile {
  public:
   explicit TomlFile(support::Diagnostics& diagnostics)
       : diagnostics_(diagnostics), lines_(diagnostics.text()) {}
 
+  support::Diagnostics& diagnostics() { return diagnostics_; }
+
   /// The names that expressions may use from now on, and their values.
   void declare(const std::vector<Parameter>& parameters);
+  /// One more, which stands for an expression of those of `parameters`.
+  void declare(const DerivedParameter& derived);
+  /// All parameters of a mechanism.
+  void declare(const Mechanism& mechanism);
+  /// The names that expressions may use, in order: those of parameters, then derived ones.
+  const std::vector<DeclaredParameter>& declared() const { return parameters_; }
+
+  /// What texts have in place of "{i}" from now on; none: braces are as written.
+  void repeat(const std::optional<Repetition>& repetition);
+  /// A text as it is meant: indices of [[repeat]] have their values. As written after a diagnostic.
+  std::string text(const toml::value<std::string>& written);
+  /// The text of `key`, or `otherwise` where that is none.
+  std::string text_or(const toml::table& table, std::string_view key, std::string otherwise = "");
 
   SourceRange range(const toml::source_region& region) const;
+  /// Within a repetition an error at a place is told once, for its first value of the index.
   void error(SourceRange where, std::string message, std::string hint = "");
+  /// "line 7", of an imported file "line 7 of arm.urdf".
+  std::string line_in_words(const SourceRange& where) const { return diagnostics_.line_in_words(where, {}); }
   /// How often `error` was called: lets a caller see whether a value could be read.
   std::size_t error_count() const { return error_count_; }
 
@@ -82,14 +109,19 @@ class TomlFile {
   /// After a diagnostic.
   Expression unread();
   /// Of a parameter or a variable of `scope`.
-  std::optional<Measure> declared(std::string_view name, const Scope& scope) const;
+  std::optional<Measure> measure_of(std::string_view name, const Scope& scope) const;
+  /// An expression of declared names as one of parameters; nothing where it would be too long.
+  std::optional<Expression> with_meanings(const Expression& expression) const;
   SourceRange inside(const toml::value<std::string>& text, std::size_t offset, std::size_t length) const;
   bool is_underflow(const toml::node& node) const;
 
   support::Diagnostics& diagnostics_;
   support::LineIndex lines_;
   std::vector<DeclaredParameter> parameters_;
-  std::vector<double> values_;
+  std::vector<Expression> meanings_;  ///< of those that are derived, the last ones
+  std::vector<double> values_;        ///< of the others
+  std::optional<Repetition> repetition_;
+  std::map<std::pair<int, int>, std::int64_t> repeated_errors_;  ///< index by line and column
   Completeness complete_;
   std::size_t error_count_ = 0;
 };

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/mechanism.hpp"
-#include "model/read/finish.hpp"
+#include "model/read/read.hpp"
 #include "model/read/xml_positions.hpp"
 #include "support/diagnostics.hpp"
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <unordered_map>
 
-#include "model/read/finish.hpp"
 #include "model/read/read.hpp"
 #include "model/read/urdf_file.hpp"
 #include "model/read/xml_text.hpp"
@@ -188,8 +187,10 @@ class UrdfReader {
     const XmlElement* mimic = file_.child(element, "mimic");
     joint.mimics = mimic != nullptr;
     if (mimic && !locked)
-      file_.diagnostics().warning(file_.element(*mimic), "<mimic> is ignored: the joint moves freely",
-                                  fmt::format("--lock {} fixes it", shown(joint.name)));
+      file_.diagnostics().warning(
+          file_.element(*mimic), "<mimic> is ignored: the joint moves freely",
+          options_.importing ? fmt::format("lock = [\"{}\"] of its import fixes it", shown(joint.name))
+                             : fmt::format("--lock {} fixes it", shown(joint.name)));
   }
 
   /// One warning for all joints, at the first.
@@ -260,14 +261,13 @@ class UrdfReader {
 
 }  // namespace
 
-std::optional<Mechanism> read_urdf(Diagnostics& diagnostics, const ReadOptions& options) {
+std::optional<Part> read_urdf(Diagnostics& diagnostics, const ReadOptions& options) {
   const std::unique_ptr<XmlText> xml = parse_xml(diagnostics);
   const XmlElement* robot = xml ? root_element(*xml, "robot", "a URDF file", diagnostics) : nullptr;
   if (!robot) return {};
   UrdfFile file(diagnostics, xml->starts, xml->document);
   Mechanism mechanism = UrdfReader(file, options).read(*robot);
-  return finish_reading(std::move(mechanism), file.complete(), options, support::Severity::kWarning,
-                        diagnostics);
+  return Part{std::move(mechanism), file.complete(), support::Severity::kWarning};
 }
 
 }  // namespace jourdain::model
