@@ -16,6 +16,8 @@ struct ReadOptions {
   RootJoint root = RootJoint::kFixed;           ///< URDF only
   std::vector<std::string> locked_joints = {};  ///< become fixed joints at coordinate zero
   bool damping = true;                          ///< URDF: import <dynamics damping>
+  bool friction = false;                        ///< URDF: import <dynamics friction>, smoothed
+  bool mimic = true;                            ///< URDF: joints follow others, as <mimic> says
   double snap = kDefaultSnap;                   ///< rad, see model/snap.hpp; 0: directions as they are read
 };
 

@@ -27,7 +27,7 @@ class TomlReader {
   Mechanism read() {
     const std::vector<std::string> known{"model",    "parameters", "body",  "joint",  "frame",
                                          "actuator", "input",      "force", "spring", "bushing",
-                                         "loop",     "loops",      "output"};
+                                         "loop",     "coupler",    "loops", "output"};
     const TomlTable top(file_, root_, "the file", {}, known);
     Mechanism mechanism;
     if (const toml::table* section = top.table("parameters"))
@@ -48,9 +48,10 @@ class TomlReader {
     if (const auto* section = tables(top, "bushing")) read_bushings(file_, *section, mechanism);
     if (const auto* section = tables(top, "output")) read_outputs(file_, *section, mechanism);
     if (const auto* section = tables(top, "loop")) read_loops(file_, *section, mechanism);
+    if (const auto* section = tables(top, "coupler")) read_couplers(file_, *section, mechanism);
     if (const auto* section = top.table("loops"))
       mechanism.loop_options = read_loop_options(file_, *section, top.where("loops"), mechanism);
-    if (top.has("loops") && !top.has("loop"))
+    if (top.has("loops") && !top.has("loop") && !top.has("coupler"))
       top.error("loops", "the file has [loops] and no [[loop]]", "each loop joint is a [[loop]]");
     return mechanism;
   }

@@ -53,13 +53,14 @@ std::vector<Frame> read_frames(TomlFile& file, const toml::array& section, const
 /// All [[input]] tables.
 std::vector<Input> read_inputs(TomlFile& file, const toml::array& section, const Mechanism& mechanism);
 
-/// [[force]], [[spring]], [[bushing]], [[output]] and [[loop]]: what refers to bodies, joints, frames and
+/// [[force]], [[spring]], [[bushing]], [[output]], [[loop]] and [[coupler]]: what refers to bodies, joints, frames and
 /// inputs, which `mechanism` has already. Bodies that are named where a frame may stand become frames.
 void read_forces(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 void read_springs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 void read_bushings(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 void read_outputs(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 void read_loops(TomlFile& file, const toml::array& section, Mechanism& mechanism);
+void read_couplers(TomlFile& file, const toml::array& section, Mechanism& mechanism);
 
 /// [loops]; `mechanism` has its joints already.
 LoopOptions read_loop_options(TomlFile& file, const toml::table& section, SourceRange where,

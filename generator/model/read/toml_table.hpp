@@ -43,6 +43,7 @@ class TomlFile {
   /// The names that expressions may use from now on, and their values.
   void declare(const std::vector<Parameter>& parameters);
 
+  const support::Diagnostics& diagnostics() const { return diagnostics_; }
   SourceRange range(const toml::source_region& region) const;
   void error(SourceRange where, std::string message, std::string hint = "");
   /// How often `error` was called: lets a caller see whether a value could be read.
