@@ -27,7 +27,8 @@ struct ModelArguments {
 
   bool strict = false;
 
-  /// Adds MODEL, --root, --lock, --no-damping, --snap, --no-snap, --strict, --derivatives and --name.
+  /// Adds MODEL, --root, --lock, --no-damping, --friction, --no-mimic, --snap, --no-snap, --strict, --derivatives
+  /// and --name.
   void add_to(CLI::App& command);
 };
 

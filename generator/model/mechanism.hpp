@@ -136,7 +136,6 @@ struct Joint {
   std::vector<Coordinate> coordinates;           ///< those of its motions (see model/joint_kinds.hpp)
   std::array<Expression, 4> initial_orientation{1.0, 0.0, 0.0, 0.0};  ///< spherical, free: (w, x, y, z)
   Vector3 initial_spin;                                               ///< spherical, free: ω, rad/s
-  bool mimics = false;              ///< URDF: is to follow another joint, which is not modelled
   Expression spin_damping;          ///< spherical: moment −spin_damping ω, N m s/rad
   Vector3 initial_origin;           ///< free: m, inertial frame
   Vector3 initial_origin_velocity;  ///< free: m/s, inertial frame
@@ -195,11 +194,12 @@ enum class LoopType {
 struct Loop {
   std::string name;
   LoopType type = LoopType::kBall;
-  FrameIndex from, to;                     ///< on two bodies, or one on the world; no part of kResidual
-  std::array<double, 3> axis{0, 0, 1};     ///< not normalised; in `from`, of a pin in the carrier's axes
-  std::array<double, 3> to_axis{0, 0, 1};  ///< in `to`, not normalised
-  Expression length;                       ///< rod, m: of time and parameters, positive
-  Expression residual;                     ///< of time, coordinates and positions of frames
+  FrameIndex from, to;                       ///< on two bodies, or one on the world; no part of kResidual
+  std::array<double, 3> axis{0, 0, 1};       ///< not normalised; in `from`, of a pin in the carrier's axes
+  std::array<double, 3> to_axis{0, 0, 1};    ///< in `to`, not normalised
+  Expression length;                         ///< rod, m: of time and parameters, positive
+  Expression residual;                       ///< of time, coordinates and positions of frames
+  std::optional<ScalarCoordinate> follower;  ///< of a coupler: follows the residual's other coordinate
   SourceRange where = {};
   SourceRange to_where = {};  ///< of the name of the end `to`; line 0: use `where`
 };

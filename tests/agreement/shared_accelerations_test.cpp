@@ -61,6 +61,7 @@ class SharedAccelerations : public testing::Test {
   static model::Mechanism undamped(const AccelerationCase& given) {
     model::ReadOptions options;
     options.damping = false;
+    options.mimic = false;  // as in the data
     return read_model(urdf_path(given.robot), options);
   }
   std::vector<AccelerationCase> cases_ = fixed_root_accelerations();

@@ -29,6 +29,8 @@ ReadOptions options_in(const std::string& text) {
   for (std::string word; words >> word;) {
     if (word == "--no-snap") options.snap = 0;
     if (word == "--no-damping") options.damping = false;
+    if (word == "--friction") options.friction = true;
+    if (word == "--no-mimic") options.mimic = false;
     if (word == "--lock") options.locked_joints.emplace_back(words >> word ? word : "");
     if (word == "--root")
       options.root = (words >> word, word == "free") ? RootJoint::kFree : RootJoint::kFixed;

@@ -56,7 +56,7 @@ TEST(Weld, MassAtTheTipMovesAllBeforeIt) {
   EXPECT_EQ(read("hand.urdf", hand(kHeavy)).mechanism.welded, Names{"left_joint"});
 }
 
-TEST(Weld, JointsThatFollowAnotherAreLeftAlone) {
+TEST(Weld, JointsThatFollowWhatMovesAreLeftAlone) {
   EXPECT_EQ(read("hand.urdf", hand("", R"(<mimic joint="elbow"/>)")).mechanism.welded, Names{"left_joint"});
 }
 

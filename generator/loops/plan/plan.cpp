@@ -121,6 +121,33 @@ class Planner {
         if (const auto entry = layout_.joints[j].velocity[c];
             entry && !mechanism_.joints[j].coordinates[c].initial_velocity.is_zero())
           list[*entry] = true;
+    prefer_leaders(list);
+    return list;
+  }
+
+  /// Where coordinates follow others these are preferred, and what no loop holds.
+  void prefer_leaders(std::vector<bool>& list) const {
+    const std::vector<std::size_t> following = followers();
+    if (following.empty()) return;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const auto is_still = [&](const Matrix& G) { return G.col(at(k)).isZero(0); };
+      if (std::all_of(jacobians_.begin(), jacobians_.end(), is_still)) list[k] = true;
+    }
+    for (const model::Loop& loop : mechanism_.loops)
+      for (const model::Expression::Node& node : loop.residual.nodes())
+        if (loop.follower && node.op == model::Expression::Op::kVariable)
+          if (const auto entry = layout_.joints[node.variable.index].velocity[node.variable.component])
+            list[*entry] = true;
+    for (const std::size_t k : following) list[k] = false;
+  }
+
+  /// Velocities of coordinates that are left to follow another one.
+  std::vector<std::size_t> followers() const {
+    std::vector<std::size_t> list;
+    for (const model::Loop& loop : mechanism_.loops)
+      if (loop.follower)
+        if (const auto entry = layout_.joints[loop.follower->joint.value].velocity[loop.follower->coordinate])
+          list.push_back(*entry);
     return list;
   }
 
@@ -190,9 +217,14 @@ class Planner {
   std::vector<Partition> partitions() const {
     const std::vector<Matrix> regular = regular_jacobians(), open = open_jacobians();
     const std::vector<std::size_t> named = named_independent();
-    const auto best = named.empty()
-                          ? choose_partition(regular, open, velocity_groups(mechanism_), preferred())
-                          : given_partition(regular, open, named);
+    const std::vector<std::size_t> following = followers();
+    const bool all_follow = named.empty() && following.size() == plan_.rows.size() && !following.empty();
+    std::optional<Partition> best;
+    if (!named.empty()) best = given_partition(regular, open, named);
+    if (all_follow)
+      best = given_partition(regular, open, loops::all_but(following, layout_.velocity_count()));
+    if (named.empty() && (!best || best->blocks.empty()))
+      best = choose_partition(regular, open, velocity_groups(mechanism_), preferred());
     if (!best) return {};
     std::vector<Partition> list = {*best};
     const std::vector<std::size_t> ranged = with_range();

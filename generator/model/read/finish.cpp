@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "model/check/checks.hpp"
+#include "model/read/followers.hpp"
 #include "model/read/lock.hpp"
 #include "model/read/weld.hpp"
 #include "model/snap.hpp"
@@ -18,7 +21,9 @@ using support::Diagnostics;
 using support::shown;
 
 void lock_joints(Mechanism& mechanism, const ReadOptions& options, Diagnostics& diagnostics) {
-  for (const std::string& name : options.locked_joints) {
+  std::vector<std::string> locked = options.locked_joints;
+  if (!locked.empty()) settle_followers(mechanism, locked, diagnostics);
+  for (const std::string& name : locked) {
     const auto joint = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
                                     [&](const Joint& candidate) { return candidate.name == name; });
     if (joint != mechanism.joints.end()) {

@@ -78,6 +78,11 @@ shape = { kind = "box", size = [0.15, 0.02, 0.02], density = 7800 }
 [[body]]
 name = "piston_body"
 mass = 0.48
+
+[[body]]
+name = "cams"
+mass = 1.5
+inertia = [4e-3, 4e-3, 1e-3]
 )"};
 }
 
@@ -127,6 +132,15 @@ child = "piston_body"
 axis = [1, 0, 0]
 damping = "drag"
 initial_position = 0.18
+
+[[joint]]
+name = "camshaft"
+type = "revolute"
+parent = "world"
+child = "cams"
+position = [0.35, 0, 0]
+initial_position = "15 deg"
+initial_velocity = 50
 )"};
 }
 
@@ -294,6 +308,26 @@ axis = [0, 0, 1]
 )"};
 }
 
+KeySection coupler_section() {
+  return {"coupler",
+          "[[coupler]]",
+          "Keeps a linear relation between coordinates: gears, belts, racks, differentials. It acts on the "
+          "coordinates and on no body beside.",
+          {{"name", "name", "", "its number", ""},
+           {"coordinate", "name", "", "terms", "the one that follows: ratio times the other, plus offset"},
+           {"follows", "name", "", "terms", "another coordinate"},
+           {"ratio", "number", "1, m/rad, rad/m", "1", "negative: they run against each other"},
+           {"terms", "table of numbers", "1, m/rad, rad/m", "coordinate and follows",
+            "factors by coordinate: their products add up to offset"},
+           {"offset", "number", "rad", "0", "of a slide m"}},
+          R"([[coupler]]
+name = "camshaft_belt"
+coordinate = "camshaft"
+follows = "crank"
+ratio = 0.5
+)"};
+}
+
 KeySection loops_section() {
   return {
       "loops",
@@ -358,9 +392,9 @@ kind = "expression"
 value = "piston.rate"
 
 [[output]]
-name = "crank_bearing"
-kind = "reaction"
-joint = "crank"
+name = "pin"
+kind = "pose"
+frame = "small_end"
 )"};
 }
 
@@ -370,7 +404,7 @@ std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
       model_section(),    parameter_section(), body_section(),  joint_section(),  coordinate_section(),
       frame_section(),    actuator_section(),  input_section(), force_section(),  spring_section(),
-      bushing_section(),  loop_section(),      loops_section(), output_section(), kinematics_section(), import_section(),
+      bushing_section(),  loop_section(), coupler_section(),  loops_section(), output_section(), kinematics_section(), import_section(),
       override_section(), repeat_section()};
   return sections;
 }

@@ -5,7 +5,21 @@
 
 namespace jourdain::model {
 
+namespace {
+
+/// Is it a residual of that joint's coordinates alone?
+bool is_about(const Loop& loop, JointIndex joint) {
+  const auto of_joint = [joint](const Variable& v) {
+    return v.kind == Variable::Kind::kPosition && v.index == joint.value;
+  };
+  return any_variable(loop.residual, of_joint) &&
+         !any_variable(loop.residual, [&](const Variable& v) { return !of_joint(v); });
+}
+
+}  // namespace
+
 void lock(Mechanism& mechanism, JointIndex joint) {
+  std::erase_if(mechanism.loops, [joint](const Loop& loop) { return is_about(loop, joint); });
   mechanism.joints[joint.value].set_type(JointType::kFixed);
   const auto on_joint = [joint](const auto& element) { return element.joint == joint; };
   remove_actuators(mechanism, on_joint);

@@ -6,7 +6,7 @@
 namespace jourdain::model {
 
 /// Makes the joint a fixed one, at coordinate zero. What acts on it goes with it; where an expression names
-/// its coordinates, their rates or its actuators' inputs, zeros take their place.
+/// its coordinates, their rates or its actuators' inputs, zeros take their place. A residual of nothing else goes.
 void lock(Mechanism& mechanism, JointIndex joint);
 
 }  // namespace jourdain::model

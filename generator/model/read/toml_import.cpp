@@ -209,6 +209,7 @@ class ImportReader {
     std::vector<std::string> names;
     for (const Parameter& parameter : added.parameters) names.push_back(parameter.name);
     for (const Output& output : added.outputs) names.push_back(output.name);
+    for (const KinematicFunction& function : added.kinematics) names.push_back(function.name);
     for (const std::string& name : names)
       if (is_reserved(name) || name.find("__") != std::string::npos)
         return error(

@@ -6,6 +6,7 @@
 
 #include "model/loop_kinds.hpp"
 #include "model/read/keys.hpp"
+#include "model/read/toml_coordinate_names.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
@@ -150,25 +151,9 @@ class LoopReader {
   TomlTable table_;
 };
 
-/// What to write for a name that is no coordinate's.
-std::string coordinate_hint(const Mechanism& mechanism, const std::string& name,
-                            const std::vector<std::string>& known) {
-  for (const Joint& joint : mechanism.joints) {
-    if (joint.name != name) continue;
-    std::vector<std::string> own;
-    for (const Coordinate& coordinate : joint.coordinates) own.push_back(coordinate.name);
-    return own.empty() ? fmt::format("joint '{}' has no scalar coordinate", shown(name))
-                       : fmt::format("coordinates of joint '{}' are {}", shown(name),
-                                     shown(fmt::format("{}", fmt::join(own, ", "))));
-  }
-  const std::string close = support::nearest(name, known);
-  return close.empty() ? "a joint with one coordinate gives its name to it"
-                       : fmt::format("did you mean '{}'?", shown(close));
-}
-
 /// One name in 'independent'; nothing after a diagnostic.
-std::optional<LoopOptions::CoordinateName> find_independent(TomlFile& file, const toml::node& node,
-                                                            const Mechanism& mechanism) {
+std::optional<ScalarCoordinate> find_independent(TomlFile& file, const toml::node& node,
+                                                 const Mechanism& mechanism) {
   const SourceRange where = file.range(node.source());
   const toml::value<std::string>* text = node.as_string();
   if (!text) {
@@ -176,20 +161,10 @@ std::optional<LoopOptions::CoordinateName> find_independent(TomlFile& file, cons
                                   type_in_words(node)));
     return {};
   }
-  std::vector<std::string> names;
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c) {
-      const Coordinate& coordinate = mechanism.joints[j].coordinates[c];
-      if (!coordinate.motion) names.push_back(coordinate.name);
-      if (coordinate.name != text->get()) continue;
-      if (!coordinate.motion) return LoopOptions::CoordinateName{JointIndex(j), c};
-      file.error(where, fmt::format("coordinate '{}' is prescribed and cannot be independent",
-                                    shown(coordinate.name)));
-      return {};
-    }
-  if (file.complete().structure)
-    file.error(where, fmt::format("[loops] names unknown coordinate '{}'", shown(text->get())),
-               coordinate_hint(mechanism, text->get(), names));
+  const auto found = find_scalar(file, where, "[loops] names", text->get(), mechanism);
+  if (!found || !mechanism.joints[found->joint.value].coordinates[found->coordinate].motion) return found;
+  file.error(where,
+             fmt::format("coordinate '{}' is prescribed and cannot be independent", shown(text->get())));
   return {};
 }
 
@@ -236,7 +211,7 @@ class OptionsReader {
         file_.error(file_.range(node.source()),
                     fmt::format("[loops] names coordinate '{}' twice", shown(node.as_string()->get())));
       else
-        options_.independent.push_back(*found);
+        options_.independent.push_back({found->joint, found->coordinate});
     }
   }
 

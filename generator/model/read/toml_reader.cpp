@@ -24,7 +24,7 @@ constexpr double kStandardGravity = 9.81;
 
 /// Tables that a file may have any number of, and that [[repeat]] may hold.
 const std::vector<std::string> kLists{"import", "override", "body",   "joint",   "frame",  "actuator",
-                                      "input",  "force",    "spring", "bushing", "output", "kinematics", "loop"};
+                                      "input",  "force",    "spring", "bushing", "output", "kinematics", "loop", "coupler"};
 
 class TomlReader {
  public:
@@ -60,9 +60,10 @@ class TomlReader {
     read_outputs(file_, repeats_.tables("output"), mechanism);
     read_kinematics(file_, repeats_.tables("kinematics"), mechanism);
     read_loops(file_, repeats_.tables("loop"), mechanism);
+    read_couplers(file_, repeats_.tables("coupler"), mechanism);
     if (const toml::table* section = top_.table("loops"))
       mechanism.loop_options = read_loop_options(file_, *section, top_.where("loops"), mechanism);
-    if (top_.has("loops") && mechanism.loops.empty() && !top_.has("loop"))
+    if (top_.has("loops") && mechanism.loops.empty() && !top_.has("loop") && !top_.has("coupler"))
       top_.error("loops", "the file has [loops] and no [[loop]]", "each loop joint is a [[loop]]");
     return mechanism;
   }

@@ -58,13 +58,14 @@ void read_frames(TomlFile& file, const TomlTables& section, Mechanism& mechanism
 /// All [[input]] tables.
 void read_inputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
-/// [[force]], [[spring]], [[bushing]], [[output]] and [[loop]]: what refers to bodies, joints, frames and
+/// [[force]], [[spring]], [[bushing]], [[output]], [[loop]] and [[coupler]]: what refers to bodies, joints, frames and
 /// inputs, which `mechanism` has already. Bodies that are named where a frame may stand become frames.
 void read_forces(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_springs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_bushings(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_outputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_loops(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_couplers(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
 /// All [[override]] tables: keys of bodies and joints that are imported.
 void read_overrides(TomlFile& file, const TomlTables& section, Mechanism& mechanism);

@@ -67,6 +67,7 @@ class TomlFile {
   /// The text of `key`, or `otherwise` where that is none.
   std::string text_or(const toml::table& table, std::string_view key, std::string otherwise = "");
 
+  const support::Diagnostics& diagnostics() const { return diagnostics_; }
   SourceRange range(const toml::source_region& region) const;
   /// Within a repetition an error at a place is told once, for its first value of the index.
   void error(SourceRange where, std::string message, std::string hint = "");

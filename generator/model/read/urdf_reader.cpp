@@ -1,6 +1,6 @@
 // The Unified Robot Description Format. Read are links with their inertials and joints with origin, axis and
-// damping; limits, geometry, sensors and what simulators add are not. A joint that moves gets an actuator of
-// the same name.
+// damping, and joints that follow others; limits, geometry, sensors and what simulators add are not. A joint that moves
+// and follows none gets an actuator of the same name.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "model/read/read.hpp"
 #include "model/read/urdf_file.hpp"
 #include "model/read/xml_text.hpp"
+#include "model/read/urdf_mimic.hpp"
 
 namespace jourdain::model {
 
@@ -38,6 +39,7 @@ class UrdfReader {
       file_.complete().structure = false;
     }
     report_friction();
+    if (file_.complete().structure) read_mimics(file_, mimics_, mechanism_);
     if (file_.complete().structure) attach_roots();
     return std::move(mechanism_);
   }
@@ -114,12 +116,13 @@ class UrdfReader {
     joint.parent = end(element, "parent", joint);
     const std::optional<BodyIndex> child = end(element, "child", joint);
     joint.placement = file_.origin(element);
-    if (joint.type != JointType::kFixed) read_motion(element, joint);
+    const XmlElement* mimic = joint.type == JointType::kFixed ? nullptr : read_motion(element, joint);
     if (!name || !type || !joint.parent || !child) {
       file_.complete().structure = false;
       return;
     }
     joint.child = *child;
+    if (mimic) mimics_.push_back({JointIndex(mechanism_.joints.size()), mimic});
     if (joint.coordinates.size() == 1)
       mechanism_.actuators.push_back({.name = joint.name,
                                       .joint = JointIndex(mechanism_.joints.size()),
@@ -166,7 +169,8 @@ class UrdfReader {
     return {};
   }
 
-  void read_motion(const XmlElement& element, Joint& joint) {
+  /// Returns its <mimic> where that is heeded.
+  const XmlElement* read_motion(const XmlElement& element, Joint& joint) {
     const bool locked = std::find(options_.locked_joints.begin(), options_.locked_joints.end(), joint.name) !=
                         options_.locked_joints.end();
     joint.axis = {1, 0, 0};
@@ -177,20 +181,20 @@ class UrdfReader {
     if (const XmlElement* dynamics = file_.child(element, "dynamics")) {
       const double damping = file_.number(*dynamics, "damping", 0);
       const double friction = file_.number(*dynamics, "friction", 0);
-      if (options_.damping)
-        for (Coordinate& coordinate : joint.coordinates) coordinate.damping = damping;
-      if (friction != 0 && !locked && ++joints_with_friction_ == 1) {
+      for (Coordinate& coordinate : joint.coordinates) {
+        if (options_.damping) coordinate.damping = damping;
+        if (options_.friction) coordinate.friction = friction;
+      }
+      if (options_.friction && friction < 0)
+        error(file_.value(*dynamics, "friction"),
+              fmt::format("the friction of joint '{}' is negative", shown(joint.name)));
+      if (!options_.friction && friction != 0 && !locked && ++joints_with_friction_ == 1) {
         first_friction_ = joint.name;
         first_friction_where_ = file_.value(*dynamics, "friction");
       }
     }
     const XmlElement* mimic = file_.child(element, "mimic");
-    joint.mimics = mimic != nullptr;
-    if (mimic && !locked)
-      file_.diagnostics().warning(
-          file_.element(*mimic), "<mimic> is ignored: the joint moves freely",
-          options_.importing ? fmt::format("lock = [\"{}\"] of its import fixes it", shown(joint.name))
-                             : fmt::format("--lock {} fixes it", shown(joint.name)));
+    return options_.mimic ? mimic : nullptr;
   }
 
   /// One warning for all joints, at the first.
@@ -201,7 +205,7 @@ class UrdfReader {
     file_.diagnostics().warning(
         first_friction_where_,
         fmt::format("friction of joint '{}'{} is ignored", shown(first_friction_), others),
-        "a model in TOML can have it: friction, smoothed over friction_speed");
+        "--friction takes it as Coulomb friction, smoothed over 1e-3 rad/s or m/s");
   }
 
   /// Joins the root link to the world. Several roots are an error; all are attached so that no check repeats
@@ -253,6 +257,7 @@ class UrdfReader {
   const ReadOptions& options_;
   Mechanism mechanism_;
   int joints_with_friction_ = 0;
+  std::vector<UrdfMimic> mimics_;
   std::string first_friction_;
   SourceRange first_friction_where_;
   std::unordered_map<std::string, SourceRange> link_names_;

@@ -35,7 +35,7 @@ bool starts_at_zero(const Joint& joint) {
 /// Of its own, apart from what other lists hang on it.
 bool acts_by_itself(const Joint& joint) {
   const JointKind& kind = joint_kind(joint);
-  return kind.has_origin() || kind.has(MotionKind::kCurve) || joint.mimics || !starts_at_zero(joint) ||
+  return kind.has_origin() || kind.has(MotionKind::kCurve) || !starts_at_zero(joint) ||
          std::any_of(joint.coordinates.begin(), joint.coordinates.end(),
                      [](const Coordinate& c) { return !c.stiffness.is_zero() || c.motion.has_value(); });
 }
@@ -58,6 +58,17 @@ class Ends {
 
   /// Joints to lock, in order of declaration.
   std::vector<JointIndex> find() {
+    std::vector<bool> empty = empty_joints();
+    while (hold_coupled(empty)) empty = empty_joints();
+    std::vector<JointIndex> found;
+    for (std::size_t j = 0; j < empty.size(); ++j)
+      if (empty[j] && mechanism_.joints[j].type != JointType::kFixed) found.push_back(JointIndex(j));
+    return found;
+  }
+
+ private:
+  /// Those beyond which nothing asks for them to move.
+  std::vector<bool> empty_joints() {
     const std::vector<JointIndex> order = depth_first(mechanism_);
     std::vector<bool> empty(mechanism_.joints.size());
     for (auto index = order.rbegin(); index != order.rend(); ++index) {
@@ -66,13 +77,21 @@ class Ends {
       empty[index->value] = !full_[joint.child.value] && (fixed || !held_[index->value]);
       if (!empty[index->value] && joint.parent) full_[joint.parent->value] = true;
     }
-    std::vector<JointIndex> found;
-    for (std::size_t j = 0; j < empty.size(); ++j)
-      if (empty[j] && mechanism_.joints[j].type != JointType::kFixed) found.push_back(JointIndex(j));
-    return found;
+    return empty;
   }
 
- private:
+  /// A joint that follows one that moves, or is followed by it, moves; false where all of these are held already.
+  bool hold_coupled(const std::vector<bool>& empty) {
+    bool more = false;
+    for (const Loop& loop : mechanism_.loops) {
+      const auto moves = [&](const Variable& v) { return !empty[v.index]; };
+      if (!loop.follower || !any_variable(loop.residual, moves)) continue;
+      more = more || any_variable(loop.residual, [&](const Variable& v) { return !held_[v.index]; });
+      hold(loop.residual);
+    }
+    return more;
+  }
+
   void mark_bodies() {
     for (std::size_t b = 0; b < full_.size(); ++b) full_[b] = has_mass(mechanism_.bodies[b]);
     for (const Frame& frame : mechanism_.frames)
@@ -94,7 +113,8 @@ class Ends {
       for (const Expression* expression : element.expressions()) hold(*expression);
     });
     for (const Output& output : mechanism_.outputs) hold(output.value);
-    for (const Loop& loop : mechanism_.loops) hold(loop.residual);
+    for (const Loop& loop : mechanism_.loops)
+      if (!loop.follower) hold(loop.residual);
   }
 
   void hold(JointIndex joint) { held_[joint.value] = true; }
