@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "model/read/input_numbers.hpp"
@@ -22,11 +24,12 @@ void prefix_names(std::vector<Named>& list, const std::string& prefix) {
 
 template <class A, class B>
 std::optional<NameClash> clash(const char* what, const std::vector<A>& first, const std::vector<B>& second) {
+  std::unordered_map<std::string_view, SourceRange> names;
+  for (const A& element : first) names.emplace(element.name, element.where);
   for (const B& element : second) {
-    const auto same =
-        std::find_if(first.begin(), first.end(), [&](const A& other) { return other.name == element.name; });
-    if (same != first.end())
-      return NameClash{fmt::format("{} '{}'", what, support::shown(element.name)), same->where};
+    const auto same = names.find(element.name);
+    if (same != names.end())
+      return NameClash{fmt::format("{} '{}'", what, support::shown(element.name)), same->second};
   }
   return {};
 }

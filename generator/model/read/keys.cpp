@@ -402,10 +402,10 @@ frame = "small_end"
 
 std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
-      model_section(),    parameter_section(), body_section(),  joint_section(),  coordinate_section(),
-      frame_section(),    actuator_section(),  input_section(), force_section(),  spring_section(),
-      bushing_section(),  loop_section(), coupler_section(),  loops_section(), output_section(), kinematics_section(), import_section(),
-      override_section(), repeat_section()};
+      model_section(),      parameter_section(), body_section(),     joint_section(), coordinate_section(),
+      frame_section(),      actuator_section(),  input_section(),    force_section(), spring_section(),
+      bushing_section(),    loop_section(),      coupler_section(),  loops_section(), output_section(),
+      kinematics_section(), import_section(),    override_section(), repeat_section()};
   return sections;
 }
 

@@ -22,8 +22,8 @@ class Members {
 
   void of(Mechanism& mechanism) {
     each(mechanism.gravity, mechanism.parameters, mechanism.derived, mechanism.bodies, mechanism.joints,
-         mechanism.frames, mechanism.inputs, mechanism.outputs, mechanism.kinematics, mechanism.loops, mechanism.loop_options,
-         mechanism.where);
+         mechanism.frames, mechanism.inputs, mechanism.outputs, mechanism.kinematics, mechanism.loops,
+         mechanism.loop_options, mechanism.where);
     for_each_force_list(mechanism, [this](auto& list) { this->one(list); });
   }
 

@@ -56,7 +56,7 @@ MjcfBodies MjcfBodyReader::read() {
   for (const PlacedElement& body : world.bodies) read_body(body, std::nullopt, {});
   inertia_.scale(result_.mechanism.bodies);
   friction_.report(file_, "frictionloss of joint", "is ignored",
-                   "a model in TOML can have it: friction, smoothed over friction_speed");
+                   "--friction takes it, smoothed over 1e-3 rad/s or m/s");
   force_limits_.report(file_, "actuatorfrcrange of joint", "is ignored",
                        "forces of actuators are not clipped");
   return std::move(result_);

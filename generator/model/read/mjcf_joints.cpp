@@ -108,7 +108,9 @@ void MjcfBodyReader::read_motion(const XmlElement& e, Joint& joint, MjcfBodies::
                     fmt::format("springdamper of joint '{}' is ignored", shown(joint.name)),
                     "write the stiffness and damping that MuJoCo makes of it");
   }
-  if (file_.number(e, "frictionloss", 0) != 0)
+  if (options_.friction)
+    coordinate.friction = file_.number(e, "frictionloss", 0);
+  else if (file_.number(e, "frictionloss", 0) != 0)
     friction_.add(xml.value(*file_.holder(e, "frictionloss"), "frictionloss"), joint.name);
   if (file_.holder(e, "actuatorfrcrange"))
     force_limits_.add(xml.value(*file_.holder(e, "actuatorfrcrange"), "actuatorfrcrange"), joint.name);

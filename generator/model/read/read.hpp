@@ -31,7 +31,7 @@ struct ReadOptions {
   RootJoint root = RootJoint::kFixed;           ///< URDF only
   std::vector<std::string> locked_joints = {};  ///< become fixed joints at coordinate zero
   bool damping = true;                          ///< URDF, MJCF: import joint damping
-  bool friction = false;                        ///< URDF: import <dynamics friction>, smoothed
+  bool friction = false;                        ///< URDF, MJCF: import friction of joints, smoothed
   bool mimic = true;                            ///< URDF: joints follow others, as <mimic> says
   double snap = kDefaultSnap;                   ///< rad, see model/snap.hpp; 0: directions as they are read
   const ImportChain* importing = nullptr;  ///< the files that import this one; none: it is read for itself

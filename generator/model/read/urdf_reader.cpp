@@ -9,8 +9,8 @@
 
 #include "model/read/read.hpp"
 #include "model/read/urdf_file.hpp"
-#include "model/read/xml_text.hpp"
 #include "model/read/urdf_mimic.hpp"
+#include "model/read/xml_text.hpp"
 
 namespace jourdain::model {
 
