@@ -93,12 +93,12 @@ class Members {
   }
   void one(Joint& joint) {
     auto& [name, type, parent, child, placement, axis, second_axis, pitch, curve, sequence, coordinates,
-           initial_orientation, initial_spin, mimics, spin_damping, initial_origin, initial_origin_velocity,
-           where, child_where, axis_where, orientation_where, spin_where, origin_where,
-           origin_velocity_where] = joint;
+           initial_orientation, initial_spin, spin_damping, initial_origin, initial_origin_velocity, where,
+           child_where, axis_where, orientation_where, spin_where, origin_where, origin_velocity_where] =
+        joint;
     each(name, type, parent, child, placement, axis, second_axis, pitch, curve, sequence, coordinates,
-         initial_orientation, initial_spin, mimics, spin_damping, initial_origin, initial_origin_velocity,
-         where, child_where, axis_where, orientation_where, spin_where, origin_where, origin_velocity_where);
+         initial_orientation, initial_spin, spin_damping, initial_origin, initial_origin_velocity, where,
+         child_where, axis_where, orientation_where, spin_where, origin_where, origin_velocity_where);
   }
   void one(Frame& frame) {
     auto& [name, body, placement, where] = frame;
@@ -117,8 +117,12 @@ class Members {
     each(name, frame, axes, quantities, where);
   }
   void one(Loop& loop) {
-    auto& [name, type, from, to, axis, to_axis, length, residual, where, to_where] = loop;
-    each(name, type, from, to, axis, to_axis, length, residual, where, to_where);
+    auto& [name, type, from, to, axis, to_axis, length, residual, follower, where, to_where] = loop;
+    each(name, type, from, to, axis, to_axis, length, residual, follower, where, to_where);
+  }
+  void one(ScalarCoordinate& scalar) {
+    auto& [joint, coordinate] = scalar;
+    each(joint, coordinate);
   }
   void one(LoopOptions::CoordinateName& coordinate) {
     auto& [joint, number] = coordinate;
