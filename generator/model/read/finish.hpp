@@ -1,4 +1,4 @@
-// What both readers do once a file is read: lock joints, note snapped rotations, check.
+// What all readers do once a file is read: lock joints, note snapped rotations, check.
 #pragma once
 
 #include <optional>

@@ -49,6 +49,7 @@ bool is_readable(Diagnostics& diagnostics) {
 std::optional<Mechanism> read_mechanism(Diagnostics& diagnostics, const ReadOptions& options) {
   if (!is_readable(diagnostics)) return {};
   const std::string& path = diagnostics.path();
+  if (path.ends_with(".sdf") || path.ends_with(".world")) return read_sdf(diagnostics, options);
   const bool urdf = path.ends_with(".urdf") || path.ends_with(".xml");
   return urdf ? read_urdf(diagnostics, options) : read_toml(diagnostics, options);
 }

@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <unordered_map>
 
 #include "model/read/finish.hpp"
-#include "model/read/nesting.hpp"
 #include "model/read/read.hpp"
 #include "model/read/urdf_file.hpp"
 #include "model/read/urdf_mimic.hpp"
+#include "model/read/xml_document.hpp"
 
 namespace jourdain::model {
 
@@ -244,7 +243,7 @@ class UrdfReader {
       if (joint.type != JointType::kFree || joint.parent != BodyIndex(root)) continue;
       const bool placed = std::any_of(joint.placement.position.begin(), joint.placement.position.end(),
                                       [](const Expression& e) { return !e.is_zero(); });
-      if (options_.root == RootJoint::kFixed && !placed && !is_turned(joint.placement.rotation))
+      if (options_.root != RootJoint::kFree && !placed && !is_turned(joint.placement.rotation))
         joint.parent = {};
     }
   }
@@ -265,38 +264,15 @@ class UrdfReader {
   std::unordered_map<std::string, SourceRange> joint_names_;
 };
 
-/// "XML_ERROR_MISMATCHED_ELEMENT" of tinyxml2 in words.
-std::string syntax_message(std::string name) {
-  constexpr std::string_view kPrefix = "XML_ERROR_";
-  if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
-  for (char& c : name) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return fmt::format("XML syntax error{} {}", name.starts_with("parsing ") ? " while" : ":", name);
-}
-
-SourceRange first_of_line(std::string_view text, int line) {
-  const std::string_view shown_line = support::LineIndex(text).line(line);
-  const std::size_t blanks = std::min(shown_line.find_first_not_of(" \t"), shown_line.size());
-  return {line, static_cast<int>(blanks) + 1, 1};
-}
-
 }  // namespace
 
 std::optional<Mechanism> read_urdf(Diagnostics& diagnostics, const ReadOptions& options) {
-  const std::string& text = diagnostics.text();
-  const XmlTags tags = scan_xml_tags(text);
-  if (tags.deep_nesting) {
-    diagnostics.error(support::LineIndex(text).range(*tags.deep_nesting, 1),
-                      fmt::format("nested deeper than {} levels", kMaximumNesting));
-    return {};
-  }
   tinyxml2::XMLDocument document;
-  document.Parse(text.data(), text.size());
-  if (document.Error()) {
-    diagnostics.error(first_of_line(text, document.ErrorLineNum()), syntax_message(document.ErrorName()));
-    return {};
-  }
-  UrdfFile file(diagnostics, tags.starts, document);
+  const std::optional<XmlTags> tags = parse_xml(diagnostics, document);
+  if (!tags) return {};
+  UrdfFile file(diagnostics, tags->starts, document);
   const XmlElement* robot = document.RootElement();
+  if (robot && std::string_view(robot->Name()) == "sdf") return read_sdf(diagnostics, options);
   if (!robot || std::string_view(robot->Name()) != "robot") {
     diagnostics.error(robot ? file.element(*robot) : SourceRange{}, "a URDF file has one element <robot>",
                       robot ? fmt::format("found <{}>", shown(robot->Name())) : "");
