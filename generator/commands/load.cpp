@@ -88,14 +88,14 @@ void refuse_warnings(support::Diagnostics& diagnostics) {
 }  // namespace
 
 void ModelArguments::add_to(CLI::App& command) {
-  command.add_option("MODEL", path, "model description: .toml, .urdf or .mjcf")->required();
+  command.add_option("MODEL", path, "model description: .toml, .urdf, .sdf or .mjcf")->required();
   command.add_option("--name", name, "namespace and file name of the emitted code")->check(check_name);
-  command.add_option("--root", root, "URDF: root link fixed to the world, or free")
+  command.add_option("--root", root, "URDF, SDF: root link fixed to the world, or free")
       ->check(CLI::IsMember({"fixed", "free"}));
   command.add_option("--lock", read.locked_joints, "joints to lock at coordinate zero")->delimiter(',');
-  command.add_flag("!--no-damping", read.damping, "URDF, MJCF: leave out joint damping");
-  command.add_flag("--friction", read.friction, "URDF, MJCF: take joint friction, smoothed about standstill");
-  command.add_flag("!--no-mimic", read.mimic, "URDF: joints that mimic others move freely");
+  command.add_flag("!--no-damping", read.damping, "URDF, SDF, MJCF: leave out joint damping");
+  command.add_flag("--friction", read.friction, "URDF, SDF, MJCF: take joint friction, smoothed about standstill");
+  command.add_flag("!--no-mimic", read.mimic, "URDF, SDF: joints that mimic others move freely");
   CLI::Option* snap =
       command.add_option("--snap", read.snap, "angles, rad, and axes this near to a right angle are that")
           ->check(CLI::Range(0.0, model::kMaximumSnap))
@@ -117,7 +117,8 @@ void ModelArguments::add_to(CLI::App& command) {
 std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   support::Diagnostics diagnostics(arguments.path, support::read_file(arguments.path));
   model::ReadOptions read = arguments.read;
-  read.root = arguments.root == "free" ? model::RootJoint::kFree : model::RootJoint::kFixed;
+  if (!arguments.root.empty())
+    read.root = arguments.root == "free" ? model::RootJoint::kFree : model::RootJoint::kFixed;
   std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
   if (mechanism) check_inertia(*mechanism, diagnostics);
   if (mechanism) check_start(*mechanism, diagnostics);

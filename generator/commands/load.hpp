@@ -20,7 +20,7 @@ inline constexpr int kSuccess = 0, kModelWrong = 1, kUsage = 2, kEnvironment = 3
 
 struct ModelArguments {
   std::string path;
-  std::string root = "fixed";
+  std::string root;  ///< "fixed", "free"; empty: as the format has it
   std::string name;
   std::string derivatives = "all";
   model::ReadOptions read;

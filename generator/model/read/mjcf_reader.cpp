@@ -129,9 +129,4 @@ std::optional<Part> read_mjcf(Diagnostics& diagnostics, const ReadOptions& optio
   return Part{std::move(mechanism), xml.complete(), support::Severity::kWarning};
 }
 
-bool is_mjcf(const std::string& text) {
-  const XmlTags tags = scan_xml_tags(text);
-  return !tags.starts.empty() && text.compare(tags.starts.front(), 7, "<mujoco") == 0;
-}
-
 }  // namespace jourdain::model

@@ -1,4 +1,4 @@
-// Reading a mechanism from TOML, URDF or MJCF. Every problem becomes a diagnostic; none throws.
+// Reading a mechanism from TOML, URDF, SDF or MJCF. Every problem becomes a diagnostic; none throws.
 #pragma once
 
 #include <map>
@@ -28,11 +28,11 @@ struct ImportChain {
 };
 
 struct ReadOptions {
-  RootJoint root = RootJoint::kFixed;           ///< URDF only
+  std::optional<RootJoint> root = {};           ///< URDF and SDF only; none: fixed, of SDF free
   std::vector<std::string> locked_joints = {};  ///< become fixed joints at coordinate zero
-  bool damping = true;                          ///< URDF, MJCF: import joint damping
-  bool friction = false;                        ///< URDF, MJCF: import friction of joints, smoothed
-  bool mimic = true;                            ///< URDF: joints follow others, as <mimic> says
+  bool damping = true;                          ///< URDF, SDF, MJCF: import joint damping
+  bool friction = false;                        ///< URDF, SDF, MJCF: import friction of joints, smoothed
+  bool mimic = true;                            ///< URDF, SDF: joints follow others, as <mimic> says
   double snap = kDefaultSnap;                   ///< rad, see model/snap.hpp; 0: directions as they are read
   const ImportChain* importing = nullptr;  ///< the files that import this one; none: it is read for itself
   std::map<std::string, double> parameters = {};  ///< TOML: other default values than the file's, SI units
@@ -56,8 +56,9 @@ struct Part {
 inline constexpr std::size_t kMaximumFileSize = 4'000'000;
 inline constexpr std::size_t kMaximumBodies = 1000;
 
-/// Reads and checks the text of `diagnostics` (TOML; URDF when the path ends in .urdf; MJCF when it ends in .mjcf; in
-/// .xml one of these two, by the first element). Nothing is returned when an error was found.
+/// Reads and checks the text of `diagnostics`: SDF where the path ends in .sdf or .world, MJCF where it ends in .mjcf; URDF
+/// or one of these, as the first element says, in .urdf and .xml; otherwise TOML. Nothing is returned when an error was
+/// found.
 std::optional<Mechanism> read_mechanism(support::Diagnostics& diagnostics, const ReadOptions& options = {});
 
 /// Reads the text without what is done to a mechanism as a whole: locking, snapping, checks. Nothing is returned where
@@ -68,9 +69,7 @@ std::optional<Part> read_part(support::Diagnostics& diagnostics, const ReadOptio
 /// not too long.
 std::optional<Part> read_toml(support::Diagnostics& diagnostics, const ReadOptions& options);
 std::optional<Part> read_urdf(support::Diagnostics& diagnostics, const ReadOptions& options);
+std::optional<Part> read_sdf(support::Diagnostics& diagnostics, const ReadOptions& options);
 std::optional<Part> read_mjcf(support::Diagnostics& diagnostics, const ReadOptions& options);
-
-/// Whether the first element of an XML text is <mujoco>.
-bool is_mjcf(const std::string& text);
 
 }  // namespace jourdain::model

@@ -95,13 +95,15 @@ class ImportReader {
   ReadOptions part_options() {
     ReadOptions options;
     options.damping = options_.damping;
+    options.friction = options_.friction;
+    options.mimic = options_.mimic;
     if (name_.ends_with(".toml")) {
       for (const char* key : {"root", "damping"})
         if (table_.has(key))
           table_.error(key, fmt::format("a TOML file is imported without '{}'", key),
                        "[[override]] changes it");
     } else {
-      if (table_.choice("root", {"fixed", "free"}) == 1) options.root = RootJoint::kFree;
+      options.root = table_.choice("root", {"fixed", "free"}) == 1 ? RootJoint::kFree : RootJoint::kFixed;
       read_damping(options);
     }
     read_locked();

@@ -137,7 +137,7 @@ class TomlReader {
 
 std::optional<Part> read_toml(Diagnostics& diagnostics, const ReadOptions& options) {
   if (options.root == RootJoint::kFree) {
-    diagnostics.error({}, "a free root can be asked for with URDF files only",
+    diagnostics.error({}, "a free root can be asked for with URDF and SDF files only",
                       "declare the root's joint in the file");
     return {};
   }

@@ -73,23 +73,26 @@ std::vector<UrdfFile::Word> UrdfFile::words(const std::string& text) {
 }
 
 double UrdfFile::parsed(const XmlElement& where, const char* attribute, const Word& word) {
-  const bool plus = word.text.size() > 1 && word.text[0] == '+' && word.text[1] != '-';
-  const char* const begin = word.text.data() + (plus ? 1 : 0);
-  const char* const end = word.text.data() + word.text.size();
+  return parsed(positions_.part_of_value(where, attribute, word.offset, word.text.size()), word.text);
+}
+
+double UrdfFile::parsed(SourceRange where, const std::string& word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  const char* const begin = word.data() + (plus ? 1 : 0);
+  const char* const end = word.data() + word.size();
   double result = 0;
   const auto [stop, error] = std::from_chars(begin, end, result);
   std::string message;
   if (error == std::errc::result_out_of_range)
-    message = fmt::format("'{}' is out of the range of double precision", shown(word.text));
+    message = fmt::format("'{}' is out of the range of double precision", shown(word));
   else if (error != std::errc() || stop != end)
-    message = fmt::format("'{}' is not a number", shown(word.text));
+    message = fmt::format("'{}' is not a number", shown(word));
   else if (!std::isfinite(result))
-    message = fmt::format("'{}' is not finite", shown(word.text));
+    message = fmt::format("'{}' is not finite", shown(word));
   if (message.empty()) return result;
   complete_.numbers = false;
-  const bool macro = word.text.find("${") != std::string::npos;
-  diagnostics_.error(positions_.part_of_value(where, attribute, word.offset, word.text.size()), message,
-                     macro ? "expand the file with xacro first" : "");
+  const bool macro = word.find("${") != std::string::npos;
+  diagnostics_.error(where, message, macro ? "expand the file with xacro first" : "");
   return 0;
 }
 

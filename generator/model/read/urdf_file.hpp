@@ -55,12 +55,16 @@ class UrdfFile {
   /// Of the child element <origin> of `parent`; the identity where there is none.
   Placement origin(const XmlElement& parent);
 
- private:
+ protected:
   struct Word {
     std::size_t offset = 0;
     std::string text;
   };
   static std::vector<Word> words(const std::string& text);
+  /// The number that stands at `where`; 0 after a diagnostic.
+  double parsed(SourceRange where, const std::string& word);
+
+ private:
   double parsed(const XmlElement& element, const char* attribute, const Word& word);
 
   support::Diagnostics& diagnostics_;

@@ -243,7 +243,7 @@ class UrdfReader {
       if (joint.type != JointType::kFree || joint.parent != BodyIndex(root)) continue;
       const bool placed = std::any_of(joint.placement.position.begin(), joint.placement.position.end(),
                                       [](const Expression& e) { return !e.is_zero(); });
-      if (options_.root == RootJoint::kFixed && !placed && !is_turned(joint.placement.rotation))
+      if (options_.root != RootJoint::kFree && !placed && !is_turned(joint.placement.rotation))
         joint.parent = {};
     }
   }

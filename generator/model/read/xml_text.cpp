@@ -67,6 +67,13 @@ std::unique_ptr<XmlText> parse_xml(support::Diagnostics& diagnostics) {
   return nullptr;
 }
 
+std::string first_element(const std::string& text) {
+  const XmlTags tags = scan_xml_tags(text);
+  if (tags.starts.empty()) return "";
+  const std::size_t begin = tags.starts.front() + 1;
+  return text.substr(begin, std::min(text.find_first_of(" \t\r\n/>", begin), text.size()) - begin);
+}
+
 const tinyxml2::XMLElement* root_element(const XmlText& xml, std::string_view name, std::string_view format,
                                          support::Diagnostics& diagnostics) {
   const XmlPositions positions(diagnostics.text(), xml.starts, xml.document);

@@ -4,6 +4,7 @@
 #include <tinyxml2.h>
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,9 @@ inline constexpr std::size_t kMaximumAttributes = 1000;
 
 /// Parses the text of `diagnostics`. Null after an error: nested too deeply, an element too wide, no XML.
 std::unique_ptr<XmlText> parse_xml(support::Diagnostics& diagnostics);
+
+/// The name of the first element of a text, as far as it looks like one; "" where there is none.
+std::string first_element(const std::string& text);
 
 /// The one element <`name`> that `format`, such as "a URDF file", is; null after an error. Another element behind it is
 /// an error too, which leaves it to be read.
