@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <sstream>
+#include <string_view>
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
@@ -35,8 +37,9 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
 /// the model too: a second value that is a model file is moved to the front.
 std::vector<std::string> reversed_arguments(int argc, char** argv) {
   const auto is_model = [](std::string_view text) {
-    return text.ends_with(".toml") || text.ends_with(".urdf") || text.ends_with(".mjcf") ||
-           text.ends_with(".xml");
+    constexpr std::string_view kEndings[] = {".toml", ".urdf", ".sdf", ".world", ".mjcf", ".xml"};
+    return std::any_of(std::begin(kEndings), std::end(kEndings),
+                       [text](std::string_view ending) { return text.ends_with(ending); });
   };
   const auto is_option = [](std::string_view text) {
     return text.starts_with("-") && text.find_first_of("0123456789.") != 1;
