@@ -60,12 +60,7 @@ Matrix3 scaled(const Matrix3& a, double factor) {
   return result;
 }
 
-Matrix3 turned(const Matrix3& R, const Matrix3& a) {
-  Matrix3 transposed{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) transposed[i][j] = R[j][i];
-  return product(product(R, a), transposed);
-}
+Matrix3 turned(const Matrix3& R, const Matrix3& a) { return product(product(R, a), transposed(R)); }
 
 Matrix3 point_inertia(const Numbers3& r) {
   const double square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
@@ -86,6 +81,42 @@ Numbers3 symmetric_eigenvalues(const Matrix3& a) {
   Numbers3 values{m[0][0], m[1][1], m[2][2]};
   std::sort(values.begin(), values.end());
   return values;
+}
+
+Matrix3 transposed(const Matrix3& a) {
+  return {{{a[0][0], a[1][0], a[2][0]}, {a[0][1], a[1][1], a[2][1]}, {a[0][2], a[1][2], a[2][2]}}};
+}
+
+std::optional<Matrix3> rotation_from_quaternion(const std::array<double, 4>& q) {
+  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  if (!(length > 0) || !std::isfinite(length)) return {};
+  const double w = q[0] / length, x = q[1] / length, y = q[2] / length, z = q[3] / length;
+  return Matrix3{{{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                  {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+                  {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
+}
+
+std::array<double, 4> quaternion_of(const Matrix3& R) {
+  // The largest of 4w², 4x², 4y², 4z², so that nothing is divided by what is small.
+  const double trace = R[0][0] + R[1][1] + R[2][2];
+  const std::array<double, 4> squares{1 + trace, 1 + 2 * R[0][0] - trace, 1 + 2 * R[1][1] - trace,
+                                      1 + 2 * R[2][2] - trace};
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < 4; ++i)
+    if (squares[i] > squares[k]) k = i;
+  std::array<double, 4> q{};
+  if (k == 0) {
+    q = {squares[0], R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]};
+  } else {
+    const std::size_t i = k - 1, j = k % 3, l = (k + 1) % 3;
+    q[0] = R[l][j] - R[j][l];
+    q[k] = squares[k];
+    q[j + 1] = R[i][j] + R[j][i];
+    q[l + 1] = R[i][l] + R[l][i];
+  }
+  const double length = std::copysign(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])), q[0]);
+  for (double& entry : q) entry /= length;
+  return q;
 }
 
 }  // namespace jourdain::model

@@ -1,7 +1,8 @@
-// The little 3 × 3 arithmetic that checking a description needs, in double.
+// The little 3 × 3 arithmetic that reading and checking a description need, in double.
 #pragma once
 
 #include <array>
+#include <optional>
 
 namespace jourdain::model {
 
@@ -13,6 +14,12 @@ inline constexpr Matrix3 kIdentity3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 /// R = Rz(rpy[2]) Ry(rpy[1]) Rx(rpy[0]); angles in rad, columns are the rotated axes.
 Matrix3 rotation_from_rpy(const Numbers3& rpy);
 
+/// Of w x y z of any length; nothing where that is zero or not finite.
+std::optional<Matrix3> rotation_from_quaternion(const std::array<double, 4>& q);
+/// Unit quaternion w x y z of a rotation, w not negative.
+std::array<double, 4> quaternion_of(const Matrix3& R);
+
+Matrix3 transposed(const Matrix3& a);
 Matrix3 product(const Matrix3& a, const Matrix3& b);
 Numbers3 product(const Matrix3& a, const Numbers3& v);
 Numbers3 sum(const Numbers3& a, const Numbers3& b);

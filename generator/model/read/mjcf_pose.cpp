@@ -7,10 +7,6 @@ namespace jourdain::model {
 
 namespace {
 
-Matrix3 transposed(const Matrix3& a) {
-  return {{{a[0][0], a[1][0], a[2][0]}, {a[0][1], a[1][1], a[2][1]}, {a[0][2], a[1][2], a[2][2]}}};
-}
-
 Numbers3 cross(const Numbers3& a, const Numbers3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -64,15 +60,6 @@ Pose inverse(const Pose& pose) {
   return {times(product(R, pose.origin), -1), R};
 }
 
-std::optional<Matrix3> rotation_from_quaternion(const std::array<double, 4>& q) {
-  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  if (!(length > 0) || !std::isfinite(length)) return {};
-  const double w = q[0] / length, x = q[1] / length, y = q[2] / length, z = q[3] / length;
-  return Matrix3{{{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
-                  {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
-                  {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
-}
-
 std::optional<Matrix3> rotation_about(const Numbers3& axis, double angle) {
   const std::optional<Numbers3> u = unit(axis);
   if (!u || !std::isfinite(angle)) return {};
@@ -110,29 +97,6 @@ Matrix3 rotation_from_euler(const Numbers3& angles, const std::string& sequence)
 Placement placement_of(const Pose& pose, SourceRange where) {
   const Numbers3 rpy = rpy_of(pose.R);
   return {{pose.origin[0], pose.origin[1], pose.origin[2]}, {{rpy[0], rpy[1], rpy[2]}, where}};
-}
-
-std::array<double, 4> quaternion_of(const Matrix3& R) {
-  // The largest of 4w², 4x², 4y², 4z², so that nothing is divided by what is small.
-  const double trace = R[0][0] + R[1][1] + R[2][2];
-  const std::array<double, 4> squares{1 + trace, 1 + 2 * R[0][0] - trace, 1 + 2 * R[1][1] - trace,
-                                      1 + 2 * R[2][2] - trace};
-  std::size_t k = 0;
-  for (std::size_t i = 1; i < 4; ++i)
-    if (squares[i] > squares[k]) k = i;
-  std::array<double, 4> q{};
-  if (k == 0) {
-    q = {squares[0], R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]};
-  } else {
-    const std::size_t i = k - 1, j = k % 3, l = (k + 1) % 3;
-    q[0] = R[l][j] - R[j][l];
-    q[k] = squares[k];
-    q[j + 1] = R[i][j] + R[j][i];
-    q[l + 1] = R[i][l] + R[l][i];
-  }
-  const double length = std::copysign(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])), q[0]);
-  for (double& entry : q) entry /= length;
-  return q;
 }
 
 }  // namespace jourdain::model

@@ -24,8 +24,6 @@ Pose inverse(const Pose& pose);
 Numbers3 point_at(const Pose& pose, const Numbers3& point);
 Numbers3 times(const Numbers3& v, double factor);
 
-/// Of w x y z of any length; nothing where that is zero or not finite.
-std::optional<Matrix3> rotation_from_quaternion(const std::array<double, 4>& q);
 /// By `angle`, rad, about an axis of any length; nothing where that is zero or not finite.
 std::optional<Matrix3> rotation_about(const Numbers3& axis, double angle);
 /// x lies along `x`, y in the plane of `x` and `y`; nothing where these are parallel.
@@ -38,7 +36,5 @@ Matrix3 rotation_from_euler(const Numbers3& angles, const std::string& sequence)
 
 /// As the model has it. Angles that reach a quarter turn of pitch are found as exactly as any.
 Placement placement_of(const Pose& pose, SourceRange where);
-/// Unit quaternion w x y z, w not negative.
-std::array<double, 4> quaternion_of(const Matrix3& R);
 
 }  // namespace jourdain::model

@@ -107,7 +107,7 @@ SdfPose SdfFile::pose_in(const XmlElement& parent, SourceRange& where) {
   pose.position = {list[0], list[1], list[2]};
   if (is_quaternion) {
     if (std::hypot(std::hypot(list[3], list[4]), std::hypot(list[5], list[6])) > 0)
-      pose.rotation = rotation_from_quaternion({list[6], list[3], list[4], list[5]});
+      pose.rotation = rotation_from_quaternion({list[6], list[3], list[4], list[5]}).value_or(kIdentity3);
     else
       error(where, "the quaternion of <pose> is zero");
   } else {

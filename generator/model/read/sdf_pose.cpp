@@ -8,13 +8,6 @@ namespace jourdain::model {
 
 namespace {
 
-Matrix3 transposed(const Matrix3& R) {
-  Matrix3 result;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) result[i][j] = R[j][i];
-  return result;
-}
-
 double largest(const Numbers3& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
 
 }  // namespace
@@ -43,33 +36,6 @@ Numbers3 rpy_of(const Matrix3& R, double tolerance) {
   const double c = std::cos(yaw), s = std::sin(yaw);
   return {std::atan2(s * R[0][2] - c * R[1][2], c * R[1][1] - s * R[0][1]),
           std::atan2(-R[2][0], c * R[0][0] + s * R[1][0]), yaw};
-}
-
-std::array<double, 4> quaternion_of(const Matrix3& R) {
-  std::array<double, 4> q{};
-  const std::array<double, 4> squares{1 + R[0][0] + R[1][1] + R[2][2], 1 + R[0][0] - R[1][1] - R[2][2],
-                                      1 - R[0][0] + R[1][1] - R[2][2],
-                                      1 - R[0][0] - R[1][1] + R[2][2]};  // four times those of the entries
-  const auto first =
-      static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) - squares.begin());
-  const double wx = R[2][1] - R[1][2], wy = R[0][2] - R[2][0], wz = R[1][0] - R[0][1];
-  const double xy = R[0][1] + R[1][0], xz = R[0][2] + R[2][0], yz = R[1][2] + R[2][1];
-  const std::array<std::array<double, 4>, 4> rows{{{squares[0], wx, wy, wz},
-                                                   {wx, squares[1], xy, xz},
-                                                   {wy, xy, squares[2], yz},
-                                                   {wz, xz, yz, squares[3]}}};
-  const double size = 2 * std::sqrt(squares[first]);
-  const double sign = rows[first][0] < 0 ? -1 : 1;
-  for (std::size_t k = 0; k < 4; ++k) q[k] = sign * rows[first][k] / size;
-  return q;
-}
-
-Matrix3 rotation_from_quaternion(const std::array<double, 4>& wxyz) {
-  const auto [w, x, y, z] = wxyz;
-  const double s = 2 / (w * w + x * x + y * y + z * z);
-  return {{{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
-           {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
-           {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}};
 }
 
 Placement placement_of(const SdfPose& pose, double tolerance, SourceRange where) {

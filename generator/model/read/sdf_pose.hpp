@@ -28,12 +28,6 @@ Numbers3 turned_back(const Matrix3& R, const Numbers3& v);
 /// Roll, pitch, yaw of a rotation; the yaw is zero where the pitch is within `tolerance` (rad) of a right angle.
 Numbers3 rpy_of(const Matrix3& R, double tolerance);
 
-/// Unit quaternion (w, x, y, z) with w not negative.
-std::array<double, 4> quaternion_of(const Matrix3& R);
-
-/// Of a quaternion, normalised.
-Matrix3 rotation_from_quaternion(const std::array<double, 4>& wxyz);
-
 /// As a mechanism has it; `where` is of what gives its angles.
 Placement placement_of(const SdfPose& pose, double tolerance, SourceRange where);
 
