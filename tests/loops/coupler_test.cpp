@@ -93,6 +93,30 @@ TEST(Couplers, ADifferentialMovesAsItsThreeEquationsSay) {
   EXPECT_NEAR(static_cast<double>(programs.multipliers(state, u)[0]), static_cast<double>(-0.03L * b), 1e-12);
 }
 
+/// What a joint transmits about its axis is all that accelerates its body: I_r b of the right shaft, τ_l − λ of the left.
+TEST(Couplers, AreInWhatJointsTransmit) {
+  model::Mechanism mechanism = scene("bevel_differential");
+  for (const std::size_t joint : {0, 1}) {
+    model::Output output;
+    output.name = joint == 0 ? "of_left" : "of_right";
+    output.kind = model::OutputKind::kReaction;
+    output.joint = model::JointIndex(joint);
+    mechanism.outputs.push_back(output);
+  }
+  for (const model::Mechanism& treated : {mechanism, with_multipliers(mechanism)}) {
+    const ClosedPrograms programs(treated);
+    const std::vector<double> nothing(3, 0.0);
+    const std::vector<double> z(programs.plan().is_reduced() ? 2 : 3, 0.0);
+    const auto values = programs.values("outputs", 0, nothing, z, {0.7, 2.0});
+    // As in the test above.
+    const double p = 0.02 + 0.0125, q = 0.0125, r = 0.03 + 0.0125, determinant = p * r - q * q;
+    const double a = (r * 1.7 - q * 1.0) / determinant, b = (p * 1.0 - q * 1.7) / determinant;
+    EXPECT_NEAR(values.at("of_left.moment[0]"), 0.02 * a, 1e-12);
+    EXPECT_NEAR(values.at("of_right.moment[0]"), 0.03 * b, 1e-12);
+    EXPECT_NEAR(values.at("of_left.force[2]"), 9.81, 1e-12);
+  }
+}
+
 /// The finger starts at its offset; what terms hold together is assembled.
 TEST(Couplers, StartWhereTheFollowerFollowsTo) {
   const ClosedPrograms programs(scene("gripper"));

@@ -90,14 +90,27 @@ class LoopCheck {
                        "it is kept at zero by coordinates that are not prescribed");
   }
 
-  /// A residual's force pushes coordinates; what transmits it to which bodies is not known.
+  /// A residual of coordinates pushes these along their joints, between parent and child: joints transmit that like
+  /// a spring's force. What transmits the force of one of positions, and to which bodies, is not known; nor is what a
+  /// driven coordinate feels of its own residual part of the equations.
   void outputs_beside(const Loop& loop) {
-    for (const Output& output : mechanism_.outputs)
-      if (output_kind(output.kind).is_of_joint())
+    for (const Output& output : mechanism_.outputs) {
+      const OutputKindRow& kind = output_kind(output.kind);
+      if (!kind.is_of_joint()) continue;
+      const bool unknown = any_variable(loop.residual, [&](const Variable& v) {
+        if (v.kind == Variable::Kind::kFramePosition) return true;
+        return kind.subject == OutputSubject::kCoordinate && v.kind == Variable::Kind::kPosition &&
+               v.index == output.joint.value && v.component == output.coordinate;
+      });
+      if (unknown)
         diagnostics_.error(output.where,
                            fmt::format("output '{}' is a {} in a mechanism with the residual '{}'",
-                                       shown(output.name), output_kind(output.kind).name, shown(loop.name)),
-                           "a residual does not say on which bodies its force acts: use a joint as the loop");
+                                       shown(output.name), kind.name, shown(loop.name)),
+                           kind.subject == OutputSubject::kJoint
+                               ? "a residual of positions does not say on which bodies its force acts: use a "
+                                 "joint as the loop"
+                               : "what drives its own coordinate is not known");
+    }
   }
 
   const Mechanism& mechanism_;
