@@ -10,6 +10,7 @@
 #include "fuzz/hostile_values.hpp"
 #include "fuzz/random_urdf.hpp"
 #include "fuzz/toml_mutation.hpp"
+#include "fuzz/xml_mutation.hpp"
 #include "properties/random_linkages.hpp"
 #include "properties/refusals.hpp"
 #include "properties/to_toml.hpp"
@@ -38,6 +39,11 @@ const std::vector<FileText>& models() {
 
 const std::vector<FileText>& robots() {
   static const std::vector<FileText> list = texts("tests/data/robots", ".urdf");
+  return list;
+}
+
+const std::vector<FileText>& mjcf_files() {
+  static const std::vector<FileText> list = texts("tests/data/mjcf", ".xml");
   return list;
 }
 
@@ -78,14 +84,53 @@ Case urdf_case(Random& random) {
   return result;
 }
 
+Case mjcf_case(Random& random) {
+  static const XmlWords kWords{
+      .elements = {"body",    "joint",    "freejoint", "inertial", "geom", "site",
+                   "default", "compiler", "equality",  "connect",  "weld", "actuator",
+                   "motor",   "position", "general",   "keyframe", "key",  "include",
+                   "tendon",  "mujoco",   "worldbody", "Body",     "frame"},
+      .values = {"",           " ",
+                 "1 2",        "1 2 3 4",
+                 "1,2,3",      "nan nan nan",
+                 "1e999 0 0",  "0 0 0",
+                 "0 0 0 0",    "1e308 1e308 1e308",
+                 "1e-320 0 0", "0x10",
+                 "free",       "ball",
+                 "slide",      "hinge",
+                 "box",        "mesh",
+                 "capsule",    "world",
+                 "main",       "true",
+                 "auto",       "radian",
+                 "zyx",        "1 0 1e-17",
+                 "1 0 0 1e-9", "1 0 0 0 1 0 0"},
+      .attributes = {"name",        "class",    "childclass", "pos",     "quat",   "axisangle", "euler",
+                     "xyaxes",      "zaxis",    "type",       "axis",    "ref",    "springref", "stiffness",
+                     "damping",     "armature", "mass",       "density", "size",   "fromto",    "diaginertia",
+                     "fullinertia", "gear",     "joint",      "joint1",  "joint2", "body1",     "body2",
+                     "anchor",      "polycoef", "relpose",    "active",  "site1",  "qpos",      "kp",
+                     "eulerseq",    "angle",    "limited",    "range"}};
+  const FileText& file = one_of(mjcf_files(), random);
+  return compiled(CaseKind::kMjcf, "model.xml", mutated_xml(file.text, kWords, few(random), random),
+                  file.name);
+}
+
 Case bytes_case(Random& random) {
-  const bool urdf = random.chance(0.3);
   const FileText& model = any_model(random);
-  std::string text = urdf ? any_robot(random) : model.text;
+  std::string name = "model.toml", text = model.text, origin = model.name;
+  if (random.chance(0.3)) {
+    name = "model.urdf";
+    text = any_robot(random);
+    origin = "random robot";
+  } else if (random.chance(0.2)) {
+    name = "model.xml";
+    const FileText& file = one_of(mjcf_files(), random);
+    text = file.text;
+    origin = file.name;
+  }
   for (int times = few(random); times > 0; --times)
     text = mutated_bytes(std::move(text), any_model(random).text, random);
-  return compiled(CaseKind::kBytes, urdf ? "model.urdf" : "model.toml", text,
-                  urdf ? "random robot" : model.name);
+  return compiled(CaseKind::kBytes, name, std::move(text), std::move(origin));
 }
 
 /// Whether numbers are as they were drawn: what rounds lengths of a linkage that must fit leaves its velocities
@@ -149,6 +194,8 @@ std::string_view kind_name(CaseKind kind) {
       return "toml";
     case CaseKind::kUrdf:
       return "urdf";
+    case CaseKind::kMjcf:
+      return "mjcf";
     case CaseKind::kBytes:
       return "bytes";
     case CaseKind::kValid:
@@ -177,6 +224,10 @@ Case make_case(std::uint64_t seed, std::uint64_t index) {
     case 10:
     case 11:
       return urdf_case(random);
+    case 12:
+    case 13:
+    case 14:
+      return mjcf_case(random);
     default:
       return toml_case(random);
   }

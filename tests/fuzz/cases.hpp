@@ -11,9 +11,9 @@
 
 namespace jourdain::tests {
 
-enum class CaseKind { kToml, kUrdf, kBytes, kValid, kOptions };
-inline constexpr CaseKind kCaseKinds[] = {CaseKind::kToml, CaseKind::kUrdf, CaseKind::kBytes,
-                                          CaseKind::kValid, CaseKind::kOptions};
+enum class CaseKind { kToml, kUrdf, kMjcf, kBytes, kValid, kOptions };
+inline constexpr CaseKind kCaseKinds[] = {CaseKind::kToml,  CaseKind::kUrdf,  CaseKind::kMjcf,
+                                          CaseKind::kBytes, CaseKind::kValid, CaseKind::kOptions};
 std::string_view kind_name(CaseKind kind);
 
 struct Case {

@@ -1,11 +1,11 @@
 #include "fuzz/random_urdf.hpp"
 
 #include <fmt/format.h>
-#include <tinyxml2.h>
 
 #include <vector>
 
 #include "fuzz/hostile_values.hpp"
+#include "fuzz/xml_mutation.hpp"
 
 namespace jourdain::tests {
 
@@ -41,69 +41,6 @@ std::string joint(std::size_t index, const std::string& parent, const std::strin
       index, type, parent, triple(0.5, random), triple(3, random), one_of(kAxes, random), dynamics);
 }
 
-std::vector<tinyxml2::XMLElement*> elements(tinyxml2::XMLDocument& document) {
-  std::vector<tinyxml2::XMLElement*> found;
-  if (document.RootElement()) found.push_back(document.RootElement());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    for (auto* e = found[i]->FirstChildElement(); e; e = e->NextSiblingElement()) found.push_back(e);
-  return found;
-}
-
-std::vector<const tinyxml2::XMLAttribute*> attributes(const tinyxml2::XMLElement& element) {
-  std::vector<const tinyxml2::XMLAttribute*> found;
-  for (auto* a = element.FirstAttribute(); a; a = a->Next()) found.push_back(a);
-  return found;
-}
-
-std::string hostile_value(const std::string& before, tinyxml2::XMLDocument& document, Random& random) {
-  static const std::vector<std::string> kValues = {
-      "",           " ",           "1 2",       "1 2 3 4",  "1,2,3",
-      "${x}",       "nan nan nan", "1e999 0 0", "0 0 0",    "1e308 1e308 1e308",
-      "1e-320 0 0", "0x10",        "floating",  "planar",   "fixed",
-      "prismatic",  "continuous",  "world",     "1 0 1e-17"};
-  const double choice = random.unit();
-  if (choice < 0.25) return one_of(kValues, random);
-  if (choice < 0.6) return any_number(random);
-  if (choice < 0.7) return hostile_name(random);
-  if (choice < 0.85) return before + (random.chance(0.5) ? "0" : " ");
-  const auto all = elements(document);
-  const char* name = one_of(all, random)->Attribute("name");
-  return name ? name : before;
-}
-
-void change_attribute(tinyxml2::XMLDocument& document, tinyxml2::XMLElement& element, Random& random) {
-  const auto list = attributes(element);
-  if (list.empty()) return element.SetAttribute("name", hostile_name(random).c_str());
-  const std::string name = one_of(list, random)->Name(), value = element.Attribute(name.c_str());
-  if (random.chance(0.15)) element.DeleteAttribute(name.c_str());
-  if (random.chance(0.1)) return element.SetAttribute((name + "s").c_str(), value.c_str());
-  element.SetAttribute(name.c_str(), hostile_value(value, document, random).c_str());
-}
-
-/// Under another parent, which is no descendant of its own.
-void move(tinyxml2::XMLDocument& document, tinyxml2::XMLElement& element, Random& random) {
-  const auto all = elements(document);
-  tinyxml2::XMLElement* parent = one_of(all, random);
-  for (tinyxml2::XMLNode* node = parent; node; node = node->Parent())
-    if (node == &element) return;
-  parent->InsertEndChild(&element);
-}
-
-void change_element(tinyxml2::XMLDocument& document, tinyxml2::XMLElement& element, Random& random) {
-  static const std::vector<std::string> kNames = {
-      "link",  "joint",       "robot",    "inertial",     "mass", "axis",  "origin",
-      "mimic", "xacro:macro", "gazebo:x", "transmission", "Link", "linkk", "parent"};
-  const std::size_t choice = random.below(6);
-  if (choice == 0 && element.Parent()->ToElement()) return element.Parent()->DeleteChild(&element);
-  if (choice == 1 && element.Parent()->ToElement())
-    return (void)element.Parent()->InsertEndChild(element.DeepClone(&document));
-  if (choice == 2) return element.SetName(one_of(kNames, random).c_str());
-  if (choice == 3) return move(document, element, random);
-  if (choice == 4) return (void)element.InsertNewChildElement(one_of(kNames, random).c_str());
-  if (random.chance(0.5)) return (void)element.InsertNewText(hostile_name(random).c_str());
-  element.InsertNewComment("--");
-}
-
 }  // namespace
 
 std::string random_urdf(Random& random) {
@@ -120,18 +57,13 @@ std::string random_urdf(Random& random) {
 }
 
 std::string mutated_urdf(const std::string& text, int times, Random& random) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(text.c_str()) != tinyxml2::XML_SUCCESS) return text;
-  for (int i = 0; i < times; ++i) {
-    const auto all = elements(document);
-    if (all.empty()) break;
-    tinyxml2::XMLElement& element = *one_of(all, random);
-    random.chance(0.6) ? change_attribute(document, element, random)
-                       : change_element(document, element, random);
-  }
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
+  static const XmlWords kWords{
+      .elements = {"link", "joint", "robot", "inertial", "mass", "axis", "origin", "mimic", "xacro:macro",
+                   "gazebo:x", "transmission", "Link", "linkk", "parent"},
+      .values = {"", " ", "1 2", "1 2 3 4", "1,2,3", "${x}", "nan nan nan", "1e999 0 0", "0 0 0",
+                 "1e308 1e308 1e308", "1e-320 0 0", "0x10", "floating", "planar", "fixed", "prismatic",
+                 "continuous", "world", "1 0 1e-17"}};
+  return mutated_xml(text, kWords, times, random);
 }
 
 }  // namespace jourdain::tests

@@ -50,7 +50,8 @@ bool is_place(std::string_view text) {
       return false;
     text = text.substr(0, colon);
   }
-  return text.ends_with(".toml") || text.ends_with(".urdf") || text.ends_with(".csv");
+  return text.ends_with(".toml") || text.ends_with(".urdf") || text.ends_with(".xml") ||
+         text.ends_with(".csv");
 }
 
 bool is_placed(const std::string& errors) {

@@ -1,9 +1,13 @@
-// Accelerations and constraint forces of the emitted programs against the descriptor form: every model with
-// loops and more than a hundred random mechanisms.
+// Accelerations and constraint forces of the emitted programs against the descriptor form: every model and robot
+// with loops and more than a hundred random mechanisms.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "agreement/shared_data.hpp"
 #include "loops/closed_programs.hpp"
@@ -152,6 +156,41 @@ TEST(Loops, EveryModelAcceleratesAndLoadsAsTheDescriptorFormSays) {
   print("models, chosen", chosen);
   print("models, multipliers", multipliers);
   EXPECT_GE(chosen.mechanisms, 7u);
+}
+
+/// A robot beside the project, as far as it is there and its format is read.
+std::optional<model::Mechanism> public_robot(const std::string& file) {
+  const std::filesystem::path path = public_data_path(file);
+  if (!std::filesystem::exists(path)) {
+    fmt::print("public robot {} is not there: a case less\n", file);
+    return {};
+  }
+  try {
+    return read_model(path);
+  } catch (const std::runtime_error& error) {
+    const std::string reason = error.what();
+    fmt::print("public robot {} is not read: {}\n", file, reason.substr(0, reason.find('\n')));
+    return {};
+  }
+}
+
+/// Robots with loops: a leg of ours, and Cassie where it is there.
+TEST(Loops, RobotsAccelerateAndLoadAsTheDescriptorFormSays) {
+  std::vector<std::pair<std::string, model::Mechanism>> robots;
+  robots.emplace_back("linked_leg", read_model(data_path("mjcf/linked_leg.xml")));
+  for (const char* file : {"urdf/cassie_simple.sdf", "urdf/cassie_v2.sdf"})
+    if (auto robot = public_robot(file)) robots.emplace_back(file, *std::move(robot));
+  for (const auto& [name, mechanism] : robots) {
+    SCOPED_TRACE(name);
+    const auto states = consistent_states(mechanism, 1, 5);
+    ASSERT_TRUE(states);
+    Tally chosen, multipliers;
+    compare(mechanism, {}, *states, chosen);
+    compare(mechanism, model::LoopTreatment::kMultipliers, *states, multipliers);
+    print((name + ", chosen").c_str(), chosen);
+    print((name + ", multipliers").c_str(), multipliers);
+    EXPECT_GE(chosen.states, 3u);
+  }
 }
 
 /// Suspensions on a chassis that moves, with tunable lengths, with a strut of two bodies, and a point between

@@ -35,6 +35,7 @@ CompiledSwing::CompiledSwing(const model::Mechanism& mechanism, const CompiledMo
   leaves_[LeafKind::kParameter] = model::default_values(mechanism);
   leaves_[LeafKind::kConstant] = ir::interpret(compiled.module.constants, leaves_);
   leaves_[LeafKind::kTime] = {0.0};
+  leaves_[LeafKind::kInput].assign(compiled.facts.inputs.size(), 0.0);
 }
 
 std::vector<double> CompiledSwing::values(const ir::Program& program, const SwingState& state) const {

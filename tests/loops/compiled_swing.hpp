@@ -30,7 +30,7 @@ struct ClosingReport {
   std::optional<double> regularity, opening;
 };
 
-/// Steps of one compiled mechanism at the parameters' default values.
+/// Steps of one compiled mechanism at the parameters' default values, inputs zero.
 class CompiledSwing {
  public:
   /// Both must outlive this.
