@@ -16,7 +16,7 @@ class SdfFrames {
   explicit SdfFrames(SdfFile& file) : file_(file) { frames_[""] = {.is_resolved = true}; }
 
   struct Frame {
-    std::string scope;                   ///< of the names that follow
+    std::string scope = {};              ///< of the names that follow
     std::string base_name = {};          ///< what the pose is relative to, as the file has it; or empty
     std::string attached_name = {};      ///< what it moves with, likewise
     std::string base = {};               ///< whole; of where the file does not say
