@@ -15,8 +15,8 @@ inline constexpr const char* kFrameHelp =
     "tool=hand:pose,pose+jacobian:frame; "
     "without QUANTITIES pose, velocity, acceleration, jacobian and jacobian_bias";
 
-/// Adds functions to the mechanism: those of `frames`, and of the whole mechanism those that `functions` names, which are
-/// taken out of it. Where `functions` names any, those of the description that it does not name go. Returns what is
+/// Adds functions to the mechanism: those of `frames`, and of the whole mechanism those that `functions` names, which
+/// are taken out of it. Where `functions` names any, those of the description that it does not name go. Returns what is
 /// wrong, or nothing.
 std::string choose_kinematics(const std::vector<std::string>& frames, std::vector<std::string>& functions,
                               model::Mechanism& mechanism);

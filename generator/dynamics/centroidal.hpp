@@ -12,8 +12,8 @@
 
 namespace jourdain::dynamics {
 
-/// Regrouped mass parameters serve as well as those of the bodies: what was moved to a parent moves with both. What went
-/// to the ground has no momentum, but it counts for the centre of mass.
+/// Regrouped mass parameters serve as well as those of the bodies: what was moved to a parent moves with both. What
+/// went to the ground has no momentum, but it counts for the centre of mass.
 class Centroidal {
  public:
   Centroidal(const Scene& scene, std::string name);

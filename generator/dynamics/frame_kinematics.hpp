@@ -16,8 +16,8 @@ class FrameKinematics {
   /// Of the function's frame. Where quantities that need the rotation are asked for together they share it.
   FrameKinematics(const Scene& scene, const model::KinematicFunction& function);
 
-  /// Arrays of one of the quantities of a frame but the operational inertia; `zdot` by entry of z. The acceleration that
-  /// is asked for as a bias is that at `zdot` too.
+  /// Arrays of one of the quantities of a frame but the operational inertia; `zdot` by entry of z. The acceleration
+  /// that is asked for as a bias is that at `zdot` too.
   std::vector<KinematicValues> values(model::KinematicQuantity quantity, const std::vector<Ex>& zdot);
 
  private:

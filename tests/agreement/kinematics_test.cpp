@@ -150,8 +150,8 @@ void expect_near(const Vector& a, const Vector& b, const char* what) {
 
 Vector unskewed(const Matrix& W) { return reference::Vector3<Long>(W(2, 1), W(0, 2), W(1, 0)); }
 
-/// The oracle's own formulas: velocities are rates of poses, accelerations of velocities, momentum and its rate belong to
-/// their matrix.
+/// The oracle's own formulas: velocities are rates of poses, accelerations of velocities, momentum and its rate belong
+/// to their matrix.
 TEST(Kinematics, ReferenceIsItsOwnDerivative) {
   for (const char* name : {"panda.toml", "shaking_cart.toml", "elastic_arm.toml"}) {
     model::Mechanism mechanism = read_model(model_path(name));

@@ -93,7 +93,8 @@ TEST(Couplers, ADifferentialMovesAsItsThreeEquationsSay) {
   EXPECT_NEAR(static_cast<double>(programs.multipliers(state, u)[0]), static_cast<double>(-0.03L * b), 1e-12);
 }
 
-/// What a joint transmits about its axis is all that accelerates its body: I_r b of the right shaft, τ_l − λ of the left.
+/// What a joint transmits about its axis is all that accelerates its body: I_r b of the right shaft, τ_l − λ of the
+/// left.
 TEST(Couplers, AreInWhatJointsTransmit) {
   model::Mechanism mechanism = scene("bevel_differential");
   for (const std::size_t joint : {0, 1}) {
