@@ -165,13 +165,7 @@ std::optional<model::Mechanism> public_robot(const std::string& file) {
     fmt::print("public robot {} is not there: a case less\n", file);
     return {};
   }
-  try {
-    return read_model(path);
-  } catch (const std::runtime_error& error) {
-    const std::string reason = error.what();
-    fmt::print("public robot {} is not read: {}\n", file, reason.substr(0, reason.find('\n')));
-    return {};
-  }
+  return read_model(path);
 }
 
 /// Robots with loops: a leg of ours, and Cassie where it is there.
