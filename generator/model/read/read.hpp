@@ -57,8 +57,8 @@ inline constexpr std::size_t kMaximumFileSize = 4'000'000;
 inline constexpr std::size_t kMaximumBodies = 1000;
 
 /// Reads and checks the text of `diagnostics`: SDF where the path ends in .sdf or .world, MJCF where it ends in .mjcf;
-/// URDF or one of these, as the first element says, in .urdf and .xml; otherwise TOML. Nothing is returned when an error
-/// was found.
+/// URDF or one of these, as the first element says, in .urdf and .xml; otherwise TOML. Nothing is returned when an
+/// error was found.
 std::optional<Mechanism> read_mechanism(support::Diagnostics& diagnostics, const ReadOptions& options = {});
 
 /// Reads the text without what is done to a mechanism as a whole: locking, snapping, checks. Nothing is returned where
