@@ -6,6 +6,7 @@
 
 #include "agreement/shared_data.hpp"
 #include "loops/closed_programs.hpp"
+#include "loops/loop_functions.hpp"
 #include "properties/consistent_state.hpp"
 #include "reference/descriptor.hpp"
 
@@ -105,16 +106,16 @@ TEST(Couplers, AreInWhatJointsTransmit) {
     mechanism.outputs.push_back(output);
   }
   for (const model::Mechanism& treated : {mechanism, with_multipliers(mechanism)}) {
-    const ClosedPrograms programs(treated);
-    const std::vector<double> nothing(3, 0.0);
-    const std::vector<double> z(programs.plan().is_reduced() ? 2 : 3, 0.0);
-    const auto values = programs.values("outputs", 0, nothing, z, {0.7, 2.0});
+    const LoopFunctions functions(treated);
+    const std::vector<double> z(functions.plan().is_reduced() ? 2 : 3, 0.0);
+    // Force and moment of the left joint, then of the right one.
+    const std::vector<double> values = functions("outputs", {0, 0, 0}, z, {}, {0.7, 2.0});
     // As in the test above.
     const double p = 0.02 + 0.0125, q = 0.0125, r = 0.03 + 0.0125, determinant = p * r - q * q;
     const double a = (r * 1.7 - q * 1.0) / determinant, b = (p * 1.0 - q * 1.7) / determinant;
-    EXPECT_NEAR(values.at("of_left.moment[0]"), 0.02 * a, 1e-12);
-    EXPECT_NEAR(values.at("of_right.moment[0]"), 0.03 * b, 1e-12);
-    EXPECT_NEAR(values.at("of_left.force[2]"), 9.81, 1e-12);
+    EXPECT_NEAR(values.at(3), 0.02 * a, 1e-12);
+    EXPECT_NEAR(values.at(9), 0.03 * b, 1e-12);
+    EXPECT_NEAR(values.at(2), 9.81, 1e-12);
   }
 }
 
