@@ -164,6 +164,8 @@ std::string add_kinematic_function(Mechanism& mechanism, const std::string& pref
     if (!function.name.empty()) function.name += '_';
     function.name += quantity_row(quantity).name;
   }
+  if (function.name.find("__") != std::string::npos || function.name.starts_with('_'))
+    return fmt::format("'{}' would be a name that is reserved in C++", function.name);
   if (is_macro(function.name)) return fmt::format("'{}' is a macro of the C library", function.name);
   if (kinematic_function_named(mechanism, function.name))
     return fmt::format("there are two functions '{}'", function.name);

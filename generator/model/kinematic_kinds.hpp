@@ -58,7 +58,7 @@ std::variant<std::vector<KinematicQuantity>, KinematicError> parse_quantities(st
                                                                               bool of_frame);
 
 /// Adds the function of these quantities to the mechanism, named `prefix`_quantity_quantity…, or after the quantities
-/// where the prefix is empty. Returns what is wrong with it: its name is a macro's or is taken.
+/// where the prefix is empty. Returns what is wrong with its name: it is reserved, a macro's or taken.
 std::string add_kinematic_function(Mechanism& mechanism, const std::string& prefix,
                                    std::optional<FrameIndex> frame, Axes axes,
                                    const std::vector<KinematicQuantity>& quantities, SourceRange where = {});

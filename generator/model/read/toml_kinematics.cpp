@@ -39,6 +39,8 @@ class KinematicsReader {
     if (!list || !std::all_of(list->begin(), list->end(), [](const toml::node& n) { return n.is_string(); }))
       return table_.error("quantities",
                           fmt::format("{} must be a list of texts", table_.quoted("quantities")));
+    if (list->empty())
+      return table_.error("quantities", "no function is asked for", "[\"pose\"], for example");
     for (const toml::node& text : *list)
       add(prefix, frame, static_cast<Axes>(*axes), text.as_string()->get(), file_.range(text.source()));
   }
