@@ -119,6 +119,8 @@ struct Coordinate {
   SourceRange motion_where = {};
   /// Where the coordinate may go, rad or m; what the compiler proves about loops it proves there. None: anywhere.
   std::optional<std::array<double, 2>> range;
+  /// The range is a limit of a robot file, which says nothing where the coordinate starts beyond it.
+  bool range_is_limit = false;
 };
 
 /// A joint; the child body's frame is the joint frame, moved by the joint's coordinates.

@@ -38,12 +38,27 @@ void lock_joints(Mechanism& mechanism, const ReadOptions& options, Diagnostics& 
   }
 }
 
+/// Limits of robot files are ranges of what is proven of loop joints, where coordinates start within them.
+void keep_useful_limits(Mechanism& mechanism) {
+  const bool closes = std::any_of(mechanism.loops.begin(), mechanism.loops.end(),
+                                  [](const Loop& loop) { return loop.type != LoopType::kResidual; });
+  const std::vector<double> parameters = default_values(mechanism);
+  for (Joint& joint : mechanism.joints)
+    for (Coordinate& coordinate : joint.coordinates) {
+      if (!coordinate.range_is_limit || !coordinate.range) continue;
+      const double start = coordinate.initial_position.evaluate<double>(parameters);
+      const auto [low, high] = *coordinate.range;
+      if (!closes || !(low <= start && start <= high)) coordinate.range.reset();
+    }
+}
+
 }  // namespace
 
 std::optional<Mechanism> finish_reading(Part part, const ReadOptions& options, Diagnostics& diagnostics) {
   auto& [mechanism, complete, triangle] = part;
   mechanism.snap = options.snap > 0;
   if (complete.structure) lock_joints(mechanism, options, diagnostics);
+  keep_useful_limits(mechanism);
   if (mechanism.snap) snap_directions(mechanism, options.snap, diagnostics);
   check_numbers(mechanism, diagnostics);
   const bool tree = complete.structure && check_graph(mechanism, diagnostics);

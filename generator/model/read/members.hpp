@@ -87,9 +87,10 @@ class Members {
   }
   void one(Coordinate& coordinate) {
     auto& [name, angular, stiffness, rest, damping, friction, friction_speed, initial_position,
-           initial_velocity, position_where, velocity_where, motion, motion_where, range] = coordinate;
+           initial_velocity, position_where, velocity_where, motion, motion_where, range, range_is_limit] =
+        coordinate;
     each(name, angular, stiffness, rest, damping, friction, friction_speed, initial_position,
-         initial_velocity, position_where, velocity_where, motion, motion_where, range);
+         initial_velocity, position_where, velocity_where, motion, motion_where, range, range_is_limit);
   }
   void one(Joint& joint) {
     auto& [name, type, parent, child, placement, axis, second_axis, pitch, curve, sequence, coordinates,

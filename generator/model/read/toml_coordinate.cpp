@@ -18,9 +18,12 @@ void read_range(TomlFile& file, const TomlTable& table, const Needed& position, 
   if (coordinate.motion && table.has("range"))
     table.error("range", fmt::format("{} has a prescribed motion and no 'range'", table.what()),
                 "the motion says where it goes");
-  if (given) coordinate.range = given;
+  if (given) {
+    coordinate.range = given;
+    coordinate.range_is_limit = false;
+  }
   const char* const key = given ? "range" : "initial_position";
-  if (!coordinate.range || !table.has(key) || file.error_count() != mark) return;
+  if (!coordinate.range || coordinate.range_is_limit || !table.has(key) || file.error_count() != mark) return;
   const auto [least, greatest] = *coordinate.range;
   const double start = file.value(coordinate.initial_position);
   if (!(least < greatest))

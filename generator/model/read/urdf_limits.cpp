@@ -25,6 +25,8 @@ std::optional<double> finite_number(const char* attribute) {
   return is_number && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+}  // namespace
+
 Limits limits_of(const XMLElement& limit, bool continuous) {
   Limits limits{{}, {}, finite_number(limit.Attribute("velocity")), finite_number(limit.Attribute("effort"))};
   const char *lower = limit.Attribute("lower"), *upper = limit.Attribute("upper");
@@ -33,8 +35,6 @@ Limits limits_of(const XMLElement& limit, bool continuous) {
   limits.upper = upper ? finite_number(upper) : 0.0;
   return limits;
 }
-
-}  // namespace
 
 std::map<std::string, Limits> read_urdf_limits(const std::string& text) {
   std::map<std::string, Limits> all;

@@ -1,5 +1,8 @@
-// Limits of a robot's joints: for people. They are no part of the mechanism; no equation and no proof uses them.
+// Limits of a robot's joints. No equation uses them; what is proven of loops is proven within them, where joints start
+// there.
 #pragma once
+
+#include <tinyxml2.h>
 
 #include <map>
 #include <optional>
@@ -14,9 +17,12 @@ struct Limits {
   bool any() const { return lower || upper || velocity || effort; }
 };
 
+/// What a <limit> states; numbers that are none or not finite are left out. Where only one end of the range is written
+/// the other is zero; continuous joints have no range.
+Limits limits_of(const tinyxml2::XMLElement& limit, bool continuous);
+
 /// The <limit> elements of a URDF text that `read_urdf` accepts, by joint; joints that state none are left
-/// out, and so are numbers that are none or not finite. Where only one end of the range is written the other
-/// is zero; continuous joints have no range.
+/// out.
 std::map<std::string, Limits> read_urdf_limits(const std::string& text);
 
 }  // namespace jourdain::model

@@ -9,6 +9,7 @@
 
 #include "model/read/read.hpp"
 #include "model/read/urdf_file.hpp"
+#include "model/read/urdf_limits.hpp"
 #include "model/read/urdf_mimic.hpp"
 #include "model/read/xml_text.hpp"
 
@@ -193,8 +194,17 @@ class UrdfReader {
         first_friction_where_ = file_.value(*dynamics, "friction");
       }
     }
+    if (const XmlElement* limit = element.FirstChildElement("limit"); limit && joint.coordinates.size() == 1)
+      limit_range(limits_of(*limit, element.Attribute("type", "continuous") != nullptr),
+                  joint.coordinates[0]);
     const XmlElement* mimic = file_.child(element, "mimic");
     return options_.mimic ? mimic : nullptr;
+  }
+
+  static void limit_range(const Limits& limits, Coordinate& coordinate) {
+    if (!limits.lower || !limits.upper || !(*limits.lower < *limits.upper)) return;
+    coordinate.range = {*limits.lower, *limits.upper};
+    coordinate.range_is_limit = true;
   }
 
   /// One warning for all joints, at the first.
