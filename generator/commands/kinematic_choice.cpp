@@ -103,7 +103,7 @@ std::string choose_kinematics(const std::vector<std::string>& frames, std::vecto
   }
   functions = kept;
   for (const std::string& text : frames)
-    if (const std::string wrong = add_frame(text, mechanism); !wrong.empty()) return wrong;
+    if (std::string wrong = add_frame(text, mechanism); !wrong.empty()) return wrong;
   return "";
 }
 
