@@ -94,7 +94,8 @@ void ModelArguments::add_to(CLI::App& command) {
       ->check(CLI::IsMember({"fixed", "free"}));
   command.add_option("--lock", read.locked_joints, "joints to lock at coordinate zero")->delimiter(',');
   command.add_flag("!--no-damping", read.damping, "URDF, SDF, MJCF: leave out joint damping");
-  command.add_flag("--friction", read.friction, "URDF, SDF, MJCF: take joint friction, smoothed about standstill");
+  command.add_flag("--friction", read.friction,
+                   "URDF, SDF, MJCF: take joint friction, smoothed about standstill");
   command.add_flag("!--no-mimic", read.mimic, "URDF, SDF: joints that mimic others move freely");
   CLI::Option* snap =
       command.add_option("--snap", read.snap, "angles, rad, and axes this near to a right angle are that")

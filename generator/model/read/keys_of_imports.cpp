@@ -11,7 +11,8 @@ constexpr const char* kRequired = "";
 KeySection import_section() {
   return {"import",
           "[[import]]",
-          "Another model, of any format that is read, becomes part of this one, before all that this file declares itself, "
+          "Another model, of any format that is read, becomes part of this one, before all that this file "
+          "declares itself, "
           "which may "
           "name what is imported with its prefix. What that file calls the world is put at position and rpy "
           "of parent. "
