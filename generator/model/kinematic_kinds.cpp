@@ -156,6 +156,18 @@ std::variant<std::vector<KinematicQuantity>, KinematicError> parse_quantities(st
   return quantities;
 }
 
+namespace {
+
+/// At the parameters' default values, kg.
+double total_mass(const Mechanism& mechanism) {
+  const std::vector<double> parameters = default_values(mechanism);
+  double mass = 0;
+  for (const Body& body : mechanism.bodies) mass += body.mass.evaluate<double>(parameters);
+  return mass;
+}
+
+}  // namespace
+
 std::string add_kinematic_function(Mechanism& mechanism, const std::string& prefix,
                                    std::optional<FrameIndex> frame, Axes axes,
                                    const std::vector<KinematicQuantity>& quantities, SourceRange where) {
@@ -166,6 +178,11 @@ std::string add_kinematic_function(Mechanism& mechanism, const std::string& pref
   }
   if (function.name.find("__") != std::string::npos || function.name.starts_with('_'))
     return fmt::format("'{}' would be a name that is reserved in C++", function.name);
+  const auto is_about_center = [](KinematicQuantity quantity) {
+    return !quantity_row(quantity).of_frame && quantity != KinematicQuantity::kGravityCompensation;
+  };
+  if (std::any_of(quantities.begin(), quantities.end(), is_about_center) && !(total_mass(mechanism) > 0))
+    return fmt::format("'{}' is about a centre of mass, and no body has mass", function.name);
   if (is_macro(function.name)) return fmt::format("'{}' is a macro of the C library", function.name);
   if (kinematic_function_named(mechanism, function.name))
     return fmt::format("there are two functions '{}'", function.name);

@@ -227,15 +227,14 @@ Program tree_kinematics(const dynamics::Equations& equations, const model::Mecha
   if (!has_operational_inertia(mechanism, k)) return program;
   Builder builder;
   const auto itself = [](LeafKind, std::size_t) { return std::optional<Signed>(); };
-  for (const auto& [name, array] : inserted(builder, equations, k, program, itself)) {
-    const bool is_vector = array.front().size() == 1 && name != "J";
-    if (name != dynamics::kOperationalJacobian) {
-      write(builder, name, array, is_vector);
+  const Arrays arrays = inserted(builder, equations, k, program, itself);
+  for (const dynamics::KinematicValues& array : equations.kinematics[k]) {
+    if (array.name != dynamics::kOperationalJacobian) {
+      write(builder, array.name, arrays.at(array.name), array.columns == 0);
       continue;
     }
-    const Program M = lower_function(equations, ir::FunctionId::kMassMatrix);
-    write(builder, kInverseInertia, inverse_inertia(builder, array, full(builder, M, equations.M.size())),
-          false);
+    const Array M = full(builder, lower_function(equations, ir::FunctionId::kMassMatrix), equations.M.size());
+    write(builder, kInverseInertia, inverse_inertia(builder, arrays.at(array.name), M), false);
   }
   return passes::remove_dead_code(builder.finish(program.name));
 }

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <cstdio>
+#include <numbers>
 #include <sstream>
+#include <utility>
 
+#include "model/matrix3.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -13,6 +16,8 @@ namespace jourdain::tests {
 namespace {
 
 using testing::HasSubstr;
+
+constexpr double kQuarter = std::numbers::pi / 2;
 
 class Kinematics : public testing::Test {
  protected:
@@ -61,12 +66,26 @@ TEST_F(Kinematics, ControllerOfTheReadmeRuns) {
     output = result.output;
   }
   EXPECT_EQ(commands, 4);
-  // The arm's chain of offsets at zero, from the file.
   double x = 0, y = 0, z = 0, upward = 0;
   ASSERT_EQ(
       std::sscanf(output.c_str(), "tool at %lf %lf %lf\nit accelerates upward with %lf", &x, &y, &z, &upward),
       4)
       << output;
+  // The origins and angles of the file's joints, one after the other; it starts with all coordinates at zero.
+  const std::pair<model::Numbers3, model::Numbers3> joints[] = {
+      {{0, 0, 0.1}, {0, kQuarter, 0}},           {{0, 0, 0.163}, {kQuarter, 0, 0}},
+      {{0, 0.138, 0}, {0, kQuarter, -kQuarter}}, {{0.425, 0, -0.12}, {0, 0, 0}},
+      {{0.392, 0, 0.01}, {0.3, 0, 0}},           {{0.09, 0.02, 0}, {-kQuarter, 0, 2 * kQuarter}},
+      {{0, 0.01, 0.08}, {0.2, 0, 1.1}}};
+  model::Numbers3 tool{};
+  model::Matrix3 R = model::kIdentity3;
+  for (const auto& [origin, rpy] : joints) {
+    tool = model::sum(tool, model::product(R, origin));
+    R = model::product(R, model::rotation_from_rpy(rpy));
+  }
+  EXPECT_NEAR(x, tool[0], 1e-5);  // six digits are printed
+  EXPECT_NEAR(y, tool[1], 1e-5);
+  EXPECT_NEAR(z, tool[2], 1e-5);
   EXPECT_GT(upward, 0);
 }
 
