@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
+#include <sstream>
 
 #include "agreement/compiled_batch.hpp"
 #include "agreement/judge.hpp"
@@ -85,6 +87,21 @@ TEST(Layout, BreaksLongLinesAtSpaces) {
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
     EXPECT_LE(end - begin, 110u);
+}
+
+TEST(Layout, BreaksNoString) {
+  const std::string entry = R"("left \" hind leg", )";
+  std::string line = "const char* const names[] = {";
+  for (int i = 0; i < 30; ++i) line += entry;
+  std::istringstream lines(cpp::wrapped(line + "nullptr};", 0));
+  int entries = 0;
+  for (std::string part; std::getline(lines, part);) {
+    EXPECT_LE(part.size(), 110u);
+    const auto quotes = std::count(part.begin(), part.end(), '"');
+    EXPECT_EQ(quotes % 3, 0) << part;
+    entries += static_cast<int>(quotes / 3);
+  }
+  EXPECT_EQ(entries, 30);
 }
 
 TEST(Tree, MentionsVariablesButNoMembersOfTheirNames) {

@@ -6,11 +6,29 @@ namespace jourdain::emit::cpp {
 
 namespace {
 
+enum class Strings { kBroken, kWhole };
+
+/// The last space up to column kLineLength, with `kWhole` outside string literals.
+std::size_t last_space(const std::string& line, Strings strings) {
+  if (strings == Strings::kBroken) return line.rfind(' ', kLineLength);
+  std::size_t space = std::string::npos;
+  bool in_string = false;
+  for (std::size_t k = 0; k <= kLineLength && k < line.size(); ++k) {
+    if (in_string && line[k] == '\\')
+      ++k;
+    else if (line[k] == '"')
+      in_string = !in_string;
+    else if (line[k] == ' ' && !in_string)
+      space = k;
+  }
+  return space;
+}
+
 /// `line` broken at spaces beyond column `earliest`; further lines start with `next`.
-std::string broken(const std::string& line, const std::string& next, std::size_t earliest) {
+std::string broken(const std::string& line, const std::string& next, std::size_t earliest, Strings strings) {
   std::string text, rest = line;
   while (rest.size() > kLineLength) {
-    const std::size_t space = rest.rfind(' ', kLineLength);
+    const std::size_t space = last_space(rest, strings);
     if (space == std::string::npos || space <= earliest) break;
     text += rest.substr(0, space) + "\n";
     rest = next + rest.substr(space + 1);
@@ -21,7 +39,7 @@ std::string broken(const std::string& line, const std::string& next, std::size_t
 }  // namespace
 
 std::string wrapped(const std::string& line, std::size_t indent) {
-  return broken(std::string(indent, ' ') + line, std::string(indent + 4, ' '), indent + 4);
+  return broken(std::string(indent, ' ') + line, std::string(indent + 4, ' '), indent + 4, Strings::kWhole);
 }
 
 std::string aligned(const std::string& opening, const std::vector<std::string>& items,
@@ -40,10 +58,12 @@ std::string aligned(const std::string& opening, const std::vector<std::string>& 
 
 std::string wrapped_doc(const std::string& content, std::size_t indent) {
   const std::string margin(indent, ' ');
-  return broken(margin + "/// " + content, margin + "/// ", indent + 8);
+  return broken(margin + "/// " + content, margin + "/// ", indent + 8, Strings::kBroken);
 }
 
-std::string wrapped_comment(const std::string& content) { return broken("// " + content, "//   ", 8); }
+std::string wrapped_comment(const std::string& content) {
+  return broken("// " + content, "//   ", 8, Strings::kBroken);
+}
 
 std::string comment_text(const std::string& text) {
   std::string safe;

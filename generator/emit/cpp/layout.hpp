@@ -9,7 +9,8 @@ namespace jourdain::emit::cpp {
 
 inline constexpr std::size_t kLineLength = 110;
 
-/// A statement, indented, broken at spaces so that its lines stay short; ends with a line break.
+/// A statement, indented, broken at spaces outside its string literals so that its lines stay short; ends with a line
+/// break.
 std::string wrapped(const std::string& line, std::size_t indent);
 
 /// `opening`, the items of a list with commas between them, `closing`; items that do not fit on a line go on below the
