@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "ir/builder.hpp"
 #include "properties/random.hpp"
@@ -43,6 +44,23 @@ void expect_close(Interval value, double low, double high) {
   EXPECT_GE(value.high, high);
   EXPECT_NEAR(value.low, low, 1e-14);
   EXPECT_NEAR(value.high, high, 1e-14);
+}
+
+TEST(Interval, IsRoundedOutwardToTheNextDouble) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(),
+                   largest = std::numeric_limits<double>::max(),
+                   least = std::numeric_limits<double>::denorm_min(),
+                   normal = std::numeric_limits<double>::min();
+  for (const double x : {0.0, -0.0, 1.0, -1.0, 1.5, -1.5, 2.0, least, -least, normal, -normal, largest,
+                         -largest, 1e-310, 3e17}) {
+    const Interval sum = Interval::point(x) + Interval::point(0);
+    EXPECT_EQ(sum.low, std::nextafter(x, -infinity)) << x;
+    EXPECT_EQ(sum.high, std::nextafter(x, infinity)) << x;
+  }
+  const Interval beyond = Interval::point(largest) + Interval::point(largest);
+  EXPECT_EQ(beyond.low, largest);
+  EXPECT_EQ(beyond.high, infinity);
+  EXPECT_EQ(Interval::line() * Interval::point(0), Interval::line());
 }
 
 TEST(Interval, OfAWaveHasItsExtremaWhereTheyAreInside) {
