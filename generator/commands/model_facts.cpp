@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "commands/entries.hpp"
 #include "model/joint_kinds.hpp"
 #include "model/loop_kinds.hpp"
 #include "model/output_kinds.hpp"
+#include "programs/entries.hpp"
 
 namespace jourdain::commands {
 
@@ -19,7 +19,10 @@ using model::Expression;
 class Facts {
  public:
   Facts(const LoadedMechanism& loaded, const CompiledModel& compiled)
-      : mechanism_(loaded.mechanism), loaded_(loaded), compiled_(compiled), entries_(entries_of(loaded)) {
+      : mechanism_(loaded.mechanism),
+        loaded_(loaded),
+        compiled_(compiled),
+        entries_(programs::entries_of(loaded.mechanism, loaded.plan())) {
     for (const model::Parameter& parameter : mechanism_.parameters) values_.push_back(parameter.value);
   }
 
@@ -123,7 +126,8 @@ class Facts {
     if (limits.upper) fact["upper"] = *limits.upper;
     if (limits.velocity) fact["velocity"] = *limits.velocity;
     if (limits.effort) fact["effort"] = *limits.effort;
-    fact["units"] = {position_unit(coordinate), velocity_unit(coordinate), force_unit(coordinate)};
+    fact["units"] = {programs::position_unit(coordinate), programs::velocity_unit(coordinate),
+                     programs::force_unit(coordinate)};
     return fact;
   }
 
@@ -164,13 +168,13 @@ class Facts {
     return list;
   }
 
-  const model::Coordinate* coordinate_of(const Entry& entry) const {
+  const model::Coordinate* coordinate_of(const programs::Entry& entry) const {
     return entry.coordinate ? &mechanism_.joints[entry.joint->value].coordinates[*entry.coordinate] : nullptr;
   }
 
-  Json entries(const std::vector<Entry>& list) const {
+  Json entries(const std::vector<programs::Entry>& list) const {
     Json facts = Json::array();
-    for (const Entry& entry : list) {
+    for (const programs::Entry& entry : list) {
       Json fact = {{"index", facts.size()},
                    {"name", entry.name},
                    {"unit", entry.unit},
@@ -185,7 +189,7 @@ class Facts {
 
   Json inputs() const {
     Json list = Json::array();
-    for (const Entry& entry : entries_.inputs) {
+    for (const programs::Entry& entry : entries_.inputs) {
       Json fact = {{"index", list.size()}, {"name", entry.name}, {"unit", entry.unit}};
       if (const model::Coordinate* coordinate = coordinate_of(entry))
         fact["coordinate"] = coordinate->name;
@@ -197,11 +201,12 @@ class Facts {
   }
 
   Json outputs() const {
-    const std::vector<OutputNumber> numbers = output_numbers(mechanism_, compiled_.facts.outputs);
+    const std::vector<programs::OutputNumber> numbers =
+        programs::output_numbers(mechanism_, compiled_.facts.outputs);
     Json list = Json::array();
     for (const model::Output& output : mechanism_.outputs) {
       Json rows = Json::array();
-      for (const OutputNumber& number : numbers)
+      for (const programs::OutputNumber& number : numbers)
         if (number.output == output.name) rows.push_back({{"name", number.name}, {"unit", number.unit}});
       Json fact = {{"name", output.name}, {"kind", model::output_kind(output.kind).name}};
       if (const std::string of = model::subject_name(mechanism_, output); !of.empty()) fact["of"] = of;
@@ -227,7 +232,7 @@ class Facts {
   const model::Mechanism& mechanism_;
   const LoadedMechanism& loaded_;
   const CompiledModel& compiled_;
-  Entries entries_;
+  programs::Entries entries_;
   std::vector<double> values_;
 };
 

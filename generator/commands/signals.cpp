@@ -32,16 +32,18 @@ bool matches(std::string_view pattern, std::string_view text) {
 }  // namespace
 
 Signals::Signals(const LoadedMechanism& loaded, const std::vector<programs::OutputFacts>& outputs) {
-  const Entries entries = entries_of(loaded);
+  const programs::Entries entries = programs::entries_of(loaded.mechanism, loaded.plan());
   positions_ = entries.positions.size();
   state_ = positions_ + entries.velocities.size();
-  for (const Entry& entry : entries.positions) list_.push_back({entry.name, entry.unit, "position"});
-  for (const Entry& entry : entries.velocities)
+  for (const programs::Entry& entry : entries.positions)
+    list_.push_back({entry.name, entry.unit, "position"});
+  for (const programs::Entry& entry : entries.velocities)
     list_.push_back({entry.name + "_velocity", entry.unit, "velocity"});
   for (const char* energy : {"kinetic_energy", "potential_energy", "total_energy"})
     list_.push_back({energy, "J", "energy"});
-  for (const Entry& entry : entries.inputs) list_.push_back({entry.name + "_input", entry.unit, "input"});
-  for (const OutputNumber& number : output_numbers(loaded.mechanism, outputs))
+  for (const programs::Entry& entry : entries.inputs)
+    list_.push_back({entry.name + "_input", entry.unit, "input"});
+  for (const programs::OutputNumber& number : programs::output_numbers(loaded.mechanism, outputs))
     list_.push_back({number.name, number.unit, "output", number.output});
   tell_apart();
 }

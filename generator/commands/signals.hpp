@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "commands/entries.hpp"
+#include "commands/load.hpp"
+#include "programs/entries.hpp"
 #include "studies/flow.hpp"
 
 namespace jourdain::commands {

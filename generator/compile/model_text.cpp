@@ -100,6 +100,8 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.sha256 = options.sha256;
   text.imported = options.imported;
   text.facts = compiled.facts;
+  text.variables =
+      programs::variables_of(mechanism, options.loops ? &*options.loops : nullptr, compiled.facts);
   if (options.loops) describe_loops(mechanism, *options.loops, text);
   text.assumptions = compiled.assumptions;
   text.left_out = left_out_sentences(compiled.omissions);

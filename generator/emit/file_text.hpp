@@ -6,6 +6,7 @@
 
 #include "ir/module.hpp"
 #include "programs/functions.hpp"
+#include "programs/variables.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::emit {
@@ -20,6 +21,7 @@ struct ModelText {
   std::string sha256;                       ///< of the description
   std::vector<support::FileHash> imported;  ///< files that it imports
   programs::SceneFacts facts;
+  std::vector<programs::Variable> variables;
   std::vector<std::string> loops;  ///< sentences on how loops are closed
   double least_regularity = 0,
          greatest_opening = 0;     ///< limits of State's members of these names; with loops

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
+#include "emit/dependence.hpp"
 #include "emit/unique_names.hpp"
 
 namespace jourdain::emit {
@@ -39,6 +41,34 @@ std::string ranges_object(const std::vector<loops::ProvenRange>& ranges,
     text += fmt::format("{}\"{}\": [{}, {}]", text.empty() ? "" : ", ", quoted_text(names[range.index]),
                         range.low, range.high);
   return "{" + text + "}";
+}
+
+std::string number_array(std::span<const double> values) {
+  std::string text;
+  for (const double value : values) text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
+  return "[" + text + "]";
+}
+
+/// One line for each variable.
+std::string variables_array(const ModelText& model, const ir::Module& module) {
+  std::string text;
+  for (const programs::Variable& variable : model.variables) {
+    text += fmt::format(R"({}    {{"name": "{}", "role": "{}", "index": {}, "quantity": "{}", "unit": "{}")",
+                        text.empty() ? "" : ",\n", quoted_text(variable.name), role_name(variable.role),
+                        variable.index, quantity_name(variable.quantity), quoted_text(variable.unit));
+    if (variable.is_array)
+      text += fmt::format(R"(, "rows": {}, "columns": {}, "numbers": {})", variable.rows, variable.columns,
+                          string_array(variable.numbers));
+    if (!variable.start.empty()) text += fmt::format(R"(, "start": {})", number_array(variable.start));
+    if (variable.range) text += fmt::format(R"(, "range": {})", number_array(*variable.range));
+    if (variable.derivative_of)
+      text += fmt::format(R"(, "derivative_of": "{}")",
+                          quoted_text(model.variables[*variable.derivative_of].name));
+    const std::vector<std::string> read = dependence(variable, model.facts, module);
+    if (!read.empty()) text += fmt::format(R"(, "depends_on": {})", string_array(read));
+    text += fmt::format(R"(, "description": "{}"}})", quoted_text(variable.description));
+  }
+  return text.empty() ? "[]" : "[\n" + text + "\n  ]";
 }
 
 }  // namespace
@@ -92,6 +122,7 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   field("parameters", string_array(parameters));
   field("parameter_values", "[" + values + "]");
   if (!ranges.empty()) field("parameter_ranges", "{" + ranges + "}");
+  field("variables", variables_array(model, module));
   field("functions", string_array(names));
   text += "  \"operations\": {\n";
   text += fmt::format("    \"model\": {}", operations_object(ir::count_operations(module.constants)));

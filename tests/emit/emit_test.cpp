@@ -14,10 +14,10 @@
 #include "emit/cpp/layout.hpp"
 #include "emit/cpp/printer.hpp"
 #include "emit/cpp/structs.hpp"
-#include "emit/output_names.hpp"
 #include "emit/templates.hpp"
 #include "emit/unique_names.hpp"
 #include "ir/builder.hpp"
+#include "programs/output_names.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::emit {

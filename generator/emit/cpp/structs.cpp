@@ -7,8 +7,8 @@
 
 #include "emit/cpp/layout.hpp"
 #include "emit/cpp/printer.hpp"
-#include "emit/output_names.hpp"
 #include "emit/parameters.hpp"
+#include "programs/output_names.hpp"
 
 namespace jourdain::emit::cpp {
 
@@ -21,7 +21,7 @@ std::string output_struct(const ModelText& model) {
   for (const programs::OutputFacts& output : model.facts.outputs) {
     std::string members;
     for (const programs::OutputMember& member : output.members) {
-      const std::string bounds = subscripts(member, member.rows, member.columns);
+      const std::string bounds = programs::subscripts(member, member.rows, member.columns);
       if (member.name.empty())
         text += fmt::format("  Real {}{};  ///< {}\n", output.name, bounds, comment_text(output.comment));
       else

@@ -5,15 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "commands/load.hpp"
-#include "emit/file_text.hpp"
+#include "loops/record/loop_plan.hpp"
+#include "model/mechanism.hpp"
+#include "programs/scene_facts.hpp"
 
-namespace jourdain::commands {
+namespace jourdain::programs {
 
 /// An entry of y, z or u.
 struct Entry {
   std::string name;
-  std::string unit;  ///< "1" of quaternions; empty: the description does not say
+  std::string unit;         ///< "1" of quaternions; empty: the description does not say
+  std::string description;  ///< what it is, in which axes
   std::optional<model::JointIndex> joint = {};
   std::optional<std::size_t> coordinate =
       {};              ///< of the joint; none for entries of quaternions and free joints
@@ -25,7 +27,7 @@ struct Entry {
 struct Entries {
   std::vector<Entry> positions, velocities, inputs;
 };
-Entries entries_of(const LoadedMechanism& loaded);
+Entries entries_of(const model::Mechanism& mechanism, const loops::LoopPlan* plan);
 
 /// Units of a coordinate, and of the force on it.
 const char* position_unit(const model::Coordinate& coordinate);
@@ -39,6 +41,6 @@ struct OutputNumber {
   std::string unit;    ///< "1" of rotation matrices; empty: the description does not say
 };
 std::vector<OutputNumber> output_numbers(const model::Mechanism& mechanism,
-                                         const std::vector<programs::OutputFacts>& declared);
+                                         const std::vector<OutputFacts>& declared);
 
-}  // namespace jourdain::commands
+}  // namespace jourdain::programs

@@ -1,15 +1,14 @@
-#include "emit/output_names.hpp"
+#include "programs/output_names.hpp"
 
 #include <fmt/format.h>
 
-namespace jourdain::emit {
+namespace jourdain::programs {
 
-std::string subscripts(const programs::OutputMember& member, int a, int b) {
+std::string subscripts(const OutputMember& member, int a, int b) {
   return (member.rows > 1 ? fmt::format("[{}]", a) : "") + (member.is_matrix ? fmt::format("[{}]", b) : "");
 }
 
-std::vector<std::string> number_names(const programs::OutputFacts& output,
-                                      const programs::OutputMember& member) {
+std::vector<std::string> number_names(const OutputFacts& output, const OutputMember& member) {
   const std::string prefix = output.name + (member.name.empty() ? "" : "." + member.name);
   std::vector<std::string> names;
   for (int row = 0; row < member.rows; ++row)
@@ -18,4 +17,4 @@ std::vector<std::string> number_names(const programs::OutputFacts& output,
   return names;
 }
 
-}  // namespace jourdain::emit
+}  // namespace jourdain::programs
