@@ -49,6 +49,27 @@ readback::ExpectedKinematics expected_kinematics(const model::KinematicFunction&
   return expected;
 }
 
+std::vector<readback::ExpectedVariable> expected_variables(const std::vector<programs::Variable>& table) {
+  std::vector<readback::ExpectedVariable> list;
+  for (const programs::Variable& variable : table) {
+    readback::ExpectedVariable& expected = list.emplace_back();
+    expected.name = variable.name;
+    expected.role = role_name(variable.role);
+    expected.quantity = quantity_name(variable.quantity);
+    expected.unit = variable.unit;
+    expected.description = variable.description;
+    expected.index = variable.index;
+    expected.rows = variable.rows;
+    expected.columns = variable.columns;
+    expected.is_array = variable.is_array;
+    expected.numbers = variable.numbers;
+    expected.start = variable.start;
+    expected.range = variable.range;
+    if (variable.derivative_of) expected.derivative_of = table[*variable.derivative_of].name;
+  }
+  return list;
+}
+
 }  // namespace
 
 readback::Expected expected_text(const model::Mechanism& mechanism, const CompileOptions& options,
@@ -65,6 +86,8 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   expected.inputs = facts.inputs;
   for (const model::Parameter& parameter : facts.parameters)
     expected.parameters.push_back({parameter.name, parameter.value, parameter.range});
+  expected.variables =
+      expected_variables(programs::variables_of(mechanism, options.loops ? &*options.loops : nullptr, facts));
   for (const programs::OutputFacts& output : facts.outputs) {
     readback::ExpectedOutput& declared =
         expected.outputs.emplace_back(readback::ExpectedOutput{output.name, {}});
@@ -82,6 +105,7 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   expected.dynamics_depend_on_time = facts.time.dynamics;
   expected.outputs_depend_on_time = facts.time.outputs;
   expected.clock = facts.clock;
+  expected.rate_is_velocity = !facts.has_rate();
   expected.all_derivatives = facts.all_derivatives;
   expected.assumptions = compiled.assumptions;
   expected.sentences.insert(expected.sentences.end(), compiled.assumptions.begin(),

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "emit/dependence.hpp"
+#include "emit/what_depends.hpp"
 #include "emit/unique_names.hpp"
 
 namespace jourdain::emit {

@@ -54,6 +54,18 @@ struct ExpectedTangent {
   std::size_t position = 0, velocity = 0;
 };
 
+/// A row of the table of variables, but for what it depends on, which follows from the programs.
+struct ExpectedVariable {
+  std::string name, role, quantity, unit, description;
+  std::size_t index = 0;
+  int rows = 1, columns = 1;
+  bool is_array = false;
+  std::vector<std::string> numbers;
+  std::vector<double> start;
+  std::optional<std::array<double, 2>> range = {};
+  std::string derivative_of;  ///< empty: of nothing
+};
+
 struct Expected {
   const ir::Module* module = nullptr;
   std::string name;                                                     ///< of namespace and files
@@ -61,12 +73,14 @@ struct Expected {
   std::vector<support::FileHash> imported;                              ///< files that it imports
   std::vector<std::string> positions, velocities, inputs, constraints;  ///< names in order
   std::vector<ExpectedParameter> parameters;
+  std::vector<ExpectedVariable> variables;
   std::vector<ExpectedOutput> outputs;
   std::vector<ExpectedKinematics> kinematics;
   std::vector<ExpectedTangent> scalars, quaternions;  ///< of the independent coordinates
   std::vector<std::size_t> dependents;                ///< entries of y that close_loops sets
   bool dynamics_depend_on_time = false, outputs_depend_on_time = false;
-  bool clock = false;  ///< states hold the time
+  bool clock = false;             ///< states hold the time
+  bool rate_is_velocity = false;  ///< dy/dt = z
   bool all_derivatives = true;
   int closings = 1;  ///< calls of close_loops where dependent positions were not moved along
   double least_regularity = 0, greatest_opening = 0;

@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "readback/api.hpp"
+#include "readback/dependencies.hpp"
 #include "readback/methods.hpp"
 #include "readback/tokens.hpp"
 
@@ -125,51 +125,25 @@ class ManifestCheck {
     if (!ranges.empty()) expect("parameter_ranges", ranges);
   }
 
-  /// Numbers of each role, in their order; what is said of them elsewhere must be the same.
   void variables() {
-    seen_.insert("variables");
-    if (!root_.contains("variables") || !root_["variables"].is_array()) throw Refusal("no list of variables");
-    std::map<std::string, std::size_t> numbers;
-    std::set<std::string> names;
-    const std::size_t arguments =
-        1 + expected_.positions.size() + expected_.velocities.size() + expected_.inputs.size();
-    for (const json& variable : root_["variables"]) {
-      const std::string name = variable.at("name"), role = variable.at("role");
-      const std::size_t count =
-          variable.value("rows", std::size_t{1}) * variable.value("columns", std::size_t{1});
-      if (!names.insert(name).second) findings_.add("NAME.json has two variables {}", name);
-      findings_.expect("index of " + name, variable.at("index").get<std::size_t>(), numbers[role]);
-      for (const char* key : {"start", "depends_on", "numbers"})
-        if (variable.contains(key)) findings_.expect(key + (" of " + name), variable[key].size(), count);
-      for (const json& read : variable.value("depends_on", json::array()))
-        if (read.get<std::string>().size() != arguments ||
-            read.get<std::string>().find_first_not_of("01") != std::string::npos)
-          findings_.add("NAME.json: {} depends on {}", name, read.dump());
-      if (role == "parameter") parameter_variable(variable, numbers[role]);
-      numbers[role] += count;
+    json wanted = json::array();
+    for (const ExpectedVariable& variable : expected_.variables) {
+      json row = {{"name", shown({variable.name})[0]}, {"role", variable.role},
+                  {"index", variable.index},           {"quantity", variable.quantity},
+                  {"unit", shown({variable.unit})[0]}, {"description", shown({variable.description})[0]}};
+      if (variable.is_array) {
+        row["rows"] = variable.rows;
+        row["columns"] = variable.columns;
+        row["numbers"] = shown(variable.numbers);
+      }
+      if (!variable.start.empty()) row["start"] = variable.start;
+      if (variable.range) row["range"] = *variable.range;
+      if (!variable.derivative_of.empty()) row["derivative_of"] = shown({variable.derivative_of})[0];
+      if (const std::vector<std::string> read = what_is_read(variable, expected_); !read.empty())
+        row["depends_on"] = read;
+      wanted.push_back(row);
     }
-    const std::size_t ny = expected_.positions.size(), nz = expected_.velocities.size();
-    const std::pair<const char*, std::size_t> wanted[] = {{"time", expected_.clock ? 1 : 0},
-                                                          {"position", ny},
-                                                          {"velocity", nz},
-                                                          {"position_rate", ny},
-                                                          {"acceleration", nz},
-                                                          {"input", expected_.inputs.size()},
-                                                          {"output", output_numbers(expected_)},
-                                                          {"parameter", expected_.parameters.size()},
-                                                          {"constant", numbers["constant"]}};
-    for (const auto& [role, count] : wanted)
-      findings_.expect(fmt::format("variables of the role {}", role), numbers[role], count);
-    findings_.expect("roles of variables", numbers.size(), std::size(wanted));
-  }
-
-  void parameter_variable(const json& variable, std::size_t index) {
-    if (index >= expected_.parameters.size()) return;
-    const ExpectedParameter& parameter = expected_.parameters[index];
-    json range;
-    if (parameter.range) range = *parameter.range;
-    if (variable.at("start") != json::array({parameter.value}) || variable.value("range", json()) != range)
-      findings_.add("NAME.json: {} is not as in parameter_values", parameter.name);
+    expect("variables", wanted);
   }
 
   void operations() {

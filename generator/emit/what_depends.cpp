@@ -1,4 +1,4 @@
-#include "emit/dependence.hpp"
+#include "emit/what_depends.hpp"
 
 #include <fmt/format.h>
 
