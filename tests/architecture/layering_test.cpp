@@ -172,8 +172,8 @@ TEST(Layering, StudiesNameNoModel) {
 
 /// Paths of files between backticks: from the page, from its parent, the generator or the top; NAME stands for any.
 TEST(Pages, NameFilesThatExist) {
-  for (const char* page :
-       {"generator/README.md", "generator/loops/README.md", "runtime/README.md", "models/README.md"}) {
+  for (const char* page : {"generator/README.md", "generator/loops/README.md", "runtime/README.md",
+                           "models/README.md", "templates/README.md"}) {
     const std::string text = support::read_file((kSource / page).string());
     const fs::path folder = (kSource / page).parent_path();
     std::size_t found = 0;
