@@ -128,7 +128,7 @@ TEST_P(Rebuild, FollowsWhatTheDescriptionImports) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Generators, Rebuild, testing::Values("Ninja", "Unix Makefiles"),
-                         [](const auto& info) { return info.index == 0 ? "Ninja" : "Makefiles"; });
+                         [](const auto& generator) { return generator.index == 0 ? "Ninja" : "Makefiles"; });
 
 /// What the target's root holds is all that is found but by find_package(... CMAKE_FIND_ROOT_PATH_BOTH).
 TEST(AddModel, WorksWhenCrossCompiling) {

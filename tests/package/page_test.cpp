@@ -75,7 +75,7 @@ TEST_P(Page, MakesAProgramThatComputesWhatTheCommandDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Generators, Page, testing::Values("Ninja", "Unix Makefiles"),
-                         [](const auto& info) { return info.index == 0 ? "Ninja" : "Makefiles"; });
+                         [](const auto& generator) { return generator.index == 0 ? "Ninja" : "Makefiles"; });
 
 /// Lines that the page shows are those of the example.
 TEST(Pages, ShowTheLinesOfTheExample) {
