@@ -19,5 +19,6 @@ void add_simulate(CLI::App& app, int& status);
 void add_report(CLI::App& app, int& status);
 void add_cost(CLI::App& app, int& status);
 void add_keys(CLI::App& app, int& status);
+void add_pages(CLI::App& app, int& status);
 
 }  // namespace jourdain::commands

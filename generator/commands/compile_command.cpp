@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "commands/commands.hpp"
-#include "commands/kinematic_choice.hpp"
+#include "commands/dependencies.hpp"
+#include "commands/emission.hpp"
 #include "commands/load.hpp"
-#include "commands/method_names.hpp"
 #include "commands/report_text.hpp"
 
 namespace jourdain::commands {
@@ -17,9 +17,10 @@ namespace {
 
 struct Arguments {
   ModelArguments model;
+  EmissionArguments emission;
   std::string folder;
-  std::vector<std::string> functions, frames;
-  bool clock = false, explain = false;
+  std::string depfile;  ///< of a build system; empty: none
+  bool explain = false;
   std::string dump;  ///< pass whose programs are printed, or kAllPasses; empty: none
 };
 
@@ -33,22 +34,14 @@ std::string check_pass(const std::string& pass) {
   return fmt::format("no pass '{}'; there are {}", pass, fmt::join(known, ", "));
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, const CLI::App& command) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
-  const std::string conflict = check_derivative_terms(arguments.functions, loaded->options.derivative_terms);
-  if (!conflict.empty()) {
-    fmt::print(stderr, "error: {}\n", conflict);
-    return kUsage;
-  }
-  std::vector<std::string> functions = arguments.functions;
-  if (const std::string wrong = choose_kinematics(arguments.frames, functions, loaded->mechanism);
-      !wrong.empty()) {
+  if (const std::string wrong = arguments.emission.apply(*loaded); !wrong.empty()) {
     fmt::print(stderr, "error: {}\n", wrong);
     return kUsage;
   }
-  loaded->options.clock = arguments.clock;
-  if (!arguments.functions.empty()) loaded->options.functions = functions;
+  loaded->options.words = emission_words(command);
   if (!arguments.dump.empty())
     loaded->options.watch = [&](const passes::PassRecord& pass, const ir::Module& module) {
       if (arguments.dump == kAllPasses || arguments.dump == pass.name)
@@ -57,9 +50,13 @@ int run(const Arguments& arguments) {
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
   support::write_files(arguments.folder, compiled.files);
-  fmt::print("{}: {}\n", loaded->options.name, freedom_text(*loaded));
+  std::vector<std::string> written;
   for (const emit::File& file : compiled.files)
-    fmt::print("  wrote {}\n", (std::filesystem::path(arguments.folder) / file.name).generic_string());
+    written.push_back((std::filesystem::path(arguments.folder) / file.name).generic_string());
+  if (!arguments.depfile.empty())
+    support::write_file(arguments.depfile, dependency_rule(written, loaded->sources));
+  fmt::print("{}: {}\n", loaded->options.name, freedom_text(*loaded));
+  for (const std::string& path : written) fmt::print("  wrote {}\n", path);
   fmt::print("{}{}{}", operations_table(compiled.module), verdict_text(compiled.verdict),
              readback_text(compiled.readback));
   if (arguments.explain)
@@ -76,14 +73,9 @@ void add_compile(CLI::App& app, int& status) {
       app.add_subcommand("compile", "emit C++ for a model: jourdain compile arm.toml -o src/arm");
   arguments->model.add_to(*command);
   command->add_option("-o,--output", arguments->folder, "folder to write into")->required();
-  command
-      ->add_option(
-          "--functions", arguments->functions,
-          "functions to emit (default: all, of the steps rk4_step), those of momentum and weight too: "
-          "gravity_compensation, centroidal_momentum_matrix, …")
-      ->delimiter(',');
-  command->add_option("--frame", arguments->frames, kFrameHelp)->expected(1)->take_all();
-  command->add_flag("--clock", arguments->clock, "keep the time in State, though nothing depends on it");
+  arguments->emission.add_to(*command);
+  command->add_option("--depfile", arguments->depfile,
+                      "write a rule for make or Ninja: what the files are made from, imports too");
   command->add_flag("--explain", arguments->explain,
                     "print what was compared with what, what each pass did and what was left out");
   command
@@ -93,7 +85,7 @@ void add_compile(CLI::App& app, int& status) {
                       "one of {}, {}",
                       kLowered, fmt::join(passes::pass_names(), ", ")))
       ->check(check_pass);
-  command->callback([arguments, &status] { status = run(*arguments); });
+  command->callback([arguments, command, &status] { status = run(*arguments, *command); });
 }
 
 }  // namespace jourdain::commands

@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
+#include "commands/model_schema.hpp"
 #include "model/read/keys.hpp"
 #include "report/text_table.hpp"
 
@@ -55,7 +56,7 @@ std::string tables(const std::string& only) {
 void add_keys(CLI::App& app, int& status) {
   struct Arguments {
     std::string section;
-    bool markdown = false;
+    bool markdown = false, schema = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
@@ -64,9 +65,14 @@ void add_keys(CLI::App& app, int& status) {
   for (const model::KeySection& section : model::key_sections()) names.emplace_back(section.name);
   command->add_option("SECTION", arguments->section, "of the model; all where left out")
       ->check(CLI::IsMember(names));
-  command->add_flag("--markdown", arguments->markdown, "as the page models/README.md");
+  CLI::Option* markdown =
+      command->add_flag("--markdown", arguments->markdown, "as the page models/README.md");
+  command->add_flag("--schema", arguments->schema, "as a JSON schema for editors of TOML")
+      ->excludes(markdown);
   command->callback([arguments, &status] {
-    fmt::print("{}", arguments->markdown ? page() : tables(arguments->section));
+    fmt::print("{}", arguments->schema     ? model_schema()
+                     : arguments->markdown ? page()
+                                           : tables(arguments->section));
     status = kSuccess;
   });
 }

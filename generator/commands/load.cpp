@@ -139,6 +139,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   loaded.options.path = printed_path(arguments.path);
   loaded.options.sha256 = sha256(diagnostics.text());
   loaded.options.imported = imported_files(diagnostics);
+  for (const support::SourceFile& file : diagnostics.files()) loaded.sources.push_back(file.path);
   loaded.options.damping = read.damping;
   if (arguments.derivatives == "applied")
     loaded.options.derivative_terms = programs::DerivativeTerms::kApplied;

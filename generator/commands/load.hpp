@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "compile/compile.hpp"
 #include "model/read/read.hpp"
@@ -36,6 +37,7 @@ struct LoadedMechanism {
   model::Mechanism mechanism;
   CompileOptions options;                            ///< name, path, hash and the plan of the loops filled in
   std::map<std::string, model::Limits> limits = {};  ///< URDF: of joints, by name
+  std::vector<std::string> sources = {};             ///< paths of the description and of all that it imports
 
   std::size_t freedom() const;  ///< degrees of freedom
   /// Generalized velocities of the emitted State: the independent ones, with multipliers all.

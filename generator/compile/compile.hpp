@@ -30,6 +30,8 @@ struct CompileOptions {
   std::string sha256;   ///< of the description
   std::vector<support::FileHash>
       imported;  ///< files that it imports, each once, as printed in the emitted files
+  std::vector<std::string>
+      words;  ///< options of the command line that decide what is emitted, for the manifest
   std::optional<loops::LoopPlan> loops;  ///< of a mechanism with loops; none: planned by `compile`
   bool clock = false;                    ///< states hold the time though nothing depends on it
   bool damping = true;  ///< printed as an assumption when joint damping was switched off on reading

@@ -80,6 +80,7 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   expected.path = options.path;
   expected.sha256 = options.sha256;
   expected.imported = options.imported;
+  expected.options = options.words;
   const programs::SceneFacts& facts = compiled.facts;
   expected.positions = facts.positions;
   expected.velocities = facts.velocities;

@@ -99,6 +99,7 @@ emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptio
   text.path = options.path;
   text.sha256 = options.sha256;
   text.imported = options.imported;
+  text.options = options.words;
   text.facts = compiled.facts;
   text.variables =
       programs::variables_of(mechanism, options.loops ? &*options.loops : nullptr, compiled.facts);

@@ -20,6 +20,7 @@ struct ModelText {
   std::string path;                         ///< relative path of the description
   std::string sha256;                       ///< of the description
   std::vector<support::FileHash> imported;  ///< files that it imports
+  std::vector<std::string> options;         ///< of the command line
   programs::SceneFacts facts;
   std::vector<programs::Variable> variables;
   std::vector<std::string> loops;  ///< sentences on how loops are closed

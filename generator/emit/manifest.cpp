@@ -96,6 +96,7 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   field("model", string(model.path));
   field("sha256", string(model.sha256));
   if (!model.imported.empty()) field("imported", files_array(model.imported));
+  if (!model.options.empty()) field("options", string_array(model.options));
   field("position_count", fmt::format("{}", model.facts.positions.size()));
   field("velocity_count", fmt::format("{}", model.facts.velocities.size()));
   field("input_count", fmt::format("{}", model.facts.inputs.size()));

@@ -71,6 +71,7 @@ struct Expected {
   std::string name;                                                     ///< of namespace and files
   std::string title, path, sha256;                                      ///< of the description
   std::vector<support::FileHash> imported;                              ///< files that it imports
+  std::vector<std::string> options;                                     ///< of the command line
   std::vector<std::string> positions, velocities, inputs, constraints;  ///< names in order
   std::vector<ExpectedParameter> parameters;
   std::vector<ExpectedVariable> variables;

@@ -71,6 +71,7 @@ class ManifestCheck {
     expect("model", shown({expected_.path})[0]);
     expect("sha256", expected_.sha256);
     if (!expected_.imported.empty()) imported();
+    if (!expected_.options.empty()) expect("options", shown(expected_.options));
     expect("position_count", expected_.positions.size());
     expect("velocity_count", expected_.velocities.size());
     expect("input_count", expected_.inputs.size());

@@ -1,5 +1,8 @@
 #include "readback/compiled_text.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "model/read/read.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
@@ -23,7 +26,10 @@ CompiledText compiled_text(const std::string& model, const std::vector<std::stri
   JD_CHECK(mechanism.has_value(), "{}", diagnostics.format());
   CompileOptions options;
   options.path = model + ".toml";
-  if (!functions.empty()) options.functions = functions;
+  if (!functions.empty()) {
+    options.functions = functions;
+    options.words = {fmt::format("--functions={}", fmt::join(functions, ","))};
+  }
   CompiledText text = {compile(*mechanism, options)};
   JD_CHECK(text.compiled.verdict.accepted(), "{}", text.compiled.verdict.failures.front());
   return text;

@@ -288,7 +288,7 @@ KeySection loop_section() {
   return {"loop",
           "[[loop]]",
           "Closes a chain between two frames; the joints make the tree.",
-          {{"name", "name", "", kRequired, ""},
+          {{"name", "name", "", "its number", ""},
            {"type", "word", "", kRequired,
             "ball, revolute, universal, prismatic, cylindrical, planar_pin, point_in_plane, point_on_line, "
             "rod, residual"},

@@ -1,0 +1,65 @@
+#include "commands/emission.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "commands/kinematic_choice.hpp"
+#include "commands/method_names.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+/// Options that change no emitted byte, and --name, which the names of the files say.
+constexpr std::array<std::string_view, 8> kBesideFiles = {"help",    "name",    "output",  "strict",
+                                                          "explain", "dump-ir", "depfile", "against"};
+
+}  // namespace
+
+void EmissionArguments::add_to(CLI::App& command) {
+  command
+      .add_option(
+          "--functions", functions,
+          "functions to emit (default: all, of the steps rk4_step), those of momentum and weight too: "
+          "gravity_compensation, centroidal_momentum_matrix, …")
+      ->delimiter(',');
+  command.add_option("--frame", frames, kFrameHelp)->expected(1)->take_all();
+  command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
+}
+
+std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
+  if (std::string conflict = check_derivative_terms(functions, loaded.options.derivative_terms);
+      !conflict.empty())
+    return conflict;
+  std::vector<std::string> chosen = functions;
+  if (std::string wrong = choose_kinematics(frames, chosen, loaded.mechanism); !wrong.empty()) return wrong;
+  loaded.options.clock = clock;
+  if (!functions.empty()) loaded.options.functions = chosen;
+  return "";
+}
+
+std::vector<std::string> emission_words(const CLI::App& command) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || option->get_lnames().empty()) continue;
+    const std::string name = option->get_lnames().front();
+    if (std::find(kBesideFiles.begin(), kBesideFiles.end(), name) != kBesideFiles.end()) continue;
+    if (option->get_items_expected_max() == 0)
+      words.push_back("--" + name);
+    else if (option->get_delimiter() != '\0')
+      words.push_back(fmt::format("--{}={}", name, fmt::join(option->results(), ",")));
+    else
+      for (const std::string& value : option->results()) words.push_back(fmt::format("--{}={}", name, value));
+  }
+  return words;
+}
+
+}  // namespace jourdain::commands

@@ -1,0 +1,28 @@
+// What the files of a model hold: the arguments of the commands that make them, beside those that say how the model is
+// read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "commands/load.hpp"
+
+namespace jourdain::commands {
+
+struct EmissionArguments {
+  std::vector<std::string> functions, frames;
+  bool clock = false;
+
+  /// Adds --functions, --frame and --clock.
+  void add_to(CLI::App& command);
+
+  /// Sets the options of `loaded` and adds the functions that are asked for to its mechanism. Returns what is wrong
+  /// with the arguments, or nothing.
+  std::string apply(LoadedMechanism& loaded) const;
+};
+
+/// The options of a parsed command that decide what the files hold, in the order of the help, each as one word that may
+/// be given again: "--root=free", "--functions=initial_state,rk4_step", "--no-damping". Empty where none was given.
+std::vector<std::string> emission_words(const CLI::App& command);
+
+}  // namespace jourdain::commands

@@ -1,0 +1,115 @@
+# jourdain_add_model(TARGET MODEL description [NAME name] [ROOT fixed|free] [FUNCTIONS function...] [FRAMES frame...]
+#                    [LANGUAGE cpp|c] [REAL float|double|both] [OPTIONS option...])
+#
+# A static library TARGET of what `jourdain compile` emits for a description, with its folder of headers as a usage
+# requirement. It is made anew when the description changes, a file that it imports, or the command. NAME, of the
+# namespace and the files, is TARGET where it is left out. FRAMES are those of --frame, OPTIONS further ones of
+# `jourdain compile`. What the command prints is kept in NAME.log beside the files.
+include_guard(GLOBAL)
+
+function(jourdain_add_model target)
+  set(values MODEL NAME ROOT LANGUAGE REAL)
+  set(lists FUNCTIONS FRAMES OPTIONS)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "${values}" "${lists}")
+  set(call "jourdain_add_model(${target})")
+  list(JOIN values ", " known)
+  list(JOIN lists ", " known_lists)
+  if(arg_UNPARSED_ARGUMENTS)
+    list(GET arg_UNPARSED_ARGUMENTS 0 word)
+    message(FATAL_ERROR "${call}: '${word}' is no keyword; there are ${known}, ${known_lists}")
+  endif()
+  if(arg_KEYWORDS_MISSING_VALUES)
+    list(GET arg_KEYWORDS_MISSING_VALUES 0 word)
+    message(FATAL_ERROR "${call}: ${word} needs a value")
+  endif()
+  if(NOT DEFINED arg_MODEL)
+    message(FATAL_ERROR "${call}: MODEL is missing, the description of the mechanism")
+  endif()
+  if(TARGET ${target})
+    message(FATAL_ERROR "${call}: there is a target of this name already")
+  endif()
+  jourdain_one_of("${call}" ROOT "${arg_ROOT}" fixed free)
+  jourdain_one_of("${call}" LANGUAGE "${arg_LANGUAGE}" cpp c)
+  jourdain_one_of("${call}" REAL "${arg_REAL}" float double both)
+
+  get_filename_component(model "${arg_MODEL}" ABSOLUTE)
+  if(NOT EXISTS "${model}" OR IS_DIRECTORY "${model}")
+    message(FATAL_ERROR "${call}: there is no file ${model}")
+  endif()
+
+  if(DEFINED arg_NAME)
+    set(name "${arg_NAME}")
+  else()
+    set(name "${target}")
+  endif()
+  if(NOT name MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
+    message(FATAL_ERROR "${call}: '${name}' cannot be the name of a namespace and of files; choose one with NAME")
+  endif()
+  get_property(owner GLOBAL PROPERTY JOURDAIN_MODEL_${name})
+  if(owner)
+    message(FATAL_ERROR "${call}: the name '${name}' is taken by the model of target '${owner}', and two of one name "
+                        "cannot be in one program; choose another with NAME")
+  endif()
+  set_property(GLOBAL PROPERTY JOURDAIN_MODEL_${name} ${target})
+
+  set(options --name ${name})
+  foreach(keyword ROOT LANGUAGE REAL)
+    if(DEFINED arg_${keyword})
+      string(TOLOWER ${keyword} option)
+      list(APPEND options --${option} ${arg_${keyword}})
+    endif()
+  endforeach()
+  if(arg_FUNCTIONS)
+    list(JOIN arg_FUNCTIONS "," functions)
+    list(APPEND options --functions ${functions})
+  endif()
+  foreach(frame IN LISTS arg_FRAMES)
+    list(APPEND options --frame ${frame})
+  endforeach()
+  list(APPEND options ${arg_OPTIONS})
+
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/jourdain/${target})
+  jourdain_file_names(files ${name} "${arg_LANGUAGE}" "${arg_REAL}")
+  list(TRANSFORM files PREPEND ${folder}/)
+  # Files that stay the same keep their time: touched, they are newer than what they are made from.
+  get_target_property(command jourdain::jourdain IMPORTED_LOCATION)
+  add_custom_command(OUTPUT ${files}
+    COMMAND ${command} compile ${model} -o ${folder} ${options} --depfile ${folder}/${name}.d > ${folder}/${name}.log
+    COMMAND ${CMAKE_COMMAND} -E touch ${files}
+    DEPENDS ${model} ${command} DEPFILE ${folder}/${name}.d
+    COMMENT "Compiling ${arg_MODEL}"
+    VERBATIM)
+  file(MAKE_DIRECTORY ${folder})
+
+  add_library(${target} STATIC ${files})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${folder}>)
+  if(arg_LANGUAGE STREQUAL "c")
+    target_compile_features(${target} PUBLIC c_std_99)
+    target_link_libraries(${target} PUBLIC m)
+  else()
+    target_compile_features(${target} PUBLIC cxx_std_17)
+  endif()
+endfunction()
+
+function(jourdain_one_of call keyword value)
+  if(NOT value STREQUAL "" AND NOT value IN_LIST ARGN)
+    list(JOIN ARGN ", " known)
+    message(FATAL_ERROR "${call}: ${keyword} is '${value}', must be one of ${known}")
+  endif()
+endfunction()
+
+# The names of the files that the command writes, in its order.
+function(jourdain_file_names result name language real)
+  set(files "")
+  if(language STREQUAL "c")
+    if(NOT real STREQUAL "float")
+      list(APPEND files ${name}.h ${name}.c)
+    endif()
+    if(real MATCHES "^(float|both)$")
+      list(APPEND files ${name}_f.h ${name}_f.c)
+    endif()
+  else()
+    list(APPEND files ${name}.hpp ${name}_kernels.hpp ${name}.cpp)
+  endif()
+  set(${result} ${files} ${name}.json PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,89 @@
+// The commands of templates/README.md, as they stand there, in clean folders.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "package/project.hpp"
+#include "support/files.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+const std::string kSource = JOURDAIN_SOURCE_DIR;
+
+/// The first block of a language in a page.
+std::string block(const std::string& page, const std::string& language) {
+  const std::string text = support::read_file(kSource + "/" + page);
+  const std::string fence = "```" + language + "\n";
+  const std::size_t begin = text.find(fence) + fence.size();
+  return text.substr(begin, text.find("```", begin) - begin);
+}
+
+/// The numbers behind each name at the begin of a line.
+std::map<std::string, std::vector<double>> printed_numbers(const std::string& text) {
+  std::map<std::string, std::vector<double>> numbers;
+  std::istringstream lines(text);
+  for (std::string line, name; std::getline(lines, line);) {
+    std::istringstream words(line);
+    words >> name;
+    for (double number = 0; words >> number;) numbers[name].push_back(number);
+  }
+  return numbers;
+}
+
+/// Positions at the end of a simulation by the installed command.
+std::vector<double> simulated(const std::string& model, const std::string& options, std::size_t count) {
+  const support::ProcessResult result = run_script(
+      kSource + "/models",
+      fmt::format("{}/bin/jourdain simulate {}.toml {} --output -", installation(), model, options));
+  EXPECT_EQ(result.status, 0) << result.output;
+  std::istringstream rows(result.output);
+  std::string row, last;
+  while (std::getline(rows, row)) last = row;
+  std::istringstream entries(last);
+  std::vector<double> positions;
+  std::getline(entries, row, ',');  // time
+  while (positions.size() < count && std::getline(entries, row, ',')) positions.push_back(std::stod(row));
+  return positions;
+}
+
+class Page : public testing::TestWithParam<const char*> {};
+
+TEST_P(Page, MakesAProgramThatComputesWhatTheCommandDoes) {
+  const support::TemporaryFolder folder;
+  const support::ProcessResult result =
+      run_script(kSource, block("templates/README.md", "sh"),
+                 {"BUILD=" + build_folder(), "PREFIX=" + folder.path() + "/usr",
+                  "PROJECT=" + folder.path() + "/swing", std::string("CMAKE_GENERATOR=") + GetParam()});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const auto printed = printed_numbers(result.output);
+  // The same statements in the same order; the command's CSV has 16 digits.
+  constexpr double kTolerance = 1e-12;
+  for (const auto& [model, options] : {std::pair("panda", "--duration 1 --step 1e-3"),
+                                       std::pair("squeezer", "--duration 0.03 --step 1e-5")}) {
+    ASSERT_TRUE(printed.count(model)) << result.output;
+    const std::vector<double>& positions = printed.at(model);
+    ASSERT_EQ(positions.size(), 7u);
+    const std::vector<double> expected = simulated(model, options, 7);
+    ASSERT_EQ(expected.size(), 7u);
+    for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(positions[i], expected[i], kTolerance) << model << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Generators, Page, testing::Values("Ninja", "Unix Makefiles"),
+                         [](const auto& generator) { return generator.index == 0 ? "Ninja" : "Makefiles"; });
+
+/// Lines that the page shows are those of the example.
+TEST(Pages, ShowTheLinesOfTheExample) {
+  const std::string example = support::read_file(kSource + "/tests/embed/examples/cpp/CMakeLists.txt");
+  std::istringstream lines(block("templates/README.md", "cmake"));
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_NE(example.find(line + "\n"), std::string::npos) << line;
+}
+
+}  // namespace
+}  // namespace jourdain::tests
