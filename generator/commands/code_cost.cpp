@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "commands/tool.hpp"
 #include "support/check.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 /// A function of the object by its mangled name.
 struct Node {
+  bool defined = false;      ///< not only called
   long stack = 0, code = 0;  ///< its own, bytes
   std::set<std::string> callees;
 };
@@ -51,8 +53,9 @@ CallGraph read_calls(const std::string& text) {
                          label.find("bounded", bytes) != std::string::npos;
     JD_CHECK(bounded, "a frame depends on data: {}", label);
     const std::size_t begin = label.rfind("\\n", bytes) + 2;
-    graph[symbol_of(quoted_after(line, "title: "))].stack =
-        std::atol(label.substr(begin, bytes - begin).c_str());
+    Node& node = graph[symbol_of(quoted_after(line, "title: "))];
+    node.defined = true;
+    node.stack = std::atol(label.substr(begin, bytes - begin).c_str());
   }
   return graph;
 }
@@ -88,7 +91,7 @@ void collect(const CallGraph& graph, const std::string& symbol, std::set<std::st
 CodeCost cost_of(const CallGraph& graph, const std::string& symbol) {
   std::set<std::string> reached;
   collect(graph, symbol, reached);
-  CodeCost cost{deepest_stack(graph, symbol), 0};
+  CodeCost cost{deepest_stack(graph, symbol), 0, symbol};
   for (const std::string& name : reached) cost.code += graph.at(name).code;
   return cost;
 }
@@ -103,16 +106,8 @@ std::string demangled(const std::string& symbol) {
 /// Of the function whose name in C++ holds `signature`.
 std::optional<CodeCost> find_cost(const CallGraph& graph, const std::string& signature) {
   for (const auto& [symbol, node] : graph)
-    if (node.stack > 0 && demangled(symbol).find(signature) != std::string::npos)
-      return cost_of(graph, symbol);
+    if (node.defined && demangled(symbol).find(signature) != std::string::npos) return cost_of(graph, symbol);
   return {};
-}
-
-std::string run(const std::vector<std::string>& command) {
-  const support::ProcessResult result = support::run_process(command);
-  if (result.status == 0) return result.output;
-  throw support::EnvironmentError(fmt::format("'{}' fails (exit status {}):\n{}", command.front(),
-                                              result.status, result.output.substr(0, 2000)));
 }
 
 /// Does the compiler draw graphs of calls?
@@ -125,19 +120,38 @@ bool draws_calls(const std::string& folder, NumberType number) {
   return support::run_process(command).status == 0;
 }
 
-CallGraph compiled_graph(const std::string& folder, const std::string& name, NumberType number) {
-  std::vector<std::string> command = compiler_command(number);
-  const std::string object = folder + "/object";
-  for (const std::string& argument : {std::string("-fcallgraph-info=su"), std::string("-c"),
-                                      folder + "/" + name + ".cpp", std::string("-o"), object + ".o"})
+CallGraph compiled_graph(const CodeTools& tools, const std::string& source, const std::string& object) {
+  std::vector<std::string> command = tools.compiler;
+  for (const std::string& argument :
+       {std::string("-fcallgraph-info=su"), std::string("-c"), source, std::string("-o"), object + ".o"})
     command.push_back(argument);
-  run(command);
+  run_tool(command);
   CallGraph graph = read_calls(support::read_file(object + ".ci"));
-  read_sizes(run({"nm", "-S", "--defined-only", object + ".o"}), graph);
+  read_sizes(run_tool({tools.nm, "-S", "--defined-only", object + ".o"}), graph);
   return graph;
 }
 
 }  // namespace
+
+std::map<std::string, std::string> function_signatures(const std::string& name, const CompiledModel& compiled,
+                                                       NumberType number) {
+  const std::string real = number == NumberType::kFloat ? "float" : "double";
+  std::map<std::string, std::string> signatures = {
+      {"model", fmt::format("{}::Model<{}>::Model(", name, real)}};
+  for (const programs::FunctionInfo& function : compiled.functions)
+    signatures[function.name] = fmt::format("{}::{}<{}>(", name, function.name, real);
+  return signatures;
+}
+
+std::map<std::string, CodeCost> source_costs(const CodeTools& tools, const std::string& source,
+                                             const std::string& object,
+                                             const std::map<std::string, std::string>& signatures) {
+  const CallGraph graph = compiled_graph(tools, source, object);
+  std::map<std::string, CodeCost> costs;
+  for (const auto& [function, signature] : signatures)
+    if (const std::optional<CodeCost> cost = find_cost(graph, signature)) costs[function] = *cost;
+  return costs;
+}
 
 std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& name,
                                                           const CompiledModel& compiled, NumberType number) {
@@ -145,16 +159,8 @@ std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& nam
   if (!draws_calls(folder.path(), number)) return {};
   for (const emit::File& file : compiled.files)
     support::write_file(folder.path() + "/" + file.name, file.text);
-  const CallGraph graph = compiled_graph(folder.path(), name, number);
-  const std::string real = number == NumberType::kFloat ? "float" : "double";
-  std::map<std::string, CodeCost> costs;
-  const auto add = [&](const std::string& function, const std::string& signature) {
-    if (const std::optional<CodeCost> cost = find_cost(graph, signature)) costs[function] = *cost;
-  };
-  add("model", fmt::format("{}::Model<{}>::Model(", name, real));
-  for (const programs::FunctionInfo& function : compiled.functions)
-    add(function.name, fmt::format("{}::{}<{}>(", name, function.name, real));
-  return costs;
+  return source_costs({compiler_command(number)}, folder.path() + "/" + name + ".cpp",
+                      folder.path() + "/object", function_signatures(name, compiled, number));
 }
 
 }  // namespace jourdain::commands

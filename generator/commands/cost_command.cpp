@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
@@ -11,6 +12,7 @@
 #include "commands/method_names.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
+#include "commands/target_text.hpp"
 #include "model/angular_entries.hpp"
 #include "support/files.hpp"
 
@@ -23,15 +25,17 @@ struct Arguments {
   studies::StepCostOptions steps;
   std::vector<std::string> methods;
   std::string output;
+  std::string target;  ///< empty: this machine
 };
 
-studies::ReportHead head_of(const Arguments& arguments, const LoadedMechanism& loaded) {
+studies::ReportHead head_of(const Arguments& arguments, const LoadedMechanism& loaded,
+                            const std::string& compiler) {
   return {loaded.options.name,
           loaded.mechanism.description,
           loaded.options.path,
           loaded.options.sha256,
           arguments.run.real,
-          compiler_text(number_type(arguments.run.real)),
+          compiler,
           fmt::format("Jourdain {}", emit::kVersion),
           ""};
 }
@@ -51,7 +55,7 @@ int report_on(const Arguments& arguments, const RunModel& model, const CompiledM
   flow.set_start(inputs->start);
   if (!check_closed(model, flow)) return kModelWrong;
   bar.show("stack and code", 0);
-  const studies::ReportHead head = head_of(arguments, model.loaded);
+  const studies::ReportHead head = head_of(arguments, model.loaded, compiler_text(number));
   CostReport report{head, compiled,          loaded.table(),       code_costs(name, compiled, number),
                     {},   arguments.steps.h, studies::clock_tick()};
   report.steps = measure_step_costs(flow, model::angular_positions(model.loaded.mechanism), arguments.steps,
@@ -59,6 +63,35 @@ int report_on(const Arguments& arguments, const RunModel& model, const CompiledM
   if (!arguments.output.empty()) support::write_file(arguments.output, cost_json(report));
   bar.clear();
   fmt::print("{}", cost_text(report));
+  if (!arguments.output.empty()) fmt::print("  wrote {}\n", arguments.output);
+  return kSuccess;
+}
+
+/// Whether the loops close at the parameters' values, which this machine's compiler finds out; false after a message.
+bool closes(const RunModel& model, const CompiledModel& compiled) {
+  if (!model.loaded.plan()) return true;
+  const studies::LoadedModel loaded = build_model(model.loaded.options.name, compiled, NumberType::kDouble);
+  studies::set_parameters(loaded.table(), model.parameters);
+  const studies::ConstantInputs inputs(
+      std::vector<double>(static_cast<std::size_t>(loaded.table().input_count)));
+  return check_closed(model, studies::Flow<double>(loaded.table(), inputs));
+}
+
+/// The same of a target; nothing is timed.
+int report_on_target(const Arguments& arguments, const RunModel& model, const CompiledModel& compiled,
+                     ProgressBar& bar) {
+  const Target& target = *find_target(arguments.target);
+  const NumberType number = number_type(arguments.run.real);
+  if (!arguments.run.settings.empty() && !closes(model, compiled)) return kModelWrong;
+  bar.show(fmt::format("compiling and simulating for {}", target.name), 0);
+  const studies::ReportHead head = head_of(arguments, model.loaded, compiler_version(target));
+  const TargetReport report{head, compiled, target,
+                            target_costs(head.name, compiled, number, target,
+                                         {model.parameters, arguments.run.constant_input, arguments.steps.h}),
+                            arguments.steps.h};
+  if (!arguments.output.empty()) support::write_file(arguments.output, target_json(report));
+  bar.clear();
+  fmt::print("{}", target_text(report));
   if (!arguments.output.empty()) fmt::print("  wrote {}\n", arguments.output);
   return kSuccess;
 }
@@ -71,6 +104,7 @@ int run(Arguments arguments) {
     fmt::print(stderr, "error: {}\n", conflict);
     return kUsage;
   }
+  if (!arguments.target.empty()) check_tools(*find_target(arguments.target));
   int status = kSuccess;
   const std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
@@ -89,7 +123,15 @@ int run(Arguments arguments) {
   options.functions = loadable_functions(arguments.methods);
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
-  return report_on(arguments, *model, compiled, bar);
+  return arguments.target.empty() ? report_on(arguments, *model, compiled, bar)
+                                  : report_on_target(arguments, *model, compiled, bar);
+}
+
+/// Floating-point units of single precision take float, unless the user says otherwise.
+void choose_number_type(const CLI::App& command, Arguments& arguments) {
+  const Target* target = find_target(arguments.target);
+  if (target && target->usually_float && command.get_option("--real")->count() == 0)
+    arguments.run.real = "float";
 }
 
 }  // namespace
@@ -104,13 +146,28 @@ void add_cost(CLI::App& app, int& status) {
       ->delimiter(',')
       ->check(check_method);
   command->add_option("--step", arguments->steps.h, "s")->check(CLI::PositiveNumber)->capture_default_str();
-  command->add_option("--warm", arguments->steps.warm, "single steps of each method, one after the other")
-      ->check(CLI::Range(1L, 100000000L))
-      ->capture_default_str();
-  command->add_option("--cold", arguments->steps.cold, "single steps of each method with evicted caches")
-      ->check(CLI::Range(1L, 100000L))
-      ->capture_default_str();
-  command->callback([arguments, &status] { status = run(*arguments); });
+  CLI::Option* warm =
+      command->add_option("--warm", arguments->steps.warm, "single steps of each method, one after the other")
+          ->check(CLI::Range(1L, 100000000L))
+          ->capture_default_str();
+  CLI::Option* cold =
+      command->add_option("--cold", arguments->steps.cold, "single steps of each method with evicted caches")
+          ->check(CLI::Range(1L, 100000L))
+          ->capture_default_str();
+  command
+      ->add_option(
+          "--target", arguments->target,
+          fmt::format("firmware for {}: code, stack and instructions, counted in a simulator; nothing "
+                      "is timed",
+                      fmt::join(target_names(), ", ")))
+      ->check(check_target)
+      ->excludes(warm)
+      ->excludes(cold)
+      ->excludes(command->get_option("--inputs"));
+  command->callback([arguments, command, &status] {
+    choose_number_type(*command, *arguments);
+    status = run(*arguments);
+  });
 }
 
 }  // namespace jourdain::commands

@@ -1,0 +1,151 @@
+#include "firmware/firmware.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <filesystem>
+#include <sstream>
+
+#include "commands/tool.hpp"
+#include "support/check.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+using commands::Target;
+using Command = std::vector<std::string>;
+
+const std::string kPrograms = JOURDAIN_SOURCE_DIR "/tests/firmware/programs/";
+const std::string kBoard = JOURDAIN_SOURCE_DIR "/templates/firmware";
+
+/// Of emitted code and of the tests' programs.
+const Command kStrict = {"-Wall",    "-Wextra", "-Wpedantic",         "-Wconversion",
+                         "-Wshadow", "-Werror", "-Wdouble-promotion", "-I" + kBoard};
+
+/// Functions that a compiler knows are computed, folded and paired by it: these shall be called.
+const Command kCalled = {"-fno-builtin-sin",  "-fno-builtin-cos",  "-fno-builtin-atan2",
+                         "-fno-builtin-sinf", "-fno-builtin-cosf", "-fno-builtin-atan2f"};
+
+Command joined(std::initializer_list<Command> lists) {
+  Command all;
+  for (const Command& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+/// Runs a command that makes `file`, unless it is there.
+void make(const std::string& file, const Command& command) {
+  if (!fs::exists(file)) commands::run_tool(joined({command, {"-o", file}}));
+}
+
+Command model_options(const Motion& motion) {
+  return {"-DMODEL=" + motion.model, "-DREAL=" + motion.real, "-DSTEP=" + motion.step,
+          fmt::format("-DKERNELS=\"{0}_kernels.hpp\"", motion.model),
+          fmt::format("-I{}/{}", JOURDAIN_EMITTED, motion.model)};
+}
+
+std::string file_of(const std::string& machine, const Motion& motion, const std::string& rest) {
+  return fmt::format("{}/{}_{}_{}{}", firmware_folder(), machine, motion.model, motion.real, rest);
+}
+
+/// The model's object and that of the sines; kernel.c must define what the compiler takes for its own.
+Command objects(const std::string& machine, const Command& cxx, const Command& c, const Motion& motion,
+                Sines sines) {
+  const std::string program = file_of(machine, motion, ".o");
+  make(program, joined({cxx, kStrict, kCalled, model_options(motion), {"-c", kPrograms + "motion.cpp"}}));
+  if (sines == Sines::kLibrary) return {program};
+  const std::string name = sines == Sines::kKernel ? "kernel" : "wobble";
+  const std::string object = fmt::format("{}/{}_{}.o", firmware_folder(), machine, name);
+  make(object, joined({c, kStrict, kCalled, {"-c", kPrograms + name + ".c"}}));
+  return {program, object};
+}
+
+std::vector<Line> read_lines(const std::string& output) {
+  std::vector<Line> lines;
+  std::istringstream text(output);
+  for (std::string row; std::getline(text, row);) {
+    std::istringstream fields(row);
+    Line line;
+    fields >> line.what;
+    for (std::string bits; fields >> bits;) {
+      const std::uint64_t number = std::stoull(bits, nullptr, 16);
+      line.bits.push_back(bits);
+      line.values.push_back(
+          bits.size() == 8 ? static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(number)))
+                           : std::bit_cast<double>(number));
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+/// Names the firmware of a motion in its folder.
+std::string firmware_name(const Target& target, const Motion& motion, Sines sines) {
+  return fmt::format("{}_{}_{}_{}", target.name, motion.model, motion.real,
+                     sines == Sines::kKernel ? "kernel" : "library");
+}
+
+void build_firmware(const Target& target, const Motion& motion, Sines sines) {
+  const std::string name = firmware_name(target, motion, sines);
+  if (fs::exists(firmware_folder() + "/" + name + ".elf")) return;
+  const Command linked = objects(target.name, commands::target_compiler(target),
+                                 commands::target_c_compiler(target), motion, sines);
+  commands::write_board(target, firmware_folder());
+  commands::link_firmware(target, firmware_folder(), name, linked);
+}
+
+}  // namespace
+
+void require_tools(const Target& target) {
+  try {
+    commands::check_tools(target);
+  } catch (const support::EnvironmentError& error) {
+    FAIL() << error.what() << "; ./dev installs it";
+  }
+}
+
+const std::string& firmware_folder() {
+  static const support::TemporaryFolder folder;
+  return folder.path();
+}
+
+std::vector<Line> host_motion(const Motion& motion, Sines sines) {
+  const Command options = {"-O2", "-ffp-contract=off", "-fno-math-errno"};
+  const Command c = joined({{"gcc", "-std=c99"}, options});
+  Command link =
+      joined({{"gcc"}, objects("host", joined({{"g++", "-std=c++17"}, options}), c, motion, sines)});
+  if (sines == Sines::kWobbling)
+    for (const char* name : {"sin", "cos", "atan2", "sinf", "cosf", "atan2f"})
+      link.push_back(fmt::format("-Wl,--wrap={}", name));
+  const std::string board = firmware_folder() + "/host_board.o";
+  make(board, joined({c, kStrict, {"-c", kPrograms + "host_board.c"}}));
+  const std::string program = file_of("host", motion, fmt::format("_{}", static_cast<int>(sines)));
+  make(program, joined({link, {board, "-lm"}}));
+  return read_lines(commands::run_tool({program}));
+}
+
+std::vector<Line> target_motion(const Target& target, const Motion& motion, Sines sines) {
+  build_firmware(target, motion, sines);
+  return read_lines(commands::run_firmware(target, firmware_folder(), firmware_name(target, motion, sines)));
+}
+
+std::string firmware_symbols(const Target& target, const Motion& motion, Sines sines) {
+  build_firmware(target, motion, sines);
+  return commands::run_tool(
+      {target.tools + "nm", firmware_folder() + "/" + firmware_name(target, motion, sines) + ".elf"});
+}
+
+std::string run_program(const Target& target, const std::string& name) {
+  const std::string object = fmt::format("{}/{}_{}", firmware_folder(), target.name, name);
+  const Command c = commands::target_c_compiler(target);
+  commands::write_board(target, firmware_folder());
+  // Semihosting and counters are written in the compiler's own assembler.
+  make(object + ".o", joined({c, kStrict, {"-c", kPrograms + name + ".c"}}));
+  commands::link_firmware(target, firmware_folder(), target.name + "_" + name, {object + ".o"});
+  return commands::run_firmware(target, firmware_folder(), target.name + "_" + name);
+}
+
+}  // namespace jourdain::tests

@@ -1,0 +1,157 @@
+// Emitted code on simulated processors: the host's bits, nothing of double where all is float, and counts that are exact.
+#include "firmware/firmware.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+namespace jourdain::tests {
+namespace {
+
+using commands::Target;
+
+/// A processor, and a model in its usual number type.
+struct Case {
+  Target target;
+  Motion motion;
+};
+
+constexpr const char* kModels[] = {"pendulum", "four_bar", "panda", "squeezer"};
+
+/// With steps that are short beside the model's motion: the squeezer turns at up to 1000 rad/s.
+Motion motion_of(const std::string& model, const std::string& real) {
+  return {model, real, model == "squeezer" ? "1e-4" : "1e-3"};
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const Target& target : commands::all_targets())
+    for (const char* model : kModels)
+      all.push_back({target, motion_of(model, target.usually_float ? "float" : "double")});
+  return all;
+}
+
+void PrintTo(const Case& which, std::ostream* out) {
+  *out << which.motion.model << " on " << which.target.name;
+}
+
+std::string name_of(const testing::TestParamInfo<Case>& info) {
+  return std::regex_replace(info.param.target.name, std::regex("-"), "_") + "_" + info.param.motion.model;
+}
+
+class Firmware : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override { require_tools(GetParam().target); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Models, Firmware, testing::ValuesIn(cases()), name_of);
+
+TEST_P(Firmware, HasTheHostsBitsWithTheSameSines) {
+  const auto& [target, motion] = GetParam();
+  const std::vector<Line> here = host_motion(motion, Sines::kKernel);
+  const std::vector<Line> there = target_motion(target, motion, Sines::kKernel);
+  ASSERT_EQ(here.size(), there.size());
+  ASSERT_GE(here.size(), 11u * 5u);  // ten times 20 steps
+  for (std::size_t i = 0; i < here.size(); ++i)
+    ASSERT_EQ(here[i].bits, there[i].bits) << "line " << i << ", " << here[i].what;
+  EXPECT_NE(here.front().bits, here[here.size() * 10 / 11].bits) << "nothing moves";
+}
+
+/// The largest difference of each kind, in units in the last place of its largest number.
+std::map<std::string, double> differences(const std::vector<Line>& a, const std::vector<Line>& b) {
+  std::map<std::string, double> largest, difference, unit;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+    for (std::size_t k = 0; k < a[i].values.size(); ++k) {
+      double& most = difference[a[i].what];
+      most = std::max(most, std::fabs(a[i].values[k] - b[i].values.at(k)));
+      largest[a[i].what] = std::max(largest[a[i].what], std::fabs(a[i].values[k]));
+      unit[a[i].what] = a[i].bits[k].size() == 8 ? 0x1p-23 : 0x1p-52;
+    }
+  for (auto& [what, most] : difference)
+    if (largest[what] > 0) most /= std::exp2(std::floor(std::log2(largest[what]))) * unit[what];
+  return difference;
+}
+
+// The libraries' sines are off by less than a unit in the last place, as fdlibm's, from which newlib's and picolibc's come,
+// say; glibc's by less. Moving each sine on the host up or down by one unit disturbs the motion as much: what that does at
+// the most is the measure. Its pattern is one of many, a library's is another, hence a factor; two libraries that agree by
+// luck have a disturbance of no unit, hence the floor.
+constexpr double kOtherPattern = 4, kFloor = 4;
+
+TEST_P(Firmware, WithTheShippedLibraryIsAsNearAsItsSinesAre) {
+  const auto& [target, motion] = GetParam();
+  const std::vector<Line> here = host_motion(motion, Sines::kLibrary);
+  const std::vector<Line> there = target_motion(target, motion, Sines::kLibrary);
+  ASSERT_EQ(here.size(), there.size());
+  const std::map<std::string, double> disturbed = differences(here, host_motion(motion, Sines::kWobbling));
+  std::string text;
+  for (const auto& [what, most] : differences(here, there)) {
+    text += fmt::format(" {} {:.1f} ({:.1f})", what, most, disturbed.at(what));
+    EXPECT_LE(most, kOtherPattern * disturbed.at(what) + kFloor) << what;
+    EXPECT_TRUE(std::isfinite(most)) << what;
+  }
+  std::cout << fmt::format("units in the last place (of a disturbed library):{}\n", text);
+}
+
+/// Functions of double arithmetic, of the compiler's library, in a list of symbols.
+std::vector<std::string> double_functions(const std::string& symbols) {
+  static const std::regex pattern("__aeabi_(c?d|[a-z]+2d)[a-z0-9]*|__[a-z]+df[a-z0-9]*");
+  std::vector<std::string> found;
+  std::istringstream lines(symbols);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string name = line.substr(line.rfind(' ') + 1);
+    if (std::regex_match(name, pattern)) found.push_back(name);
+  }
+  return found;
+}
+
+TEST(FloatFirmware, LinksNothingOfDouble) {
+  const Target& target = *commands::find_target("cortex-m4");
+  require_tools(target);
+  for (const char* model : kModels)
+    EXPECT_THAT(double_functions(firmware_symbols(target, motion_of(model, "float"), Sines::kLibrary)),
+                testing::IsEmpty())
+        << model;
+  // The same in double has them all.
+  EXPECT_THAT(double_functions(firmware_symbols(target, motion_of("pendulum", "double"), Sines::kLibrary)),
+              testing::IsSupersetOf({"__aeabi_dadd", "__aeabi_dmul"}));
+}
+
+std::vector<long> numbers_of(const std::string& output) {
+  std::istringstream text(output);
+  std::vector<long> numbers;
+  for (long number = 0; text >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+TEST(Counting, IsThatOfALoopOfKnownLengthAndTheSameInEveryRun) {
+  for (const Target& target : commands::all_targets()) {
+    require_tools(target);
+    const std::string output = run_program(target, "counting");
+    const std::vector<long> counts = numbers_of(output);
+    ASSERT_EQ(counts.size(), 3u) << output;
+    // A thousand calls of 2000 rounds more, of two instructions each. A count is a multiple of 40, or exact.
+    EXPECT_NEAR(static_cast<double>(counts[1] - counts[0]), 4e6, 2 * 40) << target.name;
+    EXPECT_NEAR(static_cast<double>(counts[0]), 2e6, 1000 * 10) << target.name;
+    EXPECT_EQ(run_program(target, "counting"), output) << target.name;
+  }
+}
+
+TEST(Painting, FindsAnArrayOnTheStack) {
+  constexpr long kRegisters = 64;  // saved beside the array, and its alignment
+  for (const Target& target : commands::all_targets()) {
+    require_tools(target);
+    const long used = numbers_of(run_program(target, "counting")).at(2);
+    EXPECT_GE(used, 1000) << target.name;
+    EXPECT_LE(used, 1000 + kRegisters) << target.name;
+  }
+}
+
+}  // namespace
+}  // namespace jourdain::tests
