@@ -29,9 +29,12 @@ Json closed_table(const Json& properties) {
   return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
 }
 
+/// Also an expression, or with its unit. Written out: beside a reference editors show no meaning.
+Json number() { return any_of({{{"type", "number"}}, {{"type", "string"}}, reference("quantity")}); }
+
 /// Numbers, or one table that gives them all their unit.
 Json vector_of(int count) {
-  Json list = list_of(reference("number"));
+  Json list = list_of(number());
   list["minItems"] = list["maxItems"] = count;
   Json with_unit = closed_table({{"value", list}, {"unit", {{"type", "string"}}}});
   with_unit["required"] = {"value", "unit"};
@@ -56,7 +59,7 @@ Json value_of(std::string_view type) {
   };
   if (type.starts_with('"')) return quoted_words(type);
   if (is_one_of({"text", "name", "word"})) return {{"type", "string"}};
-  if (is_one_of({"number", "constant", "expression", "expression of t"})) return reference("number");
+  if (is_one_of({"number", "constant", "expression", "expression of t"})) return number();
   if (is_one_of({"2 numbers", "2 constants"})) return vector_of(2);
   if (is_one_of({"3 numbers", "3 constants", "3 expressions"})) return vector_of(3);
   if (is_one_of({"4 numbers"})) return vector_of(4);
@@ -64,29 +67,27 @@ Json value_of(std::string_view type) {
   if (is_one_of({"integer"})) return {{"type", "integer"}};
   if (is_one_of({"true, false"})) return {{"type", "boolean"}};
   if (is_one_of({"list of names", "texts"})) return list_of({{"type", "string"}});
-  if (is_one_of({"table of numbers"}))
-    return {{"type", "object"}, {"additionalProperties", reference("number")}};
+  if (is_one_of({"table of numbers"})) return {{"type", "object"}, {"additionalProperties", number()}};
   JD_CHECK(false, "the schema knows no type '{}'", type);
 }
 
 /// Tables whose keys are no section of their own.
 Json table_of(std::string_view section, std::string_view key) {
-  const Json number = reference("number");
   if (key == "inertia")
-    return any_of({vector_of(3), closed_table({{"xx", number},
-                                               {"yy", number},
-                                               {"zz", number},
-                                               {"xy", number},
-                                               {"xz", number},
-                                               {"yz", number},
+    return any_of({vector_of(3), closed_table({{"xx", number()},
+                                               {"yy", number()},
+                                               {"zz", number()},
+                                               {"xy", number()},
+                                               {"xz", number()},
+                                               {"yz", number()},
                                                {"unit", {{"type", "string"}}}})});
   if (key == "shape") {
     Json shape = closed_table({{"kind", {{"enum", {"box", "cylinder", "sphere", "rod"}}}},
                                {"size", vector_of(3)},
-                               {"radius", number},
-                               {"length", number},
+                               {"radius", number()},
+                               {"length", number()},
                                {"axis", {{"enum", {"x", "y", "z"}}}},
-                               {"density", number}});
+                               {"density", number()}});
     shape["required"] = {"kind"};
     return shape;
   }
@@ -174,7 +175,7 @@ std::string model_schema() {
   Json definitions = Json::object();
   Json with_unit = closed_table({{"value", number_or_text}, {"unit", {{"type", "string"}}}});
   with_unit["required"] = {"value", "unit"};
-  definitions["number"] = any_of({{{"type", "number"}}, {{"type", "string"}}, with_unit});
+  definitions["quantity"] = with_unit;
   Json top = Json::object();
   for (const model::KeySection& section : model::key_sections()) {
     const std::string name = section.name;
@@ -191,7 +192,7 @@ std::string model_schema() {
     else if (heading.starts_with("["))
       top[name] = reference(name);
   }
-  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+  Json schema = {{"$schema", "http://json-schema.org/draft-04/schema#"},
                  {"title", "A mechanism, as Jourdain reads it"}};
   schema.update(closed_table(top));
   schema["definitions"] = definitions;

@@ -87,6 +87,31 @@ bool is_written(const std::string& path, std::string_view text) {
                     std::istreambuf_iterator<char>());
 }
 
+/// Devices and pipes take text as it comes: a file in the place of one would be no device any more.
+bool is_stream(const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+/// A pipe that nobody reads is an error, not a wait.
+void write_stream(const std::string& path, std::string_view text) {
+  errno = 0;
+  OpenFile out(path, O_WRONLY | O_NONBLOCK);
+  const bool written = out.is_open() && fcntl(out.number(), F_SETFL, O_WRONLY) == 0 &&
+                       write_all(out.number(), text) && out.close();
+  if (!written) fail(path, "written", last_error());
+}
+
+/// The file that a link leads to; where it leads nowhere, and of all else, `path`.
+std::string behind_links(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path found = std::filesystem::canonical(path, error);
+  return error ? path : found.string();
+}
+
 /// What is left in a file or a pipe, at most kLargestFile bytes.
 std::string read_all(const std::string& path, int file) {
   constexpr int kPatience = 10000;  // ms
@@ -129,8 +154,10 @@ std::string read_file(const std::string& path) {
   return read_all(path, in.number());
 }
 
-void write_file(const std::string& path, std::string_view text) {
-  if (is_written(path, text)) return;
+void write_file(const std::string& given, std::string_view text) {
+  if (is_written(given, text)) return;
+  if (is_stream(given)) return write_stream(given, text);
+  const std::string path = behind_links(given);
   const Uninterrupted all_of_it;
   const std::filesystem::path temporary = write_temporary(path, text);
   std::error_code error;

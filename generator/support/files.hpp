@@ -24,7 +24,7 @@ struct FileHash {
 std::string read_file(const std::string& path);
 
 /// Writes through a temporary file in the same folder and renames it, so that no reader sees half a file. A
-/// file with that text stays as it is.
+/// file with that text stays as it is. Devices and pipes are written to, links followed.
 /// Throws EnvironmentError naming the path.
 void write_file(const std::string& path, std::string_view text);
 

@@ -54,6 +54,8 @@ const std::map<std::string, std::vector<std::string>>& usual_values() {
        {"mass_matrix", "k_bar,q_bar", "linearize", "rodas4_step,rk5_step", "forward_dynamics_derivatives",
         "outputs", "inverse_dynamics", "euler_step,heun_step", "ros34pw2_step", "close_loops", "project",
         "residual_derivatives", "mass_matrix,mass_matrix", "massmatrix", "", ","}},
+      {"--depfile", {"out.d", "deep/er/out.d", "/dev/full", "/dev/null/x", ".", ""}},
+      {"--against", {"out", "nothing", "model.toml", ".", ""}},
       {"--dump-ir", {"all", "lower", "hoist", "none"}},
       {"--methods", {"rk4", "rk4,euler", "rodas4", "rk9", ""}},
       {"--method", {"rk4", "rk4_step", "rosw43", "euler", "adams_bashforth2", "rk9"}},

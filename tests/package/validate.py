@@ -8,8 +8,9 @@ import tomllib
 import jsonschema
 
 schema = json.loads(pathlib.Path(sys.argv[1]).read_text())
-jsonschema.Draft7Validator.check_schema(schema)
-validator = jsonschema.Draft7Validator(schema)
+kind = jsonschema.validators.validator_for(schema)
+kind.check_schema(schema)
+validator = kind(schema)
 refused = 0
 for path in map(pathlib.Path, sys.argv[2:]):
     load = tomllib.loads if path.suffix == ".toml" else json.loads

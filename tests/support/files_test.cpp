@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -121,6 +122,28 @@ TEST_F(Files, DevicesAreRefusedAndPipesWithoutWritersAreEmpty) {
   EXPECT_THROW(read_file("/dev/zero"), EnvironmentError);
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
   EXPECT_EQ(read_file(path("pipe")), "");
+}
+
+TEST_F(Files, ThatLinksLeadToAreWritten) {
+  write_file(path("there"), "before");
+  std::filesystem::create_symlink("there", path("link"));
+  write_file(path("link"), "after");
+  EXPECT_EQ(read_file(path("there")), "after");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(Files, DevicesAndPipesAreWrittenToAndStayWhatTheyAre) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_THROW(write_file(path("pipe"), "nobody reads"), EnvironmentError);
+  const int reader = open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  write_file(path("pipe"), "text");
+  char text[8] = {};
+  EXPECT_EQ(read(reader, text, sizeof text), 4);
+  EXPECT_STREQ(text, "text");
+  close(reader);
+  EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
+  EXPECT_EQ(entries(), 1u);
 }
 
 }  // namespace
