@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 /* Sends text to whoever debugs the board: semihosting. */
-void board_write(const char *text);
+void board_write(const char* text);
 
 /* Ends the program; the simulator exits with this status. Does not return. */
 void board_exit(int status);
@@ -28,8 +28,8 @@ extern uint32_t board_stack_top[];
 
 enum { board_paint = 0x5AFEC0DE };
 
-static inline uint32_t *board_stack_pointer(void) {
-  uint32_t *pointer;
+static inline uint32_t* board_stack_pointer(void) {
+  uint32_t* pointer;
 #if defined(__riscv)
   __asm__ volatile("mv %0, sp" : "=r"(pointer));
 #else
@@ -39,14 +39,14 @@ static inline uint32_t *board_stack_pointer(void) {
 }
 
 /* Paints the stack below `top`, which must not lie above the stack pointer. */
-static inline __attribute__((always_inline)) void board_paint_stack(uint32_t *top) {
-  volatile uint32_t *word;
+static inline __attribute__((always_inline)) void board_paint_stack(uint32_t* top) {
+  volatile uint32_t* word;
   for (word = board_stack_limit; word < top; ++word) *word = board_paint;
 }
 
 /* Bytes below `top` down to the deepest word that has been written since it was painted. */
-static inline uint32_t board_stack_used(const uint32_t *top) {
-  const volatile uint32_t *word = board_stack_limit;
+static inline uint32_t board_stack_used(const uint32_t* top) {
+  const volatile uint32_t* word = board_stack_limit;
   while (word < top && *word == board_paint) ++word;
   return (uint32_t)((uintptr_t)top - (uintptr_t)word);
 }
