@@ -15,6 +15,9 @@ void board_write(const char* text);
 /* Ends the program; the simulator exits with this status. Does not return. */
 void board_exit(int status);
 
+/* With what a program ends that has made a fault, or has written below its stack. */
+enum { board_status_fault = 120, board_status_stack = 121 };
+
 /* Instructions executed since the start. They are counted by qemu's virtual time, so start it with `-icount shift=0`;
    without, the number means nothing. */
 uint64_t board_instructions(void);
@@ -49,6 +52,15 @@ static inline uint32_t board_stack_used(const uint32_t* top) {
   const volatile uint32_t* word = board_stack_limit;
   while (word < top && *word == board_paint) ++word;
   return (uint32_t)((uintptr_t)top - (uintptr_t)word);
+}
+
+/* The end of a program whose main returned: nothing it says holds where its stack has grown over the lowest word. */
+static inline void board_end(int status) {
+  if (*board_stack_limit != board_paint) {
+    board_write("the stack is too short\n");
+    status = board_status_stack;
+  }
+  board_exit(status);
 }
 
 #ifdef __cplusplus

@@ -11,6 +11,8 @@
 #include <regex>
 #include <sstream>
 
+#include "support/check.hpp"
+
 namespace jourdain::tests {
 namespace {
 
@@ -117,6 +119,24 @@ TEST(Counting, IsThatOfALoopOfKnownLengthAndTheSameInEveryRun) {
     EXPECT_NEAR(static_cast<double>(counts[1] - counts[0]), 4e6, 2 * 40) << target.name;
     EXPECT_NEAR(static_cast<double>(counts[0]), 2e6, 1000 * 10) << target.name;
     EXPECT_EQ(run_program(target, "counting"), output) << target.name;
+  }
+}
+
+/// What running a program of programs/ that cannot end well is refused with.
+std::string refusal_of(const Target& target, const std::string& program) {
+  try {
+    return "it wrote " + run_program(target, program);
+  } catch (const support::EnvironmentError& error) {
+    return error.what();
+  }
+}
+
+TEST(Board, AFaultAndAStackTooShortEndAProgram) {
+  for (const Target& target : commands::all_targets()) {
+    require_tools(target);
+    EXPECT_THAT(refusal_of(target, "faulting"),
+                testing::HasSubstr("status 120:\nthe firmware has made a fault"));
+    EXPECT_THAT(refusal_of(target, "deep"), testing::HasSubstr("status 121:\nthe stack is too short"));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "commands/tool.hpp"
 #include "firmware/firmware.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
@@ -35,27 +36,62 @@ std::string between(const std::string& text, const std::string& begin, const std
   return text.substr(first + begin.size(), last - first - begin.size());
 }
 
-TEST(FirmwarePage, ItsCommandsRunAndWriteWhatItSays) {
-  require_tools(*commands::find_target("cortex-m4"));
-  const std::string page = support::read_file(kPage);
-  const support::TemporaryFolder folder;
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t place = 0; (place = text.find(from, place)) != std::string::npos; place += to.size())
+    text.replace(place, from.size(), to);
+  return text;
+}
+
+/// Runs the page's commands with its program in `folder`, each changed to be another model's, where models/, templates/
+/// and the command are found.
+support::ProcessResult run_page(const std::string& folder,
+                                const std::vector<std::pair<std::string, std::string>>& changes) {
+  std::string page = support::read_file(kPage);
+  for (const auto& [from, to] : changes) page = replaced(page, from, to);
   for (const char* shared : {"models", "templates"})
-    fs::create_directory_symlink(fs::path(JOURDAIN_SOURCE_DIR) / shared, folder.path() + "/" + shared);
-  fs::create_directory(folder.path() + "/bin");
-  fs::create_symlink(JOURDAIN_BINARY, folder.path() + "/bin/jourdain");
-  support::write_file(folder.path() + "/main.cpp", between(page, "```cpp\n", "```\n"));
-  support::write_file(folder.path() + "/commands.sh",
+    fs::create_directory_symlink(fs::path(JOURDAIN_SOURCE_DIR) / shared, fs::path(folder) / shared);
+  fs::create_directory(folder + "/bin");
+  fs::create_symlink(JOURDAIN_BINARY, folder + "/bin/jourdain");
+  support::write_file(folder + "/main.cpp", between(page, "```cpp\n", "```\n"));
+  support::write_file(folder + "/commands.sh",
                       "set -eu\nPATH=\"$PWD/bin:$PATH\"\n" + between(page, "```sh\n", "```\n"));
-  const support::ProcessResult result =
-      support::run_process({"env", "-C", folder.path(), "bash", "commands.sh"});
+  support::ProcessResult result = support::run_process({"env", "-C", folder, "bash", "commands.sh"});
   EXPECT_EQ(result.status, 0) << result.output;
-  const std::string written = between(page, "```text\n", "```\n");
-  EXPECT_GE(written.size(), 3u);
-  EXPECT_NE(result.output.find("\n" + written), std::string::npos) << result.output;
-  EXPECT_NE(result.output.find("panda in float for cortex-m4"), std::string::npos) << result.output;
-  const std::string symbols = support::run_process({"arm-none-eabi-nm", folder.path() + "/panda.elf"}).output;
+  return result;
+}
+
+/// What the same program writes on the host.
+std::string written_on_host(const std::string& folder, const std::string& model) {
+  const std::string include = "-I" JOURDAIN_SOURCE_DIR "/templates/firmware";
+  commands::run_tool({"gcc", "-c", include, JOURDAIN_SOURCE_DIR "/tests/firmware/programs/host_board.c", "-o",
+                      folder + "/host_board.o"});
+  commands::run_tool({"g++", "-std=c++17", "-O2", "-ffp-contract=off", include, "-I" + folder + "/" + model,
+                      folder + "/main.cpp", folder + "/host_board.o", "-o", folder + "/host"});
+  return commands::run_tool({folder + "/host"});
+}
+
+TEST(FirmwarePage, ItsCommandsRunAndWriteWhatItSaysAsTheHostDoes) {
+  require_tools(*commands::find_target("cortex-m4"));
+  const support::TemporaryFolder folder;
+  const std::string output = run_page(folder.path(), {}).output;
+  const std::string written = between(support::read_file(kPage), "```text\n", "```\n");
+  EXPECT_NE(output.find("\n" + written), std::string::npos) << output;
+  EXPECT_EQ(written_on_host(folder.path(), "panda"), written);
+  EXPECT_NE(output.find("panda in float for cortex-m4"), std::string::npos) << output;
+  const std::string symbols = commands::run_tool({"arm-none-eabi-nm", folder.path() + "/panda.elf"});
   EXPECT_NE(symbols.find(" sinf"), std::string::npos) << symbols;
   EXPECT_EQ(symbols.find("__aeabi_d"), std::string::npos) << symbols;
+}
+
+TEST(FirmwarePage, ItsCommandsServeTheSqueezer) {
+  require_tools(*commands::find_target("cortex-m4"));
+  const support::TemporaryFolder folder;
+  const std::string output =
+      run_page(folder.path(), {{"panda", "squeezer"}, {"y_joint4", "y_beta"}, {"1e-3f", "1e-4f"}}).output;
+  const std::string written = written_on_host(folder.path(), "squeezer");
+  EXPECT_GT(std::atoi(written.c_str()), 1000) << written;  // it turns
+  EXPECT_NE(output.find("\n" + written), std::string::npos) << written << output;
+  EXPECT_NE(output.find("squeezer in float for cortex-m4"), std::string::npos) << output;
 }
 
 /// The versions that decide the figures, a line of the page.
