@@ -54,12 +54,32 @@ long listed_instructions(const std::string& listing, const std::string& function
   return 0;
 }
 
-TEST(TargetCost, StraightCodeTakesTheInstructionsOfItsListing) {
+/// Bytes of a function's code, in what `nm -S -C` lists.
+long listed_code(const std::string& symbols, const std::string& function) {
+  std::istringstream lines(symbols);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(fmt::format("::{}<", function)) != std::string::npos)
+      return std::strtol(line.c_str() + line.find(' '), nullptr, 16);
+  ADD_FAILURE() << "no " << function << " in\n" << symbols;
+  return 0;
+}
+
+/// Bytes of a function's frame, in what -fstack-usage writes.
+long listed_stack(const std::string& usage, const std::string& function) {
+  std::istringstream lines(usage);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(fmt::format("::{}(", function)) != std::string::npos)
+      return std::atol(line.c_str() + line.find('\t'));
+  ADD_FAILURE() << "no " << function << " in\n" << usage;
+  return 0;
+}
+
+TEST(TargetCost, StraightCodeTakesWhatListingsSay) {
   for (const Target& target : commands::all_targets()) {
     require_tools(target);
     const json cost = target_cost(kSelfContained, target);
     const std::string real = cost["number_type"], source = firmware_folder() + "/listed.cpp",
-                      object = firmware_folder() + "/listed_" + target.name + ".o";
+                      object = firmware_folder() + "/listed_" + target.name;
     std::string text =
         fmt::format("#include \"{0}/{1}/{1}_kernels.hpp\"\n", JOURDAIN_EMITTED, kSelfContained);
     const std::vector<std::string> functions = {"forward_dynamics", "kinetic_energy", "position_rate"};
@@ -68,13 +88,19 @@ TEST(TargetCost, StraightCodeTakesTheInstructionsOfItsListing) {
           fmt::format("template decltype({0}::{1}<{2}>) {0}::{1}<{2}>;\n", kSelfContained, function, real);
     support::write_file(source, text);
     std::vector<std::string> compile = commands::target_compiler(target);
-    compile.insert(compile.end(), {"-c", source, "-o", object});
+    compile.insert(compile.end(), {"-fstack-usage", "-c", source, "-o", object + ".o"});
     commands::run_tool(compile);
-    const std::string listing =
-        commands::run_tool({target.tools + "objdump", "-dC", "--no-show-raw-insn", object});
-    for (const std::string& function : functions)
-      EXPECT_EQ(function_of(cost, function)["instructions"], listed_instructions(listing, function))
+    const std::string listing = commands::run_tool(
+                          {target.tools + "objdump", "-dC", "--no-show-raw-insn", object + ".o"}),
+                      symbols = commands::run_tool({target.tools + "nm", "-SC", object + ".o"}),
+                      usage = support::read_file(object + ".su");
+    for (const std::string& function : functions) {
+      const json& counted = function_of(cost, function);
+      EXPECT_EQ(counted["instructions"], listed_instructions(listing, function))
           << target.name << " " << function;
+      EXPECT_EQ(counted["code_bytes"], listed_code(symbols, function)) << target.name << " " << function;
+      EXPECT_EQ(counted["stack_bytes"], listed_stack(usage, function)) << target.name << " " << function;
+    }
   }
 }
 
