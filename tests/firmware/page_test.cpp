@@ -148,6 +148,15 @@ TEST(FirmwarePage, NoLibraryIsFurtherFromTheHostsThanItSays) {
   for (std::size_t i = 0; i < units.size(); ++i) EXPECT_LE(units[i], allowed[i]) << table;
 }
 
+TEST(FirmwarePage, ItsTargetsAreTheCommands) {
+  const std::string page = support::read_file(kPage);
+  for (const Target& target : commands::all_targets()) {
+    const std::string row = fmt::format("| {} | `{}g++ {}` | `{}` |\n", target.name, target.tools,
+                                        fmt::join(target.options, " "), fmt::join(target.machine, " "));
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+  }
+}
+
 TEST(FirmwarePage, ItsFiguresAreTheCommands) {
   std::vector<json> costs;
   std::string table =
