@@ -149,8 +149,8 @@ void link_firmware(const Target& target, const std::string& folder, const std::s
 std::string run_firmware(const Target& target, const std::string& folder, const std::string& name) {
   std::vector<std::string> command = target.machine;
   for (const std::string& argument :
-       {std::string("-nographic"), std::string("-monitor"), std::string("none"), std::string("-serial"),
-        std::string("none"), std::string("-icount"), std::string("shift=0"),
+       {std::string("-display"), std::string("none"), std::string("-monitor"), std::string("none"),
+        std::string("-serial"), std::string("none"), std::string("-icount"), std::string("shift=0"),
         std::string("-semihosting-config"), std::string("enable=on,target=native"), std::string("-kernel"),
         folder + "/" + name + ".elf"})
     command.push_back(argument);

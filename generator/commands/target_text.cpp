@@ -46,7 +46,7 @@ std::string sizes_text(const TargetReport& report) {
 /// Sentences on what the numbers say.
 std::vector<std::string> remarks(const TargetReport& report) {
   return {
-      fmt::format("code and frames are what {} makes of each function with all of the model's functions that "
+      fmt::format("code and stack are what {} makes of each function with all of the model's functions that "
                   "it calls: exact for this compiler and these options, without the functions of {}",
                   report.target.tools + "g++", report.costs.library),
       "painted is the stack that one call has written, the library's functions among it: other states may "
@@ -66,7 +66,7 @@ std::string target_text(const TargetReport& report) {
   std::string text = fmt::format("{} in {} for {} ({})\n  {}\n  {}\n\n", report.head.name, report.head.real,
                                  report.target.name, report.target.processor, report.head.compiler,
                                  simulator_version(report.target));
-  text += fmt::format(kRow, "", "operations", "code", "frames", "painted", "instructions");
+  text += fmt::format(kRow, "", "operations", "code", "stack", "painted", "instructions");
   for (const Row& row : rows_of(report))
     text +=
         fmt::format(kRow, row.name == "model" ? "Model (once)" : row.name, row.operations, row.cost.code.code,

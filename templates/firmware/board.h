@@ -10,10 +10,13 @@ extern "C" {
 #endif
 
 /* Sends text to whoever debugs the board: semihosting. */
-void board_write(const char *text);
+void board_write(const char* text);
 
 /* Ends the program; the simulator exits with this status. Does not return. */
 void board_exit(int status);
+
+/* With what a program ends that has made a fault, or has written below its stack. */
+enum { board_status_fault = 120, board_status_stack = 121 };
 
 /* Instructions executed since the start. They are counted by qemu's virtual time, so start it with `-icount shift=0`;
    without, the number means nothing. */
@@ -28,8 +31,8 @@ extern uint32_t board_stack_top[];
 
 enum { board_paint = 0x5AFEC0DE };
 
-static inline uint32_t *board_stack_pointer(void) {
-  uint32_t *pointer;
+static inline uint32_t* board_stack_pointer(void) {
+  uint32_t* pointer;
 #if defined(__riscv)
   __asm__ volatile("mv %0, sp" : "=r"(pointer));
 #else
@@ -39,16 +42,25 @@ static inline uint32_t *board_stack_pointer(void) {
 }
 
 /* Paints the stack below `top`, which must not lie above the stack pointer. */
-static inline __attribute__((always_inline)) void board_paint_stack(uint32_t *top) {
-  volatile uint32_t *word;
+static inline __attribute__((always_inline)) void board_paint_stack(uint32_t* top) {
+  volatile uint32_t* word;
   for (word = board_stack_limit; word < top; ++word) *word = board_paint;
 }
 
 /* Bytes below `top` down to the deepest word that has been written since it was painted. */
-static inline uint32_t board_stack_used(const uint32_t *top) {
-  const volatile uint32_t *word = board_stack_limit;
+static inline uint32_t board_stack_used(const uint32_t* top) {
+  const volatile uint32_t* word = board_stack_limit;
   while (word < top && *word == board_paint) ++word;
   return (uint32_t)((uintptr_t)top - (uintptr_t)word);
+}
+
+/* The end of a program whose main returned: nothing it says holds where its stack has grown over the lowest word. */
+static inline void board_end(int status) {
+  if (*board_stack_limit != board_paint) {
+    board_write("the stack is too short\n");
+    status = board_status_stack;
+  }
+  board_exit(status);
 }
 
 #ifdef __cplusplus

@@ -41,13 +41,18 @@ uint64_t board_instructions(void) { return (uint64_t)(UINT32_MAX - TIMER->value)
 #define CPACR (*(volatile uint32_t *)0xE000ED88u)
 enum { fpu_full_access = 0xF << 20 };
 
-static void fault(void) {
+__attribute__((used)) void board_fault(void) {
   board_write("the firmware has made a fault\n");
-  board_exit(120);
+  board_exit(board_status_fault);
+}
+
+/* The fault may be that of a stack that has grown too deep, so it begins anew. */
+__attribute__((naked)) static void fault(void) {
+  __asm__ volatile("ldr sp, =board_stack_top\n\tb board_fault");
 }
 
 /* No library is called before memory and the floating-point unit are ready, so this may be no loop that becomes memcpy. */
-__attribute__((noreturn, optimize("no-tree-loop-distribute-patterns"))) void board_start(void) {
+__attribute__((optimize("no-tree-loop-distribute-patterns"))) void board_start(void) {
   uint32_t *to = data_start;
   const uint32_t *from = data_image;
   const handler *constructor;
@@ -60,8 +65,7 @@ __attribute__((noreturn, optimize("no-tree-loop-distribute-patterns"))) void boa
   TIMER->value = UINT32_MAX;
   TIMER->control = timer_enable;
   for (constructor = constructors_start; constructor < constructors_end; ++constructor) (*constructor)();
-  board_exit(main());
-  for (;;) continue;
+  board_end(main());
 }
 
 /* The first two entries are the stack pointer and the start; the faults follow. There are no interrupts. */

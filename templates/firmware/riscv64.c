@@ -13,7 +13,7 @@ static long semihosting(long call, const void *argument) {
   register long a0 __asm__("a0") = call;
   register const void *a1 __asm__("a1") = argument;
   __asm__ volatile(
-      ".option push\n\t.option norvc\n\t.balign 16\n\t"
+      ".balign 16\n\t.option push\n\t.option norvc\n\t"
       "slli zero, zero, 0x1f\n\tebreak\n\tsrai zero, zero, 7\n\t.option pop"
       : "+r"(a0)
       : "r"(a1)
@@ -38,22 +38,22 @@ uint64_t board_instructions(void) {
   return count;
 }
 
-__attribute__((aligned(4), used)) void board_fault(void) {
+__attribute__((used)) void board_fault(void) {
   board_write("the firmware has made a fault\n");
-  board_exit(120);
+  board_exit(board_status_fault);
 }
 
-__attribute__((noreturn, used, optimize("no-tree-loop-distribute-patterns"))) void board_start(void) {
+__attribute__((used, optimize("no-tree-loop-distribute-patterns"))) void board_start(void) {
   uint64_t *word;
   void (*const *constructor)(void);
   for (word = bss_start; word < bss_end; ++word) *word = 0;
   board_paint_stack(board_stack_pointer());
   for (constructor = constructors_start; constructor < constructors_end; ++constructor) (*constructor)();
-  board_exit(main());
-  for (;;) continue;
+  board_end(main());
 }
 
-/* mstatus.FS = 1 switches the floating-point unit on; tp points at what is thread-local, which is errno. */
+/* mstatus.FS = 1 switches the floating-point unit on; tp points at what is thread-local, which is errno. A fault may be that
+   of a stack that has grown too deep, so it begins anew. */
 __asm__(
     ".section .start, \"ax\"\n"
     ".globl board_reset\n"
@@ -63,10 +63,14 @@ __asm__(
     ".option pop\n"
     "  la sp, board_stack_top\n"
     "  la tp, thread_start\n"
-    "  la t0, board_fault\n"
+    "  la t0, board_trap\n"
     "  csrw mtvec, t0\n"
     "  li t0, 0x2000\n"
     "  csrs mstatus, t0\n"
     "  csrw fcsr, zero\n"
     "  j board_start\n"
+    ".balign 4\n"
+    "board_trap:\n"
+    "  la sp, board_stack_top\n"
+    "  j board_fault\n"
     ".text\n");

@@ -1,14 +1,18 @@
 #include "firmware/firmware.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
 #include "commands/tool.hpp"
 #include "support/check.hpp"
+#include "support/files.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {
@@ -99,6 +103,28 @@ void build_firmware(const Target& target, const Motion& motion, Sines sines) {
 
 }  // namespace
 
+Motion motion_of(const std::string& model, const std::string& real) {
+  return {model, real, model == "squeezer" ? "1e-4" : "1e-3"};
+}
+
+Motion motion_of(const std::string& model, const Target& target) {
+  return motion_of(model, target.usually_float ? "float" : "double");
+}
+
+std::map<std::string, double> differences(const std::vector<Line>& a, const std::vector<Line>& b) {
+  std::map<std::string, double> largest, difference, unit;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+    for (std::size_t k = 0; k < a[i].values.size(); ++k) {
+      double& most = difference[a[i].what];
+      most = std::max(most, std::fabs(a[i].values[k] - b[i].values.at(k)));
+      largest[a[i].what] = std::max(largest[a[i].what], std::fabs(a[i].values[k]));
+      unit[a[i].what] = a[i].bits[k].size() == 8 ? 0x1p-23 : 0x1p-52;
+    }
+  for (auto& [what, most] : difference)
+    if (largest[what] > 0) most /= std::exp2(std::floor(std::log2(largest[what]))) * unit[what];
+  return difference;
+}
+
 void require_tools(const Target& target) {
   try {
     commands::check_tools(target);
@@ -146,6 +172,17 @@ std::string run_program(const Target& target, const std::string& name) {
   make(object + ".o", joined({c, kStrict, {"-c", kPrograms + name + ".c"}}));
   commands::link_firmware(target, firmware_folder(), target.name + "_" + name, {object + ".o"});
   return commands::run_firmware(target, firmware_folder(), target.name + "_" + name);
+}
+
+nlohmann::json target_cost(const std::string& model, const Target& target,
+                           const std::vector<std::string>& more, bool fresh) {
+  const std::string file =
+      fmt::format("{}/cost_{}_{}_{}.json", firmware_folder(), model, target.name, fmt::join(more, "_"));
+  if (fresh || !fs::exists(file))
+    commands::run_tool(joined({{"env", "-C", JOURDAIN_SOURCE_DIR, JOURDAIN_BINARY, "cost",
+                                fmt::format("models/{}.toml", model), "--target", target.name, "-o", file},
+                               more}));
+  return nlohmann::json::parse(support::read_file(file));
 }
 
 }  // namespace jourdain::tests

@@ -1,4 +1,4 @@
-// Emitted code on simulated processors: the host's bits, nothing of double where all is float, and counts that are exact.
+// Emitted code on simulated processors: the host's bits, nothing of double where all is float, exact counts.
 #include "firmware/firmware.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +11,8 @@
 #include <regex>
 #include <sstream>
 
+#include "support/check.hpp"
+
 namespace jourdain::tests {
 namespace {
 
@@ -22,18 +24,10 @@ struct Case {
   Motion motion;
 };
 
-constexpr const char* kModels[] = {"pendulum", "four_bar", "panda", "squeezer"};
-
-/// With steps that are short beside the model's motion: the squeezer turns at up to 1000 rad/s.
-Motion motion_of(const std::string& model, const std::string& real) {
-  return {model, real, model == "squeezer" ? "1e-4" : "1e-3"};
-}
-
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const Target& target : commands::all_targets())
-    for (const char* model : kModels)
-      all.push_back({target, motion_of(model, target.usually_float ? "float" : "double")});
+    for (const char* model : kModels) all.push_back({target, motion_of(model, target)});
   return all;
 }
 
@@ -63,25 +57,10 @@ TEST_P(Firmware, HasTheHostsBitsWithTheSameSines) {
   EXPECT_NE(here.front().bits, here[here.size() * 10 / 11].bits) << "nothing moves";
 }
 
-/// The largest difference of each kind, in units in the last place of its largest number.
-std::map<std::string, double> differences(const std::vector<Line>& a, const std::vector<Line>& b) {
-  std::map<std::string, double> largest, difference, unit;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
-    for (std::size_t k = 0; k < a[i].values.size(); ++k) {
-      double& most = difference[a[i].what];
-      most = std::max(most, std::fabs(a[i].values[k] - b[i].values.at(k)));
-      largest[a[i].what] = std::max(largest[a[i].what], std::fabs(a[i].values[k]));
-      unit[a[i].what] = a[i].bits[k].size() == 8 ? 0x1p-23 : 0x1p-52;
-    }
-  for (auto& [what, most] : difference)
-    if (largest[what] > 0) most /= std::exp2(std::floor(std::log2(largest[what]))) * unit[what];
-  return difference;
-}
-
-// The libraries' sines are off by less than a unit in the last place, as fdlibm's, from which newlib's and picolibc's come,
-// say; glibc's by less. Moving each sine on the host up or down by one unit disturbs the motion as much: what that does at
-// the most is the measure. Its pattern is one of many, a library's is another, hence a factor; two libraries that agree by
-// luck have a disturbance of no unit, hence the floor.
+// The libraries' sines are off by less than a unit in the last place, as fdlibm's, from which newlib's and picolibc's
+// come, say; glibc's by less. Moving each sine on the host up or down by one unit disturbs the motion as much: what
+// that does at the most is the measure. Its pattern is one of many, a library's is another, hence a factor; where a
+// disturbance cancels by luck another need not, hence the floor.
 constexpr double kOtherPattern = 4, kFloor = 4;
 
 TEST_P(Firmware, WithTheShippedLibraryIsAsNearAsItsSinesAre) {
@@ -140,6 +119,24 @@ TEST(Counting, IsThatOfALoopOfKnownLengthAndTheSameInEveryRun) {
     EXPECT_NEAR(static_cast<double>(counts[1] - counts[0]), 4e6, 2 * 40) << target.name;
     EXPECT_NEAR(static_cast<double>(counts[0]), 2e6, 1000 * 10) << target.name;
     EXPECT_EQ(run_program(target, "counting"), output) << target.name;
+  }
+}
+
+/// What running a program of programs/ that cannot end well is refused with.
+std::string refusal_of(const Target& target, const std::string& program) {
+  try {
+    return "it wrote " + run_program(target, program);
+  } catch (const support::EnvironmentError& error) {
+    return error.what();
+  }
+}
+
+TEST(Board, AFaultAndAStackTooShortEndAProgram) {
+  for (const Target& target : commands::all_targets()) {
+    require_tools(target);
+    EXPECT_THAT(refusal_of(target, "faulting"),
+                testing::HasSubstr("status 120:\nthe firmware has made a fault"));
+    EXPECT_THAT(refusal_of(target, "deep"), testing::HasSubstr("status 121:\nthe stack is too short"));
   }
 }
 

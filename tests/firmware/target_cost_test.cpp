@@ -28,17 +28,6 @@ support::ProcessResult jourdain(std::vector<std::string> arguments,
   return support::run_process(command);
 }
 
-json cost_of(const std::string& model, const std::string& target,
-             const std::vector<std::string>& more = {"--methods", "rk4"}) {
-  const support::TemporaryFolder folder;
-  std::vector<std::string> command = {"cost", fmt::format("models/{}.toml", model), "--target", target,
-                                      "-o",   folder.path() + "/cost.json"};
-  command.insert(command.end(), more.begin(), more.end());
-  const support::ProcessResult result = jourdain(command);
-  EXPECT_EQ(result.status, 0) << result.output;
-  return json::parse(support::read_file(folder.path() + "/cost.json"));
-}
-
 const json& function_of(const json& cost, const std::string& name) {
   for (const json& entry : cost["functions"])
     if (entry["name"] == name) return entry;
@@ -65,12 +54,32 @@ long listed_instructions(const std::string& listing, const std::string& function
   return 0;
 }
 
-TEST(TargetCost, StraightCodeTakesTheInstructionsOfItsListing) {
+/// Bytes of a function's code, in what `nm -S -C` lists.
+long listed_code(const std::string& symbols, const std::string& function) {
+  std::istringstream lines(symbols);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(fmt::format("::{}<", function)) != std::string::npos)
+      return std::strtol(line.c_str() + line.find(' '), nullptr, 16);
+  ADD_FAILURE() << "no " << function << " in\n" << symbols;
+  return 0;
+}
+
+/// Bytes of a function's frame, in what -fstack-usage writes.
+long listed_stack(const std::string& usage, const std::string& function) {
+  std::istringstream lines(usage);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(fmt::format("::{}(", function)) != std::string::npos)
+      return std::atol(line.c_str() + line.find('\t'));
+  ADD_FAILURE() << "no " << function << " in\n" << usage;
+  return 0;
+}
+
+TEST(TargetCost, StraightCodeTakesWhatListingsSay) {
   for (const Target& target : commands::all_targets()) {
     require_tools(target);
-    const json cost = cost_of(kSelfContained, target.name);
+    const json cost = target_cost(kSelfContained, target);
     const std::string real = cost["number_type"], source = firmware_folder() + "/listed.cpp",
-                      object = firmware_folder() + "/listed_" + target.name + ".o";
+                      object = firmware_folder() + "/listed_" + target.name;
     std::string text =
         fmt::format("#include \"{0}/{1}/{1}_kernels.hpp\"\n", JOURDAIN_EMITTED, kSelfContained);
     const std::vector<std::string> functions = {"forward_dynamics", "kinetic_energy", "position_rate"};
@@ -79,20 +88,26 @@ TEST(TargetCost, StraightCodeTakesTheInstructionsOfItsListing) {
           fmt::format("template decltype({0}::{1}<{2}>) {0}::{1}<{2}>;\n", kSelfContained, function, real);
     support::write_file(source, text);
     std::vector<std::string> compile = commands::target_compiler(target);
-    compile.insert(compile.end(), {"-c", source, "-o", object});
+    compile.insert(compile.end(), {"-fstack-usage", "-c", source, "-o", object + ".o"});
     commands::run_tool(compile);
-    const std::string listing =
-        commands::run_tool({target.tools + "objdump", "-dC", "--no-show-raw-insn", object});
-    for (const std::string& function : functions)
-      EXPECT_EQ(function_of(cost, function)["instructions"], listed_instructions(listing, function))
+    const std::string listing = commands::run_tool(
+                          {target.tools + "objdump", "-dC", "--no-show-raw-insn", object + ".o"}),
+                      symbols = commands::run_tool({target.tools + "nm", "-SC", object + ".o"}),
+                      usage = support::read_file(object + ".su");
+    for (const std::string& function : functions) {
+      const json& counted = function_of(cost, function);
+      EXPECT_EQ(counted["instructions"], listed_instructions(listing, function))
           << target.name << " " << function;
+      EXPECT_EQ(counted["code_bytes"], listed_code(symbols, function)) << target.name << " " << function;
+      EXPECT_EQ(counted["stack_bytes"], listed_stack(usage, function)) << target.name << " " << function;
+    }
   }
 }
 
 TEST(TargetCost, NoMoreStackIsWrittenThanTheFramesHold) {
   for (const Target& target : commands::all_targets()) {
     require_tools(target);
-    const json cost = cost_of(kSelfContained, target.name);
+    const json cost = target_cost(kSelfContained, target);
     for (const json& entry : cost["functions"]) {
       EXPECT_LE(entry["painted_stack_bytes"], entry["stack_bytes"]) << target.name << " " << entry["name"];
       EXPECT_GE(entry["instructions"], 1) << target.name << " " << entry["name"];
@@ -106,20 +121,23 @@ TEST(TargetCost, NoMoreStackIsWrittenThanTheFramesHold) {
 TEST(TargetCost, IsTheSameInEveryRun) {
   for (const Target& target : commands::all_targets()) {
     require_tools(target);
-    EXPECT_EQ(cost_of("four_bar", target.name), cost_of("four_bar", target.name)) << target.name;
+    const json once = target_cost("squeezer", target);
+    EXPECT_EQ(target_cost("squeezer", target, {"--methods", "rk4"}, true), once) << target.name;
   }
 }
 
 TEST(TargetCost, IsTakenWithTheParametersInputsAndNumbersAskedFor) {
-  const json usual = cost_of("four_bar", "cortex-m4");
+  const Target& target = *commands::find_target("cortex-m4");
+  require_tools(target);
+  const json usual = target_cost("four_bar", target);
   EXPECT_EQ(usual["number_type"], "float");
-  const json precise = cost_of("four_bar", "cortex-m4", {"--methods", "rk4", "--real", "double"});
+  const json precise = target_cost("four_bar", target, {"--methods", "rk4", "--real", "double"});
   EXPECT_EQ(precise["number_type"], "double");
   EXPECT_EQ(precise["data_bytes"]["State"].get<long>(), 2 * usual["data_bytes"]["State"].get<long>());
   // Arithmetic without hardware for it.
   EXPECT_GT(function_of(precise, "rk4_step")["instructions"].get<long>(),
             10 * function_of(usual, "rk4_step")["instructions"].get<long>());
-  const json all = cost_of("four_bar", "cortex-m4", {"--constant-input", "2.5", "--step", "1e-4"});
+  const json all = target_cost("four_bar", target, {"--constant-input", "2.5", "--step", "1e-4"});
   EXPECT_EQ(all["step_s"], 1e-4);
   EXPECT_EQ(all["functions"].size(), usual["functions"].size() + 12) << all["functions"].dump(1);
 }
