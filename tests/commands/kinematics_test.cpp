@@ -1,4 +1,4 @@
-// Functions of the kinematics as a user asks for them on the command line; the README's controller is one.
+// Functions of the kinematics on the command line, as runtime/embedding.md asks for them for a controller.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,9 +49,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 /// The four commands and the program between them, as they stand there.
-TEST_F(Kinematics, ControllerOfTheReadmeRuns) {
+TEST_F(Kinematics, ControllerOfThePageRuns) {
   const std::string section =
-      between(support::read_file(JOURDAIN_SOURCE_DIR "/README.md"), "## Kinematics\n", "\n## ");
+      between(support::read_file(JOURDAIN_SOURCE_DIR "/runtime/embedding.md"), "## Kinematics\n", "\n## ");
   support::write_file(in_folder("controller.cpp"), between(section, "```cpp\n", "```"));
   std::istringstream lines(between(section, "four commands:\n\n", "\n\nwhere"));
   std::string output;
