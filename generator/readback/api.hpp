@@ -1,4 +1,4 @@
-// The functions of an emitted model as the README promises them: arguments, their order and shapes, and where
+// The functions of an emitted model as runtime/embedding.md promises them: arguments, their order and shapes, and where
 // results go. Stated here once more, without a look at what writes them.
 #pragma once
 
