@@ -2,8 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "model/read/keys.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -19,6 +23,21 @@ TEST(Keys, MakeThePageOfTheModels) {
   EXPECT_EQ(page.status, 0);
   EXPECT_EQ(page.output, support::read_file(JOURDAIN_SOURCE_DIR "/models/README.md"))
       << "jourdain keys --markdown > models/README.md";
+}
+
+TEST(Keys, MakeASchemaWithAllSections) {
+  const std::string text = keys({"--schema"}).output;
+  const auto schema = nlohmann::json::parse(text);
+  for (const model::KeySection& section : model::key_sections())
+    for (const model::Key& key : section.keys)
+      EXPECT_TRUE(schema["definitions"][section.name]["properties"].contains(key.name))
+          << section.name << "." << key.name;
+  EXPECT_EQ(keys({"--schema", "--markdown"}).status, 2);
+  const support::TemporaryFolder folder;
+  ASSERT_EQ(support::run_process({JOURDAIN_BINARY, "pages", folder.path()}).status, 0);
+  EXPECT_EQ(support::read_file(folder.path() + "/jourdain/model.schema.json"), text);
+  EXPECT_EQ(support::read_file(folder.path() + "/jourdain/manifest.schema.json"),
+            support::read_file(JOURDAIN_SOURCE_DIR "/templates/manifest.schema.json"));
 }
 
 TEST(Keys, OfOneSectionArePrintedAlone) {
