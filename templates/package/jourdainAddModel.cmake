@@ -1,22 +1,22 @@
 # jourdain_add_model(TARGET MODEL description [NAME name] [ROOT fixed|free] [FUNCTIONS function...] [FRAMES frame...]
-#                    [LANGUAGE cpp|c] [REAL float|double|both] [OPTIONS option...])
+#                    [LANGUAGE cpp|c] [REAL float|double|both] [INTERFACE] [OPTIONS option...])
 #
 # A static library TARGET of what `jourdain compile` emits for a description, with its folder of headers as a usage
 # requirement. It is made anew when the description changes, a file that it imports, or the command. NAME, of the
-# namespace and the files, is TARGET where it is left out. FRAMES are those of --frame, OPTIONS further ones of
-# `jourdain compile`. What the command prints is kept in NAME.log beside the files.
+# namespace and the files, is TARGET where it is left out. FRAMES are those of --frame, INTERFACE is --interface (of C),
+# OPTIONS are further ones of `jourdain compile`. What the command prints is kept in NAME.log beside the files.
 include_guard(GLOBAL)
 
 function(jourdain_add_model target)
   set(values MODEL NAME ROOT LANGUAGE REAL)
   set(lists FUNCTIONS FRAMES OPTIONS)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "${values}" "${lists}")
+  cmake_parse_arguments(PARSE_ARGV 1 arg INTERFACE "${values}" "${lists}")
   set(call "jourdain_add_model(${target})")
   list(JOIN values ", " known)
   list(JOIN lists ", " known_lists)
   if(arg_UNPARSED_ARGUMENTS)
     list(GET arg_UNPARSED_ARGUMENTS 0 word)
-    message(FATAL_ERROR "${call}: '${word}' is no keyword; there are ${known}, ${known_lists}")
+    message(FATAL_ERROR "${call}: '${word}' is no keyword; there are ${known}, INTERFACE, ${known_lists}")
   endif()
   if(arg_KEYWORDS_MISSING_VALUES)
     list(GET arg_KEYWORDS_MISSING_VALUES 0 word)
@@ -31,6 +31,10 @@ function(jourdain_add_model target)
   jourdain_one_of("${call}" ROOT "${arg_ROOT}" fixed free)
   jourdain_one_of("${call}" LANGUAGE "${arg_LANGUAGE}" cpp c)
   jourdain_one_of("${call}" REAL "${arg_REAL}" float double both)
+
+  if(arg_INTERFACE AND NOT arg_LANGUAGE STREQUAL "c")
+    message(FATAL_ERROR "${call}: INTERFACE is in C, it needs LANGUAGE c")
+  endif()
 
   get_filename_component(model "${arg_MODEL}" ABSOLUTE)
   if(NOT EXISTS "${model}" OR IS_DIRECTORY "${model}")
@@ -69,10 +73,13 @@ function(jourdain_add_model target)
   foreach(frame IN LISTS arg_FRAMES)
     list(APPEND options --frame ${frame})
   endforeach()
+  if(arg_INTERFACE)
+    list(APPEND options --interface)
+  endif()
   list(APPEND options ${arg_OPTIONS})
 
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/jourdain/${target})
-  jourdain_file_names(files ${name} "${arg_LANGUAGE}" "${arg_REAL}")
+  jourdain_file_names(files ${name} "${arg_LANGUAGE}" "${arg_REAL}" ${arg_INTERFACE})
   list(TRANSFORM files PREPEND ${folder}/)
   # Files that stay the same keep their time: touched, they are newer than what they are made from.
   get_target_property(command jourdain::jourdain IMPORTED_LOCATION)
@@ -102,17 +109,24 @@ function(jourdain_one_of call keyword value)
 endfunction()
 
 # The names of the files that the command writes, in its order.
-function(jourdain_file_names result name language real)
+function(jourdain_file_names result name language real interface)
   set(files "")
+  set(more "")
   if(language STREQUAL "c")
     if(NOT real STREQUAL "float")
       list(APPEND files ${name}.h ${name}.c)
+      list(APPEND more ${name}_interface.h ${name}_interface.c)
     endif()
     if(NOT real STREQUAL "double")
       list(APPEND files ${name}_f.h ${name}_f.c)
+      list(APPEND more ${name}_f_interface.h ${name}_f_interface.c)
     endif()
   else()
     list(APPEND files ${name}.hpp ${name}_kernels.hpp ${name}.cpp)
   endif()
-  set(${result} ${files} ${name}.json PARENT_SCOPE)
+  list(APPEND files ${name}.json)
+  if(interface)
+    list(APPEND files jourdain_interface.h ${more})
+  endif()
+  set(${result} ${files} PARENT_SCOPE)
 endfunction()

@@ -51,7 +51,7 @@ TEST(AddModel, SaysWhatIsWrongWithItsArguments) {
                  "jourdain_add_model(arm): MODEL is missing, the description of the mechanism");
   expect_message("jourdain_add_model(arm MODEL arm.toml FUNCTION rk4_step)",
                  "jourdain_add_model(arm): 'FUNCTION' is no keyword; there are MODEL, NAME, ROOT, LANGUAGE, "
-                 "REAL, FUNCTIONS, FRAMES, OPTIONS");
+                 "REAL, INTERFACE, FUNCTIONS, FRAMES, OPTIONS");
   expect_message("jourdain_add_model(arm MODEL arm.toml NAME)", "NAME needs a value");
   expect_message("jourdain_add_model(arm MODEL nothing.toml)", "there is no file");
   expect_message("jourdain_add_model(arm MODEL arm.toml ROOT loose)",
@@ -60,6 +60,8 @@ TEST(AddModel, SaysWhatIsWrongWithItsArguments) {
                  "REAL is 'half', must be one of float, double, both");
   expect_message("jourdain_add_model(arm MODEL arm.toml LANGUAGE ada)",
                  "LANGUAGE is 'ada', must be one of cpp, c");
+  expect_message("jourdain_add_model(arm MODEL arm.toml INTERFACE)",
+                 "INTERFACE is in C, it needs LANGUAGE c");
   expect_message("jourdain_add_model(my-arm MODEL arm.toml)",
                  "'my-arm' cannot be the name of a namespace and of files; choose one with NAME");
   expect_message("add_custom_target(arm)\njourdain_add_model(arm MODEL arm.toml)",
