@@ -70,7 +70,7 @@ int run(const Arguments& arguments, const CLI::App& command) {
 void add_compile(CLI::App& app, int& status) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("compile", "emit C++ for a model: jourdain compile arm.toml -o src/arm");
+      app.add_subcommand("compile", "emit C++ or C for a model: jourdain compile arm.toml -o src/arm");
   arguments->model.add_to(*command);
   command->add_option("-o,--output", arguments->folder, "folder to write into")->required();
   arguments->emission.add_to(*command);

@@ -32,6 +32,15 @@ void EmissionArguments::add_to(CLI::App& command) {
           "gravity_compensation, centroidal_momentum_matrix, …")
       ->delimiter(',');
   command.add_option("--frame", frames, kFrameHelp)->expected(1)->take_all();
+  command.add_option("--language", language, "language of the files: C++, or C99")
+      ->check(CLI::IsMember({"c++", "cpp", "c"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--real", real,
+          "number types: of what NAME.cpp instantiates; in C of the files, NAME_f.h and NAME_f.c for float")
+      ->check(CLI::IsMember({"float", "double", "both"}))
+      ->capture_default_str();
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
 
@@ -42,6 +51,10 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   std::vector<std::string> chosen = functions;
   if (std::string wrong = choose_kinematics(frames, chosen, loaded.mechanism); !wrong.empty()) return wrong;
   loaded.options.clock = clock;
+  ir::TextChoices& choices = loaded.options.choices;
+  choices.language = language == "c" ? ir::Language::kC : ir::Language::kCpp;
+  choices.has_double = real != "float";
+  choices.has_float = real != "double";
   if (!functions.empty()) loaded.options.functions = chosen;
   return "";
 }

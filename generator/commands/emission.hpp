@@ -12,8 +12,9 @@ namespace jourdain::commands {
 struct EmissionArguments {
   std::vector<std::string> functions, frames;
   bool clock = false;
+  std::string language = "c++", real = "both";
 
-  /// Adds --functions, --frame and --clock.
+  /// Adds --functions, --frame, --language, --real and --clock.
   void add_to(CLI::App& command);
 
   /// Sets the options of `loaded` and adds the functions that are asked for to its mechanism. Returns what is wrong
