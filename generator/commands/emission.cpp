@@ -41,6 +41,9 @@ void EmissionArguments::add_to(CLI::App& command) {
           "number types: of what NAME.cpp instantiates; in C of the files, NAME_f.h and NAME_f.c for float")
       ->check(CLI::IsMember({"float", "double", "both"}))
       ->capture_default_str();
+  command.add_flag(
+      "--interface", interface,
+      "of C: NAME_interface.h and .c too, instances in the caller's memory and a table of all variables");
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
 
@@ -48,6 +51,7 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   if (std::string conflict = check_derivative_terms(functions, loaded.options.derivative_terms);
       !conflict.empty())
     return conflict;
+  if (interface && language != "c") return "--interface is in C: add --language c";
   std::vector<std::string> chosen = functions;
   if (std::string wrong = choose_kinematics(frames, chosen, loaded.mechanism); !wrong.empty()) return wrong;
   loaded.options.clock = clock;
@@ -55,6 +59,7 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   choices.language = language == "c" ? ir::Language::kC : ir::Language::kCpp;
   choices.has_double = real != "float";
   choices.has_float = real != "double";
+  choices.has_interface = interface;
   if (!functions.empty()) loaded.options.functions = chosen;
   return "";
 }

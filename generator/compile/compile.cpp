@@ -11,6 +11,7 @@
 #include "compile/module_check.hpp"
 #include "compile/omissions.hpp"
 #include "emit/c/c_files.hpp"
+#include "emit/c/c_interface.hpp"
 #include "emit/cpp/model_files.hpp"
 #include "loops/plan/plan.hpp"
 #include "programs/closed_system.hpp"
@@ -141,6 +142,9 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   for (const std::string& difference : read.differences)
     result.verdict.failures.push_back("text: " + difference);
   if (!read.differences.empty()) result.files.clear();
+  if (result.files.empty() || !options.choices.has_interface) return;
+  for (emit::File& file : emit::c::interface_files(text, result.functions, result.module))
+    result.files.push_back(std::move(file));
 }
 
 }  // namespace jourdain

@@ -64,7 +64,7 @@ std::string variables_array(const ModelText& model, const ir::Module& module) {
     if (variable.derivative_of)
       text += fmt::format(R"(, "derivative_of": "{}")",
                           quoted_text(model.variables[*variable.derivative_of].name));
-    const std::vector<std::string> read = dependence(variable, model.facts, module);
+    const std::vector<std::string> read = what_depends(variable, model.facts, module);
     if (!read.empty()) text += fmt::format(R"(, "depends_on": {})", string_array(read));
     text += fmt::format(R"(, "description": "{}"}})", quoted_text(variable.description));
   }

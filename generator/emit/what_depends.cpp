@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-#include <set>
-
 namespace jourdain::emit {
 
 namespace {
@@ -30,12 +27,13 @@ class Reader {
 
   std::string of(const ir::Program& program, ir::ValueId output) const {
     std::string text = none_;
-    std::set<std::size_t> seen;
+    std::vector<bool> seen(program.nodes.size());
     std::vector<ir::ValueId> open = {output};
     while (!open.empty()) {
       const ir::ValueId id = open.back();
       open.pop_back();
-      if (!seen.insert(id.value).second) continue;
+      if (seen[id.value]) continue;
+      seen[id.value] = true;
       const ir::Node& node = program[id];
       if (node.op == ir::Op::kLeaf) mark(node, text);
       const int operands = ir::operand_count(node.op);
@@ -98,8 +96,8 @@ const char* function_of(Role role) {
 
 }  // namespace
 
-std::vector<std::string> dependence(const programs::Variable& variable, const programs::SceneFacts& scene,
-                                    const ir::Module& module) {
+std::vector<std::string> what_depends(const programs::Variable& variable, const programs::SceneFacts& scene,
+                                      const ir::Module& module) {
   const char* const function = function_of(variable.role);
   if (!function) return {};
   const Reader reader(scene);
@@ -110,17 +108,12 @@ std::vector<std::string> dependence(const programs::Variable& variable, const pr
   }
   const ir::Program* program = ir::find_program(module, function);
   if (!program) return {};
-  std::map<std::string, std::string> found;
+  std::vector<std::string> list(variable.role == Role::kOutput ? variable.numbers.size() : 1, reader.none());
   for (const ir::Output& output : program->outputs)
-    found[subscripted(output)] = reader.of(*program, output.value);
-  if (variable.role != Role::kOutput) {
-    for (const ir::Output& output : program->outputs)
-      if (output.row == static_cast<int>(variable.index)) return {found[subscripted(output)]};
-    return {reader.none()};
-  }
-  std::vector<std::string> list;
-  for (const std::string& number : variable.numbers)
-    list.push_back(found.count(number) > 0 ? found[number] : reader.none());
+    for (std::size_t k = 0; k < list.size(); ++k)
+      if (variable.role == Role::kOutput ? variable.numbers[k] == subscripted(output)
+                                         : output.row == static_cast<int>(variable.index))
+        list[k] = reader.of(*program, output.value);
   return list;
 }
 

@@ -39,7 +39,9 @@ TEST_P(Pages, MakeAProgramThatSwingsThePendulum) {
   EXPECT_NEAR(angle, double(exact_pendulum_angle(1 / std::sqrt(GetParam().length))), 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, Pages, testing::Values(WayOut{"runtime/embedding.md", 0.8}),
+INSTANTIATE_TEST_SUITE_P(Ways, Pages,
+                         testing::Values(WayOut{"runtime/embedding.md", 0.8},
+                                         WayOut{"runtime/c_interface.md", 1.0}),
                          [](const auto& way) { return way.index == 0 ? "Cpp" : "C"; });
 
 }  // namespace
