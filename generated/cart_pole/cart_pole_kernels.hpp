@@ -10,47 +10,47 @@ namespace cart_pole {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
 // Inputs at a stage: held over the step, or sampled there.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
   return held;
 }
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
   return sampled(stage);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[2]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[2]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[2],
            Real (&zdot)[2]) noexcept {
   velocities(model, stage, ydot);
@@ -59,7 +59,7 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& inp
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression = parameters.pole_half_length * Real(2.0);
   const Real expression_2 = expression * expression;
@@ -74,7 +74,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   invD_1 = Real(1.0) / S_zz;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
@@ -85,7 +85,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
   const Real h1b_x = c1 * model.mr_z;
@@ -94,7 +94,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   M[1][1] = model.S_zz;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
   const Real s1 = detail::sine(state.y[1]);
   const Real zw_1 = state.z[1] * state.z[1];
@@ -103,7 +103,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
   k[1] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
     noexcept {
   const Real s1 = detail::sine(state.y[1]);
@@ -112,7 +112,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[1] = -q_1;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept {
   Real s1, c1;
@@ -134,7 +134,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[1] = zdot_1;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept {
   Real s1, c1;
@@ -152,7 +152,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   tau[1] = -aQ1_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
   const Real T1 = state.z[0] * (c1 * state.z[1]) * model.mr_z + (state.z[0] * state.z[0] * model.hinge_m +
@@ -160,7 +160,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   return T1;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
   const Real V = c1 * model.c3;
@@ -168,7 +168,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 }
 
 // `input` may be a function that gives the Input at the state of a stage.
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
@@ -194,7 +194,7 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input
   state.t = state.t + h;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   rk4_step<Real, Input<Real>>(model, state, input, h);
 }

@@ -10,20 +10,20 @@ namespace contact_wheel {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
@@ -31,16 +31,16 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 
 // What products of two numbers lose by rounding (Dekker, Numerische Mathematik 18, 1971; factors are split by powers of
 // two, so that fused operations change nothing). Nothing where a number type is wider than that matters.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real product_error(const Real& a, const Real& b, const Real& product, const Real& scale) noexcept {
   const Real more = a * scale, much = b * scale, a1 = (more + a) - more, b1 = (much + b) - much, a0 = a - a1, b0 = b - b1;
   return ((a1 * b1 - product) + a1 * b0 + a0 * b1) + a0 * b0;
 }
-inline double product_error(double a, double b, double product) noexcept {
+JOURDAIN_FUNCTION inline double product_error(double a, double b, double product) noexcept {
   return product_error<double>(a, b, product, 134217728);
 }
-inline float product_error(float a, float b, float product) noexcept { return product_error<float>(a, b, product, 4096); }
-template <class Real>
+JOURDAIN_FUNCTION inline float product_error(float a, float b, float product) noexcept { return product_error<float>(a, b, product, 4096); }
+template <class Real> JOURDAIN_FUNCTION
 Real product_error(const Real&, const Real&, const Real&) noexcept { return Real(0.0); }
 
 // An angle that follows from time, as a sum of two numbers: rounded to one, it is off by more and more.
@@ -48,32 +48,32 @@ template <class Real>
 struct Angle {
   Real high, low;
 
-  Angle(const Real& value) noexcept : high(value), low(Real(0.0)) {}
-  Angle(const Time<Real>& t) noexcept : high(t.high), low(t.low) {}
-  Angle(const Real& a, const Real& b) noexcept : high(a + b), low(Real(0.0)) {
+  JOURDAIN_FUNCTION Angle(const Real& value) noexcept : high(value), low(Real(0.0)) {}
+  JOURDAIN_FUNCTION Angle(const Time<Real>& t) noexcept : high(t.high), low(t.low) {}
+  JOURDAIN_FUNCTION Angle(const Real& a, const Real& b) noexcept : high(a + b), low(Real(0.0)) {
     const Real part = high - a;
     low = (a - (high - part)) + (b - part);
   }
-  explicit operator Real() const noexcept { return high; }
+  JOURDAIN_FUNCTION explicit operator Real() const noexcept { return high; }
 
-  friend Angle operator-(const Angle& a) noexcept { return Angle(-a.high, -a.low); }
-  friend Angle operator+(const Angle& a, const Angle& b) noexcept {
+  JOURDAIN_FUNCTION friend Angle operator-(const Angle& a) noexcept { return Angle(-a.high, -a.low); }
+  JOURDAIN_FUNCTION friend Angle operator+(const Angle& a, const Angle& b) noexcept {
     const Angle sum(a.high, b.high);
     return Angle(sum.high, sum.low + (a.low + b.low));
   }
-  friend Angle operator-(const Angle& a, const Angle& b) noexcept { return a + -b; }
-  friend Angle operator*(const Angle& a, const Angle& b) noexcept {
+  JOURDAIN_FUNCTION friend Angle operator-(const Angle& a, const Angle& b) noexcept { return a + -b; }
+  JOURDAIN_FUNCTION friend Angle operator*(const Angle& a, const Angle& b) noexcept {
     const Real product = a.high * b.high;
     return Angle(product, product_error(a.high, b.high, product) + (a.high * b.low + a.low * b.high));
   }
-  friend Angle operator/(const Angle& a, const Angle& b) noexcept {
+  JOURDAIN_FUNCTION friend Angle operator/(const Angle& a, const Angle& b) noexcept {
     const Real quotient = a.high / b.high, product = quotient * b.high;
     const Real rest = (a.high - product) - product_error(quotient, b.high, product);
     return Angle(quotient, (rest + (a.low - quotient * b.low)) / b.high);
   }
 };
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Angle<Real>& x, Real& s, Real& c) noexcept {
   Real s0, c0, s1, c1;
   sine_cosine(x.high, s0, c0);
@@ -81,31 +81,31 @@ void sine_cosine(const Angle<Real>& x, Real& s, Real& c) noexcept {
   s = s0 * c1 + c0 * s1;
   c = c0 * c1 - s0 * s1;
 }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Angle<Real>& x) noexcept {
   Real s, c;
   sine_cosine(x, s, c);
   return s;
 }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Angle<Real>& x) noexcept {
   Real s, c;
   sine_cosine(x, s, c);
   return c;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[2]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[2]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[2],
            Real (&zdot)[2]) noexcept {
   velocities(model, stage, ydot);
@@ -114,7 +114,7 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression_6 = Real(3237.3) / parameters.k;
   expression = expression_6 - Real(0.55285);
@@ -126,7 +126,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c5 = parameters.speed * v0P_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
@@ -137,20 +137,20 @@ State<Real> initial_state(const Model<Real>& model) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[2][2]) noexcept {
   M[0][0] = Real(330.0);
   M[0][1] = M[1][0] = Real(30.0);
   M[1][1] = Real(30.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>&, Real (&k)[2]) noexcept {
   k[0] = Real(0.0);
   k[1] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[2]) noexcept {
   const Real stretch2 = state.y[1] + Real(0.4);
   const Real push2_0 = stretch2 * Real(20000.0) + state.z[1] * Real(1500.0);
@@ -181,7 +181,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[1] = q_1;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[2])
     noexcept {
   const Real stretch2 = state.y[1] + Real(0.4);
@@ -217,7 +217,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[1] = zdot_1;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept {
   const Real stretch2 = state.y[1] + Real(0.4);
@@ -255,7 +255,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   tau[1] = tau_2_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real v2P_z = state.z[1] * Real(30.0);
   const Real T2 = state.z[0] * v2P_z + (state.z[0] * state.z[0] * Real(330.0) + (state.z[1] * v2P_z +
@@ -263,7 +263,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   return T2;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h2r_z = state.y[1] * Real(30.0);
   const Real h1r_y = state.y[0] * Real(330.0);
@@ -273,7 +273,7 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

@@ -45,6 +45,11 @@
 // - outputs: outputs of the equations
 #pragma once
 
+// In front of every function: __host__ __device__ where a device compiler shall have them.
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
 namespace crane {
 
 /// Parameters that may change at run time; the values below are those of the model description.
@@ -62,13 +67,13 @@ template <class Real = double>
 struct Time {
   Real high, low, rest;
 
-  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
-  operator Real() const noexcept { return high; }
+  JOURDAIN_FUNCTION Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION operator Real() const noexcept { return high; }
 };
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   Time<Real> later;
   const Real step = h + t.rest;
@@ -79,7 +84,7 @@ Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   return later;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
   t = t + h;
   return t;
@@ -133,7 +138,7 @@ struct Model {
   static constexpr int output_count = 4;
   static constexpr int parameter_count = 4;
 
-  explicit Model(const Parameters& = {}) noexcept;
+  JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 
   Real Jx1;
   Real Jy1;
@@ -179,65 +184,65 @@ inline constexpr int z_suspension_wz = 2;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// 23 operations (15 mul, 8 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[4]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3][3]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 23 operations (18 mul, 5 add and sub, 0 div), 1 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 16 operations (12 mul, 4 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[3])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// 43 operations (31 mul, 12 add and sub, 0 div), 1 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[3]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// 46 operations (31 mul, 15 add and sub, 0 div), 1 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[3], Real
     (&tau)[3]) noexcept;
 
 /// Kinetic energy, J.
 /// 30 operations (22 mul, 8 add and sub, 0 div), 1 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 8 operations (5 mul, 3 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
 /// 128 operations (81 mul, 47 add and sub, 0 div), 2 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
 /// 385 operations.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace crane

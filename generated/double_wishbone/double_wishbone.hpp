@@ -47,6 +47,11 @@
 // - close_loops: the closed state nearby, by Newton's method to the end
 #pragma once
 
+// In front of every function: __host__ __device__ where a device compiler shall have them.
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
 namespace double_wishbone {
 
 /// Parameters that may change at run time; the values below are those of the model description.
@@ -66,13 +71,13 @@ template <class Real = double>
 struct Time {
   Real high, low, rest;
 
-  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
-  operator Real() const noexcept { return high; }
+  JOURDAIN_FUNCTION Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION operator Real() const noexcept { return high; }
 };
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   Time<Real> later;
   const Real step = h + t.rest;
@@ -83,7 +88,7 @@ Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   return later;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
   t = t + h;
   return t;
@@ -145,11 +150,11 @@ struct Model {
   static constexpr int range_count = 1;
   static constexpr int parameter_count = 6;
 
-  explicit Model(const Parameters& = {}) noexcept;
+  JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 
   /// Did the last closing of the loops go well, by all that State says of it? No where something is not
   /// finite.
-  static bool loops_closed(const State& state) noexcept {
+  JOURDAIN_FUNCTION static bool loops_closed(const State& state) noexcept {
     for (const Real& excess : state.beyond)
       if (!(excess <= Real(0.0))) return false;
     return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
@@ -157,7 +162,7 @@ struct Model {
   /// Does what is proven of the loops (see above) hold at these parameters? Those that the constraints depend
   /// on must be in their declared ranges; without one a parameter must have its default value. Elsewhere
   /// nothing is known.
-  static bool loops_proven(const Parameters& parameters) noexcept {
+  JOURDAIN_FUNCTION static bool loops_proven(const Parameters& parameters) noexcept {
     return parameters.steering >= Real(0.04) && parameters.steering <= Real(0.04) && parameters.rate >=
         Real(3.0) && parameters.rate <= Real(3.0);
   }
@@ -198,79 +203,79 @@ inline constexpr int u_road = 0;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
 /// 257 operations (152 mul, 101 add and sub, 4 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[6]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 292 operations (166 mul, 122 add and sub, 4 div), 5 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 566 operations (338 mul, 224 add and sub, 4 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 338 operations (194 mul, 137 add and sub, 6 div), 5 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// 713 operations (416 mul, 289 add and sub, 7 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// 690 operations (405 mul, 278 add and sub, 6 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
 /// 321 operations (193 mul, 124 add and sub, 4 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 47 operations (24 mul, 22 add and sub, 0 div), 4 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
 /// 68 operations (37 mul, 31 add and sub, 0 div), 2 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
 /// 204 operations (108 mul, 87 add and sub, 6 div), 5 sin and cos, 1 atan2.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
 /// 335 operations (192 mul, 139 add and sub, 4 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
 /// 795 operations (453 mul, 334 add and sub, 7 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
@@ -278,7 +283,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 /// Four calls of forward_dynamics.
 /// 4191 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
 /// of the state instead of `input`.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace double_wishbone

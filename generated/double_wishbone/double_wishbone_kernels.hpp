@@ -10,24 +10,24 @@ namespace double_wishbone {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
-inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
-inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
+template <class Real> JOURDAIN_FUNCTION
 Real arctangent2(const Real& y, const Real& x) noexcept { return atan2(y, x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
@@ -35,16 +35,16 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 
 // What products of two numbers lose by rounding (Dekker, Numerische Mathematik 18, 1971; factors are split by powers of
 // two, so that fused operations change nothing). Nothing where a number type is wider than that matters.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real product_error(const Real& a, const Real& b, const Real& product, const Real& scale) noexcept {
   const Real more = a * scale, much = b * scale, a1 = (more + a) - more, b1 = (much + b) - much, a0 = a - a1, b0 = b - b1;
   return ((a1 * b1 - product) + a1 * b0 + a0 * b1) + a0 * b0;
 }
-inline double product_error(double a, double b, double product) noexcept {
+JOURDAIN_FUNCTION inline double product_error(double a, double b, double product) noexcept {
   return product_error<double>(a, b, product, 134217728);
 }
-inline float product_error(float a, float b, float product) noexcept { return product_error<float>(a, b, product, 4096); }
-template <class Real>
+JOURDAIN_FUNCTION inline float product_error(float a, float b, float product) noexcept { return product_error<float>(a, b, product, 4096); }
+template <class Real> JOURDAIN_FUNCTION
 Real product_error(const Real&, const Real&, const Real&) noexcept { return Real(0.0); }
 
 // An angle that follows from time, as a sum of two numbers: rounded to one, it is off by more and more.
@@ -52,32 +52,32 @@ template <class Real>
 struct Angle {
   Real high, low;
 
-  Angle(const Real& value) noexcept : high(value), low(Real(0.0)) {}
-  Angle(const Time<Real>& t) noexcept : high(t.high), low(t.low) {}
-  Angle(const Real& a, const Real& b) noexcept : high(a + b), low(Real(0.0)) {
+  JOURDAIN_FUNCTION Angle(const Real& value) noexcept : high(value), low(Real(0.0)) {}
+  JOURDAIN_FUNCTION Angle(const Time<Real>& t) noexcept : high(t.high), low(t.low) {}
+  JOURDAIN_FUNCTION Angle(const Real& a, const Real& b) noexcept : high(a + b), low(Real(0.0)) {
     const Real part = high - a;
     low = (a - (high - part)) + (b - part);
   }
-  explicit operator Real() const noexcept { return high; }
+  JOURDAIN_FUNCTION explicit operator Real() const noexcept { return high; }
 
-  friend Angle operator-(const Angle& a) noexcept { return Angle(-a.high, -a.low); }
-  friend Angle operator+(const Angle& a, const Angle& b) noexcept {
+  JOURDAIN_FUNCTION friend Angle operator-(const Angle& a) noexcept { return Angle(-a.high, -a.low); }
+  JOURDAIN_FUNCTION friend Angle operator+(const Angle& a, const Angle& b) noexcept {
     const Angle sum(a.high, b.high);
     return Angle(sum.high, sum.low + (a.low + b.low));
   }
-  friend Angle operator-(const Angle& a, const Angle& b) noexcept { return a + -b; }
-  friend Angle operator*(const Angle& a, const Angle& b) noexcept {
+  JOURDAIN_FUNCTION friend Angle operator-(const Angle& a, const Angle& b) noexcept { return a + -b; }
+  JOURDAIN_FUNCTION friend Angle operator*(const Angle& a, const Angle& b) noexcept {
     const Real product = a.high * b.high;
     return Angle(product, product_error(a.high, b.high, product) + (a.high * b.low + a.low * b.high));
   }
-  friend Angle operator/(const Angle& a, const Angle& b) noexcept {
+  JOURDAIN_FUNCTION friend Angle operator/(const Angle& a, const Angle& b) noexcept {
     const Real quotient = a.high / b.high, product = quotient * b.high;
     const Real rest = (a.high - product) - product_error(quotient, b.high, product);
     return Angle(quotient, (rest + (a.low - quotient * b.low)) / b.high);
   }
 };
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Angle<Real>& x, Real& s, Real& c) noexcept {
   Real s0, c0, s1, c1;
   sine_cosine(x.high, s0, c0);
@@ -85,13 +85,13 @@ void sine_cosine(const Angle<Real>& x, Real& s, Real& c) noexcept {
   s = s0 * c1 + c0 * s1;
   c = c0 * c1 - s0 * s1;
 }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Angle<Real>& x) noexcept {
   Real s, c;
   sine_cosine(x, s, c);
   return s;
 }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Angle<Real>& x) noexcept {
   Real s, c;
   sine_cosine(x, s, c);
@@ -99,27 +99,27 @@ Real cosine(const Angle<Real>& x) noexcept {
 }
 
 // Inputs at a stage: held over the step, or sampled there.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
   return held;
 }
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
   return sampled(stage);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[6]) noexcept {
   position_rate(model, stage, ydot);
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[1]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[6],
            Real (&zdot)[1]) noexcept {
   velocities(model, stage, ydot);
@@ -128,7 +128,7 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& inp
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   rate = parameters.rate;
   c1 = parameters.steering * Real(0.5);
@@ -142,7 +142,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c8 = Real(0.5) * stiffness;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
@@ -156,7 +156,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[6]) noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
@@ -263,7 +263,7 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
       t250));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
@@ -369,7 +369,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
       q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) + Real(0.017799999999999996)))))))))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
@@ -575,7 +575,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
       top_joints2bm_z * t437)))) * Real(0.0505)))))))))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
@@ -710,7 +710,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
       (top_joints2bm_y * t228 - top_joints2bm_z * t225))) * h2b_x * Real(9.786103333048876))))))))))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
@@ -966,7 +966,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       rQ1_0 - (t230 * rQ1_1 - (t227 * rQ1_2 + t242 * rQ2_0)))))))))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
@@ -1222,7 +1222,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       - (t227 * aQ1_2 - t242 * aQ2_0))))))))))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
@@ -1347,7 +1347,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   return T3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real q1d3 = state.y[4] * Real(2.0);
   const Real q122 = Real(2.0) * (state.y[3] * state.y[3]);
@@ -1387,7 +1387,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   return V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   const Real q1d2 = state.y[3] * Real(2.0);
@@ -1443,7 +1443,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.wheel_travel = -expression;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real t1, t2;
@@ -1524,7 +1524,7 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   state = closed;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
@@ -1675,7 +1675,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   g_rate[3] = tie_rodlv;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept {
   const Real q1d2 = state.y[3] * Real(2.0);
@@ -1968,7 +1968,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 }
 
 // `input` may be a function that gives the Input at the state of a stage.
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
@@ -1995,7 +1995,7 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input
   close_loops(model, state);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   rk4_step<Real, Input<Real>>(model, state, input, h);
 }

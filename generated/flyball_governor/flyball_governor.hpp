@@ -40,6 +40,11 @@
 // - potential_energy: V of the equations
 #pragma once
 
+// In front of every function: __host__ __device__ where a device compiler shall have them.
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
 namespace flyball_governor {
 
 /// Parameters that may change at run time; the values below are those of the model description.
@@ -73,7 +78,7 @@ struct Model {
   static constexpr int output_count = 0;
   static constexpr int parameter_count = 2;
 
-  explicit Model(const Parameters& = {}) noexcept;
+  JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 
   Real k;
   Real c;
@@ -101,53 +106,53 @@ inline constexpr int z_arm2 = 3;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 12 operations (4 mul, 8 add and sub, 0 div), 4 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[4][4]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 28 operations (23 mul, 5 add and sub, 0 div), 4 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[4]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 90 operations (50 mul, 34 add and sub, 4 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[4])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// 138 operations (82 mul, 49 add and sub, 5 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[4]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// 141 operations (82 mul, 53 add and sub, 4 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[4], Real
     (&tau)[4]) noexcept;
 
 /// Kinetic energy, J.
 /// 23 operations (12 mul, 11 add and sub, 0 div), 4 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 47 operations (22 mul, 23 add and sub, 0 div), 6 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
 /// 650 operations.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace flyball_governor

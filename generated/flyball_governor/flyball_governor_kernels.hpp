@@ -10,37 +10,37 @@ namespace flyball_governor {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[4]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[4]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[4],
            Real (&zdot)[4]) noexcept {
   velocities(model, stage, ydot);
@@ -49,14 +49,14 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   k = parameters.k;
   c = parameters.c;
   c2 = Real(0.5) * k;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.y[0] = Real(0.0);
@@ -70,7 +70,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -90,7 +90,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) 
   M[3][3] = Real(5.1000025);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -119,7 +119,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept 
   k[3] = -kQp3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[4]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -189,7 +189,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[3] = -q_3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[4])
     noexcept {
   Real s0, c0;
@@ -285,7 +285,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[3] = -y_3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[4], Real
     (&tau)[4]) noexcept {
   Real s0, c0;
@@ -380,7 +380,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   tau[3] = tau_3_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -394,7 +394,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return T3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -432,7 +432,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   return V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

@@ -10,44 +10,44 @@ namespace lagrange_top {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[4]) noexcept {
   position_rate(model, stage, ydot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[3]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[4],
            Real (&zdot)[3]) noexcept {
   velocities(model, stage, ydot);
   accelerations(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void normalise(Real* quaternion) noexcept {
   Real square = Real(0.0);
   for (int i = 0; i < 4; ++i) square = square + quaternion[i] * quaternion[i];
@@ -57,10 +57,10 @@ void normalise(Real* quaternion) noexcept {
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters&) noexcept {}
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.y[0] = Real(0.8660254037844387);
@@ -73,7 +73,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]) noexcept {
   const Real half_0_0 = state.z[0] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[1];
@@ -88,7 +88,7 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]
   ydot[3] = qdot_0_3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[3][3]) noexcept {
   M[0][0] = Real(0.06);
   M[0][1] = M[1][0] = Real(0.0);
@@ -98,7 +98,7 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[3][3]) noexce
   M[2][2] = Real(0.02);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[3]) noexcept {
   const Real kww00 = state.z[1] * state.z[2];
   const Real kww01 = state.z[2] * state.z[0];
@@ -109,7 +109,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[3]) noexcept 
   k[2] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&q)[3]) noexcept {
   const Real q0d3 = state.y[3] * Real(2.0);
   const Real q013 = state.y[1] * q0d3;
@@ -125,7 +125,7 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Rea
   q[2] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[3])
     noexcept {
   const Real q0d3 = state.y[3] * Real(2.0);
@@ -150,7 +150,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   zdot[2] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[3], Real (&tau)[3])
     noexcept {
   const Real q0d3 = state.y[3] * Real(2.0);
@@ -174,21 +174,21 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   tau[2] = adn0_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v0T = (state.z[2] * state.z[2] * Real(0.02) + (state.z[0] * state.z[0] + state.z[1] * state.z[1])
       * Real(0.06)) * Real(0.5);
   return v0T;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real q0r2_z = (state.y[1] * state.y[1] + state.y[2] * state.y[2]) * Real(2.0) - Real(1.0);
   const Real V = q0r2_z * Real(0.9810000000000001);
   return -V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   const Real q0d1 = state.y[1] * Real(2.0);
@@ -257,7 +257,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.support.moment[2] = -react0b0N_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

@@ -47,6 +47,11 @@
 // - project: the nearest closed state to first order
 #pragma once
 
+// In front of every function: __host__ __device__ where a device compiler shall have them.
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
 namespace n_four_bar {
 
 /// Parameters that may change at run time; the values below are those of the model description.
@@ -97,11 +102,11 @@ struct Model {
   static constexpr double greatest_opening = 1e-10;  ///< see State; chosen
   static constexpr int parameter_count = 0;
 
-  explicit Model(const Parameters& = {}) noexcept;
+  JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 
   /// Did the last closing of the loops go well, by all that State says of it? No where something is not
   /// finite.
-  static bool loops_closed(const State& state) noexcept {
+  JOURDAIN_FUNCTION static bool loops_closed(const State& state) noexcept {
     return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
   }
 };
@@ -133,30 +138,30 @@ inline constexpr int z_upright2 = 4;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 26 operations (14 mul, 12 add and sub, 0 div), 8 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[5][5]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 44 operations (32 mul, 12 add and sub, 0 div), 8 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[5]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 17 operations (13 mul, 4 add and sub, 0 div), 9 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[5])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.
 /// 361 operations (212 mul, 143 add and sub, 6 div), 10 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[5]) noexcept;
 
@@ -164,50 +169,50 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 /// `zdot`, N m or N.
 /// The loops' forces -G^T lambda count as missing.
 /// 99 operations (56 mul, 43 add and sub, 0 div), 9 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[5], Real
     (&tau)[5]) noexcept;
 
 /// Kinetic energy, J.
 /// 62 operations (41 mul, 21 add and sub, 0 div), 8 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 13 operations (7 mul, 6 add and sub, 0 div), 9 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 2 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
 /// Moves positions and velocities to the nearest ones that the loops allow, to first order.
 /// Call it after changing a state, several times where that was far; steps end with it.
 /// 346 operations (198 mul, 141 add and sub, 7 div), 24 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void project(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
 /// 43 operations (20 mul, 23 add and sub, 0 div), 10 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
 /// 327 operations (192 mul, 129 add and sub, 6 div), 10 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
 /// 1912 operations.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace n_four_bar

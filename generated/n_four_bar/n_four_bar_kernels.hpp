@@ -10,37 +10,37 @@ namespace n_four_bar {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[5]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[5]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[5],
            Real (&zdot)[5]) noexcept {
   velocities(model, stage, ydot);
@@ -49,10 +49,10 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters&) noexcept {}
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.y[0] = Real(0.0);
@@ -68,7 +68,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[5][5]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -105,7 +105,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[5][5]) 
   M[4][4] = Real(0.3333333333333333);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[5]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -148,7 +148,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[5]) noexcept 
   k[4] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&q)[5]) noexcept {
   Real s0, t3;
   detail::sine_cosine(state.y[0], s0, t3);
@@ -179,7 +179,7 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Rea
   q[4] = -q_4;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[5])
     noexcept {
   Real s0, c0;
@@ -308,7 +308,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   zdot[4] = Real(3.0) * (c4 * t354 + (rQp4 + s4 * t356));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[5], Real (&tau)[5])
     noexcept {
   Real s0, c0;
@@ -378,7 +378,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   tau[4] = -aQ4_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -418,7 +418,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return T4;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real t4, c0;
   detail::sine_cosine(state.y[0], t4, c0);
@@ -436,7 +436,7 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   Real s0, c0;
@@ -456,7 +456,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.first_top.rotation[2][2] = Real(1.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void project(const Model<Real>&, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real s0, c0;
@@ -593,7 +593,7 @@ void project(const Model<Real>&, State<Real>& state) noexcept {
   state = closed;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept {
   Real s0, c0;
@@ -631,7 +631,7 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   g_rate[3] = -(pin2bx3_x * state.z[2] + c3 * state.z[3] - s4 * state.z[4]);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&lambda)[4])
     noexcept {
   Real s0, c0;
@@ -750,7 +750,7 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   lambda[3] = -(t303 - (t271 + t335));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

@@ -44,6 +44,11 @@
 // - potential_energy: V of the equations
 #pragma once
 
+// In front of every function: __host__ __device__ where a device compiler shall have them.
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
 namespace panda {
 
 /// Parameters that may change at run time; the values below are those of the model description.
@@ -56,13 +61,13 @@ template <class Real = double>
 struct Time {
   Real high, low, rest;
 
-  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
-  operator Real() const noexcept { return high; }
+  JOURDAIN_FUNCTION Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION operator Real() const noexcept { return high; }
 };
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   Time<Real> later;
   const Real step = h + t.rest;
@@ -73,7 +78,7 @@ Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   return later;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
   t = t + h;
   return t;
@@ -107,7 +112,7 @@ struct Model {
   static constexpr int output_count = 0;
   static constexpr int parameter_count = 0;
 
-  explicit Model(const Parameters& = {}) noexcept;
+  JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 };
 
 // Names in order, closed by a null pointer.
@@ -147,54 +152,54 @@ inline constexpr int u_joint7 = 6;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 319 operations (167 mul, 152 add and sub, 0 div), 12 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[7][7]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 590 operations (326 mul, 264 add and sub, 0 div), 12 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[7]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 81 operations (46 mul, 35 add and sub, 0 div), 12 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[7])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// 1002 operations (555 mul, 441 add and sub, 6 div), 12 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[7]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// 690 operations (371 mul, 319 add and sub, 0 div), 12 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[7], Real
     (&tau)[7]) noexcept;
 
 /// Kinetic energy, J.
 /// 324 operations (173 mul, 151 add and sub, 0 div), 12 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 41 operations (21 mul, 20 add and sub, 0 div), 12 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
 /// 4199 operations. For inputs sampled at the stages include panda_kernels.hpp and pass a function of the
 /// state instead of `input`.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace panda

@@ -45,6 +45,11 @@
 // - close_loops: Newton's iterations
 #pragma once
 
+// In front of every function: __host__ __device__ where a device compiler shall have them.
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
 namespace parallel_robot {
 
 /// Parameters that may change at run time; the values below are those of the model description.
@@ -59,13 +64,13 @@ template <class Real = double>
 struct Time {
   Real high, low, rest;
 
-  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
-  operator Real() const noexcept { return high; }
+  JOURDAIN_FUNCTION Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION operator Real() const noexcept { return high; }
 };
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   Time<Real> later;
   const Real step = h + t.rest;
@@ -76,7 +81,7 @@ Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   return later;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
   t = t + h;
   return t;
@@ -137,11 +142,11 @@ struct Model {
   static constexpr double greatest_opening = 1e-05;  ///< see State; chosen
   static constexpr int parameter_count = 1;
 
-  explicit Model(const Parameters& = {}) noexcept;
+  JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 
   /// Did the last closing of the loops go well, by all that State says of it? No where something is not
   /// finite.
-  static bool loops_closed(const State& state) noexcept {
+  JOURDAIN_FUNCTION static bool loops_closed(const State& state) noexcept {
     return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
   }
 
@@ -185,79 +190,79 @@ inline constexpr int u_arm3 = 2;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
 /// 404 operations (232 mul, 168 add and sub, 4 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[7]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 522 operations (288 mul, 230 add and sub, 4 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3][3]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 706 operations (408 mul, 294 add and sub, 4 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 3 operations (3 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[3])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// 851 operations (478 mul, 366 add and sub, 7 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[3]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// 772 operations (435 mul, 333 add and sub, 4 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[3], Real
     (&tau)[3]) noexcept;
 
 /// Kinetic energy, J.
 /// 520 operations (301 mul, 215 add and sub, 4 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
 /// 418 operations (236 mul, 178 add and sub, 4 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
 /// 612 operations (334 mul, 269 add and sub, 9 div), 34 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
 /// 452 operations (252 mul, 196 add and sub, 4 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
 /// 971 operations (541 mul, 423 add and sub, 7 div), 14 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
@@ -265,7 +270,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 /// Four calls of forward_dynamics.
 /// 5775 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
 /// of the state instead of `input`.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace parallel_robot

@@ -10,47 +10,47 @@ namespace parallel_robot {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
 // Inputs at a stage: held over the step, or sampled there.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
   return held;
 }
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
   return sampled(stage);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[7]) noexcept {
   position_rate(model, stage, ydot);
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[3]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[7],
            Real (&zdot)[3]) noexcept {
   velocities(model, stage, ydot);
@@ -59,7 +59,7 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& inp
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression = parameters.payload * Real(0.0064);
   const Real expression_2 = expression * Real(0.5);
@@ -86,7 +86,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c8 = S_xx + (Real(0.005062500000000001) + (S_yy + Real(0.0016875)));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
@@ -103,7 +103,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -243,7 +243,7 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   ydot[6] = -(t412 * state.z[2] + (t278 * state.z[0] + t345 * state.z[1]));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3][3]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -413,7 +413,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
       + (D6 + E6)))))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -678,7 +678,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
       t718)))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>& input, Real (&q)[3]) noexcept {
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
@@ -688,7 +688,7 @@ void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>& input, Rea
   q[2] = -push5_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[3]) noexcept {
   Real s0, c0;
@@ -989,7 +989,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[2] = t732 * t898 + (t710 * t877 - t711 * t901);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[3], Real
     (&tau)[3]) noexcept {
   Real s0, c0;
@@ -1260,7 +1260,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       aQ6_0 + zdot[2] * (Real(0.002) + (D6 + (D6 + Real(0.027))))))))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -1445,12 +1445,12 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   return T_rotor;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>&) noexcept {
   return Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   Real s0, c0;
@@ -1618,7 +1618,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.platform_velocity.omega[2] = -w2_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real s0, c0;
@@ -1854,7 +1854,7 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   state = closed;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept {
   Real s0, c0;
@@ -2031,7 +2031,7 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   g_rate[3] = pin3dv_y;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept {
   Real s0, c0;
@@ -2363,7 +2363,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 }
 
 // `input` may be a function that gives the Input at the state of a stage.
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
@@ -2390,7 +2390,7 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input
   close_loops(model, state);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   rk4_step<Real, Input<Real>>(model, state, input, h);
 }

@@ -41,6 +41,11 @@
 // - potential_energy: V of the equations
 #pragma once
 
+// In front of every function: __host__ __device__ where a device compiler shall have them.
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
 namespace pendulum {
 
 /// Parameters that may change at run time; the values below are those of the model description.
@@ -74,7 +79,7 @@ struct Model {
   static constexpr int output_count = 0;
   static constexpr int parameter_count = 2;
 
-  explicit Model(const Parameters& = {}) noexcept;
+  JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 
   Real S_yy;
   Real c1;
@@ -97,53 +102,53 @@ inline constexpr int z_pivot = 0;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// 3 operations (2 mul, 1 add and sub, 0 div), 1 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
 /// 2 operations (2 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
 /// 30 operations.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace pendulum

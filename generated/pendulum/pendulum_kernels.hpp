@@ -10,37 +10,37 @@ namespace pendulum {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[1]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[1]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[1],
            Real (&zdot)[1]) noexcept {
   velocities(model, stage, ydot);
@@ -49,7 +49,7 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real mr_y = parameters.m * parameters.l;
   S_yy = parameters.l * mr_y;
@@ -59,7 +59,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c3 = S_yy * Real(0.5);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.y[0] = Real(-1.5707963267948966);
@@ -67,24 +67,24 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>&, Real (&M)[1][1]) noexcept {
   M[0][0] = model.S_yy;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>&, Real (&k)[1]) noexcept {
   k[0] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
   const Real s0 = detail::sine(state.y[0]);
   const Real q_0 = s0 * model.c1;
   q[0] = q_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
   const Real s0 = detail::sine(state.y[0]);
@@ -92,7 +92,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[0] = -y_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
   const Real s0 = detail::sine(state.y[0]);
@@ -102,20 +102,20 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   tau[0] = aQ0_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real v0T = state.z[0] * state.z[0] * model.c3;
   return v0T;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c0 = detail::cosine(state.y[0]);
   const Real V = c0 * model.c1;
   return -V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

@@ -40,6 +40,11 @@
 // - outputs: outputs of the equations
 #pragma once
 
+// In front of every function: __host__ __device__ where a device compiler shall have them.
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
 namespace quadrotor {
 
 /// Parameters that may change at run time; the values below are those of the model description.
@@ -54,13 +59,13 @@ template <class Real = double>
 struct Time {
   Real high, low, rest;
 
-  Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
-  Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
-  operator Real() const noexcept { return high; }
+  JOURDAIN_FUNCTION Time() noexcept : high(Real(0.0)), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t) noexcept : high(t), low(Real(0.0)), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION Time(const Real& t, const Real& more) noexcept : high(t), low(more), rest(Real(0.0)) {}
+  JOURDAIN_FUNCTION operator Real() const noexcept { return high; }
 };
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   Time<Real> later;
   const Real step = h + t.rest;
@@ -71,7 +76,7 @@ Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   return later;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
   t = t + h;
   return t;
@@ -116,7 +121,7 @@ struct Model {
   static constexpr int output_count = 1;
   static constexpr int parameter_count = 1;
 
-  explicit Model(const Parameters& = {}) noexcept;
+  JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 
   Real drag;
 };
@@ -153,58 +158,58 @@ inline constexpr int u_thrust4 = 3;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// 23 operations (15 mul, 8 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[7]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[6][6]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 24 operations (15 mul, 9 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[6]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 105 operations (56 mul, 49 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[6])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// 150 operations (83 mul, 67 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[6]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// 135 operations (78 mul, 57 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept;
 
 /// Kinetic energy, J.
 /// 29 operations (18 mul, 11 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 1 operations (1 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
 /// 23 operations (12 mul, 11 add and sub, 0 div), 0 sin and cos.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
@@ -212,7 +217,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 /// Four calls of forward_dynamics.
 /// 885 operations. For inputs sampled at the stages include quadrotor_kernels.hpp and pass a function of the
 /// state instead of `input`.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace quadrotor

@@ -10,54 +10,54 @@ namespace quadrotor {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
 // Inputs at a stage: held over the step, or sampled there.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
   return held;
 }
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
   return sampled(stage);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[7]) noexcept {
   position_rate(model, stage, ydot);
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[6]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[7],
            Real (&zdot)[6]) noexcept {
   velocities(model, stage, ydot);
   accelerations(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void normalise(Real* quaternion) noexcept {
   Real square = Real(0.0);
   for (int i = 0; i < 4; ++i) square = square + quaternion[i] * quaternion[i];
@@ -67,12 +67,12 @@ void normalise(Real* quaternion) noexcept {
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   drag = parameters.drag;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
@@ -92,7 +92,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]) noexcept {
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];
@@ -110,7 +110,7 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   ydot[6] = qdot_0_3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[6][6]) noexcept {
   M[0][0] = Real(0.028);
   M[0][1] = M[1][0] = Real(0.0);
@@ -135,7 +135,7 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[6][6]) noexce
   M[5][5] = Real(2.9261652e-05);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
   const Real kSu0_x = state.z[5] * Real(7.18277e-07) + state.z[4] * Real(8.30806e-07) - state.z[3] *
       Real(1.4672772e-05);
@@ -154,7 +154,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   k[5] = -kdn0_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[6])
     noexcept {
   const Real q0d1 = state.y[4] * Real(2.0);
@@ -211,7 +211,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[5] = -force4sn_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[6]) noexcept {
   const Real q0d1 = state.y[4] * Real(2.0);
@@ -286,7 +286,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[5] = zdot_5;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept {
   const Real q0d1 = state.y[4] * Real(2.0);
@@ -350,7 +350,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   tau[5] = adn0_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real Tfree = (state.z[0] * state.z[0] + (state.z[1] * state.z[1] + state.z[2] * state.z[2])) *
       Real(0.014) + (state.z[5] * (state.z[4] * Real(8501189975362487.0) + (state.z[3] *
@@ -362,13 +362,13 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return Tfree;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real V = state.y[2] * Real(0.27468000000000004);
   return V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   const Real q0d1 = state.y[4] * Real(2.0);
@@ -408,7 +408,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
 }
 
 // `input` may be a function that gives the Input at the state of a stage.
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
@@ -435,7 +435,7 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input
   detail::normalise(state.y + 3);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   rk4_step<Real, Input<Real>>(model, state, input, h);
 }

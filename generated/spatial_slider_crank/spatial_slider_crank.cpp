@@ -5,48 +5,57 @@ namespace spatial_slider_crank {
 
 template struct Model<double>;
 template struct Model<float>;
-template State<double> initial_state(const Model<double>& model) noexcept;
-template State<float> initial_state(const Model<float>& model) noexcept;
-template void position_rate(const Model<double>& model, const State<double>& state, double (&ydot)[4])
+template JOURDAIN_FUNCTION State<double> initial_state(const Model<double>& model) noexcept;
+template JOURDAIN_FUNCTION State<float> initial_state(const Model<float>& model) noexcept;
+template JOURDAIN_FUNCTION void position_rate(const Model<double>& model, const State<double>& state, double
+    (&ydot)[4]) noexcept;
+template JOURDAIN_FUNCTION void position_rate(const Model<float>& model, const State<float>& state, float
+    (&ydot)[4]) noexcept;
+template JOURDAIN_FUNCTION void mass_matrix(const Model<double>& model, const State<double>& state, double
+    (&M)[1][1]) noexcept;
+template JOURDAIN_FUNCTION void mass_matrix(const Model<float>& model, const State<float>& state, float
+    (&M)[1][1]) noexcept;
+template JOURDAIN_FUNCTION void k_bar(const Model<double>& model, const State<double>& state, double (&k)[1])
     noexcept;
-template void position_rate(const Model<float>& model, const State<float>& state, float (&ydot)[4]) noexcept;
-template void mass_matrix(const Model<double>& model, const State<double>& state, double (&M)[1][1]) noexcept;
-template void mass_matrix(const Model<float>& model, const State<float>& state, float (&M)[1][1]) noexcept;
-template void k_bar(const Model<double>& model, const State<double>& state, double (&k)[1]) noexcept;
-template void k_bar(const Model<float>& model, const State<float>& state, float (&k)[1]) noexcept;
-template void q_bar(const Model<double>& model, const State<double>& state, const Input<double>& input, double
-    (&q)[1]) noexcept;
-template void q_bar(const Model<float>& model, const State<float>& state, const Input<float>& input, float
-    (&q)[1]) noexcept;
-template void forward_dynamics(const Model<double>& model, const State<double>& state, const Input<double>&
-    input, double (&zdot)[1]) noexcept;
-template void forward_dynamics(const Model<float>& model, const State<float>& state, const Input<float>&
-    input, float (&zdot)[1]) noexcept;
-template void inverse_dynamics(const Model<double>& model, const State<double>& state, const double
-    (&zdot)[1], double (&tau)[1]) noexcept;
-template void inverse_dynamics(const Model<float>& model, const State<float>& state, const float (&zdot)[1],
-    float (&tau)[1]) noexcept;
-template double kinetic_energy(const Model<double>& model, const State<double>& state) noexcept;
-template float kinetic_energy(const Model<float>& model, const State<float>& state) noexcept;
-template double potential_energy(const Model<double>& model, const State<double>& state) noexcept;
-template float potential_energy(const Model<float>& model, const State<float>& state) noexcept;
-template void outputs(const Model<double>& model, const State<double>& state, const Input<double>& input,
-    Outputs<double>& result) noexcept;
-template void outputs(const Model<float>& model, const State<float>& state, const Input<float>& input,
-    Outputs<float>& result) noexcept;
-template void close_loops(const Model<double>& model, State<double>& state) noexcept;
-template void close_loops(const Model<float>& model, State<float>& state) noexcept;
-template void constraint_residual(const Model<double>& model, const State<double>& state, double (&g)[3],
-    double (&g_rate)[3]) noexcept;
-template void constraint_residual(const Model<float>& model, const State<float>& state, float (&g)[3], float
-    (&g_rate)[3]) noexcept;
-template void constraint_forces(const Model<double>& model, const State<double>& state, const Input<double>&
-    input, double (&lambda)[3]) noexcept;
-template void constraint_forces(const Model<float>& model, const State<float>& state, const Input<float>&
-    input, float (&lambda)[3]) noexcept;
-template void rk4_step(const Model<double>& model, State<double>& state, const Input<double>& input, double h)
+template JOURDAIN_FUNCTION void k_bar(const Model<float>& model, const State<float>& state, float (&k)[1])
     noexcept;
-template void rk4_step(const Model<float>& model, State<float>& state, const Input<float>& input, float h)
+template JOURDAIN_FUNCTION void q_bar(const Model<double>& model, const State<double>& state, const
+    Input<double>& input, double (&q)[1]) noexcept;
+template JOURDAIN_FUNCTION void q_bar(const Model<float>& model, const State<float>& state, const
+    Input<float>& input, float (&q)[1]) noexcept;
+template JOURDAIN_FUNCTION void forward_dynamics(const Model<double>& model, const State<double>& state, const
+    Input<double>& input, double (&zdot)[1]) noexcept;
+template JOURDAIN_FUNCTION void forward_dynamics(const Model<float>& model, const State<float>& state, const
+    Input<float>& input, float (&zdot)[1]) noexcept;
+template JOURDAIN_FUNCTION void inverse_dynamics(const Model<double>& model, const State<double>& state, const
+    double (&zdot)[1], double (&tau)[1]) noexcept;
+template JOURDAIN_FUNCTION void inverse_dynamics(const Model<float>& model, const State<float>& state, const
+    float (&zdot)[1], float (&tau)[1]) noexcept;
+template JOURDAIN_FUNCTION double kinetic_energy(const Model<double>& model, const State<double>& state)
     noexcept;
+template JOURDAIN_FUNCTION float kinetic_energy(const Model<float>& model, const State<float>& state)
+    noexcept;
+template JOURDAIN_FUNCTION double potential_energy(const Model<double>& model, const State<double>& state)
+    noexcept;
+template JOURDAIN_FUNCTION float potential_energy(const Model<float>& model, const State<float>& state)
+    noexcept;
+template JOURDAIN_FUNCTION void outputs(const Model<double>& model, const State<double>& state, const
+    Input<double>& input, Outputs<double>& result) noexcept;
+template JOURDAIN_FUNCTION void outputs(const Model<float>& model, const State<float>& state, const
+    Input<float>& input, Outputs<float>& result) noexcept;
+template JOURDAIN_FUNCTION void close_loops(const Model<double>& model, State<double>& state) noexcept;
+template JOURDAIN_FUNCTION void close_loops(const Model<float>& model, State<float>& state) noexcept;
+template JOURDAIN_FUNCTION void constraint_residual(const Model<double>& model, const State<double>& state,
+    double (&g)[3], double (&g_rate)[3]) noexcept;
+template JOURDAIN_FUNCTION void constraint_residual(const Model<float>& model, const State<float>& state,
+    float (&g)[3], float (&g_rate)[3]) noexcept;
+template JOURDAIN_FUNCTION void constraint_forces(const Model<double>& model, const State<double>& state,
+    const Input<double>& input, double (&lambda)[3]) noexcept;
+template JOURDAIN_FUNCTION void constraint_forces(const Model<float>& model, const State<float>& state, const
+    Input<float>& input, float (&lambda)[3]) noexcept;
+template JOURDAIN_FUNCTION void rk4_step(const Model<double>& model, State<double>& state, const
+    Input<double>& input, double h) noexcept;
+template JOURDAIN_FUNCTION void rk4_step(const Model<float>& model, State<float>& state, const Input<float>&
+    input, float h) noexcept;
 
 }  // namespace spatial_slider_crank

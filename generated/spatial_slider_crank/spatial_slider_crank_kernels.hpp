@@ -10,41 +10,41 @@ namespace spatial_slider_crank {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
-inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
-inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
+template <class Real> JOURDAIN_FUNCTION
 Real arctangent2(const Real& y, const Real& x) noexcept { return atan2(y, x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[4]) noexcept {
   position_rate(model, stage, ydot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[1]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[4],
            Real (&zdot)[1]) noexcept {
   velocities(model, stage, ydot);
@@ -53,10 +53,10 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters&) noexcept {}
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.y[0] = Real(1.5111067779016718e-16);
@@ -67,7 +67,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -88,7 +88,7 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]
   ydot[3] = t22 * state.z[0];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -112,7 +112,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   M[0][0] = -(T3 * Real(2.0));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -182,7 +182,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
       (kdn3_y - (t64 * h2b_x - t60 * S2b_zz)) + t22 * (kQp3 - (t64 * p_3_3F_y + t57 * Real(0.01525))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -197,7 +197,7 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Rea
   q[0] = -((t20 + Real(1.0) / ballbx3_y * (ballax_x - Real(0.3) * t20) * (c2 * c3)) * Real(0.73575));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
   Real s2, c2;
@@ -272,7 +272,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   zdot[0] = Real(1.0) / (Real(2.0) * T3) * (t25 * rQ2_0 + (t28 * rf1_z - t22 * rQ3_0));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[1], Real (&tau)[1])
     noexcept {
   Real s2, c2;
@@ -354,7 +354,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   tau[0] = adn0_z - t28 * af1_z - t25 * aQ2_0 + t22 * aQ3_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -381,7 +381,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return T3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real c3 = detail::cosine(state.y[3]);
   const Real s2 = detail::sine(state.y[2]);
@@ -391,7 +391,7 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   Real s2, c2;
@@ -425,7 +425,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
       ballbx_y * t26) * state.z[0];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real t1, t2;
@@ -458,7 +458,7 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   state = closed;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[3], Real (&g_rate)[3])
     noexcept {
   Real s2, c2;
@@ -503,7 +503,7 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   g_rate[2] = balldv_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&lambda)[3])
     noexcept {
   Real s2, c2;
@@ -597,7 +597,7 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   lambda[2] = t165;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

@@ -10,37 +10,37 @@ namespace spring_four_bar {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[3]) noexcept {
   position_rate(model, stage, ydot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[1]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[3],
            Real (&zdot)[1]) noexcept {
   velocities(model, stage, ydot);
@@ -49,14 +49,14 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   k = parameters.k;
   c = parameters.c;
   c2 = Real(0.5) * k;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.y[0] = Real(1.7453292519943295);
@@ -66,7 +66,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -84,7 +84,7 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
   ydot[2] = t21 * (c1 * pinbx1_y + s1 * pinbx1_x) * state.z[0];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -111,7 +111,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   M[0][0] = T2 * Real(2.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -148,7 +148,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
       * (t21 * (c1 * t47 - s1 * t49))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -181,7 +181,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[0] = -(t30 * q_2 + (h0_x - t22 * (c2 * pinbx1_y - pinbx1_x * s2) * h1b_x) * Real(9.81));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
   Real s0, c0;
@@ -239,7 +239,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       * tau_2_0)))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
   Real s0, c0;
@@ -293,7 +293,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   tau[0] = adn1_z - (aQp0 + (adn0_z + (c0 * adf1_y - (s0 * adf1_x + (t26 * aQ1_0 - t30 * tau_2_0)))));
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
@@ -323,7 +323,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return -T2;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -342,7 +342,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   return V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   Real s2, c2;
@@ -362,7 +362,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.far_pin.rotation[2][2] = Real(1.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real s0, c0;
@@ -406,7 +406,7 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   state = closed;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept {
   Real s0, c0;
@@ -431,7 +431,7 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   g_rate[1] = pinbx1_x * state.z[0] + c1 * t34 - c2 * t35;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real
     (&lambda)[2]) noexcept {
   Real s0, c0;
@@ -499,7 +499,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   lambda[1] = t22 * (s2 * rQ1_0_2 - s1 * tau_2_0_2);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

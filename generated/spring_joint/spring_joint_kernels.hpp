@@ -10,37 +10,37 @@ namespace spring_joint {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[3]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[3]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[3],
            Real (&zdot)[3]) noexcept {
   velocities(model, stage, ydot);
@@ -49,7 +49,7 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   k = parameters.k;
   expression = Real(2.4525) / k;
@@ -59,7 +59,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c3 = k * Real(0.5);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept {
   State<Real> initial;
   initial.y[0] = Real(0.0);
@@ -71,7 +71,7 @@ State<Real> initial_state(const Model<Real>& model) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[3][3]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -85,7 +85,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[3][3]) 
   M[2][2] = Real(0.3333333333333333);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[3]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -97,7 +97,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[3]) noexcept 
   k[2] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[3]) noexcept {
   const Real c2 = detail::cosine(state.y[2]);
   const Real push0_0 = state.y[0] * model.k + state.z[0] * model.expression_2;
@@ -109,7 +109,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[2] = q_2;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[3])
     noexcept {
   Real s2, c2;
@@ -147,7 +147,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[2] = -zdot_2;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[3], Real
     (&tau)[3]) noexcept {
   Real s2, c2;
@@ -173,7 +173,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   tau[2] = -aQ2_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -182,7 +182,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return T2;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real s2 = detail::sine(state.y[2]);
   const Real h2b_y = s2 * Real(0.5);
@@ -191,7 +191,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   return V;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   Real s2, c2;
@@ -210,7 +210,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.rod_pose.rotation[2][2] = Real(1.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

@@ -5,35 +5,43 @@ namespace spring_pendulum {
 
 template struct Model<double>;
 template struct Model<float>;
-template State<double> initial_state(const Model<double>& model) noexcept;
-template State<float> initial_state(const Model<float>& model) noexcept;
-template void mass_matrix(const Model<double>& model, const State<double>& state, double (&M)[2][2]) noexcept;
-template void mass_matrix(const Model<float>& model, const State<float>& state, float (&M)[2][2]) noexcept;
-template void k_bar(const Model<double>& model, const State<double>& state, double (&k)[2]) noexcept;
-template void k_bar(const Model<float>& model, const State<float>& state, float (&k)[2]) noexcept;
-template void q_bar(const Model<double>& model, const State<double>& state, const Input<double>& input, double
-    (&q)[2]) noexcept;
-template void q_bar(const Model<float>& model, const State<float>& state, const Input<float>& input, float
-    (&q)[2]) noexcept;
-template void forward_dynamics(const Model<double>& model, const State<double>& state, const Input<double>&
-    input, double (&zdot)[2]) noexcept;
-template void forward_dynamics(const Model<float>& model, const State<float>& state, const Input<float>&
-    input, float (&zdot)[2]) noexcept;
-template void inverse_dynamics(const Model<double>& model, const State<double>& state, const double
-    (&zdot)[2], double (&tau)[2]) noexcept;
-template void inverse_dynamics(const Model<float>& model, const State<float>& state, const float (&zdot)[2],
-    float (&tau)[2]) noexcept;
-template double kinetic_energy(const Model<double>& model, const State<double>& state) noexcept;
-template float kinetic_energy(const Model<float>& model, const State<float>& state) noexcept;
-template double potential_energy(const Model<double>& model, const State<double>& state) noexcept;
-template float potential_energy(const Model<float>& model, const State<float>& state) noexcept;
-template void outputs(const Model<double>& model, const State<double>& state, const Input<double>& input,
-    Outputs<double>& result) noexcept;
-template void outputs(const Model<float>& model, const State<float>& state, const Input<float>& input,
-    Outputs<float>& result) noexcept;
-template void rk4_step(const Model<double>& model, State<double>& state, const Input<double>& input, double h)
+template JOURDAIN_FUNCTION State<double> initial_state(const Model<double>& model) noexcept;
+template JOURDAIN_FUNCTION State<float> initial_state(const Model<float>& model) noexcept;
+template JOURDAIN_FUNCTION void mass_matrix(const Model<double>& model, const State<double>& state, double
+    (&M)[2][2]) noexcept;
+template JOURDAIN_FUNCTION void mass_matrix(const Model<float>& model, const State<float>& state, float
+    (&M)[2][2]) noexcept;
+template JOURDAIN_FUNCTION void k_bar(const Model<double>& model, const State<double>& state, double (&k)[2])
     noexcept;
-template void rk4_step(const Model<float>& model, State<float>& state, const Input<float>& input, float h)
+template JOURDAIN_FUNCTION void k_bar(const Model<float>& model, const State<float>& state, float (&k)[2])
     noexcept;
+template JOURDAIN_FUNCTION void q_bar(const Model<double>& model, const State<double>& state, const
+    Input<double>& input, double (&q)[2]) noexcept;
+template JOURDAIN_FUNCTION void q_bar(const Model<float>& model, const State<float>& state, const
+    Input<float>& input, float (&q)[2]) noexcept;
+template JOURDAIN_FUNCTION void forward_dynamics(const Model<double>& model, const State<double>& state, const
+    Input<double>& input, double (&zdot)[2]) noexcept;
+template JOURDAIN_FUNCTION void forward_dynamics(const Model<float>& model, const State<float>& state, const
+    Input<float>& input, float (&zdot)[2]) noexcept;
+template JOURDAIN_FUNCTION void inverse_dynamics(const Model<double>& model, const State<double>& state, const
+    double (&zdot)[2], double (&tau)[2]) noexcept;
+template JOURDAIN_FUNCTION void inverse_dynamics(const Model<float>& model, const State<float>& state, const
+    float (&zdot)[2], float (&tau)[2]) noexcept;
+template JOURDAIN_FUNCTION double kinetic_energy(const Model<double>& model, const State<double>& state)
+    noexcept;
+template JOURDAIN_FUNCTION float kinetic_energy(const Model<float>& model, const State<float>& state)
+    noexcept;
+template JOURDAIN_FUNCTION double potential_energy(const Model<double>& model, const State<double>& state)
+    noexcept;
+template JOURDAIN_FUNCTION float potential_energy(const Model<float>& model, const State<float>& state)
+    noexcept;
+template JOURDAIN_FUNCTION void outputs(const Model<double>& model, const State<double>& state, const
+    Input<double>& input, Outputs<double>& result) noexcept;
+template JOURDAIN_FUNCTION void outputs(const Model<float>& model, const State<float>& state, const
+    Input<float>& input, Outputs<float>& result) noexcept;
+template JOURDAIN_FUNCTION void rk4_step(const Model<double>& model, State<double>& state, const
+    Input<double>& input, double h) noexcept;
+template JOURDAIN_FUNCTION void rk4_step(const Model<float>& model, State<float>& state, const Input<float>&
+    input, float h) noexcept;
 
 }  // namespace spring_pendulum

@@ -10,44 +10,44 @@ namespace tumbling_body {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[7]) noexcept {
   position_rate(model, stage, ydot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[6]) noexcept {
   forward_dynamics(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[7],
            Real (&zdot)[6]) noexcept {
   velocities(model, stage, ydot);
   accelerations(model, stage, input, zdot);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void normalise(Real* quaternion) noexcept {
   Real square = Real(0.0);
   for (int i = 0; i < 4; ++i) square = square + quaternion[i] * quaternion[i];
@@ -57,10 +57,10 @@ void normalise(Real* quaternion) noexcept {
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters&) noexcept {}
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.y[0] = Real(0.0);
@@ -79,7 +79,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]) noexcept {
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];
@@ -97,7 +97,7 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   ydot[6] = qdot_0_3;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[6][6]) noexcept {
   M[0][0] = Real(2.0);
   M[0][1] = M[1][0] = Real(0.0);
@@ -122,7 +122,7 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[6][6]) noexce
   M[5][5] = Real(3.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
   const Real kww00 = state.z[4] * state.z[5];
   const Real kww01 = state.z[5] * state.z[3];
@@ -136,7 +136,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   k[5] = -kww02;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>&, Real (&q)[6]) noexcept {
   q[0] = Real(0.0);
   q[1] = Real(0.0);
@@ -146,7 +146,7 @@ void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>&, Real (&q)
   q[5] = Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[6])
     noexcept {
   const Real bww00 = state.z[4] * state.z[5];
@@ -161,7 +161,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   zdot[5] = -acc0u;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[6], Real (&tau)[6])
     noexcept {
   const Real aww00 = state.z[4] * state.z[5];
@@ -181,19 +181,19 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   tau[5] = adn0_z;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real Tfree = state.z[5] * state.z[5] * Real(1.5) + state.z[3] * state.z[3] * Real(0.5) + state.z[0] *
       state.z[0] + state.z[1] * state.z[1] + state.z[2] * state.z[2] + state.z[4] * state.z[4];
   return Tfree;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>&) noexcept {
   return Real(0.0);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
   const Real Tfree = state.z[5] * state.z[5] * Real(1.5) + state.z[3] * state.z[3] * Real(0.5) + state.z[0] *
@@ -201,7 +201,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.energy = Tfree;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

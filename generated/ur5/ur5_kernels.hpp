@@ -10,47 +10,47 @@ namespace ur5 {
 namespace detail {
 
 // The functions of the C library for built-in types; those of another number type are found by its namespace.
-inline double sine(double x) noexcept { return ::sin(x); }
-inline double cosine(double x) noexcept { return ::cos(x); }
-inline double square_root(double x) noexcept { return ::sqrt(x); }
-inline float sine(float x) noexcept { return ::sinf(x); }
-inline float cosine(float x) noexcept { return ::cosf(x); }
-inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
 // Inputs at a stage: held over the step, or sampled there.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
   return held;
 }
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
   return sampled(stage);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[6]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[6]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
 }
 
-template <class Real, class Inputs>
+template <class Real, class Inputs> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[6],
            Real (&zdot)[6]) noexcept {
   velocities(model, stage, ydot);
@@ -59,10 +59,10 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& inp
 
 }  // namespace detail
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters&) noexcept {}
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
@@ -81,7 +81,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
@@ -165,7 +165,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   M[5][5] = Real(0.0171364731454);
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
@@ -305,7 +305,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   k[5] = -kQp5;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&q)[6]) noexcept {
   Real t3, c1;
   detail::sine_cosine(state.y[1], t3, c1);
@@ -331,7 +331,7 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   q[5] = -input.u[5];
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&zdot)[6])
     noexcept {
   Real s1, c1;
@@ -528,7 +528,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   zdot[5] = -zdot_5;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[6], Real (&tau)[6])
     noexcept {
   Real s1, c1;
@@ -684,7 +684,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   tau[5] = aQ5_0;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
@@ -772,7 +772,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   return T5;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s1, t3;
   detail::sine_cosine(state.y[1], s1, t3);
@@ -793,7 +793,7 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
 }
 
 // `input` may be a function that gives the Input at the state of a stage.
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
@@ -819,7 +819,7 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input
   state.t = state.t + h;
 }
 
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   rk4_step<Real, Input<Real>>(model, state, input, h);
 }

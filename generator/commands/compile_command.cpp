@@ -20,6 +20,7 @@ struct Arguments {
   std::string folder;
   std::vector<std::string> functions, frames;
   bool clock = false, explain = false;
+  std::string language = "c++", real = "both";
   std::string dump;  ///< pass whose programs are printed, or kAllPasses; empty: none
 };
 
@@ -31,6 +32,14 @@ std::string check_pass(const std::string& pass) {
   known.insert(known.begin(), {kAllPasses, kLowered});
   if (std::find(known.begin(), known.end(), pass) != known.end()) return "";
   return fmt::format("no pass '{}'; there are {}", pass, fmt::join(known, ", "));
+}
+
+ir::TextChoices choices(const Arguments& arguments) {
+  ir::TextChoices chosen;
+  if (arguments.language == "c") chosen.language = ir::Language::kC;
+  chosen.has_double = arguments.real != "float";
+  chosen.has_float = arguments.real != "double";
+  return chosen;
 }
 
 int run(const Arguments& arguments) {
@@ -48,6 +57,7 @@ int run(const Arguments& arguments) {
     return kUsage;
   }
   loaded->options.clock = arguments.clock;
+  loaded->options.choices = choices(arguments);
   if (!arguments.functions.empty()) loaded->options.functions = functions;
   if (!arguments.dump.empty())
     loaded->options.watch = [&](const passes::PassRecord& pass, const ir::Module& module) {
@@ -73,7 +83,7 @@ int run(const Arguments& arguments) {
 void add_compile(CLI::App& app, int& status) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("compile", "emit C++ for a model: jourdain compile arm.toml -o src/arm");
+      app.add_subcommand("compile", "emit C++ or C for a model: jourdain compile arm.toml -o src/arm");
   arguments->model.add_to(*command);
   command->add_option("-o,--output", arguments->folder, "folder to write into")->required();
   command
@@ -83,6 +93,15 @@ void add_compile(CLI::App& app, int& status) {
           "gravity_compensation, centroidal_momentum_matrix, …")
       ->delimiter(',');
   command->add_option("--frame", arguments->frames, kFrameHelp)->expected(1)->take_all();
+  command->add_option("--language", arguments->language, "language of the files: C++, or C99")
+      ->check(CLI::IsMember({"c++", "c"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--real", arguments->real,
+          "number types: of what NAME.cpp instantiates; in C of the files, NAME_f.h and NAME_f.c for float")
+      ->check(CLI::IsMember({"float", "double", "both"}))
+      ->capture_default_str();
   command->add_flag("--clock", arguments->clock, "keep the time in State, though nothing depends on it");
   command->add_flag("--explain", arguments->explain,
                     "print what was compared with what, what each pass did and what was left out");

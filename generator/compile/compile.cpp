@@ -10,6 +10,7 @@
 #include "compile/model_text.hpp"
 #include "compile/module_check.hpp"
 #include "compile/omissions.hpp"
+#include "emit/c/c_files.hpp"
 #include "emit/cpp/model_files.hpp"
 #include "loops/plan/plan.hpp"
 #include "programs/closed_system.hpp"
@@ -119,8 +120,15 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
           : validate::validate_translation(mechanism, equations, result.module, 8, load ? &*load : nullptr);
   result.assumptions = assumptions(mechanism, options, result);
   if (!result.verdict.accepted()) return;
-  result.files =
-      emit::cpp::model_files(model_text(mechanism, options, result), result.functions, result.module);
+  const emit::ModelText text = model_text(mechanism, options, result);
+  const bool in_c = options.choices.language == ir::Language::kC;
+  if (in_c && options.choices.has_float && emit::c::overflows_float(text, result.module)) {
+    result.verdict.failures = {"a constant of the equations is beyond the range of float"};
+    result.verdict.overflows = 1;
+    return;
+  }
+  result.files = in_c ? emit::c::model_files(text, result.functions, result.module)
+                      : emit::cpp::model_files(text, result.functions, result.module);
   result.expected = expected_text(mechanism, options, result);
   result.expected.left_out = left_out_sentences(result.omissions);
   for (const std::string& sentence : result.expected.left_out) result.expected.sentences.push_back(sentence);

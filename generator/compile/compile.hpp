@@ -20,6 +20,7 @@
 namespace jourdain {
 
 struct CompileOptions {
+  ir::TextChoices choices;
   std::string name;  ///< namespace and file name; empty: made from the model's name
   std::vector<std::string> functions = programs::default_functions();
   dynamics::DerivationOptions derivation;

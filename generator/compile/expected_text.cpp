@@ -54,6 +54,7 @@ readback::ExpectedKinematics expected_kinematics(const model::KinematicFunction&
 readback::Expected expected_text(const model::Mechanism& mechanism, const CompileOptions& options,
                                  const CompiledModel& compiled) {
   readback::Expected expected;
+  expected.choices = options.choices;
   expected.name = options.name.empty() ? model::cpp_name(mechanism.name) : options.name;
   expected.title = mechanism.name;
   expected.path = options.path;

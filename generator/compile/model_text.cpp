@@ -92,6 +92,7 @@ void describe_loops(const model::Mechanism& mechanism, const loops::LoopPlan& pl
 emit::ModelText model_text(const model::Mechanism& mechanism, const CompileOptions& options,
                            const CompiledModel& compiled) {
   emit::ModelText text;
+  text.choices = options.choices;
   text.name = options.name.empty() ? model::cpp_name(mechanism.name) : options.name;
   text.title = mechanism.name;
   text.description = mechanism.description;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ir/module.hpp"
+#include "ir/text_choices.hpp"
 #include "programs/functions.hpp"
 #include "support/files.hpp"
 
@@ -12,6 +13,7 @@ namespace jourdain::emit {
 
 /// What the files say about a model beside its programs.
 struct ModelText {
+  ir::TextChoices choices;
   std::string name;   ///< namespace and file name
   std::string title;  ///< the model's own name
   std::string description;

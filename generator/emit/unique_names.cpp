@@ -29,6 +29,13 @@ std::string Names::unique(const std::string& wanted, const std::string& fallback
   return candidate;
 }
 
+std::vector<std::string> unique_names(const std::string& prefix, const std::vector<std::string>& names) {
+  Names taken({});
+  std::vector<std::string> found;
+  for (const std::string& name : names) found.push_back(taken.unique(prefix + name, prefix));
+  return found;
+}
+
 std::string quoted_text(const std::string& text) {
   std::string safe;
   for (char c : text) {

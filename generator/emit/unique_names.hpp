@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace jourdain::emit {
 
@@ -18,6 +19,9 @@ class Names {
  private:
   std::set<std::string> taken_;
 };
+
+/// `prefix` and a name for each of `names`, all different.
+std::vector<std::string> unique_names(const std::string& prefix, const std::vector<std::string>& names);
 
 /// Text between double quotes of a string literal, as C++ and JSON have them. Bytes of valid UTF-8 stay, controls
 /// do not.

@@ -104,21 +104,25 @@ std::optional<FunctionApi> api_of(const std::string& name, const Expected& expec
 }
 
 std::string FunctionApi::signature(const Expected& expected, const std::string& real) const {
-  std::string list = fmt::format("const Model<{}>&", real);
+  const bool in_c = expected.choices.language == ir::Language::kC;
+  const char sign = in_c ? '*' : '&';
+  std::string list = fmt::format("const Model<{}>{}", real, sign);
   const auto add = [&list](const std::string& argument) { list += ", " + argument; };
   const bool changes = result == Result::kCorrection || result == Result::kStep;
-  if (result != Result::kState) add(fmt::format("{}State<{}>&", changes ? "" : "const ", real));
-  if (takes_input) add(fmt::format("const Input<{}>&", real));
+  if (result != Result::kState) add(fmt::format("{}State<{}>{}", changes ? "" : "const ", real, sign));
+  if (takes_input) add(fmt::format("const Input<{}>{}", real, sign));
   if (takes_acceleration) add(fmt::format("const {} (&)[{}]", real, expected.velocities.size()));
   if (result == Result::kStep) add(real);
-  if (history > 0) add(fmt::format("RateHistory<{}, {}>&", history, real));
-  if (implicit) add(fmt::format("Accelerations<{}>&", real));
+  if (history > 0)
+    add(in_c ? fmt::format("RateHistory{}<{}>*", history, real)
+             : fmt::format("RateHistory<{}, {}>&", history, real));
+  if (implicit) add(fmt::format("Accelerations<{}>{}", real, sign));
   for (const ArrayArgument& array : arrays) {
     std::string bounds;
     for (const std::size_t extent : array.extents) bounds += fmt::format("[{}]", extent);
     add(fmt::format("{} (&){}", real, bounds));
   }
-  if (result == Result::kStruct) add(fmt::format("{}<{}>&", structure, real));
+  if (result == Result::kStruct) add(fmt::format("{}<{}>{}", structure, real, sign));
   const std::string returned = result == Result::kState    ? fmt::format("State<{}>", real)
                                : result == Result::kNumber ? real
                                                            : "void";

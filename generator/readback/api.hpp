@@ -36,7 +36,8 @@ struct FunctionApi {
   int history = 0;                    ///< kStep: of earlier rates
   bool implicit = false;              ///< kStep: remembers accelerations
 
-  /// For number type `real`: "void k_bar(const Model<Real>&, const State<Real>&, Real (&)[7]) noexcept".
+  /// As C++ has it, in C with pointers to structs. For number type `real`:
+  /// "void k_bar(const Model<Real>&, const State<Real>&, Real (&)[7]) noexcept".
   std::string signature(const Expected& expected, const std::string& real) const;
   /// What the header calls the parameters, in order.
   std::vector<std::string> parameter_names() const;

@@ -272,8 +272,10 @@ Value Interpreter::invoke(const Candidate& candidate, const std::vector<Value>& 
   const auto standin = standins_.find(&function);
   if (standin != standins_.end()) {
     std::vector<Value> places;
-    for (std::size_t i = 0; i < arguments.size(); ++i)
-      places.push_back(bound(function.parameters[i], arguments[i]));
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      Value& place = places.emplace_back(bound(function.parameters[i], arguments[i]));
+      if (unit_.is_c && place.kind == Value::Kind::kPointer) place.kind = Value::Kind::kPlace;
+    }
     standin->second(places);
     return {};
   }
@@ -310,7 +312,8 @@ void Interpreter::return_value(const Statement& statement) {
     return;
   }
   value = load(value, *statement.a);
-  if (function.result_indirection != 0 || type_of(value) != type)
+  if (unit_.is_c && value.kind == Value::Kind::kBool) value.kind = Value::Kind::kInteger;
+  if (value.kind == Value::Kind::kPointer || function.result_indirection != 0 || type_of(value) != type)
     refuse_at(statement.place, "a return of another type");
   if (value.kind == Value::Kind::kPlace)
     inner.cells.assign(memory_.begin() + static_cast<long>(value.address),
@@ -323,8 +326,10 @@ void Interpreter::return_value(const Statement& statement) {
 Value Interpreter::call(const std::string& scope, const std::string& name,
                         const std::vector<Value>& arguments) {
   for (const auto& [key, list] : functions_)
-    if (key.first == scope && unit_.symbols.text(key.second) == name)
-      return invoke(choose(list, arguments, {}, name), arguments);
+    if (key.first == scope && unit_.symbols.text(key.second) == name) {
+      const std::vector<Value> passed = unit_.is_c ? as_pointers(*list.front(), arguments) : arguments;
+      return invoke(choose(list, passed, {}, name), passed);
+    }
   throw Refusal(fmt::format("there is no function {}", name));
 }
 
@@ -353,6 +358,10 @@ bool Interpreter::call_member(const Type* type, const std::string& name,
 }
 
 void Interpreter::construct(const Value& object, const Value& parameters) {
+  if (unit_.is_c) {
+    call("", "set_model", {object, parameters});
+    return;
+  }
   const StructType* structure = object.type->structure;
   const Function* found = nullptr;
   for (const Function* function : unit_.functions)

@@ -47,17 +47,25 @@ std::string template_text(const Unit& unit, const Function& function) {
   return text;
 }
 
+bool may_sample(const FunctionApi& api, const Expected& expected) {
+  return api.result == Result::kStep && !expected.inputs.empty() && !expected.velocities.empty();
+}
+
+/// A step for a function of the state in place of an input.
+std::string sampled_signature(const FunctionApi& api, const Expected& expected) {
+  std::string text = api.signature(expected, "Real");
+  const bool in_c = expected.choices.language == ir::Language::kC;
+  const std::string type = in_c ? "const Input<Real>*" : "const Input<Real>&";
+  text.replace(text.find(type), type.size(), "const InputAt&");
+  if (in_c) text.insert(text.find('('), "_sampled");
+  return "Real, InputAt: " + text;
+}
+
 /// With inputs a step is written for a function that samples them, and once more for held ones.
 std::vector<std::string> definitions(const FunctionApi& api, const Expected& expected) {
   std::vector<std::string> list;
-  const std::string held = api.signature(expected, "Real");
-  if (api.result == Result::kStep && !expected.inputs.empty() && !expected.velocities.empty()) {
-    std::string sampled = held;
-    const std::string type = "const Input<Real>&";
-    sampled.replace(sampled.find(type), type.size(), "const InputAt&");
-    list.push_back("Real, InputAt: " + sampled);
-  }
-  list.push_back("Real: " + held);
+  if (may_sample(api, expected)) list.push_back(sampled_signature(api, expected));
+  list.push_back("Real: " + api.signature(expected, "Real"));
   return list;
 }
 
@@ -70,6 +78,20 @@ void compare(const std::string& what, const std::vector<std::string>& found,
   }
 }
 
+/// Of functions that C has beside those of the API.
+std::string parameter_names_of_c(const std::string& name, const Expected& expected) {
+  if (name == "set_model") return "model, parameters";
+  if (name == "default_parameters" || name == "loops_proven") return "parameters";
+  if (name == "loops_closed") return "state";
+  const std::string sampled = "_sampled";
+  if (!name.ends_with(sampled)) return "";
+  const auto api = api_of(name.substr(0, name.size() - sampled.size()), expected);
+  if (!api) return "";
+  std::vector<std::string> names = api->parameter_names();
+  std::replace(names.begin(), names.end(), std::string("input"), std::string("input_at"));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void check_parameter_names(const Unit& unit, const Function& function, const Expected& expected,
                            Findings& findings) {
   const std::string& name = unit.symbols.text(function.name);
@@ -79,6 +101,21 @@ void check_parameter_names(const Unit& unit, const Function& function, const Exp
   if (const std::optional<FunctionApi> api = api_of(name, expected))
     findings.expect("names of the parameters of " + name, fmt::format("{}", fmt::join(names, ", ")),
                     fmt::format("{}", fmt::join(api->parameter_names(), ", ")));
+  else if (unit.is_c)
+    findings.expect("names of the parameters of " + name, fmt::format("{}", fmt::join(names, ", ")),
+                    parameter_names_of_c(name, expected));
+}
+
+/// A comment of C: nothing that ends or begins one, no trigraphs.
+std::string shown_in_c(const std::string& text) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '?' && i > 0 && text[i - 1] == '?') continue;
+    shown += text[i];
+    const std::string pair = text.substr(i, 2);
+    if (pair == "*/" || pair == "/*") shown += ' ';
+  }
+  return shown;
 }
 
 /// What the header says at its top: the sentences, word by word.
@@ -87,6 +124,7 @@ void check_sentences(const Unit& unit, const Expected& expected, Findings& findi
   for (const std::string& sentence : expected.sentences) {
     std::string shown;
     for (const char c : sentence) shown += c >= ' ' && c <= '~' && c != '\\' ? c : '?';
+    if (unit.is_c) shown = shown_in_c(shown);
     if (text.find(words(shown)) == std::string::npos) findings.add("the header does not say '{}'", shown);
   }
 }
@@ -104,17 +142,42 @@ void check_comments(const Unit& unit, const Expected& expected, Findings& findin
   }
 }
 
+/// Functions of C in their order: what C++ has as members of Model, then all others.
+std::vector<std::string> functions_of_c(const Expected& expected) {
+  std::vector<std::string> list = {"Real: void default_parameters(Parameters<Real>*) noexcept",
+                                   "Real: void set_model(Model<Real>*, const Parameters<Real>*) noexcept"};
+  if (!expected.constraints.empty()) list.push_back("Real: int loops_closed(const State<Real>*) noexcept");
+  if (!expected.proven_parameters.empty())
+    list.push_back("Real: int loops_proven(const Parameters<Real>*) noexcept");
+  for (const std::string& name : expected.functions)
+    if (const std::optional<FunctionApi> api = api_of(name, expected)) {
+      list.push_back("Real: " + api->signature(expected, "Real"));
+      if (may_sample(*api, expected)) list.push_back(sampled_signature(*api, expected));
+    }
+  return list;
+}
+
+std::vector<const char*> instantiated_reals(const Expected& expected) {
+  if (expected.choices.language == ir::Language::kC) return {};
+  std::vector<const char*> reals;
+  if (expected.choices.has_double) reals.push_back("double");
+  if (expected.choices.has_float) reals.push_back("float");
+  return reals;
+}
+
 }  // namespace
 
 void check_declarations(const Unit& unit, const Expected& expected, Findings& findings) {
   std::vector<std::string> wanted, bodies, instances, found, defined, instantiated;
+  const std::vector<const char*> reals = instantiated_reals(expected);
   for (const std::string& name : expected.functions) {
     const std::optional<FunctionApi> api = api_of(name, expected);
     if (!api) continue;
     wanted.push_back("Real: " + api->signature(expected, "Real"));
     for (const std::string& definition : definitions(*api, expected)) bodies.push_back(definition);
-    for (const char* real : {"double", "float"}) instances.push_back(api->signature(expected, real));
+    for (const char* real : reals) instances.push_back(api->signature(expected, real));
   }
+  if (unit.is_c) wanted = bodies = functions_of_c(expected);
   for (const Function* function : unit.functions) {
     if (function->scope == "detail" && function->place.file == 1 && function->body) continue;
     const std::string text = fmt::format("{}{}: {}", function->is_inline ? "inline " : "",
@@ -134,7 +197,9 @@ void check_declarations(const Unit& unit, const Expected& expected, Findings& fi
   compare("instantiation", instantiated, instances, findings);
   std::vector<std::string> structs;
   for (const TypeName& type : unit.struct_instantiations) structs.push_back(text_of(unit, type));
-  compare("instantiation of a struct", structs, {"Model<double>", "Model<float>"}, findings);
+  std::vector<std::string> models;
+  for (const char* real : reals) models.push_back(fmt::format("Model<{}>", real));
+  compare("instantiation of a struct", structs, models, findings);
   check_comments(unit, expected, findings);
 }
 

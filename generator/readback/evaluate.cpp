@@ -114,6 +114,10 @@ Value Interpreter::evaluate(const Expression& expression) {
       return negate(expression);
     case ExpressionKind::kNot:
       return of_integer(!condition(*expression.a), Value::Kind::kBool);
+    case ExpressionKind::kAddress:
+      return address(expression);
+    case ExpressionKind::kDereference:
+      return dereference(expression);
     case ExpressionKind::kIncrement:
       return step(expression, 1);
     case ExpressionKind::kDecrement:
@@ -158,6 +162,8 @@ Value Interpreter::find_constant(Symbol name, const std::string& scope, const Ex
   const auto it = constants_.find(name);
   if (it == constants_.end() || (!it->second->scope.empty() && it->second->scope != scope))
     refuse_at(expression.place, fmt::format("'{}' is not known here", unit_.symbols.text(name)));
+  if (unit_.is_c && unit_.symbols.text(it->second->type.path[0]) == "Real")
+    return evaluate(*it->second->declarator.initial);
   if (it->second->type.path != std::vector<Symbol>{it->second->type.path[0]} ||
       unit_.symbols.text(it->second->type.path[0]) != "int")
     refuse_at(expression.place, fmt::format("'{}' is no integer", unit_.symbols.text(name)));
@@ -279,8 +285,9 @@ Value Interpreter::assign(const Expression& expression) {
   const Value place = evaluate(*expression.a);
   if (place.kind != Value::Kind::kPlace) refuse_at(expression.place, "an assignment to what is no variable");
   if (place.is_const) refuse_at(expression.place, "an assignment to a constant");
-  if (types_.is_sum(place.type) && expression.b->kind == ExpressionKind::kBinary)
-    domain_.count_additions(kMovesTime - 1);
+  const Expression& of = *expression.b;
+  const bool moves_time = unit_.is_c ? of.moves_time : of.kind == ExpressionKind::kBinary;
+  if (types_.is_sum(place.type) && moves_time) domain_.count_additions(kMovesTime - 1);
   store(place, value, expression);
   return place;
 }
@@ -331,8 +338,29 @@ Value Interpreter::subscript(const Expression& expression) {
   return array;
 }
 
+/// Of a place: a pointer that stays there.
+Value Interpreter::address(const Expression& expression) {
+  Value pointer = evaluate(*expression.a);
+  if (pointer.kind != Value::Kind::kPlace) refuse_at(expression.place, "the address of what is no variable");
+  pointer.kind = Value::Kind::kPointer;
+  pointer.begin = pointer.address;
+  pointer.end = pointer.address + pointer.type->cells;
+  return pointer;
+}
+
+Value Interpreter::dereference(const Expression& expression) {
+  Value place = evaluate(*expression.a);
+  if (place.kind != Value::Kind::kPointer || place.address + place.type->cells > place.end)
+    refuse_at(expression.place, "what no pointer points to");
+  place.kind = Value::Kind::kPlace;
+  return place;
+}
+
 Value Interpreter::member(const Expression& expression) {
   Value object = evaluate(*expression.a);
+  const bool is_sum = object.kind == Value::Kind::kNumber ||
+                      (object.kind == Value::Kind::kPlace && types_.is_sum(object.type));
+  if (unit_.is_c && is_sum && unit_.symbols.text(expression.name) == "high") return load(object, expression);
   const Field* field = object.kind == Value::Kind::kPlace && object.type->kind == Type::Kind::kStruct
                            ? object.type->structure->find(expression.name)
                            : nullptr;

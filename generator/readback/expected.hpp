@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ir/module.hpp"
+#include "ir/text_choices.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::readback {
@@ -56,9 +57,11 @@ struct ExpectedTangent {
 
 struct Expected {
   const ir::Module* module = nullptr;
-  std::string name;                                                     ///< of namespace and files
-  std::string title, path, sha256;                                      ///< of the description
-  std::vector<support::FileHash> imported;                              ///< files that it imports
+  ir::TextChoices choices;
+  bool is_float = false;                    ///< of the files of C that are read: numbers are floats
+  std::string name;                         ///< of namespace and files
+  std::string title, path, sha256;          ///< of the description
+  std::vector<support::FileHash> imported;  ///< files that it imports
   std::vector<std::string> positions, velocities, inputs, constraints;  ///< names in order
   std::vector<ExpectedParameter> parameters;
   std::vector<ExpectedOutput> outputs;

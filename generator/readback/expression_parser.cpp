@@ -14,12 +14,13 @@ namespace {
 
 bool is_keyword(std::string_view text) {
   static const std::set<std::string_view> words = {
-      "const",     "constexpr", "for",      "if",       "else",     "return",  "template",  "class", "struct",
-      "namespace", "inline",    "static",   "explicit", "noexcept", "using",   "typename",  "while", "do",
-      "switch",    "case",      "default",  "break",    "continue", "goto",    "operator",  "new",   "delete",
-      "this",      "auto",      "volatile", "mutable",  "sizeof",   "alignas", "alignof",   "union", "enum",
-      "extern",    "typedef",   "virtual",  "friend",   "public",   "private", "protected", "throw", "try",
-      "catch",     "and",       "or",       "not",      "xor",      "bitand",  "bitor",     "compl", "asm"};
+      "const",    "constexpr", "for",       "if",     "else",     "return",   "template",    "class",
+      "struct",   "namespace", "inline",    "static", "explicit", "noexcept", "using",       "typename",
+      "while",    "do",        "switch",    "case",   "default",  "break",    "continue",    "goto",
+      "operator", "new",       "delete",    "this",   "auto",     "volatile", "mutable",     "sizeof",
+      "alignas",  "alignof",   "union",     "enum",   "extern",   "typedef",  "virtual",     "friend",
+      "public",   "private",   "protected", "throw",  "try",      "catch",    "and",         "or",
+      "not",      "xor",       "bitand",    "bitor",  "compl",    "asm",      kFunctionMacro};
   return words.count(text) > 0;
 }
 
@@ -98,6 +99,7 @@ bool ExpressionParser::starts_type() const {
   if (peek().kind != TokenKind::kName) return false;
   if (peek().text == "const" || is_built_in(peek().text)) return true;
   const Symbol first = unit_.symbols[peek().text];
+  if (known_.c) return known_.c_types.count(first) > 0;
   if (is_known_type(first)) return true;
   return is("::", 1) && peek(2).kind == TokenKind::kName &&
          known_.qualified.count({first, unit_.symbols[peek(2).text]}) > 0;
@@ -109,6 +111,7 @@ bool ExpressionParser::is_struct_template(const std::vector<Symbol>& path) const
 }
 
 TypeName ExpressionParser::type() {
+  if (known_.c) return c_type();
   TypeName result;
   result.is_const = accept_word("const");
   if (peek().kind == TokenKind::kName && is_built_in(peek().text)) {
@@ -204,6 +207,8 @@ const Expression* ExpressionParser::unary() {
   if (is("!")) return prefix(ExpressionKind::kNot);
   if (is("++")) return prefix(ExpressionKind::kIncrement);
   if (is("--")) return prefix(ExpressionKind::kDecrement);
+  if (known_.c && is("&")) return prefix(ExpressionKind::kAddress);
+  if (known_.c && is("*")) return prefix(ExpressionKind::kDereference);
   return postfix();
 }
 
@@ -217,10 +222,11 @@ const Expression* ExpressionParser::postfix() {
       made.b = expression();
       expect("]");
       left = &made;
-    } else if (is(".")) {
+    } else if (is(".") || (known_.c && is("->"))) {
+      const bool points = is("->");
       Expression& made = make(ExpressionKind::kMember);
       take();
-      made.a = left;
+      made.a = points ? dereferenced(left) : left;
       made.name = expect_name();
       left = &made;
     } else if (is("(")) {
@@ -228,7 +234,7 @@ const Expression* ExpressionParser::postfix() {
       made.a = left;
       take();
       arguments(made, ")");
-      left = &made;
+      left = known_.c ? c_call(made) : &made;
     } else {
       return left;
     }
@@ -238,7 +244,11 @@ const Expression* ExpressionParser::postfix() {
 void ExpressionParser::arguments(Expression& call, std::string_view close) {
   const int outside = std::exchange(angle_brackets_, 0);
   if (!is(close)) do {
+      const bool is_function = known_.c && is_word("input_at") && is(",", 1);
       call.arguments.push_back(is("{") ? list() : expression());
+      if (!is_function) continue;
+      take();
+      expect_word("context");  // goes with the function
     } while (accept(","));
   expect(close);
   angle_brackets_ = outside;
@@ -253,6 +263,7 @@ const Expression* ExpressionParser::list() {
 
 const Expression* ExpressionParser::primary() {
   if (is("{")) return list();
+  if (known_.c && is("(")) return c_parenthesis();
   if (is("(")) {
     take();
     const int outside = std::exchange(angle_brackets_, 0);
@@ -282,20 +293,28 @@ const Expression* ExpressionParser::primary() {
   refuse_here("an expression");
 }
 
-const Expression* ExpressionParser::number() {
-  const bool floating = peek().kind == TokenKind::kFloating;
+const Expression* ExpressionParser::number(bool is_negative) {
+  const bool floating = peek().kind == TokenKind::kFloating, is_float = known_.c && known_.c->is_float;
   Expression& made = make(floating ? ExpressionKind::kFloating : ExpressionKind::kInteger);
-  const std::string_view text = peek().text;
-  const auto [end, error] = floating ? std::from_chars(text.data(), text.data() + text.size(), made.floating)
-                                     : std::from_chars(text.data(), text.data() + text.size(), made.integer);
-  if (error != std::errc() || end != text.data() + text.size() || made.integer > 0x7fffffff)
+  std::string_view text = peek().text;
+  if (floating && text.ends_with('f') != is_float) refuse_here("a number of the type of this file");
+  if (floating && is_float) text.remove_suffix(1);
+  float rounded = 0;
+  const char *const begin = text.data(), *const last = begin + text.size();
+  const auto [end, error] = !floating  ? std::from_chars(begin, last, made.integer)
+                            : is_float ? std::from_chars(begin, last, rounded)
+                                       : std::from_chars(begin, last, made.floating);
+  if (error != std::errc() || end != last || made.integer > 0x7fffffff)
     refuse_here("a number within the range of its type");
+  if (floating && is_float) made.floating = static_cast<double>(rounded);
+  if (is_negative) made.floating = -made.floating;
   take();
-  return &made;
+  return floating && known_.c ? as_real(&made) : &made;
 }
 
 /// A name, `true`, a call of a type, or a name with template arguments.
 const Expression* ExpressionParser::name() {
+  if (known_.c) return c_name();
   if (is_word("true") || is_word("false")) {
     Expression& made = make(ExpressionKind::kBool);
     made.integer = take().text == "true";

@@ -1,12 +1,26 @@
 // Types and expressions by recursive descent: one function per level of precedence.
 #pragma once
 
+#include <map>
 #include <set>
+#include <string>
 
 #include "readback/syntax.hpp"
 #include "readback/tokens.hpp"
 
 namespace jourdain::readback {
+
+/// Stands in front of every function; empty unless somebody defines it.
+inline constexpr std::string_view kFunctionMacro = "JOURDAIN_FUNCTION";
+
+/// What C text is read for.
+struct CText {
+  std::string prefix;  ///< of all that has external linkage: "panda_"
+  bool is_float = false;
+
+  std::string internal() const { return prefix + "detail_"; }  ///< prefix of the rest
+  const char* real() const { return is_float ? "float" : "double"; }
+};
 
 /// A cursor over one file's tokens, with the names that stand for types and templates so far: C++ needs them to tell
 /// declarations from expressions and `a < b` from template arguments.
@@ -16,6 +30,9 @@ class ExpressionParser {
     std::set<Symbol> types;  ///< in scope without a namespace in front: parameters of templates, aliases
     std::set<Symbol> struct_templates, function_templates;
     std::set<std::pair<Symbol, Symbol>> qualified;  ///< struct templates by namespace
+    const CText* c = nullptr;                       ///< null: the text is C++
+    std::map<Symbol, TypeName> c_types;             ///< of C, by their whole name
+    std::set<std::string> c_operations;             ///< functions of sums of numbers that are defined
   };
 
   ExpressionParser(Unit& unit, Known& known, const Tokens& tokens, int file)
@@ -50,11 +67,18 @@ class ExpressionParser {
   const Expression* postfix();
   const Expression* primary();
   const Expression* name();
-  const Expression* number();
+  const Expression* number(bool is_negative = false);
   const Expression* list();
   void arguments(Expression& call, std::string_view close);
   void template_arguments(TypeName& type);
   bool is_known_type(Symbol name) const;
+  // of C, in c_expression_parser.cpp
+  TypeName c_type();
+  const Expression* c_name();
+  const Expression* c_call(Expression& call);
+  const Expression* c_parenthesis();
+  const Expression* dereferenced(const Expression* pointer);
+  const Expression* as_real(const Expression* value);
   bool is_struct_template(const std::vector<Symbol>& path) const;
   Expression& make(ExpressionKind kind);
 

@@ -53,7 +53,7 @@ struct Probe {
 class GuardCheck {
  public:
   GuardCheck(const Unit& unit, Findings& findings, const std::string& function, const std::string& object)
-      : findings_(findings), function_(function), run_(unit, domain_) {
+      : findings_(findings), function_(function), in_c_(unit.is_c), run_(unit, domain_) {
     model_ = of_number("Model");
     object_ = run_.make(of_number(object));
   }
@@ -88,13 +88,17 @@ class GuardCheck {
       wanted = wanted && probes[k].holds(values[k]);
     }
     ++findings_.numbers;
-    if (run_.call_member(model_, function_, {Interpreter::as_const(object_)}) != wanted)
+    const Value argument = Interpreter::as_const(object_);
+    const bool holds = in_c_ ? run_.call("", function_, {argument}).integer != 0
+                             : run_.call_member(model_, function_, {argument});
+    if (holds != wanted)
       findings_.add("{} is {} where it must be {}, at {}", function_, !wanted, wanted,
                     fmt::join(values, ", "));
   }
 
   Findings& findings_;
   std::string function_;
+  bool in_c_;
   Doubles domain_;
   Interpreter run_;
   const Type* model_ = nullptr;

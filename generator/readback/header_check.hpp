@@ -1,6 +1,10 @@
 // Structs, constants, names and declarations of the text against what the model has.
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "readback/expected.hpp"
 #include "readback/findings.hpp"
 #include "readback/syntax.hpp"
@@ -12,6 +16,16 @@ void check_structs(const Unit& unit, const Expected& expected, Findings& finding
 
 /// The namespace of indices: a constant for each position, velocity and input, spelt like its name, with its entry.
 void check_indices(const Unit& unit, const Expected& expected, Findings& findings);
+
+/// Names of those constants and what they are. Of names that are spelt alike the later ones have a number.
+std::vector<std::pair<std::string, std::size_t>> index_names(const Expected& expected);
+
+/// The same of C: files, structs, counts, indices, limits, default values, names.
+void check_c_structs(const Unit& unit, const Expected& expected, const std::string& prefix,
+                     Findings& findings);
+
+/// Names of the arrays of names, and their entries.
+std::vector<std::pair<std::string, std::vector<std::string>>> name_arrays(const Expected& expected);
 
 /// Every function is declared, defined and instantiated for double and float as the API has it, and nothing
 /// else is; the operations that comments state are those that were counted.

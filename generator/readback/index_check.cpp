@@ -18,25 +18,6 @@ std::string spelt(char letter, const std::string& name) {
   return text;
 }
 
-/// One text for each constant: of names that are spelt alike the later ones have a number.
-std::vector<std::string> wanted_constants(const Expected& expected) {
-  std::vector<std::string> texts;
-  const auto add = [&texts](char letter, const std::vector<std::string>& names) {
-    std::set<std::string> taken;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::string plain = spelt(letter, names[i]);
-      std::string name = plain;
-      for (int k = 2; !taken.insert(name).second; ++k)
-        name = plain + (plain.back() == '_' ? "" : "_") + std::to_string(k);
-      texts.push_back(fmt::format("inline int {} = {}", name, i));
-    }
-  };
-  add('y', expected.positions);
-  add('z', expected.velocities);
-  add('u', expected.inputs);
-  return texts;
-}
-
 std::string text_of(const Unit& unit, const Constant& constant) {
   const Expression* value = constant.declarator.initial;
   const bool is_integer = value && value->kind == ExpressionKind::kInteger;
@@ -47,8 +28,28 @@ std::string text_of(const Unit& unit, const Constant& constant) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::size_t>> index_names(const Expected& expected) {
+  std::vector<std::pair<std::string, std::size_t>> found;
+  const auto add = [&found](char letter, const std::vector<std::string>& names) {
+    std::set<std::string> taken;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string plain = spelt(letter, names[i]);
+      std::string name = plain;
+      for (int k = 2; !taken.insert(name).second; ++k)
+        name = plain + (plain.back() == '_' ? "" : "_") + std::to_string(k);
+      found.emplace_back(name, i);
+    }
+  };
+  add('y', expected.positions);
+  add('z', expected.velocities);
+  add('u', expected.inputs);
+  return found;
+}
+
 void check_indices(const Unit& unit, const Expected& expected, Findings& findings) {
-  const std::vector<std::string> wanted = wanted_constants(expected);
+  std::vector<std::string> wanted;
+  for (const auto& [name, entry] : index_names(expected))
+    wanted.push_back(fmt::format("inline int {} = {}", name, entry));
   std::size_t next = 0;
   for (const Constant* constant : unit.constants) {
     if (constant->scope.empty() || constant->scope == "detail") continue;

@@ -138,6 +138,19 @@ Number Interpreter::number(const Value& place) {
   return cell(place).number;
 }
 
+/// C takes structs, and numbers that it writes, by pointers.
+std::vector<Value> Interpreter::as_pointers(const Function& function, const std::vector<Value>& arguments) {
+  std::vector<Value> passed = arguments;
+  for (std::size_t i = 0; i < std::min(passed.size(), function.parameters.size()); ++i) {
+    if (function.parameters[i].declarator.indirection != '*' || passed[i].kind != Value::Kind::kPlace)
+      continue;
+    passed[i].kind = Value::Kind::kPointer;
+    passed[i].begin = passed[i].address;
+    passed[i].end = passed[i].address + passed[i].type->cells;
+  }
+  return passed;
+}
+
 // Variables and initial values
 
 void Interpreter::add_variable(Symbol name, const Value& value, const Place& place) {

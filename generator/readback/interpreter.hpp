@@ -108,6 +108,8 @@ class Interpreter {
   Value cast(const Expression& expression);
   Value subscript(const Expression& expression);
   Value member(const Expression& expression);
+  Value address(const Expression& expression);
+  Value dereference(const Expression& expression);
   long integer(const Expression& expression);
   Value pointer_to(const Value& array) const;
 
@@ -115,6 +117,7 @@ class Interpreter {
   Value call(const Expression& expression);
   Value call_c_library(const Expression& expression, const std::vector<Value>& arguments);
   Value call_object(const Value& object, const std::vector<Value>& arguments, const Expression& expression);
+  static std::vector<Value> as_pointers(const Function& function, const std::vector<Value>& arguments);
   Value invoke(const Candidate& candidate, const std::vector<Value>& arguments);
   void enter(const Function& function, const Bindings& bindings, const StructType* inside);
   Value leave(std::size_t outside_variables);

@@ -25,7 +25,8 @@ Number NodeTable::intern(const Node& node) {
   return it->second;
 }
 
-Number NodeTable::literal(double value) {
+Number NodeTable::literal(double given) {
+  const double value = rounds_to_float_ ? static_cast<double>(static_cast<float>(given)) : given;
   return intern({static_cast<std::uint32_t>(ir::Op::kLiteral), 0, 0, std::bit_cast<std::uint64_t>(value)});
 }
 

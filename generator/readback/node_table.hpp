@@ -12,6 +12,9 @@ namespace jourdain::readback {
 /// Nothing is simplified, nothing reordered.
 class NodeTable : public Domain {
  public:
+  /// `rounds_to_float`: literals are floats.
+  explicit NodeTable(bool rounds_to_float = false) : rounds_to_float_(rounds_to_float) {}
+
   Number literal(double value) override;
   Number leaf(ir::LeafKind kind, std::size_t index);
   /// A leaf that no program has: what stood in a place before.
@@ -39,6 +42,7 @@ class NodeTable : public Domain {
   };
   Number intern(const Node& node);
 
+  bool rounds_to_float_;
   std::vector<Node> nodes_;
   std::unordered_map<Node, Number, Hash> known_;
 };

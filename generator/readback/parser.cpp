@@ -122,14 +122,18 @@ class FileParser : public StatementParser {
       expect(";");
       return;
     }
+    expect_word(kFunctionMacro);
     head(function);
     expect(";");
     unit_.instantiations.push_back(&function);
   }
 
   void function_or_constant(Function& function) {
-    const bool is_inline = accept_word("inline");
-    if (accept_word("constexpr")) return constant(is_inline);
+    const bool is_function = accept_word(kFunctionMacro), is_inline = accept_word("inline");
+    if (!is_function) {
+      expect_word("constexpr");
+      return constant(is_inline);
+    }
     function.is_inline = is_inline;
     if (is_constructor_outside()) {
       constructor_outside(function);
@@ -221,10 +225,11 @@ class FileParser : public StatementParser {
   void member(Struct& made) {
     if (is_word("using")) return alias(made);
     if (is_word("struct")) return anonymous(made);
-    const bool is_explicit = accept_word("explicit");
-    const bool is_constructor = peek().text == unit_.symbols.text(made.name) && is("(", 1);
+    const bool is_function = accept_word(kFunctionMacro), is_explicit = accept_word("explicit");
+    const bool is_constructor = is_function && peek().text == unit_.symbols.text(made.name) && is("(", 1);
     const bool is_static = accept_word("static");
-    if (is_explicit || is_constructor) {
+    if (is_explicit && !is_constructor) refuse_here("a constructor");
+    if (is_constructor) {
       Function& function = member_function(made);
       function.is_explicit = is_explicit;
       function.is_constructor = true;
@@ -237,7 +242,7 @@ class FileParser : public StatementParser {
     const std::string before = comment();
     const Place where = place();
     const TypeName read = type();
-    if (is("(", 1)) {
+    if (is_function) {
       Function& function = member_function(made);
       function.comment = before;
       function.place = where;

@@ -1,5 +1,6 @@
 #include "readback/program_check.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "readback/api.hpp"
@@ -258,25 +259,32 @@ void check_library(const Unit& unit, NumberType type, Findings& findings) {
   };
   const Value x = variable(0), y = variable(1);
   const Number a = table.mark(0), b = table.mark(1);
+  const auto is_defined = [&unit](const std::string& name) {
+    return std::any_of(unit.functions.begin(), unit.functions.end(), [&](const Function* function) {
+      return function->scope == "detail" && unit.symbols.text(function->name) == name;
+    });
+  };
   for (const auto& [name, op] : kUnary)
-    expect(name, run.number(run.call("detail", name, {Interpreter::as_const(x)})), table.operate(op, a));
-  const Value sine = variable(2), cosine = variable(3);
-  run.call("detail", "sine_cosine", {Interpreter::as_const(x), sine, cosine});
-  expect("sine_cosine", run.number(sine), table.operate(ir::Op::kSin, a));
-  expect("sine_cosine", run.number(cosine), table.operate(ir::Op::kCos, a));
-  for (const Function* function : unit.functions)
-    if (unit.symbols.text(function->name) == "arctangent2")
-      return expect(
-          "arctangent2",
-          run.number(run.call("detail", "arctangent2", {Interpreter::as_const(x), Interpreter::as_const(y)})),
-          table.operate(ir::Op::kAtan2, a, b));
+    if (!unit.is_c || is_defined(name))
+      expect(name, run.number(run.call("detail", name, {Interpreter::as_const(x)})), table.operate(op, a));
+  if (!unit.is_c || is_defined("sine_cosine")) {
+    const Value sine = variable(2), cosine = variable(3);
+    run.call("detail", "sine_cosine", {Interpreter::as_const(x), sine, cosine});
+    expect("sine_cosine", run.number(sine), table.operate(ir::Op::kSin, a));
+    expect("sine_cosine", run.number(cosine), table.operate(ir::Op::kCos, a));
+  }
+  if (!is_defined("arctangent2")) return;
+  const std::vector<Value> arguments = {Interpreter::as_const(x), Interpreter::as_const(y)};
+  expect("arctangent2", run.number(run.call("detail", "arctangent2", arguments)),
+         table.operate(ir::Op::kAtan2, a, b));
 }
 
 }  // namespace
 
 void check_library(const Unit& unit, Findings& findings) {
   for (const NumberType type : {NumberType::kOwn, NumberType::kDouble, NumberType::kFloat})
-    findings.guarded("functions of the C library", [&] { check_library(unit, type, findings); });
+    if (!unit.is_c || type == NumberType::kOwn)
+      findings.guarded("functions of the C library", [&] { check_library(unit, type, findings); });
 }
 
 void check_programs(const Unit& unit, const Expected& expected, NodeTable& table, Findings& findings) {

@@ -1,5 +1,5 @@
-// The gate between the finished text and the user: the bytes that are about to be written are read as C++ and
-// JSON, and must say what was validated.
+// The gate between the finished text and the user: the bytes that are about to be written are read as C++ or C
+// and JSON, and must say what was validated.
 #pragma once
 
 #include <string>
@@ -24,7 +24,8 @@ struct Readback {
   Record record;
 };
 
-/// Reads NAME.hpp, NAME_kernels.hpp, NAME.cpp and NAME.json, in this order. Functions with a program are
+/// Reads NAME.hpp, NAME_kernels.hpp, NAME.cpp and NAME.json, in this order; of C NAME.h and NAME.c, NAME_f.h and
+/// NAME_f.c, NAME.json, as far as they are expected. Functions with a program are
 /// compared with it node by node, which holds for all states; steps with their methods at random points;
 /// names, sizes, defaults, limits and counts with what is expected. What cannot be read is a difference;
 /// nothing is thrown.

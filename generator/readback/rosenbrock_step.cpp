@@ -194,7 +194,7 @@ class RosenbrockStep {
   }
 
   const Expected& expected_;
-  const RosenbrockTable& table_;
+  const RosenbrockTable table_;
   OpaqueSystem& system_;
   StepData& data_;
   const Motion start_;
@@ -205,11 +205,24 @@ class RosenbrockStep {
   std::vector<ExactVector> K_;
 };
 
+/// With every coefficient rounded, as files for float have them.
+RosenbrockTable in_float(RosenbrockTable table) {
+  const auto round = [](std::vector<double>& list) {
+    for (double& value : list) value = static_cast<double>(static_cast<float>(value));
+  };
+  std::vector<double> gamma = {table.gamma};
+  for (std::vector<double>* list : {&gamma, &table.m, &table.nodes, &table.shares}) round(*list);
+  for (std::vector<double>& row : table.A) round(row);
+  for (std::vector<double>& row : table.S) round(row);
+  table.gamma = gamma[0];
+  return table;
+}
+
 }  // namespace
 
 void rosenbrock_step(const Expected& expected, const RosenbrockTable& table, OpaqueSystem& system,
                      StepData& data) {
-  RosenbrockStep(expected, table, system, data).take();
+  RosenbrockStep(expected, expected.is_float ? in_float(table) : table, system, data).take();
 }
 
 }  // namespace jourdain::readback

@@ -19,6 +19,7 @@ const Statement* StatementParser::block() {
 
 const Statement* StatementParser::statement() {
   if (is("{")) return block();
+  if (known_.c && is("(") && is_word("void", 1)) return mention();
   if (is_word("if")) return if_statement();
   if (is_word("for")) return for_statement();
   if (is_word("return")) {
@@ -41,7 +42,7 @@ void StatementParser::initializer(Declarator& declarator) {
 
 const Statement* StatementParser::declaration() {
   Statement& made = make(StatementKind::kDeclaration);
-  made.is_constexpr = accept_word("constexpr");
+  made.is_constexpr = !known_.c && accept_word("constexpr");
   made.type = type();
   made.type.is_const = made.type.is_const || made.is_constexpr;
   do {
@@ -67,6 +68,7 @@ const Statement* StatementParser::for_statement() {
   Statement& made = make(StatementKind::kFor);
   expect_word("for");
   expect("(");
+  if (known_.c) return c_for(made);
   Statement& first = make(StatementKind::kDeclaration);
   if (!starts_type()) refuse_here("the declaration of a loop's variable");
   first.type = type();
@@ -84,6 +86,33 @@ const Statement* StatementParser::for_statement() {
   made.step = expression();
   expect(")");
   made.body.push_back(statement());
+  return &made;
+}
+
+/// C's: the loop's variable is declared before.
+const Statement* StatementParser::c_for(Statement& made) {
+  Statement& first = make(StatementKind::kExpression);
+  first.a = expression();
+  if (first.a->kind != ExpressionKind::kAssign) refuse_here("the first value of a loop's variable");
+  expect(";");
+  made.first = &first;
+  made.a = expression();
+  expect(";");
+  made.step = expression();
+  expect(")");
+  made.body.push_back(statement());
+  return &made;
+}
+
+/// `(void)parameter;`, which says that nothing reads it.
+const Statement* StatementParser::mention() {
+  Statement& made = make(StatementKind::kBlock);
+  expect("(");
+  expect_word("void");
+  expect(")");
+  made.a = expression();
+  if (made.a->kind != ExpressionKind::kName) refuse_here("a parameter");
+  expect(";");
   return &made;
 }
 

@@ -20,6 +20,8 @@ class StatementParser : public ExpressionParser {
   const Statement* if_statement();
   const Statement* for_statement();
   const Statement* range_for(Statement& made);
+  const Statement* c_for(Statement& made);
+  const Statement* mention();
   Statement& make(StatementKind kind);
 };
 

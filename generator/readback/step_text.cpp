@@ -11,7 +11,7 @@ namespace {
 class TextStep {
  public:
   TextStep(const Unit& unit, const Expected& expected, OpaqueSystem& system)
-      : expected_(expected), system_(system), run_(unit, numbers_) {
+      : expected_(expected), system_(system), run_(unit, numbers_), in_c_(unit.is_c) {
     replace_functions();
   }
 
@@ -25,7 +25,7 @@ class TextStep {
     const Value memory = remembered(api, data);
     if (memory.kind == Value::Kind::kPlace) arguments.push_back(memory);
     numbers_.clear_count();
-    run_.call("", api.name, arguments);
+    run_.call("", in_c_ && data.is_sampled ? api.name + "_sampled" : api.name, arguments);
     const std::size_t operations = numbers_.count().arithmetic();
     data.motion = read_motion(state);
     if (memory.kind == Value::Kind::kPlace) remember(api, memory, data);
@@ -92,6 +92,7 @@ class TextStep {
     const Type* number = run_.types().number();
     const Value memory = run_.make(
         api.implicit ? of_number("Accelerations")
+        : in_c_      ? of_number(fmt::format("RateHistory{}", api.history))
                      : run_.types().instance("RateHistory", {{0, nullptr, api.history}, {0, number, 0}}));
     run_.cell(run_.field(memory, "count")) = integer_cell(data.count);
     if (expected_.velocities.empty()) return memory;
@@ -151,6 +152,7 @@ class TextStep {
   OpaqueSystem& system_;
   Reals numbers_;
   Interpreter run_;
+  bool in_c_;
 };
 
 }  // namespace

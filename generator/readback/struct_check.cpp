@@ -7,121 +7,11 @@
 #include "readback/header_check.hpp"
 #include "readback/interpreter.hpp"
 #include "readback/node_table.hpp"
+#include "readback/struct_members.hpp"
 
 namespace jourdain::readback {
 
 namespace {
-
-/// "Real y[3]" and so on.
-using Texts = std::vector<std::string>;
-
-bool any_step(const Expected& expected, bool (*is_such)(const FunctionApi&)) {
-  for (const std::string& name : expected.functions)
-    if (const auto api = api_of(name, expected); api && api->result == Result::kStep && is_such(*api))
-      return true;
-  return false;
-}
-
-bool linearizes(const Expected& expected) {
-  for (const std::string& name : expected.functions)
-    if (name == "linearize") return true;
-  return false;
-}
-
-std::string bounds(const std::vector<std::size_t>& extents) {
-  std::string text;
-  for (const std::size_t extent : extents) text += fmt::format("[{}]", extent);
-  return text;
-}
-
-Texts output_members(const Expected& expected) {
-  Texts texts;
-  for (const ExpectedOutput& output : expected.outputs)
-    for (const ExpectedMember& member : output.members) {
-      std::vector<std::size_t> extents;
-      if (member.rows > 1) extents.push_back(static_cast<std::size_t>(member.rows));
-      if (member.is_matrix) extents.push_back(static_cast<std::size_t>(member.columns));
-      texts.push_back(fmt::format("Real {}{}{}{}", output.name, member.name.empty() ? "" : ".", member.name,
-                                  bounds(extents)));
-    }
-  return texts;
-}
-
-Texts state_members(const Expected& expected) {
-  Texts texts;
-  if (expected.clock) texts.push_back("Time<Real> t");
-  if (!expected.positions.empty()) texts.push_back(fmt::format("Real y[{}]", expected.positions.size()));
-  if (!expected.velocities.empty()) texts.push_back(fmt::format("Real z[{}]", expected.velocities.size()));
-  if (expected.constraints.empty()) return texts;
-  texts.insert(texts.end(), {"Real regularity", "Real opening"});
-  if (!expected.proven_positions.empty())
-    texts.push_back(fmt::format("Real beyond[{}]", expected.proven_positions.size()));
-  return texts;
-}
-
-std::map<std::string, Texts> structs(const Expected& expected) {
-  std::map<std::string, Texts> list;
-  for (const ExpectedParameter& parameter : expected.parameters)
-    list["Parameters"].push_back("Real " + parameter.name);
-  list["Parameters"];
-  list["State"] = state_members(expected);
-  list["Input"];
-  if (!expected.inputs.empty()) list["Input"] = {fmt::format("Real u[{}]", expected.inputs.size())};
-  if (!expected.outputs.empty()) list["Outputs"] = output_members(expected);
-  if (linearizes(expected))
-    for (const ArrayArgument& member : linearization_members(expected))
-      list["Linearization"].push_back("Real " + member.name + bounds(member.extents));
-  const std::size_t ny = expected.positions.size(), nz = expected.velocities.size();
-  if (any_step(expected, [](const FunctionApi& api) { return api.history > 0; })) {
-    list["RateHistory"] = {"int count"};
-    if (nz > 0) list["RateHistory"].push_back(fmt::format("Real ydot[depth][{}]", ny));
-    if (nz > 0) list["RateHistory"].push_back(fmt::format("Real zdot[depth][{}]", nz));
-  }
-  if (any_step(expected, [](const FunctionApi& api) { return api.implicit; })) {
-    list["Accelerations"] = {"int count"};
-    if (nz > 0) list["Accelerations"].push_back(fmt::format("Real zdot[{}]", nz));
-  }
-  return list;
-}
-
-Texts members_of(const Unit& unit, const Struct& found, const std::string& prefix = "") {
-  Texts texts;
-  for (const Member& member : found.members) {
-    if (member.is_static) continue;
-    const std::string name = prefix + unit.symbols.text(member.declarator.name);
-    if (member.anonymous) {
-      for (const std::string& text : members_of(unit, *member.anonymous, name + ".")) texts.push_back(text);
-      continue;
-    }
-    Declarator declarator = member.declarator;
-    std::string text = text_of(unit, member.type, declarator), array;
-    if (const std::size_t bracket = text.find('['); bracket != std::string::npos) {
-      array = text.substr(bracket);
-      text.resize(bracket);
-    }
-    texts.push_back(text + " " + name + array);
-  }
-  return texts;
-}
-
-std::string template_text(const Unit& unit, const Struct& found) {
-  std::string text;
-  for (const TemplateParameter& parameter : found.parameters_of_template) {
-    text += text.empty() ? "" : ", ";
-    text += (parameter.is_type ? "class " : "int ") + unit.symbols.text(parameter.name);
-    if (parameter.standard) text += " = " + text_of(unit, *parameter.standard);
-  }
-  return text;
-}
-
-void check_struct(const Unit& unit, const Struct& found, const Texts& wanted, Findings& findings) {
-  const std::string name = unit.symbols.text(found.name);
-  findings.expect("members of " + name, fmt::format("{}", fmt::join(members_of(unit, found), "; ")),
-                  fmt::format("{}", fmt::join(wanted, "; ")));
-  findings.expect("template parameters of " + name, template_text(unit, found),
-                  name == "RateHistory" ? "int depth, class Real = double" : "class Real = double");
-  if (!found.functions.empty()) findings.add("{} has functions", name);
-}
 
 std::map<std::string, double> constants_of_model(const Expected& expected) {
   std::map<std::string, double> list = {{"position_count", double(expected.positions.size())},
@@ -224,27 +114,8 @@ void check_defaults(const Unit& unit, const Expected& expected, Findings& findin
     }
 }
 
-std::string unquoted(std::string_view text) {
-  std::string plain;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\\' && (i + 1 == text.size() || (text[i + 1] != '"' && text[i + 1] != '\\')))
-      return fmt::format("{} (an escape)", text);
-    if (text[i] == '\\') ++i;
-    plain += text[i];
-  }
-  return plain;
-}
-
 void check_names(const Unit& unit, const Expected& expected, Findings& findings) {
-  std::vector<std::pair<std::string, Texts>> wanted = {{"position_names", expected.positions},
-                                                       {"velocity_names", expected.velocities}};
-  if (!expected.constraints.empty()) wanted.emplace_back("constraint_names", expected.constraints);
-  Texts outputs, parameters;
-  for (const ExpectedOutput& output : expected.outputs) outputs.push_back(output.name);
-  for (const ExpectedParameter& parameter : expected.parameters) parameters.push_back(parameter.name);
-  wanted.insert(
-      wanted.end(),
-      {{"input_names", expected.inputs}, {"output_names", outputs}, {"parameter_names", parameters}});
+  const std::vector<std::pair<std::string, Texts>> wanted = name_arrays(expected);
   std::size_t next = 0;
   for (const Constant* constant : unit.constants) {
     if (!constant->scope.empty()) continue;  // check_indices, check_programs
@@ -270,7 +141,7 @@ void check_names(const Unit& unit, const Expected& expected, Findings& findings)
 
 void check_files(const Unit& unit, const Expected& expected, Findings& findings) {
   const std::vector<Texts> wanted = {
-      {"#pragma once"},
+      {"#pragma once", "#ifndef JOURDAIN_FUNCTION", "#define JOURDAIN_FUNCTION", "#endif"},
       {"#pragma once", "#include <math.h>", fmt::format("#include \"{}.hpp\"", expected.name)},
       {fmt::format("#include \"{}_kernels.hpp\"", expected.name)}};
   findings.expect("namespace", unit.name_of_namespace, expected.name);
@@ -281,9 +152,22 @@ void check_files(const Unit& unit, const Expected& expected, Findings& findings)
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::vector<std::string>>> name_arrays(const Expected& expected) {
+  std::vector<std::pair<std::string, Texts>> wanted = {{"position_names", expected.positions},
+                                                       {"velocity_names", expected.velocities}};
+  if (!expected.constraints.empty()) wanted.emplace_back("constraint_names", expected.constraints);
+  Texts outputs, parameters;
+  for (const ExpectedOutput& output : expected.outputs) outputs.push_back(output.name);
+  for (const ExpectedParameter& parameter : expected.parameters) parameters.push_back(parameter.name);
+  wanted.insert(
+      wanted.end(),
+      {{"input_names", expected.inputs}, {"output_names", outputs}, {"parameter_names", parameters}});
+  return wanted;
+}
+
 void check_structs(const Unit& unit, const Expected& expected, Findings& findings) {
   check_files(unit, expected, findings);
-  std::map<std::string, Texts> wanted = structs(expected);
+  std::map<std::string, Texts> wanted = struct_members(expected);
   bool has_model = false;
   for (const Struct* found : unit.structs) {
     if (found->scope == "detail") continue;

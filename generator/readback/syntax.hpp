@@ -54,18 +54,20 @@ enum class ExpressionKind : std::uint8_t {
   kString,
   kNull,
   kBool,
-  kName,       ///< path, template arguments
-  kNegate,     ///< −a
-  kNot,        ///< !a
-  kIncrement,  ///< ++a
-  kDecrement,  ///< −−a
-  kBinary,     ///< a `operation` b
-  kAssign,     ///< a = b
-  kCall,       ///< a(arguments)
-  kCast,       ///< type(a)
-  kSubscript,  ///< a[b]
-  kMember,     ///< a.name
-  kList        ///< {arguments}
+  kName,         ///< path, template arguments
+  kNegate,       ///< −a
+  kNot,          ///< !a
+  kAddress,      ///< &a
+  kDereference,  ///< *a
+  kIncrement,    ///< ++a
+  kDecrement,    ///< −−a
+  kBinary,       ///< a `operation` b
+  kAssign,       ///< a = b
+  kCall,         ///< a(arguments)
+  kCast,         ///< type(a)
+  kSubscript,    ///< a[b]
+  kMember,       ///< a.name
+  kList          ///< {arguments}
 };
 
 enum class BinaryOp : std::uint8_t {
@@ -93,9 +95,10 @@ struct Expression {
   const Expression *a = nullptr, *b = nullptr;
   std::vector<const Expression*> arguments;  ///< kCall, kList
   const TypeName* type =
-      nullptr;            ///< kCast; kName: its path and template arguments unless it is one plain name
-  bool global = false;    ///< kName: begins with "::"
-  std::string_view text;  ///< kString
+      nullptr;              ///< kCast; kName: its path and template arguments unless it is one plain name
+  bool global = false;      ///< kName: begins with "::"
+  bool moves_time = false;  ///< kBinary of C: adds to a time
+  std::string_view text;    ///< kString
 };
 
 /// What stands between a type and a comma: `(&M)[7][7] = …`.
@@ -171,10 +174,12 @@ struct Constant {
   Declarator declarator;
   std::string scope;
   bool is_inline = false;
+  bool is_enumerator = false;
 };
 
 /// All that the files hold.
 struct Unit {
+  bool is_c = false;  ///< C, for one number type; read as templates over it
   SymbolTable symbols;
   std::vector<std::string> files;
   std::vector<std::vector<std::string>> directives;  ///< by file
@@ -185,6 +190,7 @@ struct Unit {
   std::vector<TypeName> struct_instantiations;
   std::vector<const Struct*> structs;
   std::vector<const Constant*> constants;
+  std::vector<const Constant*> declared_constants;  ///< of C: without their values
   std::set<Symbol> numbers;  ///< struct templates that stand for the type of their numbers
   // Where all of it lives.
   std::deque<Expression> expressions;

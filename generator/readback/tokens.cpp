@@ -73,7 +73,7 @@ class Tokenizer {
     const std::size_t end = text_.find("*/", at_ + 2);
     if (end == std::string_view::npos) refuse_here("a comment without an end");
     const std::string_view content = text_.substr(at_ + 2, end - at_ - 2);
-    add_comment(content);
+    add_comment(content.substr(std::min(content.find_first_not_of("*<"), content.size())));
     line_ += static_cast<int>(std::count(content.begin(), content.end(), '\n'));
     at_ = end + 1;
   }
@@ -117,7 +117,7 @@ class Tokenizer {
     take(TokenKind::kName, length);
   }
 
-  /// Decimal integers and floating-point numbers without suffix.
+  /// Decimal integers and floating-point numbers, these also with the suffix that makes them floats.
   void number() {
     std::size_t length = 0;
     bool floating = false;
@@ -135,6 +135,7 @@ class Tokenizer {
       if (!is_digit(peek(length))) refuse_here("a number without the digits of its exponent");
       while (is_digit(peek(length))) ++length;
     }
+    if (floating && peek(length) == 'f') ++length;
     if (is_name_part(peek(length)) || peek(length) == '.' || peek(length) == '\'')
       refuse_here(fmt::format("the number '{}'", text_.substr(at_, length + 1)));
     take(floating ? TokenKind::kFloating : TokenKind::kInteger, length);

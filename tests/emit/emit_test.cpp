@@ -11,7 +11,7 @@
 #include "agreement/shared_data.hpp"
 #include "emit/body.hpp"
 #include "emit/cpp/index_constants.hpp"
-#include "emit/cpp/layout.hpp"
+#include "emit/layout.hpp"
 #include "emit/cpp/printer.hpp"
 #include "emit/cpp/structs.hpp"
 #include "emit/output_names.hpp"
@@ -66,7 +66,7 @@ TEST(Outputs, HaveNumbersWithTheNamesOfTheirMembers) {
 }
 
 TEST(Text, CannotLeaveCommentsOrStrings) {
-  EXPECT_EQ(cpp::comment_text("a\nint main() {} \\"), "a?int main() {} ?");
+  EXPECT_EQ(comment_text("a\nint main() {} \\"), "a?int main() {} ?");
   EXPECT_EQ(quoted_text("a\"b\\c\n"), "a\\\"b\\\\c?");
 }
 
@@ -83,7 +83,7 @@ TEST(Literals, AreTheShortestThatReadBack) {
 TEST(Layout, BreaksLongLinesAtSpaces) {
   std::string line = "const Real x = a";
   for (int i = 0; i < 60; ++i) line += " + b";
-  const std::string text = cpp::wrapped(line + ";", 2);
+  const std::string text = wrapped(line + ";", 2);
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
     EXPECT_LE(end - begin, 110u);
@@ -93,7 +93,7 @@ TEST(Layout, BreaksNoString) {
   const std::string entry = R"("left \" hind leg", )";
   std::string line = "const char* const names[] = {";
   for (int i = 0; i < 30; ++i) line += entry;
-  std::istringstream lines(cpp::wrapped(line + "nullptr};", 0));
+  std::istringstream lines(wrapped(line + "nullptr};", 0));
   int entries = 0;
   for (std::string part; std::getline(lines, part);) {
     EXPECT_LE(part.size(), 110u);

@@ -16,13 +16,15 @@ std::vector<std::string> CompiledText::differences(const std::vector<emit::File>
   return readback::differences(files, expected());
 }
 
-CompiledText compiled_text(const std::string& model, const std::vector<std::string>& functions) {
+CompiledText compiled_text(const std::string& model, const std::vector<std::string>& functions,
+                           const ir::TextChoices& choices) {
   const std::string path = std::string(JOURDAIN_SOURCE_DIR) + "/models/" + model + ".toml";
   support::Diagnostics diagnostics(path, support::read_file(path));
   const auto mechanism = model::read_mechanism(diagnostics);
   JD_CHECK(mechanism.has_value(), "{}", diagnostics.format());
   CompileOptions options;
   options.path = model + ".toml";
+  options.choices = choices;
   if (!functions.empty()) options.functions = functions;
   CompiledText text = {compile(*mechanism, options)};
   JD_CHECK(text.compiled.verdict.accepted(), "{}", text.compiled.verdict.failures.front());

@@ -18,7 +18,8 @@ struct CompiledText {
 };
 
 /// `functions`: none for those that are emitted unless told otherwise. Fails with JD_CHECK where the model is refused.
-CompiledText compiled_text(const std::string& model, const std::vector<std::string>& functions = {});
+CompiledText compiled_text(const std::string& model, const std::vector<std::string>& functions = {},
+                           const ir::TextChoices& choices = {});
 
 /// All functions, all steps.
 std::vector<std::string> every_function();

@@ -31,6 +31,7 @@ std::size_t per_operator() {
 /// What is refused wherever it is executed, in place of what a mutant changed.
 std::string poison(const std::string& was, const std::string& became) {
   if (was.empty() && became == "-") return "!";
+  if (became.empty() && was.ends_with(';')) return "nullptr;";
   if (was == "++" || was == "--") return "!";
   if (was == "+" || was == "-" || was == "*" || was == "/") return "<";
   if (was == "<" || was == "<=" || was == ">=" || was == "==") return "+";
@@ -47,11 +48,13 @@ class Suite {
                  t.never_executed, t.same_value);
   }
 
-  void plant(const std::string& model, const std::vector<std::string>& functions = {}) {
-    const CompiledText text = compiled_text(model, functions);
+  void plant(const std::string& model, const std::vector<std::string>& functions = {},
+             const ir::TextChoices& choices = {}) {
+    const CompiledText text = compiled_text(model, functions, choices);
     ASSERT_EQ(text.differences(text.compiled.files), std::vector<std::string>());
     for (std::size_t file = 0; file < text.compiled.files.size(); ++file) {
-      const std::size_t count = file == 1 ? per_operator() : std::max<std::size_t>(per_operator() / 3, 1);
+      const std::size_t count =
+          holds_functions(text, file) ? per_operator() : std::max<std::size_t>(per_operator() / 3, 1);
       for (const TextMutant& mutant : text_mutants(text.compiled.files[file].text, seed_ += 1000, count))
         judge(text, file, mutant);
     }
@@ -70,6 +73,9 @@ class Suite {
     const std::string was = whole.substr(mutant.at, mutant.length);
     TextMutant poisoned = mutant;
     poisoned.replacement = poison(was, mutant.replacement);
+    // C has no nullptr; a number where a name stood is refused where it is executed.
+    if (text.compiled.files[file].name.ends_with(".c") && poisoned.replacement.starts_with("nullptr"))
+      poisoned.replacement.replace(0, 7, "0");
     if (is_refused(text, file, mutant))
       ++counts.refused;
     else if (changes_only_space_or_comments(whole, mutant.applied_to(whole)))
@@ -77,24 +83,31 @@ class Suite {
     else if (kMayMeanTheSame.count(mutant.operation))
       ++counts.same_results;
     else if (has_same_value(was, mutant.replacement) || names_a_parameter(text, file, mutant) ||
-             negates_zero(whole, mutant) || has_no_effect(whole, mutant))
+             negates_zero(whole, mutant) || has_no_effect(text, whole, mutant))
       ++counts.same_value;
-    else if (file == 1 && !is_refused(text, file, poisoned))
+    else if (holds_functions(text, file) && !is_refused(text, file, poisoned))
       ++counts.never_executed;
     else
       ADD_FAILURE() << text.compiled.files[file].name << ": " << mutant.describe(whole) << "\n"
                     << line_of(whole, mutant);
   }
 
-  /// Decimal texts of one double.
+  static bool holds_functions(const CompiledText& text, std::size_t file) {
+    const std::string& name = text.compiled.files[file].name;
+    return name.ends_with(".c") || name.ends_with("_kernels.hpp");
+  }
+
+  /// Decimal texts of one double, or of one float.
   static bool has_same_value(const std::string& was, const std::string& became) {
-    return was.find('.') != std::string::npos &&
-           std::strtod(was.c_str(), nullptr) == std::strtod(became.c_str(), nullptr);
+    if (was.find('.') == std::string::npos) return false;
+    if (was.ends_with('f') && became.ends_with('f'))
+      return std::strtof(was.c_str(), nullptr) == std::strtof(became.c_str(), nullptr);
+    return std::strtod(was.c_str(), nullptr) == std::strtod(became.c_str(), nullptr);
   }
 
   /// Of an instantiation: there a name means nothing.
-  static bool names_a_parameter(const CompiledText&, std::size_t file, const TextMutant& mutant) {
-    return file == 2 && mutant.operation == "replace_name";
+  static bool names_a_parameter(const CompiledText& text, std::size_t file, const TextMutant& mutant) {
+    return text.compiled.files[file].name.ends_with(".cpp") && mutant.operation == "replace_name";
   }
 
   static bool negates_zero(const std::string& whole, const TextMutant& mutant) {
@@ -104,14 +117,30 @@ class Suite {
 
   /// The displacement of the first stage, which nothing reads without quaternions; loops to where nothing is
   /// coupled, with one velocity all of them; arrays inside steps that are longer than needed.
-  static bool has_no_effect(const std::string& whole, const TextMutant& mutant) {
+  static bool has_no_effect(const CompiledText& text, const std::string& whole, const TextMutant& mutant) {
     const std::string line = line_of(whole, mutant);
+    if (line.starts_with("  (void)") || commutes(mutant)) return true;
+    // Held inputs do not change over a step.
+    if (line.find("solve_stage(model, &step, &stage, input, ") != std::string::npos &&
+        !text.expected().dynamics_depend_on_time)
+      return true;
+    // Where all that moves are rotations, rates of local displacements are set once more.
+    if (line.ends_with("rate[i] = z[i];") && text.expected().scalars.empty()) return true;
     const bool is_loop = line.find("first_coupled[k + 1]") != std::string::npos;
-    return line == "    stage.y[i] = Real(0.0);" ||
-           (line.starts_with("  for (int k = ") && line.ends_with(" - 1; k >= 0; --k)")) ||
-           (is_loop && whole.find("first_coupled[] = {0, 0};") != std::string::npos) ||
-           (line.starts_with("  Real y[") && line.ends_with("];") &&
-            mutant.operation.starts_with("change_in"));
+    const bool ends_descent = line.ends_with(" - 1; k >= 0; --k)") || line.ends_with(" - 1; k >= 0; --k) {");
+    const bool is_array =
+        line.starts_with("  Real y[") || line.starts_with("  double y[") || line.starts_with("  float y[");
+    const bool is_uncoupled = whole.find("first_coupled[] = {0, 0};") != std::string::npos ||
+                              whole.find("first_coupled[2] = {0, 0};") != std::string::npos;
+    return line == "    stage.y[i] = Real(0.0);" || line == "    stage.y[i] = 0.0;" ||
+           line == "    stage.y[i] = 0.0f;" || (line.starts_with("  for (") && ends_descent) ||
+           (is_loop && is_uncoupled) ||
+           (is_array && line.ends_with("];") && mutant.operation.starts_with("change_in"));
+  }
+
+  /// Operands of a sum or product: in steps, which are compared by their numbers.
+  static bool commutes(const TextMutant& mutant) {
+    return mutant.operation == "swap_operands" && mutant.replacement.find_first_of("+*") != std::string::npos;
   }
 
   static std::string line_of(const std::string& whole, const TextMutant& mutant) {
@@ -133,6 +162,18 @@ TEST(TextMutation, IsRefusedOrMeansTheSame) {
   suite.plant("n_four_bar");
   suite.plant("quadrotor", every_function());
   suite.plant("spring_four_bar", {"initial_state", "linearize", "ros34pw2_step"});
+}
+
+TEST(TextMutation, OfCIsRefusedOrMeansTheSame) {
+  Suite suite;
+  const ir::TextChoices in_c = {ir::Language::kC}, in_double = {ir::Language::kC, true, false},
+                        in_float = {ir::Language::kC, false, true};
+  suite.plant("pendulum", every_function(), in_c);
+  suite.plant("crane", {"initial_state", "outputs", "rodas4_step", "rk5_step", "adams_bashforth3_step"},
+              in_float);
+  suite.plant("four_bar", every_function(), in_double);
+  suite.plant("quadrotor", every_function(), in_double);
+  suite.plant("spring_four_bar", {"initial_state", "linearize", "ros34pw2_step"}, in_float);
 }
 
 }  // namespace

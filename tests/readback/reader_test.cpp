@@ -18,7 +18,7 @@ using readback::Value;
 /// A file with one function `f` of a, b, c, d, whose body is given; more may stand before it.
 std::string file_with(const std::string& body, const std::string& before = "") {
   return "namespace test {\n" + before +
-         "template <class Real>\nReal f(const Real& a, const Real& b, const Real& c, const Real& d) noexcept "
+         "template <class Real> JOURDAIN_FUNCTION\nReal f(const Real& a, const Real& b, const Real& c, const Real& d) noexcept "
          "{\n" +
          body + "\n}\n}  // namespace test\n";
 }
@@ -98,16 +98,16 @@ TEST(Reader, FollowsStatements) {
 
 constexpr const char* kOverloads = R"(
 namespace detail {
-inline double g(double x) noexcept { return ::sin(x); }
-template <class Real>
+JOURDAIN_FUNCTION inline double g(double x) noexcept { return ::sin(x); }
+template <class Real> JOURDAIN_FUNCTION
 Real g(const Real& x) noexcept { return sin(x); }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 Real h(const Real& x, const Real&) noexcept { return x; }
-template <class Real, class Other>
+template <class Real, class Other> JOURDAIN_FUNCTION
 Real h(const Other&, const Real& y) noexcept { return y; }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void fill(const Real& x, Real* to) noexcept { to[1] = x; }
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 void fill3(const Real& x, Real (&to)[3]) noexcept { to[2] = x; }
 constexpr int order[] = {2, 0, 1};
 }

@@ -40,6 +40,9 @@ std::vector<Piece> pieces_of(const std::string& text) {
     if (text.compare(at, 2, "//") == 0) {
       kind = Piece::kComment;
       end = std::min(text.find('\n', at), text.size());
+    } else if (text.compare(at, 2, "/*") == 0) {
+      kind = Piece::kComment;
+      end = std::min(text.find("*/", at), text.size() - 2) + 2;
     } else if (text[at] == '"') {
       kind = Piece::kString;
       while (end < text.size() && text[end] != '"') end += text[end] == '\\' ? 2 : 1;
@@ -52,7 +55,7 @@ std::vector<Piece> pieces_of(const std::string& text) {
       kind = Piece::kName;
       while (end < text.size() && is_word(text[end])) ++end;
     } else {
-      for (const char* two : {"++", "--", "::", "<=", ">=", "==", "!=", "&&", "||"})
+      for (const char* two : {"++", "--", "->", "::", "<=", ">=", "==", "!=", "&&", "||"})
         if (text.compare(at, 2, two) == 0) end = at + 2;
     }
     pieces.push_back({kind, at, end - at});

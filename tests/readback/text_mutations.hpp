@@ -22,7 +22,7 @@ struct TextMutant {
 /// Names of all operators, in order.
 std::vector<std::string> text_operators();
 
-/// Mutants of C++ or JSON, at sites drawn by `seed`; at most that many per operator, none that leaves the text
+/// Mutants of C++, C or JSON, at sites drawn by `seed`; at most that many per operator, none that leaves the text
 /// as it is. Operators know tokens and brackets alone: many mutants do not compile, some mean the same.
 std::vector<TextMutant> text_mutants(const std::string& text, std::uint64_t seed,
                                      std::size_t count_per_operator);

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "emit/cpp/layout.hpp"
+#include "emit/cpp/comments.hpp"
+#include "emit/layout.hpp"
 
 namespace jourdain::emit::cpp {
 
@@ -13,13 +14,15 @@ namespace {
 
 using Access = Parameter::Access;
 
+const std::string kTemplate = "template <class Real> JOURDAIN_FUNCTION\n";
+
 constexpr const char* kInputAt = R"(
 // Inputs at a stage: held over the step, or sampled there.
-template <class Real>
+template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
   return held;
 }
-template <class Real, class InputAt>
+template <class Real, class InputAt> JOURDAIN_FUNCTION
 Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
   return sampled(stage);
 }
@@ -63,12 +66,12 @@ std::string support_function(const Function& function) {
   std::string text = "\n";
   if (!function.comment.empty()) text += prefixed("// ", function.comment);
   if (function.only_sampled) {
-    text += "template <class Real>\n" +
-            aligned("void " + function.name + "(",
-                    parameter_texts({"", "", function.parameters}, "Real", "", false, true), ") noexcept {}");
-    text += "template <class Real, class InputAt>\n";
+    text += kTemplate + aligned("void " + function.name + "(",
+                                parameter_texts({"", "", function.parameters}, "Real", "", false, true),
+                                ") noexcept {}");
+    text += "template <class Real, class InputAt> JOURDAIN_FUNCTION\n";
   } else {
-    text += samples ? "template <class Real, class Inputs>\n" : "template <class Real>\n";
+    text += samples ? "template <class Real, class Inputs> JOURDAIN_FUNCTION\n" : kTemplate;
   }
   return text +
          aligned("void " + function.name + "(",
@@ -97,24 +100,23 @@ std::string signature(const Function& function, const std::string& real, bool al
 }
 
 std::string definition(const Function& function) {
-  constexpr const char* kTemplate = "\ntemplate <class Real>\n";
   const bool samples = may_sample(function);
   const std::string body = statements_text(function.body, {false, samples});
-  if (!samples) return kTemplate + wrapped(signature(function, "Real", false) + " {", 0) + body + "}\n";
+  if (!samples)
+    return "\n" + kTemplate + wrapped(signature(function, "Real", false) + " {", 0) + body + "}\n";
   std::string arguments;
   for (const Parameter& parameter : function.parameters)
     arguments += (arguments.empty() ? "" : ", ") + parameter.name;
   return "\n// `input` may be a function that gives the Input at the state of a stage.\n"
-         "template <class Real, class InputAt>\n" +
+         "template <class Real, class InputAt> JOURDAIN_FUNCTION\n" +
          wrapped(head(function, "Real", parameter_texts(function, "Real", "InputAt", true, false)) + " {",
                  0) +
-         body + "}\n" + kTemplate + wrapped(signature(function, "Real", true) + " {", 0) +
+         body + "}\n\n" + kTemplate + wrapped(signature(function, "Real", true) + " {", 0) +
          wrapped(fmt::format("{}<Real, Input<Real>>({});", function.name, arguments), 2) + "}\n";
 }
 
 std::string part_definition(const Function& part) {
-  return "\ntemplate <class Real>\n" + signature(part, "Real", true) + " {\n" +
-         statements_text(part.body, {}) + "}\n";
+  return "\n" + kTemplate + signature(part, "Real", true) + " {\n" + statements_text(part.body, {}) + "}\n";
 }
 
 std::string support_text(const Support& support, bool samples_inputs) {

@@ -3,28 +3,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "emit/cpp/layout.hpp"
+#include "emit/cpp/comments.hpp"
 #include "emit/unique_names.hpp"
 
 namespace jourdain::emit::cpp {
-
-namespace {
-
-/// "y_NAME" for each of `names`, all different.
-std::vector<std::string> constant_names(const std::string& prefix, const std::vector<std::string>& names) {
-  Names taken({});
-  std::vector<std::string> constants;
-  for (const std::string& name : names) constants.push_back(taken.unique(prefix + name, prefix));
-  return constants;
-}
-
-}  // namespace
 
 std::string index_constants(const ModelText& model) {
   std::string lines;
   std::vector<std::string> examples;
   const auto add = [&](const char* array, const char* prefix, const std::vector<std::string>& names) {
-    const std::vector<std::string> constants = constant_names(prefix, names);
+    const std::vector<std::string> constants = unique_names(prefix, names);
     for (std::size_t i = 0; i < constants.size(); ++i)
       lines += fmt::format("inline constexpr int {} = {};\n", constants[i], i);
     if (!constants.empty()) examples.push_back(fmt::format("{}[index::{}]", array, constants[0]));

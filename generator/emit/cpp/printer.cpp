@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "emit/cpp/layout.hpp"
+#include "emit/layout.hpp"
 
 namespace jourdain::emit::cpp {
 

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 
-#include "emit/cpp/layout.hpp"
+#include "emit/cpp/comments.hpp"
 #include "emit/cpp/printer.hpp"
+#include "emit/layout.hpp"
 #include "emit/output_names.hpp"
 #include "emit/parameters.hpp"
+#include "emit/sentences.hpp"
 
 namespace jourdain::emit::cpp {
 
@@ -34,37 +36,14 @@ std::string output_struct(const ModelText& model) {
   return text + "};\n\n";
 }
 
-namespace {
-
-const char* opening_comment(const ModelText& model) {
-  if (model.opening_is_proven)
-    return "Square of the distance that the first iterations of the last closing moved the positions, rad or "
-           "m. Up to Model::greatest_opening they are proven to end on the branch (see above), where no step "
-           "errs by more than the distance to other solutions. Beyond it nothing is: the step was too long.";
-  return "Square of the distance that the last closing moved the positions, rad or m. Beyond "
-         "Model::greatest_opening loops may be left open: the step was too long.";
-}
-
-}  // namespace
-
 std::string guard_members(const ModelText& model) {
   if (model.facts.constraints.empty()) return "";
-  std::string text =
-      "  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, "
-      "negative beyond.\n"
-      "  /// Below Model::least_regularity, or not a number, do not trust what follows.\n"
-      "  Real regularity = Real(1.0);\n" +
-      wrapped_doc(opening_comment(model), 2) + "  Real opening = Real(0.0);\n";
+  std::string text;
+  for (const std::string& sentence : regularity_sentences("Model::")) text += "  /// " + sentence + "\n";
+  text += "  Real regularity = Real(1.0);\n" + wrapped_doc(opening_sentence(model, "Model::"), 2) +
+          "  Real opening = Real(0.0);\n";
   if (model.proven.positions.empty()) return text;
-  std::string ranges;
-  for (const loops::ProvenRange& range : model.proven.positions)
-    ranges += fmt::format("{}{} from {} to {}", ranges.empty() ? "" : ", ",
-                          model.facts.positions[range.index], range.low, range.high);
-  return text +
-         wrapped_doc(fmt::format("(y - low) (y - high) after the last closing: positive where a position is "
-                                 "outside the range for which how loops are closed is proven. {}.",
-                                 comment_text(ranges)),
-                     2) +
+  return text + wrapped_doc(beyond_sentence(model), 2) +
          fmt::format("  Real beyond[{}] = {{}};\n", model.proven.positions.size());
 }
 
@@ -91,12 +70,8 @@ std::string proven_function(const ModelText& model) {
     conditions += fmt::format("{0}parameters.{1} >= {2} && parameters.{1} <= {3}",
                               conditions.empty() ? "" : " && ", model.facts.parameters[range.index].name,
                               literal_text(range.low), literal_text(range.high));
-  return wrapped_doc(
-             "Does what is proven of the loops (see above) hold at these parameters? Those that the "
-             "constraints depend on must be in their declared ranges; without one a parameter must have its "
-             "default value. Elsewhere nothing is known.",
-             2) +
-         "  static bool loops_proven(const Parameters& parameters) noexcept {\n" +
+  return wrapped_doc(proven_sentence(), 2) +
+         "  JOURDAIN_FUNCTION static bool loops_proven(const Parameters& parameters) noexcept {\n" +
          wrapped(fmt::format("return {};", conditions), 4) + "  }\n";
 }
 
@@ -104,12 +79,8 @@ std::string proven_function(const ModelText& model) {
 
 std::string guard_functions(const ModelText& model) {
   if (model.facts.constraints.empty()) return "";
-  std::string text = "\n" +
-                     wrapped_doc(
-                         "Did the last closing of the loops go well, by all that State says of it? No where "
-                         "something is not finite.",
-                         2) +
-                     "  static bool loops_closed(const State& state) noexcept {\n";
+  std::string text = "\n" + wrapped_doc(closed_sentence(), 2) +
+                     "  JOURDAIN_FUNCTION static bool loops_closed(const State& state) noexcept {\n";
   if (!model.proven.positions.empty())
     text += "    for (const Real& excess : state.beyond)\n      if (!(excess <= Real(0.0))) return false;\n";
   text +=
@@ -128,13 +99,7 @@ std::string linearization_struct(const std::vector<programs::FunctionInfo>& func
                                  const programs::SceneFacts& scene) {
   for (const programs::FunctionInfo& function : functions)
     if (function.shape == programs::Shape::kLinearization) {
-      std::string text = wrapped_doc(
-          fmt::format("With x = (displacements, velocities), nz each, and o the numbers of all outputs in "
-                      "their order, matrices row by row: d(dx/dt) = A dx + B du{}, do = C dx + D du{}. The "
-                      "displacement of a coordinate is its change, that of a quaternion a small rotation in "
-                      "body axes, dquat = 1/2 quat (0, dtheta).",
-                      scene.time.dynamics ? " + rate_t dt" : "", scene.time.outputs ? " + output_t dt" : ""),
-          0);
+      std::string text = wrapped_doc(linearization_sentence(scene), 0);
       text += "template <class Real = double>\nstruct Linearization {\n";
       for (const programs::ArrayResult& array : function.arrays)
         if (programs::has_entries(scene, array))

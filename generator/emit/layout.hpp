@@ -1,11 +1,11 @@
-// Line breaking and comments of emitted text.
+// Line breaking of emitted text, in any language.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-namespace jourdain::emit::cpp {
+namespace jourdain::emit {
 
 inline constexpr std::size_t kLineLength = 110;
 
@@ -18,16 +18,14 @@ std::string wrapped(const std::string& line, std::size_t indent);
 std::string aligned(const std::string& opening, const std::vector<std::string>& items,
                     const std::string& closing);
 
-/// A doc comment, broken into lines that begin with "///".
-std::string wrapped_doc(const std::string& content, std::size_t indent);
+/// Words in lines: `line` broken at spaces beyond column `earliest`, further lines begin with `next`; ends with a line
+/// break.
+std::string wrapped_words(const std::string& line, const std::string& next, std::size_t earliest);
 
-/// A `// ` comment of one or more lines.
-std::string wrapped_comment(const std::string& content);
-
-/// Text for a `//` comment of the emitted code: printable ASCII on one line, no trailing backslash.
+/// Text for a comment of one line of the emitted code: printable ASCII, no backslash.
 std::string comment_text(const std::string& text);
 
 /// Every line of `lines` with `prefix` in front.
 std::string prefixed(const std::string& prefix, const std::string& lines);
 
-}  // namespace jourdain::emit::cpp
+}  // namespace jourdain::emit

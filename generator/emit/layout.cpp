@@ -1,8 +1,8 @@
-#include "emit/cpp/layout.hpp"
+#include "emit/layout.hpp"
 
 #include <algorithm>
 
-namespace jourdain::emit::cpp {
+namespace jourdain::emit {
 
 namespace {
 
@@ -56,13 +56,8 @@ std::string aligned(const std::string& opening, const std::vector<std::string>& 
   return text + line + "\n";
 }
 
-std::string wrapped_doc(const std::string& content, std::size_t indent) {
-  const std::string margin(indent, ' ');
-  return broken(margin + "/// " + content, margin + "/// ", indent + 8, Strings::kBroken);
-}
-
-std::string wrapped_comment(const std::string& content) {
-  return broken("// " + content, "//   ", 8, Strings::kBroken);
+std::string wrapped_words(const std::string& line, const std::string& next, std::size_t earliest) {
+  return broken(line, next, earliest, Strings::kBroken);
 }
 
 std::string comment_text(const std::string& text) {
@@ -81,4 +76,4 @@ std::string prefixed(const std::string& prefix, const std::string& lines) {
   return text;
 }
 
-}  // namespace jourdain::emit::cpp
+}  // namespace jourdain::emit

@@ -1,0 +1,87 @@
+#include "emit/sentences.hpp"
+
+#include <fmt/format.h>
+
+#include "emit/layout.hpp"
+
+namespace jourdain::emit {
+
+std::vector<std::string> state_sentences(const ModelText& model) {
+  std::vector<std::string> sentences = {
+      fmt::format("{} coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).",
+                  model.facts.clock ? "Time t (s), generalized" : "Generalized")};
+  if (model.facts.dependents.empty()) return sentences;
+  std::string names;
+  for (const std::size_t entry : model.facts.dependents)
+    names += (names.empty() ? "" : ", ") + model.facts.positions[entry];
+  sentences.push_back("The independent positions and z are the state proper. The others (" + names +
+                      ") follow from them: they are where close_loops starts its search and what it found.");
+  return sentences;
+}
+
+std::string parameter_remark(const model::Parameter& parameter) {
+  std::string remark = parameter.description;
+  if (!parameter.unit.empty()) remark += (remark.empty() ? "" : ", ") + parameter.unit;
+  if (const auto& range = parameter.range)
+    remark += fmt::format("{}from {} to {}", remark.empty() ? "" : ", ", (*range)[0], (*range)[1]);
+  return comment_text(remark);
+}
+
+std::string linearization_sentence(const programs::SceneFacts& scene) {
+  return fmt::format(
+      "With x = (displacements, velocities), nz each, and o the numbers of all outputs in their order, "
+      "matrices row by row: d(dx/dt) = A dx + B du{}, do = C dx + D du{}. The displacement of a coordinate "
+      "is "
+      "its change, that of a quaternion a small rotation in body axes, dquat = 1/2 quat (0, dtheta).",
+      scene.time.dynamics ? " + rate_t dt" : "", scene.time.outputs ? " + output_t dt" : "");
+}
+
+std::vector<std::string> regularity_sentences(const std::string& limits) {
+  return {
+      "Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative "
+      "beyond.",
+      fmt::format("Below {}least_regularity, or not a number, do not trust what follows.", limits)};
+}
+
+std::string opening_sentence(const ModelText& model, const std::string& limits) {
+  if (model.opening_is_proven)
+    return fmt::format(
+        "Square of the distance that the first iterations of the last closing moved the positions, rad or m. "
+        "Up to {}greatest_opening they are proven to end on the branch (see above), where no step errs by "
+        "more than the distance to other solutions. Beyond it nothing is: the step was too long.",
+        limits);
+  return fmt::format(
+      "Square of the distance that the last closing moved the positions, rad or m. Beyond {}greatest_opening "
+      "loops may be left open: the step was too long.",
+      limits);
+}
+
+std::string beyond_sentence(const ModelText& model) {
+  std::string ranges;
+  for (const loops::ProvenRange& range : model.proven.positions)
+    ranges += fmt::format("{}{} from {} to {}", ranges.empty() ? "" : ", ",
+                          model.facts.positions[range.index], range.low, range.high);
+  return fmt::format(
+      "(y - low) (y - high) after the last closing: positive where a position is outside the range for which "
+      "how loops are closed is proven. {}.",
+      comment_text(ranges));
+}
+
+std::string closed_sentence() {
+  return "Did the last closing of the loops go well, by all that State says of it? No where something is not "
+         "finite.";
+}
+
+std::string proven_sentence() {
+  return "Does what is proven of the loops (see above) hold at these parameters? Those that the constraints "
+         "depend on must be in their declared ranges; without one a parameter must have its default value. "
+         "Elsewhere nothing is known.";
+}
+
+std::string operations_sentence(const ir::Operations& count) {
+  return fmt::format("{} operations ({} mul, {} add and sub, {} div), {} sin and cos{}.", count.arithmetic(),
+                     count.multiply, count.add + count.subtract, count.divide, count.sin + count.cos,
+                     count.atan2 == 0 ? "" : fmt::format(", {} atan2", count.atan2));
+}
+
+}  // namespace jourdain::emit

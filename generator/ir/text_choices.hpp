@@ -1,0 +1,17 @@
+// How files are written, beside what they compute: what writes them and what reads them back are told alike.
+#pragma once
+
+namespace jourdain::ir {
+
+enum class Language {
+  kCpp,  ///< C++: templates over the number type
+  kC     ///< C99: files for each number type
+};
+
+struct TextChoices {
+  Language language = Language::kCpp;
+  /// Number types of what is compiled: C++'s instantiations, C's files. At least one.
+  bool has_double = true, has_float = true;
+};
+
+}  // namespace jourdain::ir
