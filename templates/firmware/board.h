@@ -12,6 +12,16 @@ extern "C" {
 /* Sends text to whoever debugs the board: semihosting. */
 void board_write(const char* text);
 
+static inline void board_write_number(int64_t number) {
+  char text[24], *first = text + sizeof text;
+  uint64_t rest = number < 0 ? -(uint64_t)number : (uint64_t)number;
+  *--first = '\0';
+  do *--first = (char)('0' + rest % 10);
+  while ((rest /= 10) != 0);
+  if (number < 0) *--first = '-';
+  board_write(first);
+}
+
 /* Ends the program; the simulator exits with this status. Does not return. */
 void board_exit(int status);
 

@@ -51,20 +51,59 @@ Command model_options(const Motion& motion) {
           fmt::format("-I{}/{}", JOURDAIN_EMITTED, motion.model)};
 }
 
+/// What the names and files of a model's C text begin with.
+std::string prefix_of(const Motion& motion) {
+  return motion.real == "float" ? motion.model + "_f" : motion.model;
+}
+
+/// A folder with the C text of a model.
+std::string c_folder(const Motion& motion) {
+  const std::string folder = firmware_folder() + "/c_" + motion.model;
+  if (!fs::exists(folder))
+    commands::run_tool({"env", "-C", JOURDAIN_SOURCE_DIR, JOURDAIN_BINARY, "compile",
+                        fmt::format("models/{}.toml", motion.model), "--language", "c", "-o", folder});
+  return folder;
+}
+
+Command c_model_options(const Motion& motion) {
+  const std::string folder = c_folder(motion), prefix = prefix_of(motion);
+  const auto manifest = nlohmann::json::parse(support::read_file(folder + "/" + motion.model + ".json"));
+  Command options = {"-DPREFIX=" + prefix, "-DREAL=" + motion.real, "-DSTEP=" + motion.step,
+                     fmt::format("-DHEADER=\"{}.h\"", prefix), "-I" + folder};
+  if (manifest["input_count"] > 0) options.push_back("-DINPUTS");
+  if (manifest["output_count"] > 0) options.push_back("-DOUTPUTS");
+  if (support::read_file(folder + "/" + prefix + ".h").find("_time t;") != std::string::npos)
+    options.push_back("-DCLOCK");
+  return options;
+}
+
 std::string file_of(const std::string& machine, const Motion& motion, const std::string& rest) {
   return fmt::format("{}/{}_{}_{}{}", firmware_folder(), machine, motion.model, motion.real, rest);
 }
 
-/// The model's object and that of the sines; kernel.c must define what the compiler takes for its own.
-Command objects(const std::string& machine, const Command& cxx, const Command& c, const Motion& motion,
-                Sines sines) {
+/// Of the program and the model.
+Command model_objects(const std::string& machine, const Command& cxx, const Command& c,
+                      const Motion& motion) {
+  if (motion.is_c) {
+    const std::string program = file_of(machine, motion, "_c.o"), model = file_of(machine, motion, "_text.o");
+    make(program, joined({c, kStrict, kCalled, c_model_options(motion), {"-c", kPrograms + "motion.c"}}));
+    make(model, joined({c, kStrict, kCalled, {"-c", c_folder(motion) + "/" + prefix_of(motion) + ".c"}}));
+    return {program, model};
+  }
   const std::string program = file_of(machine, motion, ".o");
   make(program, joined({cxx, kStrict, kCalled, model_options(motion), {"-c", kPrograms + "motion.cpp"}}));
-  if (sines == Sines::kLibrary) return {program};
+  return {program};
+}
+
+/// The model's objects and that of the sines; kernel.c must define what the compiler takes for its own.
+Command objects(const std::string& machine, const Command& cxx, const Command& c, const Motion& motion,
+                Sines sines) {
+  Command linked = model_objects(machine, cxx, c, motion);
+  if (sines == Sines::kLibrary) return linked;
   const std::string name = sines == Sines::kKernel ? "kernel" : "wobble";
-  const std::string object = fmt::format("{}/{}_{}.o", firmware_folder(), machine, name);
-  make(object, joined({c, kStrict, kCalled, {"-c", kPrograms + name + ".c"}}));
-  return {program, object};
+  linked.push_back(fmt::format("{}/{}_{}.o", firmware_folder(), machine, name));
+  make(linked.back(), joined({c, kStrict, kCalled, {"-c", kPrograms + name + ".c"}}));
+  return linked;
 }
 
 std::vector<Line> read_lines(const std::string& output) {
@@ -88,7 +127,7 @@ std::vector<Line> read_lines(const std::string& output) {
 
 /// Names the firmware of a motion in its folder.
 std::string firmware_name(const Target& target, const Motion& motion, Sines sines) {
-  return fmt::format("{}_{}_{}_{}", target.name, motion.model, motion.real,
+  return fmt::format("{}_{}_{}_{}_{}", target.name, motion.model, motion.real, motion.is_c ? "c" : "cpp",
                      sines == Sines::kKernel ? "kernel" : "library");
 }
 

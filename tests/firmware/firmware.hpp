@@ -23,8 +23,9 @@ enum class Sines {
 /// A model of models/ in a number type.
 struct Motion {
   std::string model;
-  std::string real;  ///< "double", "float"
-  std::string step;  ///< s, as a literal
+  std::string real;   ///< "double", "float"
+  std::string step;   ///< s, as a literal
+  bool is_c = false;  ///< the C text, otherwise the C++
 };
 
 inline constexpr const char* kModels[] = {"pendulum", "four_bar", "panda", "squeezer"};

@@ -46,15 +46,26 @@ class Firmware : public testing::TestWithParam<Case> {
 
 INSTANTIATE_TEST_SUITE_P(Models, Firmware, testing::ValuesIn(cases()), name_of);
 
-TEST_P(Firmware, HasTheHostsBitsWithTheSameSines) {
-  const auto& [target, motion] = GetParam();
-  const std::vector<Line> here = host_motion(motion, Sines::kKernel);
+/// The target's numbers are those of the host's C++, bit for bit.
+void expect_same_bits(const Target& target, const Motion& motion, const std::vector<Line>& here) {
   const std::vector<Line> there = target_motion(target, motion, Sines::kKernel);
   ASSERT_EQ(here.size(), there.size());
   ASSERT_GE(here.size(), 11u * 5u);  // ten times 20 steps
   for (std::size_t i = 0; i < here.size(); ++i)
     ASSERT_EQ(here[i].bits, there[i].bits) << "line " << i << ", " << here[i].what;
   EXPECT_NE(here.front().bits, here[here.size() * 10 / 11].bits) << "nothing moves";
+}
+
+TEST_P(Firmware, HasTheHostsBitsWithTheSameSines) {
+  const auto& [target, motion] = GetParam();
+  expect_same_bits(target, motion, host_motion(motion, Sines::kKernel));
+}
+
+TEST_P(Firmware, HasTheSameBitsInC) {
+  const auto& [target, motion] = GetParam();
+  Motion in_c = motion;
+  in_c.is_c = true;
+  expect_same_bits(target, in_c, host_motion(motion, Sines::kKernel));
 }
 
 // The libraries' sines are off by less than a unit in the last place, as fdlibm's, from which newlib's and picolibc's
@@ -94,9 +105,12 @@ TEST(FloatFirmware, LinksNothingOfDouble) {
   const Target& target = *commands::find_target("cortex-m4");
   require_tools(target);
   for (const char* model : kModels)
-    EXPECT_THAT(double_functions(firmware_symbols(target, motion_of(model, "float"), Sines::kLibrary)),
-                testing::IsEmpty())
-        << model;
+    for (const bool is_c : {false, true}) {
+      Motion motion = motion_of(model, "float");
+      motion.is_c = is_c;
+      EXPECT_THAT(double_functions(firmware_symbols(target, motion, Sines::kLibrary)), testing::IsEmpty())
+          << model << (is_c ? " in C" : " in C++");
+    }
   // The same in double has them all.
   EXPECT_THAT(double_functions(firmware_symbols(target, motion_of("pendulum", "double"), Sines::kLibrary)),
               testing::IsSupersetOf({"__aeabi_dadd", "__aeabi_dmul"}));

@@ -42,56 +42,86 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// Runs the page's commands with its program in `folder`, each changed to be another model's, where models/, templates/
-/// and the command are found.
-support::ProcessResult run_page(const std::string& folder,
-                                const std::vector<std::pair<std::string, std::string>>& changes) {
+/// What the page shows of a language: commands, and the program that they compile.
+struct Shown {
+  std::string heading;  ///< its place on the page: behind this
+  std::string block;    ///< kind of the program's listing
+  std::string program;  ///< its file
+};
+
+const Shown kCpp = {"# Firmware\n", "```cpp\n", "main.cpp"}, kC = {"The same in C99", "```c\n", "main.c"};
+
+/// Runs commands of the page in `folder`, with the changes that make them another model's.
+std::string run_page(const std::string& folder, const Shown& shown,
+                     const std::vector<std::pair<std::string, std::string>>& changes) {
   std::string page = support::read_file(kPage);
+  page = page.substr(page.find(shown.heading));
   for (const auto& [from, to] : changes) page = replaced(page, from, to);
   for (const char* shared : {"models", "templates"})
     fs::create_directory_symlink(fs::path(JOURDAIN_SOURCE_DIR) / shared, fs::path(folder) / shared);
   fs::create_directory(folder + "/bin");
   fs::create_symlink(JOURDAIN_BINARY, folder + "/bin/jourdain");
-  support::write_file(folder + "/main.cpp", between(page, "```cpp\n", "```\n"));
+  support::write_file(folder + "/" + shown.program, between(page, shown.block, "```\n"));
   support::write_file(folder + "/commands.sh",
                       "set -eu\nPATH=\"$PWD/bin:$PATH\"\n" + between(page, "```sh\n", "```\n"));
-  support::ProcessResult result = support::run_process({"env", "-C", folder, "bash", "commands.sh"});
-  EXPECT_EQ(result.status, 0) << result.output;
-  return result;
+  return commands::run_tool({"env", "-C", folder, "bash", "commands.sh"});
 }
 
-/// What the same program writes on the host.
-std::string written_on_host(const std::string& folder, const std::string& model) {
+/// What the same program writes on the host, with the model's text in `source`.
+std::string written_on_host(const std::string& folder, const Shown& shown, const std::string& source) {
   const std::string include = "-I" JOURDAIN_SOURCE_DIR "/templates/firmware";
+  const std::string compiler = shown.program == "main.c" ? "gcc" : "g++";
   commands::run_tool({"gcc", "-c", include, JOURDAIN_SOURCE_DIR "/tests/firmware/programs/host_board.c", "-o",
                       folder + "/host_board.o"});
-  commands::run_tool({"g++", "-std=c++17", "-O2", "-ffp-contract=off", include, "-I" + folder + "/" + model,
-                      folder + "/main.cpp", folder + "/host_board.o", "-o", folder + "/host"});
+  commands::run_tool({compiler, "-O2", "-ffp-contract=off", include,
+                      "-I" + fs::path(folder + "/" + source).parent_path().string(),
+                      folder + "/" + shown.program, folder + "/" + source, folder + "/host_board.o", "-lm",
+                      "-o", folder + "/host"});
   return commands::run_tool({folder + "/host"});
 }
 
-TEST(FirmwarePage, ItsCommandsRunAndWriteWhatItSaysAsTheHostDoes) {
-  require_tools(*commands::find_target("cortex-m4"));
-  const support::TemporaryFolder folder;
-  const std::string output = run_page(folder.path(), {}).output;
-  const std::string written = between(support::read_file(kPage), "```text\n", "```\n");
-  EXPECT_NE(output.find("\n" + written), std::string::npos) << output;
-  EXPECT_EQ(written_on_host(folder.path(), "panda"), written);
-  EXPECT_NE(output.find("panda in float for cortex-m4"), std::string::npos) << output;
-  const std::string symbols = commands::run_tool({"arm-none-eabi-nm", folder.path() + "/panda.elf"});
+void expect_no_double(const std::string& image) {
+  const std::string symbols = commands::run_tool({"arm-none-eabi-nm", image});
   EXPECT_NE(symbols.find(" sinf"), std::string::npos) << symbols;
   EXPECT_EQ(symbols.find("__aeabi_d"), std::string::npos) << symbols;
 }
 
-TEST(FirmwarePage, ItsCommandsServeTheSqueezer) {
-  require_tools(*commands::find_target("cortex-m4"));
-  const support::TemporaryFolder folder;
-  const std::string output =
-      run_page(folder.path(), {{"panda", "squeezer"}, {"y_joint4", "y_beta"}, {"1e-3f", "1e-4f"}}).output;
-  const std::string written = written_on_host(folder.path(), "squeezer");
-  EXPECT_GT(std::atoi(written.c_str()), 1000) << written;  // it turns
-  EXPECT_NE(output.find("\n" + written), std::string::npos) << written << output;
-  EXPECT_NE(output.find("squeezer in float for cortex-m4"), std::string::npos) << output;
+class FirmwarePage : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const Target& target : commands::all_targets()) require_tools(target);
+  }
+};
+
+TEST_F(FirmwarePage, ItsCommandsWriteWhatItSaysAsTheHostDoes) {
+  const std::string written = between(support::read_file(kPage), "```text\n", "```\n");
+  for (const Shown& shown : {kCpp, kC}) {
+    const support::TemporaryFolder folder;
+    const std::string output = run_page(folder.path(), shown, {});
+    EXPECT_NE(output.find("\n" + written), std::string::npos) << output;
+    const std::string source = shown.program == "main.c" ? "panda/panda_f.c" : "panda/panda.cpp";
+    EXPECT_EQ(written_on_host(folder.path(), shown, source), written);
+    expect_no_double(folder.path() + "/panda.elf");
+    if (shown.program == "main.cpp") {
+      EXPECT_NE(output.find("panda in float for cortex-m4"), std::string::npos) << output;
+    }
+  }
+}
+
+TEST_F(FirmwarePage, ItsCommandsServeTheSqueezer) {
+  std::vector<std::string> both;
+  for (const Shown& shown : {kCpp, kC}) {
+    const support::TemporaryFolder folder;
+    const std::string output =
+        run_page(folder.path(), shown,
+                 {{"panda", "squeezer"}, {"y_joint4", "y_beta"}, {"1e-3f", "1e-4f"}, {"{{0}}", "{0}"}});
+    const std::string source = shown.program == "main.c" ? "squeezer/squeezer_f.c" : "squeezer/squeezer.cpp";
+    both.push_back(written_on_host(folder.path(), shown, source));
+    EXPECT_GT(std::atoi(both.back().c_str()), 1000) << both.back();  // it turns
+    EXPECT_NE(output.find("\n" + both.back()), std::string::npos) << both.back() << output;
+    expect_no_double(folder.path() + "/squeezer.elf");
+  }
+  EXPECT_EQ(both[0], both[1]);
 }
 
 /// The versions that decide the figures, a line of the page.
@@ -119,12 +149,11 @@ std::string stated(const std::string& mark) {
                  fmt::format("<!-- end of {} -->", mark));
 }
 
-TEST(FirmwarePage, NoLibraryIsFurtherFromTheHostsThanItSays) {
+TEST_F(FirmwarePage, NoLibraryIsFurtherFromTheHostsThanItSays) {
   std::string table =
       fmt::format("| target, numbers | {} |\n|---|---:|---:|---:|---:|\n", fmt::join(kModels, " | "));
   std::vector<double> units;
   for (const Target& target : commands::all_targets()) {
-    require_tools(target);
     table += fmt::format("| {}, {} |", target.name, motion_of("", target).real);
     for (const char* model : kModels) {
       const Motion motion = motion_of(model, target);
@@ -148,7 +177,7 @@ TEST(FirmwarePage, NoLibraryIsFurtherFromTheHostsThanItSays) {
   for (std::size_t i = 0; i < units.size(); ++i) EXPECT_LE(units[i], allowed[i]) << table;
 }
 
-TEST(FirmwarePage, ItsTargetsAreTheCommands) {
+TEST_F(FirmwarePage, ItsTargetsAreTheCommands) {
   const std::string page = support::read_file(kPage);
   for (const Target& target : commands::all_targets()) {
     const std::string row = fmt::format("| {} | `{}g++ {}` | `{}` |\n", target.name, target.tools,
@@ -157,13 +186,12 @@ TEST(FirmwarePage, ItsTargetsAreTheCommands) {
   }
 }
 
-TEST(FirmwarePage, ItsFiguresAreTheCommands) {
+TEST_F(FirmwarePage, ItsFiguresAreTheCommands) {
   std::vector<json> costs;
   std::string table =
       "| target, numbers | model | function | code | stack | painted | instructions |\n"
       "|---|---|---|---:|---:|---:|---:|\n";
   for (const Target& target : commands::all_targets()) {
-    require_tools(target);
     for (const char* model : {"pendulum", "panda", "squeezer"}) {
       costs.push_back(target_cost(model, target));
       for (const json& entry : costs.back()["functions"])

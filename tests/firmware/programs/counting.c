@@ -3,12 +3,8 @@
 #include "board.h"
 
 static void write_number(uint64_t number) {
-  char digits[24], *first = digits + sizeof digits;
-  *--first = '\0';
-  *--first = '\n';
-  do *--first = (char)('0' + number % 10);
-  while ((number /= 10) != 0);
-  board_write(first);
+  board_write_number((int64_t)number);
+  board_write("\n");
 }
 
 __attribute__((noinline)) static void loop(uintptr_t rounds) {
