@@ -8,7 +8,7 @@
 #include <set>
 
 #include "readback/api.hpp"
-#include "readback/dependencies.hpp"
+#include "readback/what_is_read.hpp"
 #include "readback/methods.hpp"
 #include "readback/tokens.hpp"
 

@@ -1,5 +1,5 @@
-// Two models, one of them twice with different parameters, stepped by eight threads at once: each must end with the bits
-// that one thread alone ends with.
+// Two models, one of them twice with different parameters, stepped by eight threads at once: each must end with the
+// bits that one thread alone ends with.
 #include <array>
 #include <cstdio>
 #include <cstring>

@@ -7,17 +7,9 @@
 namespace {
 
 void print(float value) {
-  char digits[16];
-  char* first = digits + sizeof digits;
-  *--first = '\0';
-  for (const char* unit = "6-e"; *unit; ++unit) *--first = *unit;
-  const long millionths = static_cast<long>(value * 1e6f + (value < 0 ? -0.5f : 0.5f));
-  unsigned long rest = static_cast<unsigned long>(millionths < 0 ? -millionths : millionths);
-  do *--first = static_cast<char>('0' + rest % 10);
-  while ((rest /= 10) != 0);
-  if (millionths < 0) *--first = '-';
-  *--first = ' ';
-  board_write(first);
+  board_write(" ");
+  board_write_number(static_cast<int64_t>(value * 1e6f + (value < 0 ? -0.5f : 0.5f)));
+  board_write("e-6");
 }
 
 template <class Model>

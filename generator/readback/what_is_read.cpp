@@ -1,4 +1,4 @@
-#include "readback/dependencies.hpp"
+#include "readback/what_is_read.hpp"
 
 #include <fmt/format.h>
 
