@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include "emit/what_depends.hpp"
 #include "emit/unique_names.hpp"
+#include "emit/what_depends.hpp"
 
 namespace jourdain::emit {
 

@@ -13,6 +13,6 @@ namespace jourdain::emit {
 /// program that computes the number reads it. Empty
 /// where no emitted function computes the variable.
 std::vector<std::string> what_depends(const programs::Variable& variable, const programs::SceneFacts& scene,
-                                    const ir::Module& module);
+                                      const ir::Module& module);
 
 }  // namespace jourdain::emit

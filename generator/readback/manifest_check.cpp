@@ -8,9 +8,9 @@
 #include <set>
 
 #include "readback/api.hpp"
-#include "readback/what_is_read.hpp"
 #include "readback/methods.hpp"
 #include "readback/tokens.hpp"
+#include "readback/what_is_read.hpp"
 
 namespace jourdain::readback {
 
