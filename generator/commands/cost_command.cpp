@@ -157,9 +157,10 @@ void add_cost(CLI::App& app, int& status) {
   command
       ->add_option(
           "--target", arguments->target,
-          fmt::format("firmware for {}: code, stack and instructions, counted in a simulator; nothing "
-                      "is timed",
-                      fmt::join(target_names(), ", ")))
+          fmt::format(
+              "firmware for {}: code, stack and instructions, counted in a simulator, no times; float "
+              "on cortex-m4, unless --real is given",
+              fmt::join(target_names(), ", ")))
       ->check(check_target)
       ->excludes(warm)
       ->excludes(cold)
