@@ -304,7 +304,9 @@ void expect_misuse_is_refused(const jourdain_interface& table, void* self) {
   std::vector<std::max_align_t> memory(table.size / sizeof(std::max_align_t) + 2);
   EXPECT_FALSE(table.create(nullptr, table.size));
   EXPECT_FALSE(table.create(memory.data(), table.size - 1));
-  if (table.alignment > 1) EXPECT_FALSE(table.create(reinterpret_cast<char*>(memory.data()) + 1, table.size));
+  if (table.alignment > 1) {
+    EXPECT_FALSE(table.create(reinterpret_cast<char*>(memory.data()) + 1, table.size));
+  }
   Values values = values_of(table, self);
   EXPECT_EQ(table.get_state(nullptr, &values.t, values.y.data(), values.z.data()), JOURDAIN_WRONG_CALL);
   EXPECT_EQ(table.get_state(self, nullptr, values.y.data(), values.z.data()), JOURDAIN_WRONG_CALL);
