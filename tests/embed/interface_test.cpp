@@ -225,8 +225,9 @@ void expect_as_in_info(const jourdain_interface& table, const json& info) {
   }
   const json& gravity = info["gravity"];
   for (const jourdain_variable* constant : of_role(table, JOURDAIN_CONSTANT))
-    if (constant->quantity == JOURDAIN_QUANTITY_ACCELERATION)
+    if (constant->quantity == JOURDAIN_QUANTITY_ACCELERATION) {
       for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(constant->start[k], gravity[k].get<double>());
+    }
 }
 
 void expect_starts(const jourdain_interface& table, const void* self) {
