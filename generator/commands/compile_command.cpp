@@ -19,7 +19,7 @@ struct Arguments {
   ModelArguments model;
   std::string folder;
   std::vector<std::string> functions, frames;
-  bool clock = false, explain = false;
+  bool clock = false, explain = false, packs = false;
   std::string language = "c++", real = "both";
   std::string dump;  ///< pass whose programs are printed, or kAllPasses; empty: none
 };
@@ -37,6 +37,7 @@ std::string check_pass(const std::string& pass) {
 ir::TextChoices choices(const Arguments& arguments) {
   ir::TextChoices chosen;
   if (arguments.language == "c") chosen.language = ir::Language::kC;
+  chosen.packs = arguments.packs;
   chosen.has_double = arguments.real != "float";
   chosen.has_float = arguments.real != "double";
   return chosen;
@@ -54,6 +55,10 @@ int run(const Arguments& arguments) {
   if (const std::string wrong = choose_kinematics(arguments.frames, functions, loaded->mechanism);
       !wrong.empty()) {
     fmt::print(stderr, "error: {}\n", wrong);
+    return kUsage;
+  }
+  if (arguments.packs && arguments.language == "c") {
+    fmt::print(stderr, "error: --packs is of C++, and the language is c\n");
     return kUsage;
   }
   loaded->options.clock = arguments.clock;
@@ -102,6 +107,9 @@ void add_compile(CLI::App& app, int& status) {
           "number types: of what NAME.cpp instantiates; in C of the files, NAME_f.h and NAME_f.c for float")
       ->check(CLI::IsMember({"float", "double", "both"}))
       ->capture_default_str();
+  command->add_flag(
+      "--packs", arguments->packs,
+      "C++: literals that every pack of numbers takes, sine and cosine at once where a pack has them");
   command->add_flag("--clock", arguments->clock, "keep the time in State, though nothing depends on it");
   command->add_flag("--explain", arguments->explain,
                     "print what was compared with what, what each pass did and what was left out");

@@ -12,6 +12,7 @@ struct TextChoices {
   Language language = Language::kCpp;
   /// Number types of what is compiled: C++'s instantiations, C's files. At least one.
   bool has_double = true, has_float = true;
+  bool packs = false;  ///< C++: numbers and angles by customization points, as packs of lanes want them
 };
 
 }  // namespace jourdain::ir
