@@ -33,7 +33,7 @@ void EmissionArguments::add_to(CLI::App& command) {
       ->delimiter(',');
   command.add_option("--frame", frames, kFrameHelp)->expected(1)->take_all();
   command.add_option("--language", language, "language of the files: C++, or C99")
-      ->check(CLI::IsMember({"c++", "cpp", "c"}))
+      ->check(CLI::IsMember({"c++", "c"}))
       ->capture_default_str();
   command
       .add_option(
@@ -44,6 +44,9 @@ void EmissionArguments::add_to(CLI::App& command) {
   command.add_flag(
       "--interface", interface,
       "of C: NAME_interface.h and .c too, instances in the caller's memory and a table of all variables");
+  command.add_flag(
+      "--packs", packs,
+      "C++: literals that every pack of numbers takes, sine and cosine at once where a pack has them");
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
 
@@ -51,6 +54,7 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   if (std::string conflict = check_derivative_terms(functions, loaded.options.derivative_terms);
       !conflict.empty())
     return conflict;
+  if (packs && language == "c") return "--packs is of C++, and the language is c";
   if (interface && language != "c") return "--interface is in C: add --language c";
   std::vector<std::string> chosen = functions;
   if (std::string wrong = choose_kinematics(frames, chosen, loaded.mechanism); !wrong.empty()) return wrong;
@@ -60,6 +64,7 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   choices.has_double = real != "float";
   choices.has_float = real != "double";
   choices.has_interface = interface;
+  choices.packs = packs;
   if (!functions.empty()) loaded.options.functions = chosen;
   return "";
 }

@@ -234,11 +234,24 @@ const Expression* ExpressionParser::postfix() {
       made.a = left;
       take();
       arguments(made, ")");
-      left = known_.c ? c_call(made) : &made;
+      left = known_.c ? c_call(made) : cpp_call(made);
     } else {
       return left;
     }
   }
+}
+
+/// `detail::number<Real>(x)` of text for packs is Real(x).
+const Expression* ExpressionParser::cpp_call(Expression& call) {
+  const TypeName* scope = call.a->kind == ExpressionKind::kName ? call.a->type : nullptr;
+  const bool converts =
+      known_.packs && scope && scope->path == std::vector<Symbol>{unit_.symbols["detail"]} &&
+      call.a->name == unit_.symbols["number"] && scope->arguments.size() == 1 && !scope->arguments[0].value;
+  if (!converts) return &call;
+  call.kind = ExpressionKind::kCast;
+  call.type = &scope->arguments[0].type;
+  call.a = nullptr;
+  return &call;
 }
 
 void ExpressionParser::arguments(Expression& call, std::string_view close) {

@@ -31,6 +31,7 @@ class ExpressionParser {
     std::set<Symbol> struct_templates, function_templates;
     std::set<std::pair<Symbol, Symbol>> qualified;  ///< struct templates by namespace
     const CText* c = nullptr;                       ///< null: the text is C++
+    bool packs = false;                             ///< C++ whose conversions to Real packs may customize
     std::map<Symbol, TypeName> c_types;             ///< of C, by their whole name
     std::set<std::string> c_operations;             ///< functions of sums of numbers that are defined
   };
@@ -76,6 +77,7 @@ class ExpressionParser {
   TypeName c_type();
   const Expression* c_name();
   const Expression* c_call(Expression& call);
+  const Expression* cpp_call(Expression& call);
   const Expression* c_parenthesis();
   const Expression* dereferenced(const Expression* pointer);
   const Expression* as_real(const Expression* value);

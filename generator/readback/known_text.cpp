@@ -1,5 +1,7 @@
 #include "readback/known_text.hpp"
 
+#include <utility>
+
 namespace jourdain::readback {
 
 namespace {
@@ -95,12 +97,128 @@ Real cosine(const Angle<Real>& x) noexcept {
 }
 )";
 
+// Of packs: numbers, sines and cosines that a pack may bring itself.
+constexpr const char* kNumbers = R"(namespace detail {
+
+namespace hooks {
+
+struct Plain {};
+struct Lanes : Plain {};
+struct Value : Lanes {};
+struct Conversion : Value {};
+struct Own : Conversion {};
+
+template <class Real> JOURDAIN_FUNCTION
+auto number(double x, Own) noexcept -> decltype(Real(from_literal(static_cast<const Real*>(nullptr), x))) {
+  return from_literal(static_cast<const Real*>(nullptr), x);
+}
+template <class Real> JOURDAIN_FUNCTION
+auto number(double x, Conversion, int Real::* = nullptr) noexcept -> decltype(Real(x)) { return Real(x); }
+template <class Real> JOURDAIN_FUNCTION
+auto number(double x, Value) noexcept -> decltype(Real(static_cast<typename Real::value_type>(x))) {
+  return Real(static_cast<typename Real::value_type>(x));
+}
+template <class Real> JOURDAIN_FUNCTION
+auto number(double x, Lanes) noexcept -> decltype(void((*static_cast<Real*>(nullptr))[0]), Real{}) {
+  Real lanes{};
+  auto lane = lanes[0];
+  lane = static_cast<decltype(lane)>(x);
+  for (unsigned i = 0; i < sizeof(lanes) / sizeof(lane); ++i) lanes[i] = lane;
+  return lanes;
+}
+template <class Real> JOURDAIN_FUNCTION
+Real number(double x, Plain) noexcept { return Real(x); }
+
+template <class Real> JOURDAIN_FUNCTION
+auto both(const Real& x, Real& s, Real& c, int) noexcept -> decltype(void(sine_cosine(x, s, c))) {
+  sine_cosine(x, s, c);
+}
+
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real number(double x) noexcept { return hooks::number<Real>(x, hooks::Own()); }
+template <class Real> JOURDAIN_FUNCTION
+Real number(int k) noexcept { return hooks::number<Real>(static_cast<double>(k), hooks::Own()); }
+
+}
+)";
+
+constexpr const char* kNumberOfTime = R"(namespace detail {
+
+template <class Real> JOURDAIN_FUNCTION
+Real number(const Time<Real>& t) noexcept { return t.high; }
+
+}
+)";
+
+constexpr const char* kNumberOfAngle = R"(template <class Real> JOURDAIN_FUNCTION
+Real number(const Angle<Real>& angle) noexcept { return angle.high; }
+)";
+
+constexpr const char* kPackSines = R"(namespace hooks {
+
+template <class Real> JOURDAIN_FUNCTION
+void both(const Real& x, Real& s, Real& c, long) noexcept {
+  s = sine(x);
+  c = cosine(x);
+}
+
+}
+
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine(const Real& x, Real& s, Real& c) noexcept { hooks::both(x, s, c, 0); }
+)";
+
+/// What the last one computes where a pack brings nothing; one that does has to compute the same.
+constexpr const char* kSines = R"(template <class Real> JOURDAIN_FUNCTION
+void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
+  s = sine(x);
+  c = cosine(x);
+}
+)";
+
+/// The text with its conversions written for packs.
+std::string for_packs(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool converts = text.compare(i, 5, "Real(") == 0 && !result.ends_with("operator ");
+    result += converts ? "detail::number<Real>(" : text.substr(i, 1);
+    if (converts) i += 4;
+  }
+  return result;
+}
+
+KnownText known(const char* scope, const char* type, const std::string& text, const char* meaning = nullptr) {
+  KnownText made;
+  made.scope = scope;
+  made.type = type;
+  made.text = std::make_unique<std::string>(text);
+  made.tokens = tokenize(type, *made.text);
+  if (meaning) made.meaning = tokenize(type, meaning);
+  return made;
+}
+
 }  // namespace
 
-const std::array<KnownText, 2>& known_texts() {
-  static const std::array<KnownText, 2> texts = {
-      {{"", "Time", tokenize("Time", kTime)}, {"detail", "Angle", tokenize("Angle", kAngle)}}};
-  return texts;
+const std::vector<KnownText>& known_texts(bool packs) {
+  static const std::vector<KnownText> plain = [] {
+    std::vector<KnownText> list;
+    list.push_back(known("", "Time", kTime));
+    list.push_back(known("detail", "Angle", kAngle));
+    return list;
+  }();
+  static const std::vector<KnownText> of_packs = [] {
+    std::vector<KnownText> list;
+    list.push_back(known("", "Time", for_packs(kTime)));
+    list.push_back(known("detail", "Angle", for_packs(kAngle)));
+    list.push_back(known("", "", kNumbers));
+    list.push_back(known("", "", kNumberOfTime));
+    list.push_back(known("detail", "", kNumberOfAngle));
+    list.push_back(known("detail", "", kPackSines, kSines));
+    return list;
+  }();
+  return packs ? of_packs : plain;
 }
 
 }  // namespace jourdain::readback

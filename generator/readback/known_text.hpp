@@ -1,23 +1,27 @@
 // Passages that are written as they stand: arithmetic of more than one number, which in exact arithmetic is
-// that of one.
+// that of one, and what packs of numbers may customize.
 #pragma once
 
-#include <array>
+#include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "readback/tokens.hpp"
 
 namespace jourdain::readback {
 
-/// A struct template that stands for the type of its numbers, with its functions.
 struct KnownText {
   std::string_view scope;  ///< namespace within the outer one, or empty
-  std::string_view type;   ///< name of the struct
-  Tokens tokens;
+  std::string_view type;   ///< name of a struct template that stands for the type of its numbers; or empty
+  std::unique_ptr<std::string> text;
+  Tokens tokens;                       ///< of `text`
+  std::optional<Tokens> meaning = {};  ///< what is read in its place
 };
 
 /// A second copy, apart from the templates: what is written must be this, token by token. What it computes in
-/// double and float is tested in tests/steppers.
-const std::array<KnownText, 2>& known_texts();
+/// double and float is tested in tests/steppers, for packs in tests/embed.
+const std::vector<KnownText>& known_texts(bool packs);
 
 }  // namespace jourdain::readback

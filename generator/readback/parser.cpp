@@ -36,17 +36,20 @@ class FileParser : public StatementParser {
  private:
   void namespace_body() {
     while (!accept("}"))
-      if (accept_word("namespace"))
+      if (known_text())
+        continue;
+      else if (accept_word("namespace"))
         inner_namespace();
-      else if (!known_text())
+      else
         item();
   }
 
   /// Takes a passage that stands for numbers.
   bool known_text() {
-    for (const KnownText& text : known_texts()) {
+    for (const KnownText& text : known_texts(known_.packs)) {
       if (text.scope != scope_ || !begins(text.tokens)) continue;
       for (std::size_t i = 0; i + 1 < text.tokens.tokens.size(); ++i) take();
+      if (text.type.empty()) return read_meaning(text);
       const Symbol name = unit_.symbols[text.type], space = unit_.symbols[text.scope];
       if (!unit_.numbers.insert(name).second) refuse_here("no second " + std::string(text.type));
       if (text.scope.empty())
@@ -56,6 +59,17 @@ class FileParser : public StatementParser {
       return true;
     }
     return false;
+  }
+
+  /// Of a passage about packs, each of which stands once.
+  bool read_meaning(const KnownText& text) {
+    if (!packs_read_.insert(&text).second) refuse_here("no second passage about packs");
+    known_.function_templates.insert(unit_.symbols["number"]);
+    if (!text.meaning) return true;
+    FileParser inner(unit_, known_, *text.meaning, file_);
+    inner.scope_ = scope_;
+    inner.item();
+    return true;
   }
 
   bool begins(const Tokens& text) const {
@@ -302,6 +316,7 @@ class FileParser : public StatementParser {
   const std::vector<std::string>& comments_;
   int file_ = 0;
   std::string scope_;
+  std::set<const KnownText*> packs_read_;
 };
 
 std::string text_of(const Unit& unit, const Expression& bound) {
@@ -312,8 +327,9 @@ std::string text_of(const Unit& unit, const Expression& bound) {
 
 }  // namespace
 
-void parse(Unit& unit, const std::vector<const support::FileText*>& files) {
+void parse(Unit& unit, const std::vector<const support::FileText*>& files, bool packs) {
   ExpressionParser::Known known;
+  known.packs = packs;
   for (const support::FileText* file : files) {
     unit.files.push_back(file->name);
     unit.directives.emplace_back();

@@ -7,7 +7,8 @@
 
 namespace jourdain::readback {
 
-/// Reads the files in order into `unit`. Throws Refusal at what is not understood. The texts must outlive the unit.
-void parse(Unit& unit, const std::vector<const support::FileText*>& files);
+/// Reads the files in order into `unit`; `packs`: their numbers may be customized. Throws Refusal at what is not
+/// understood. The texts must outlive the unit.
+void parse(Unit& unit, const std::vector<const support::FileText*>& files, bool packs = false);
 
 }  // namespace jourdain::readback

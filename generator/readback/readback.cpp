@@ -31,7 +31,7 @@ void check_functions(const Unit& unit, const Expected& expected, Findings& findi
 
 void check_cpp(const Files& files, const Expected& expected, Findings& findings, Record& record) {
   Unit unit;
-  parse(unit, {&files[0], &files[1], &files[2]});
+  parse(unit, {&files[0], &files[1], &files[2]}, expected.choices.packs);
   check_structs(unit, expected, findings);
   check_indices(unit, expected, findings);
   check_functions(unit, expected, findings, record);

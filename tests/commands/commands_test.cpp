@@ -203,6 +203,48 @@ TEST(Compile, WritesFourFiles) {
     EXPECT_TRUE(fs::exists(fs::path(folder.path()) / "new/p" / file)) << file;
 }
 
+TEST(Compile, WritesCForTheNumberTypesThatAreAskedFor) {
+  const auto names = [](const std::vector<std::string>& options) {
+    const support::TemporaryFolder folder;
+    std::vector<std::string> command = {"compile", "models/pendulum.toml", "-o", folder.path()};
+    command.insert(command.end(), options.begin(), options.end());
+    expect(jourdain(command), 0, "the same as validated");
+    std::string text;
+    for (const char* name : {"pendulum.h", "pendulum.c", "pendulum_f.h", "pendulum_f.c", "pendulum.json"})
+      if (fs::exists(folder.path() + "/" + name)) text += std::string(name) + " ";
+    EXPECT_EQ(files_in(folder.path()), static_cast<std::size_t>(std::count(text.begin(), text.end(), ' ')));
+    return text;
+  };
+  EXPECT_EQ(names({"--language", "c"}), "pendulum.h pendulum.c pendulum_f.h pendulum_f.c pendulum.json ");
+  EXPECT_EQ(names({"--language", "c", "--real", "double"}), "pendulum.h pendulum.c pendulum.json ");
+  EXPECT_EQ(names({"--language", "c", "--real", "float"}), "pendulum_f.h pendulum_f.c pendulum.json ");
+}
+
+TEST(Compile, NamesTheLanguagesThatThereAre) {
+  const support::TemporaryFolder folder;
+  const auto compile = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"compile", "models/pendulum.toml", "-o", folder.path()});
+    return jourdain(options);
+  };
+  expect(compile({"--language", "pascal"}), 2, "{c++,c}");
+  expect(compile({"--real", "half"}), 2, "{float,double,both}");
+  expect(compile({"--language", "c", "--packs"}), 2, "--packs is of C++");
+  EXPECT_EQ(files_in(folder.path()), 0u);
+}
+
+TEST(Compile, RefusesFloatsInCThatAConstantIsBeyond) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/heavy.toml";
+  support::write_file(
+      model,
+      "[model]\nname = \"heavy\"\n[[body]]\nname = \"b\"\nmass = 1e39\n[[joint]]\nname = \"j\"\n"
+      "type = \"prismatic\"\nparent = \"world\"\nchild = \"b\"\n");
+  expect(jourdain({"compile", model, "-o", folder.path() + "/c", "--language", "c"}), 1,
+         "the range of float");
+  expect(jourdain({"compile", model, "-o", folder.path() + "/c", "--language", "c", "--real", "double"}), 0,
+         "wrote");
+}
+
 TEST(Compile, EmitsOnlyWhatWasAskedFor) {
   const support::TemporaryFolder folder;
   expect(jourdain({"compile", "models/pendulum.toml", "-o", folder.path(), "--functions", "rk4_step",

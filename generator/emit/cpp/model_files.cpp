@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <string_view>
 
 #include "emit/cpp/comments.hpp"
 #include "emit/cpp/definitions.hpp"
@@ -52,7 +53,9 @@ class Emitter {
         {"NO", count(scene_.outputs.size())},
         {"NU", count(scene_.inputs.size())},
         {"NP", count(scene_.parameters.size())},
-        {"TIME", if_any(scene_.clock, "time.in")},
+        {"TIME", if_any(scene_.clock, "time.in") + if_any(scene_.clock && packs(), "packs_time.in")},
+        {"PACKS", if_any(packs(), "packs.hpp.in")},
+        {"SINE_COSINE", if_any(true, packs() ? "packs_sine.in" : "sine_cosine.in")},
         {"STATE_DOC", state_doc()},
         {"STATE", state_members()},
         {"NG", guard_limits(model_)},
@@ -62,7 +65,7 @@ class Emitter {
         {"LINEARIZATION", linearization_struct(functions_, scene_)},
         {"LINEARIZATION_ALIAS", alias(linearizes(functions_), "Linearization")},
         {"ARCTANGENT", if_any(ir::has_arctangent(module_), "arctangent.in")},
-        {"ANGLE", if_any(code_.has_angle, "angle.in")},
+        {"ANGLE", if_any(code_.has_angle, "angle.in") + if_any(code_.has_angle && packs(), "packs_angle.in")},
         {"STEP_SUPPORT", support_text(code_.support, !scene_.inputs.empty())},
         {"HISTORY", memories()},
         {"CONSTANTS", constant_members()},
@@ -84,13 +87,31 @@ class Emitter {
     holes["BODIES"] = bodies;
     holes["PARTS"] = parts;
     holes["INSTANTIATIONS"] = instantiations;
-    return {{model_.name + ".hpp", fill(template_text("model.hpp.in"), holes)},
-            {model_.name + "_kernels.hpp", fill(template_text("kernels.hpp.in"), holes)},
+    return {{model_.name + ".hpp", with_numbers(fill(template_text("model.hpp.in"), holes))},
+            {model_.name + "_kernels.hpp", with_numbers(fill(template_text("kernels.hpp.in"), holes))},
             {model_.name + ".cpp", fill(template_text("source.cpp.in"), holes)},
             {model_.name + ".json", manifest(model_, functions_, module_, steps_)}};
   }
 
  private:
+  bool packs() const { return model_.choices.packs; }
+
+  /// For packs every conversion to Real is a call of what they can customize.
+  std::string with_numbers(const std::string& text) const {
+    constexpr std::string_view kConversion = "Real(", kOperator = "operator ";
+    if (!packs()) return text;
+    std::string result;
+    std::size_t begin = text.find("}  // namespace hooks");  // which knows packs already
+    begin = begin == std::string::npos ? 0 : begin;
+    result = text.substr(0, begin);
+    for (std::size_t at; (at = text.find(kConversion, begin)) != std::string::npos;) {
+      result += text.substr(begin, at - begin);
+      result += result.ends_with(kOperator) ? "Real(" : "detail::number<Real>(";
+      begin = at + kConversion.size();
+    }
+    return result + text.substr(begin);
+  }
+
   /// Built-in number types that there are instantiations for.
   std::vector<const char*> reals() const {
     std::vector<const char*> list;
