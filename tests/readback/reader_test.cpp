@@ -18,7 +18,8 @@ using readback::Value;
 /// A file with one function `f` of a, b, c, d, whose body is given; more may stand before it.
 std::string file_with(const std::string& body, const std::string& before = "") {
   return "namespace test {\n" + before +
-         "template <class Real> JOURDAIN_FUNCTION\nReal f(const Real& a, const Real& b, const Real& c, const Real& d) noexcept "
+         "template <class Real> JOURDAIN_FUNCTION\nReal f(const Real& a, const Real& b, const Real& c, const "
+         "Real& d) noexcept "
          "{\n" +
          body + "\n}\n}  // namespace test\n";
 }
