@@ -124,7 +124,8 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   const emit::ModelText text = model_text(mechanism, options, result);
   const bool in_c = options.choices.language == ir::Language::kC;
   if (in_c && options.choices.has_float && emit::c::overflows_float(text, result.module)) {
-    result.verdict.failures = {"a constant of the equations is beyond the range of float"};
+    result.verdict.failures = {
+        "a constant of the equations is beyond the range of float; --real double writes no floats"};
     result.verdict.overflows = 1;
     return;
   }
