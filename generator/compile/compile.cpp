@@ -143,7 +143,7 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   for (const std::string& difference : read.differences)
     result.verdict.failures.push_back("text: " + difference);
   if (!read.differences.empty()) result.files.clear();
-  if (result.files.empty() || !options.choices.has_interface) return;
+  if (result.files.empty() || !in_c || !options.choices.has_interface) return;
   for (emit::File& file : emit::c::interface_files(text, result.functions, result.module))
     result.files.push_back(std::move(file));
 }
