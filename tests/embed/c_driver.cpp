@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <regex>
+#include <algorithm>
+#include <cctype>
 #include <vector>
 
 namespace jourdain::tests {
@@ -35,18 +36,34 @@ struct Declared {
   std::vector<std::string> parameters;
 };
 
-/// Functions that the header declares, by their names without prefix.
+bool is_word(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; }
+
+/// What stands between commas, with single blanks.
+std::vector<std::string> separated(const std::string& list) {
+  std::vector<std::string> parts(1);
+  for (const char c : list)
+    if (c == ',')
+      parts.emplace_back();
+    else if (std::isspace(static_cast<unsigned char>(c)) == 0)
+      parts.back() += c;
+    else if (!parts.back().empty() && parts.back().back() != ' ')
+      parts.back() += ' ';
+  return parts;
+}
+
+/// Functions that the header declares at the begin of a line, by their names without prefix.
 std::vector<Declared> functions_of(const std::string& header, const std::string& prefix) {
   std::vector<Declared> found;
-  const std::regex declaration("\n(\\w+) " + prefix + "(\\w+)\\(([^;]*)\\);");
-  for (std::sregex_iterator it(header.begin(), header.end(), declaration), end; it != end; ++it) {
-    Declared& made = found.emplace_back(Declared{(*it)[1], (*it)[2], {}});
-    const std::string list = std::regex_replace(std::string((*it)[3]), std::regex("\\s+"), " ");
-    for (std::size_t begin = 0; begin < list.size();) {
-      const std::size_t comma = std::min(list.find(", ", begin), list.size());
-      made.parameters.push_back(list.substr(begin, comma - begin));
-      begin = comma + 2;
-    }
+  const std::string before = " " + prefix;
+  for (std::size_t at = 0; (at = header.find(before, at)) != std::string::npos; at += before.size()) {
+    const std::size_t line = header.rfind('\n', at) + 1, name = at + before.size(),
+                      open = header.find('(', name), close = header.find(");", name);
+    if (open == std::string::npos || close == std::string::npos || header.find(';', name) < close) continue;
+    const std::string result = header.substr(line, at - line), called = header.substr(name, open - name);
+    if (result.empty() || called.empty() || !std::all_of(result.begin(), result.end(), is_word) ||
+        !std::all_of(called.begin(), called.end(), is_word))
+      continue;
+    found.push_back({result, called, separated(header.substr(open + 1, close - open - 1))});
   }
   return found;
 }
