@@ -99,8 +99,9 @@ TEST(Pages, LinksAndPicturesExist) {
       EXPECT_FALSE(path.starts_with("/")) << page << " links to " << target;
       const bool is_there = fs::exists(kSource / place);
       EXPECT_TRUE(is_there) << page << " links to " << target;
-      if (is_there && hash != std::string::npos)
+      if (is_there && hash != std::string::npos) {
         EXPECT_TRUE(has_anchor(read_page(place), target.substr(hash + 1))) << page << " links to " << target;
+      }
     }
   }
   EXPECT_GT(links, 20);
