@@ -77,9 +77,10 @@ bool is_product(const std::string& text, std::size_t at) {
                       [](char c) { return std::string("+-/,?<>=&|").find(c) != std::string::npos; });
 }
 
+/// Nothing, or a comment.
 bool is_blank(const std::string& text, std::size_t begin) {
   const std::size_t first = text.find_first_not_of(' ', begin);
-  return first == std::string::npos || text[first] == '\n';
+  return first == std::string::npos || text[first] == '\n' || text.compare(first, 2, "//") == 0;
 }
 
 /// A string without blanks is a name; sentences are for people.
