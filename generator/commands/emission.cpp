@@ -56,8 +56,11 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
     return conflict;
   if (packs && language == "c") return "--packs is of C++, and the language is c";
   if (interface && language != "c") return "--interface is in C: add --language c";
+  if (interface && loaded.options.name == "jourdain")
+    return "jourdain_interface.h is the header of all models: choose another name with --name";
   std::vector<std::string> chosen = functions;
   if (std::string wrong = choose_kinematics(frames, chosen, loaded.mechanism); !wrong.empty()) return wrong;
+  if (interface) chosen.emplace_back("initial_state");  // an instance begins with it
   loaded.options.clock = clock;
   ir::TextChoices& choices = loaded.options.choices;
   choices.language = language == "c" ? ir::Language::kC : ir::Language::kCpp;

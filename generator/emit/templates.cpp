@@ -1,5 +1,7 @@
 #include "emit/templates.hpp"
 
+#include <algorithm>
+
 #include "emit/template_table.hpp"
 #include "support/check.hpp"
 
@@ -10,6 +12,18 @@ std::string_view template_text(std::string_view file) {
     if (name == file) return text;
   JD_CHECK(false, "no template '{}'", file);
   return {};
+}
+
+std::vector<std::pair<std::string, std::string>> passages(std::string_view file) {
+  const std::string text(template_text(file));
+  std::vector<std::pair<std::string, std::string>> list;
+  for (std::size_t at = text.find("== "); at < text.size();) {
+    const std::size_t end = text.find('\n', at),
+                      next = std::min(text.find("\n== ", end), text.size() - 1) + 1;
+    list.emplace_back(text.substr(at + 3, end - at - 3), text.substr(end + 1, next - end - 1));
+    at = next;
+  }
+  return list;
 }
 
 std::string fill(std::string_view text, const std::map<std::string, std::string>& holes) {

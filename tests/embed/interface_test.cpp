@@ -470,6 +470,27 @@ TEST(Interface, ComputesTheBitsOfTheEmittedCpp) {
   expect_bits_of("quadrotor", ::quadrotor::Model<double>());
 }
 
+/// What is asked for, and what an instance cannot do without.
+TEST(Interface, OfFewFunctionsBuilds) {
+  for (const char* functions : {"kinetic_energy", "linearize,adams_bashforth3_step,rodas4_step"}) {
+    const support::TemporaryFolder folder;
+    const auto run = [&](const std::vector<std::string>& command) {
+      const support::ProcessResult result = support::run_process(command);
+      EXPECT_EQ(result.status, 0) << functions << "\n" << result.output;
+    };
+    run({JOURDAIN_BINARY, "compile", JOURDAIN_SOURCE_DIR "/models/crane.toml", "--language", "c",
+         "--interface", "--functions", functions, "-o", folder.path()});
+    for (const char* source : {"crane.c", "crane_interface.c", "crane_f.c", "crane_f_interface.c"})
+      run({"gcc", "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wdouble-promotion",
+           "-Wshadow", "-Werror", "-fsyntax-only", folder.path() + "/" + source});
+  }
+  const support::TemporaryFolder folder;
+  const support::ProcessResult refused =
+      support::run_process({JOURDAIN_BINARY, "compile", JOURDAIN_SOURCE_DIR "/models/crane.toml",
+                            "--language", "c", "--interface", "--name", "jourdain", "-o", folder.path()});
+  EXPECT_EQ(refused.status, 2) << refused.output;
+}
+
 TEST(Interface, ParametersAreTunable) {
   const Loaded loaded("pendulum", false);
   ASSERT_TRUE(loaded.table);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
 #include "emit/c/c_printer.hpp"
 #include "emit/c/c_structs.hpp"
@@ -34,22 +35,17 @@ bool mentions_word(const std::string& text, const std::string& word) {
   return false;
 }
 
-/// The functions that programs call: passages of a template, each with its name in front.
+/// The functions that programs call.
 std::vector<Passage> library(const CNames& names) {
-  const std::string text =
-      fill(template_text("c_library.in"), {{"D", names.internal("")},
-                                           {"N", names.global("")},
-                                           {"REAL", names.real()},
-                                           {"F", names.suffix()},
-                                           {"SPLIT", names.is_float ? "4096.0f" : "134217728.0"}});
-  std::vector<Passage> passages;
-  for (std::size_t at = 0; (at = text.find("== ", at)) != std::string::npos;) {
-    const std::size_t end = text.find('\n', at), next = std::min(text.find("== ", end), text.size());
-    passages.push_back(
-        {names.internal(text.substr(at + 3, end - at - 3)), text.substr(end + 1, next - end - 1)});
-    at = next;
-  }
-  return passages;
+  const std::map<std::string, std::string> holes = {{"D", names.internal("")},
+                                                    {"N", names.global("")},
+                                                    {"REAL", names.real()},
+                                                    {"F", names.suffix()},
+                                                    {"SPLIT", names.is_float ? "4096.0f" : "134217728.0"}};
+  std::vector<Passage> list;
+  for (const auto& [name, text] : passages("c_library.in"))
+    list.push_back({names.internal(name), fill(text, holes)});
+  return list;
 }
 
 class CEmitter {

@@ -23,15 +23,10 @@ namespace {
 using programs::FunctionInfo;
 using programs::Shape;
 
-/// Passages of the template, by the name in the line "== NAME" in front of each.
-std::map<std::string, std::string> passages() {
-  const std::string text(template_text("interface.c.in"));
+/// Of the interface's template, by name.
+std::map<std::string, std::string> interface_passages() {
   std::map<std::string, std::string> list;
-  for (std::size_t at = 0; (at = text.find("== ", at)) != std::string::npos;) {
-    const std::size_t end = text.find('\n', at), next = std::min(text.find("\n== ", end), text.size());
-    list[text.substr(at + 3, end - at - 3)] = text.substr(end + 1, next - end);
-    at = next;
-  }
+  for (auto& [name, text] : passages("interface.c.in")) list[name] = std::move(text);
   return list;
 }
 
@@ -231,9 +226,7 @@ class Interface {
   // steppers
 
   std::string step(const FunctionInfo& function) const {
-    std::string call = "&self->model, &self->state";
-    if (function.takes_input) call += ", &self->input";
-    call += fmt::format(", ({})h", names_.real());
+    std::string call = calls_.arguments(function) + fmt::format(", ({})h", names_.real());
     if (remembers(function)) call += ", &self->" + memory_name(function);
     return passage("step", {{"STEP", function.name}, {"ARGUMENTS", call}});
   }
@@ -267,7 +260,7 @@ class Interface {
   const programs::SceneFacts& scene_;
   CNames names_;
   InterfaceCalls calls_;
-  std::map<std::string, std::string> passages_ = passages();
+  std::map<std::string, std::string> passages_ = interface_passages();
 };
 
 }  // namespace
