@@ -175,15 +175,14 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
        {"OUTPUTS_POINTER", with_outputs ? "outputs" : "nullptr"}});
 }
 
-/// In words, as in "ccache g++".
-std::vector<std::string> compiler() {
+}  // namespace
+
+std::vector<std::string> machine_compiler() {
   const char* chosen = std::getenv("CXX");
   std::istringstream words(chosen ? chosen : "");
   std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
   return command.empty() ? std::vector<std::string>{"c++"} : command;
 }
-
-}  // namespace
 
 std::vector<std::string> loadable_functions(const std::vector<std::string>& steppers) {
   std::vector<std::string> functions;
@@ -197,7 +196,7 @@ std::vector<std::string> loadable_functions(const std::vector<std::string>& step
 }
 
 std::vector<std::string> compiler_command(NumberType number) {
-  std::vector<std::string> command = compiler();
+  std::vector<std::string> command = machine_compiler();
   command.emplace_back("-std=c++17");
   const NumberText text = text_of(number);
   command.insert(command.end(), text.compiler_options.begin(), text.compiler_options.end());
@@ -236,13 +235,13 @@ studies::LoadedModel build_model(const std::string& name, const CompiledModel& c
   const support::ProcessResult result = support::run_process(command);
   if (result.status != 0)
     throw support::EnvironmentError(fmt::format("'{}' cannot compile the emitted code (exit status {}):\n{}",
-                                                fmt::join(compiler(), " "), result.status,
+                                                fmt::join(machine_compiler(), " "), result.status,
                                                 result.output.substr(0, 2000)));
   return studies::LoadedModel(in_folder("model.so"));
 }
 
 std::string compiler_text(NumberType number) {
-  std::string text = fmt::format("{}", fmt::join(compiler(), " "));
+  std::string text = fmt::format("{}", fmt::join(machine_compiler(), " "));
   for (const std::string& option : text_of(number).compiler_options) text += " " + option;
   return text;
 }

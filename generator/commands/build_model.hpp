@@ -19,6 +19,9 @@ std::vector<std::string> loadable_functions(const std::vector<std::string>& step
 /// EnvironmentError with the compiler's words when that fails.
 studies::LoadedModel build_model(const std::string& name, const CompiledModel& compiled, NumberType number);
 
+/// The machine's compiler in words, "ccache g++": the environment variable CXX, else c++.
+std::vector<std::string> machine_compiler();
+
 /// The compiler, the language and the options that decide speed: what comes before the files.
 std::vector<std::string> compiler_command(NumberType number);
 

@@ -60,6 +60,9 @@ CallGraph read_calls(const std::string& text) {
   return graph;
 }
 
+/// "_ZN3arm4stepEv.cold" is a part of _ZN3arm4stepEv.
+std::string whole_of(const std::string& symbol) { return symbol.substr(0, symbol.find(".cold")); }
+
 /// Adds the sizes that `nm -S` prints: value, size, kind, name. Parts that the compiler split off count with the whole.
 void read_sizes(const std::string& text, CallGraph& graph) {
   std::istringstream lines(text);
@@ -67,8 +70,46 @@ void read_sizes(const std::string& text, CallGraph& graph) {
     std::istringstream fields(line);
     std::string value, size, kind, name;
     if (!(fields >> value >> size >> kind >> name)) continue;
-    const auto found = graph.find(name.substr(0, name.find(".cold")));
+    const auto found = graph.find(whole_of(name));
     if (found != graph.end()) found->second.code += std::strtol(size.c_str(), nullptr, 16);
+  }
+}
+
+/// The function in a section of its own, ".text.unlikely._Z4step"; empty where it is none.
+std::string function_of_section(const std::string& section) {
+  for (const char* prefix : {".text.unlikely.", ".text.hot.", ".text.startup.", ".text."})
+    if (section.starts_with(prefix)) return whole_of(section.substr(std::string(prefix).size()));
+  return "";
+}
+
+/// Functions that nm lists are in the object, called or not.
+void read_defined(const std::string& text, CallGraph& graph) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::string value, size, kind, name;
+    if (fields >> value >> size >> kind >> name && (kind == "T" || kind == "W" || kind == "t"))
+      graph[whole_of(name)].defined = true;
+  }
+}
+
+/// From relocations, as objdump -r lists them: a title for each section, then "000021 R_X86_64_PLT32 sin-0x4".
+void read_relocations(const std::string& text, CallGraph& graph) {
+  constexpr const char* kTitle = "RELOCATION RECORDS FOR [";
+  std::istringstream lines(text);
+  std::string caller;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(kTitle)) {
+      const std::size_t begin = std::string(kTitle).size();
+      caller = function_of_section(line.substr(begin, line.rfind(']') - begin));
+    }
+    std::istringstream fields(line);
+    std::string offset, kind, target;
+    if (caller.empty() || !(fields >> offset >> kind >> target)) continue;
+    target = target.substr(0, target.find_last_of("+-"));
+    const std::string function = function_of_section(target);
+    const std::string callee = function.empty() ? whole_of(target) : function;
+    if (callee != caller) graph[caller].callees.insert(callee);
   }
 }
 
@@ -161,6 +202,19 @@ std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& nam
     support::write_file(folder.path() + "/" + file.name, file.text);
   return source_costs({compiler_command(number)}, folder.path() + "/" + name + ".cpp",
                       folder.path() + "/object", function_signatures(name, compiled, number));
+}
+
+std::map<std::string, long> linked_code(const std::string& object,
+                                        const std::map<std::string, std::string>& signatures) {
+  CallGraph graph;
+  read_relocations(run_tool({"objdump", "-r", "-w", object + ".o"}), graph);
+  const std::string listing = run_tool({"nm", "-S", "--defined-only", object + ".o"});
+  read_defined(listing, graph);
+  read_sizes(listing, graph);
+  std::map<std::string, long> bytes;
+  for (const auto& [function, signature] : signatures)
+    if (const std::optional<CodeCost> cost = find_cost(graph, signature)) bytes[function] = cost->code;
+  return bytes;
 }
 
 }  // namespace jourdain::commands

@@ -40,4 +40,10 @@ std::map<std::string, CodeCost> source_costs(const CodeTools& tools, const std::
 std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& name,
                                                           const CompiledModel& compiled, NumberType number);
 
+/// Bytes of machine code by name, of the functions in `object`.o with all that they call of it, each once. It must have
+/// been compiled with -ffunction-sections, which every compiler knows. Throws EnvironmentError where nm or objdump
+/// cannot be run.
+std::map<std::string, long> linked_code(const std::string& object,
+                                        const std::map<std::string, std::string>& signatures);
+
 }  // namespace jourdain::commands

@@ -6,7 +6,7 @@ namespace jourdain::commands {
 
 void add_all(CLI::App& app, int& status) {
   for (auto add : {add_compile, add_check, add_info, add_equations, add_simulate, add_report, add_cost,
-                   add_keys, add_pages})
+                   add_bench, add_keys, add_pages})
     add(app, status);
 }
 

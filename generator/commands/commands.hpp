@@ -18,6 +18,7 @@ void add_equations(CLI::App& app, int& status);
 void add_simulate(CLI::App& app, int& status);
 void add_report(CLI::App& app, int& status);
 void add_cost(CLI::App& app, int& status);
+void add_bench(CLI::App& app, int& status);
 void add_keys(CLI::App& app, int& status);
 void add_pages(CLI::App& app, int& status);
 

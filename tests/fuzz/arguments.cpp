@@ -67,6 +67,11 @@ const std::map<std::string, std::vector<std::string>>& usual_values() {
       {"--every", {"1", "7", "0", "-1", "1000000000", "1e9", "99999999999999999999"}},
       {"--warm", {"1", "10", "100", "0", "-1", "1000000001"}},
       {"--cold", {"1", "3", "0", "100001"}},
+      {"--blocks", {"1", "3", "0", "100001"}},
+      {"--states", {"1", "3", "0", "257"}},
+      {"--seed", {"1", "0", "-1", "18446744073709551616"}},
+      {"--compiler", {"g++", "nothing", "g++ -Wall", ""}},
+      {"--flags", {"-O0", "-O1 -g", "-fnothing", ""}},
       {"--effort", {"0.01", "0.1", "0", "-1", "nan"}},
       {"--tolerance", {"1e-3", "1e-6", "0", "-1", "nan", "1e-40", "1e40"}},
       {"--budget", {"20us", "1ms", "0", "-1us", "1e-30s"}},
@@ -108,6 +113,7 @@ void keep_short(const std::string& command, std::vector<std::string>& arguments)
   };
   if (command == "simulate" || command == "report") add("--duration", "0.1");
   if (command == "cost") add("--warm", "10"), add("--cold", "1");
+  if (command == "bench") add("--functions", "mass_matrix"), add("--blocks", "2"), add("--states", "2");
   if (command == "cost" || command == "report") add("--methods", "rk4");
   if (command != "report") return;
   add("--effort", "0.01");
@@ -120,7 +126,7 @@ void keep_short(const std::string& command, std::vector<std::string>& arguments)
 std::string random_command(Random& random) {
   static const std::vector<std::string> kCheap = {"compile", "compile", "compile",
                                                   "check",   "info",    "equations"};
-  static const std::vector<std::string> kCompiling = {"simulate", "simulate", "cost", "report"};
+  static const std::vector<std::string> kCompiling = {"simulate", "simulate", "cost", "bench", "report"};
   if (random.chance(0.02)) return hostile_name(random);
   return random.chance(0.04) ? one_of(kCompiling, random) : one_of(kCheap, random);
 }
