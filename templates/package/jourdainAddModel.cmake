@@ -93,9 +93,6 @@ function(jourdain_add_model target)
 
   add_library(${target} STATIC ${files})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${folder}>)
-  # gcc packs neighbouring scalars of straight-line code into vectors, and waits where it reads what was just written
-  # in parts: runtime/embedding.md has figures.
-  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>)
   if(arg_LANGUAGE STREQUAL "c")
     target_compile_features(${target} PUBLIC c_std_99)
     target_link_libraries(${target} PUBLIC m)

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <sstream>
 
 #include "package/project.hpp"
 #include "support/files.hpp"
@@ -69,26 +68,6 @@ TEST(AddModel, SaysWhatIsWrongWithItsArguments) {
                  "there is a target of this name already");
   expect_message("jourdain_add_model(left MODEL arm.toml NAME arm)\njourdain_add_model(arm MODEL arm.toml)",
                  "the name 'arm' is taken by the model of target 'left'");
-}
-
-TEST(AddModel, KeepsGccFromPackingScalarsOfTheModelAlone) {
-  const Project project(
-      "jourdain_add_model(arm MODEL arm.toml)\nadd_executable(swing main.cpp)\n"
-      "target_link_libraries(swing PRIVATE arm)");
-  project.write("arm.toml", kArm);
-  project.write("main.cpp", "int main() {}");
-  constexpr const char* kOption = "-fno-tree-slp-vectorize";
-  for (const std::string compiler : {"g++", "clang++"}) {
-    const support::ProcessResult configured = project.configure(
-        {"--fresh", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DCMAKE_CXX_COMPILER=" + compiler});
-    ASSERT_EQ(configured.status, 0) << configured.output;
-    std::istringstream lines(support::read_file(project.folder() + "/build/compile_commands.json"));
-    for (std::string line; std::getline(lines, line);) {
-      if (line.find("\"command\"") == std::string::npos) continue;
-      const bool of_model = line.find("arm.cpp") != std::string::npos;
-      EXPECT_EQ(line.find(kOption) != std::string::npos, of_model && compiler == "g++") << line;
-    }
-  }
 }
 
 TEST(FindPackage, SaysWhyThereIsNone) {

@@ -122,7 +122,7 @@ void compare_robot(const std::string& name, const std::string& path, bool free_r
   const std::vector<Sample> samples = draw(robot);
   std::vector<std::unique_ptr<Library>> libraries;
   libraries.push_back(std::make_unique<Emitted<Model>>(samples));
-  for (const auto make : {make_kdl, make_mujoco, make_simbody}) try {
+  for (const auto make : {make_kdl, make_mujoco, make_simbody, make_bullet}) try {
       if (std::unique_ptr<Library> library = make(robot, samples)) libraries.push_back(std::move(library));
     } catch (const std::exception& error) {
       fmt::print("{:<16} a library does not take it: {}\n", name, error.what());

@@ -42,5 +42,6 @@ class Library {
 std::unique_ptr<Library> make_kdl(const Robot& robot, const std::vector<Sample>& samples);
 std::unique_ptr<Library> make_mujoco(const Robot& robot, const std::vector<Sample>& samples);
 std::unique_ptr<Library> make_simbody(const Robot& robot, const std::vector<Sample>& samples);
+std::unique_ptr<Library> make_bullet(const Robot& robot, const std::vector<Sample>& samples);
 
 }  // namespace jourdain::compare

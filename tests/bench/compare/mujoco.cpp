@@ -4,11 +4,11 @@
 #ifdef JOURDAIN_MUJOCO
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "bench/compare/principal.hpp"
 #include "support/files.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -20,14 +20,9 @@ std::string text_of(const model::Numbers3& v) { return fmt::format("{} {} {}", v
 
 /// With principal axes: MuJoCo's own are good to seven digits.
 std::string inertial_of(const Link& link) {
-  Eigen::Matrix3d inertia;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) inertia(i, j) = link.inertia[std::size_t(i)][std::size_t(j)];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(inertia);
-  Eigen::Matrix3d axes = principal.eigenvectors();
-  if (axes.determinant() < 0) axes = -axes;
-  const Eigen::Quaterniond q(axes);
-  const Eigen::Vector3d& moments = principal.eigenvalues();
+  const Principal principal = principal_of(link);
+  const Eigen::Quaterniond q(principal.axes);
+  const Eigen::Vector3d& moments = principal.moments;
   return fmt::format("<inertial pos=\"{}\" mass=\"{}\" quat=\"{} {} {} {}\" diaginertia=\"{} {} {}\"/>",
                      text_of(link.center), link.mass, q.w(), q.x(), q.y(), q.z(), moments[0], moments[1],
                      moments[2]);
