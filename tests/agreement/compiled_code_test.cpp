@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "agreement/compiled_batch.hpp"
@@ -12,7 +13,8 @@
 namespace jourdain::tests {
 namespace {
 
-constexpr std::uint64_t kTrees = cases(60), kTreesPerUnit = 6;
+constexpr std::uint64_t kTreesPerUnit = 6;
+const std::uint64_t kTrees = std::max(cases(60), 2 * kTreesPerUnit);  // a unit for each compiler
 constexpr double kBackward = 1e-13;
 constexpr double kForward = 1e-14;
 // Roundings of float are 2^29 times those of double.

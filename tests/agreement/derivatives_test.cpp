@@ -22,7 +22,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::uint64_t kScenes = cases(60);
+const std::uint64_t kScenes = cases(60);
 // Normwise; the derivatives of accelerations are solved with M, whose condition number is up to 1e8 in random scenes.
 constexpr double kRelative = 1e-11, kOverCondition = 1e-14;
 

@@ -20,7 +20,7 @@ namespace {
 
 using Vector = reference::VectorX<long double>;
 
-constexpr std::uint64_t kScenes = cases(520);
+const std::uint64_t kScenes = cases(520);
 // As for random trees: backward error in double, forward error over cond(M), entries of their term sum.
 constexpr double kBackward = 1e-13, kForward = 1e-14, kEntries = 1e-12;
 // The descriptor form solves a larger system in long double, with joint forces as constraint forces; over cond(M).

@@ -14,7 +14,7 @@
 namespace jourdain::tests {
 namespace {
 
-constexpr std::uint64_t kTrees = cases(320);
+const std::uint64_t kTrees = cases(320);
 // Backward error of M ż = k̄ − q̄ in double, of the sum of absolute terms: some hundred roundings of 1.1e-16.
 constexpr double kBackward = 1e-13;
 // Forward error of ż over cond(M).

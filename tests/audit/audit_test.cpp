@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "properties/effort.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -86,11 +87,15 @@ constexpr const char* kReference = "cvode";
 INSTANTIATE_TEST_SUITE_P(Scenes, Audit, testing::Values("shaking_cart"));
 #else
 constexpr const char* kReference = "auto";
-INSTANTIATE_TEST_SUITE_P(Scenes, Audit,
-                         testing::Values("double_pendulum", "cart_pole", "spring_pendulum", "hoop_bead",
-                                         "quadrotor", "lagrange_top", "crane", "ur5", "shaking_cart",
-                                         "four_bar", "slider_crank", "mcpherson_strut", "spring_four_bar",
-                                         "contact_wheel", "elastic_arm", "flyball_governor"));
+
+/// Scenes of each kind: trees with and without quaternions, drives, stiff parts and loops.
+std::vector<const char*> audited_scenes() {
+  if (!draws_all_cases()) return {"double_pendulum", "quadrotor", "shaking_cart", "four_bar", "elastic_arm"};
+  return {"double_pendulum", "cart_pole", "spring_pendulum", "hoop_bead", "quadrotor", "lagrange_top",
+          "crane", "ur5", "shaking_cart", "four_bar", "slider_crank", "mcpherson_strut",
+          "spring_four_bar", "contact_wheel", "elastic_arm", "flyball_governor"};
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, Audit, testing::ValuesIn(audited_scenes()));
 #endif
 
 TEST_P(Audit, FindsTheErrorsThatTheReportStates) {

@@ -23,7 +23,7 @@ using Long = long double;
 using VectorL = reference::VectorX<Long>;
 using MatrixL = reference::MatrixX<Long>;
 
-constexpr std::uint64_t kMechanisms = cases(120);
+const std::uint64_t kMechanisms = cases(120);
 constexpr std::size_t kStates = 3;
 // Normwise, times the condition number: accelerations are solved with G M⁻¹ Gᵀ in double, with multipliers of
 // regularised.

@@ -1,11 +1,12 @@
-// N coupled parallelograms: what a step costs as N grows, and that forty of them run.
+// N coupled parallelograms: what a step costs as N grows, and that many of them run.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <map>
 
 #include "loops/closed_programs.hpp"
 #include "model/read/read.hpp"
+#include "properties/effort.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -99,8 +100,10 @@ class Simulation {
 
 TEST(ChainOfWindows, CostsInProportionToItsLength) {
   std::map<int, std::size_t> cost;
+  std::vector<int> lengths = {2, 5, 10, 20};
+  if (draws_all_cases()) lengths.push_back(40);
   fmt::print("  N   forward_dynamics   project   rk4_step\n");
-  for (const int count : {2, 5, 10, 20, 40}) {
+  for (const int count : lengths) {
     const ClosedPrograms programs(windows(count));
     const std::size_t dynamics = programs.operations("forward_dynamics"),
                       project = programs.operations("project");
@@ -108,14 +111,16 @@ TEST(ChainOfWindows, CostsInProportionToItsLength) {
     fmt::print("{:3}   {:16}   {:7}   {:8}\n", count, dynamics, project, cost[count]);
   }
   // A straight line from the second case on: each window costs the same.
-  const double first = double(cost[10] - cost[5]) / 5, second = double(cost[20] - cost[10]) / 10,
-               third = double(cost[40] - cost[20]) / 20;
-  EXPECT_NEAR(second, first, 0.02 * first);
-  EXPECT_NEAR(third, first, 0.02 * first);
+  const double first = double(cost[10] - cost[5]) / 5;
+  for (const auto& [shorter, longer] : {std::pair(10, 20), {20, 40}}) {
+    if (!cost.contains(longer)) continue;
+    EXPECT_NEAR(double(cost[longer] - cost[shorter]) / (longer - shorter), first, 0.02 * first);
+  }
 }
 
-TEST(ChainOfWindows, OfFortyRunsThroughItsFirstSingularPosition) {
-  const ClosedPrograms programs(windows(40));
+TEST(ChainOfWindows, OfManyRunsThroughItsFirstSingularPosition) {
+  const int count = draws_all_cases() ? 40 : 10;
+  const ClosedPrograms programs(windows(count));
   EXPECT_EQ(programs.plan().freedom, 1u);
   Simulation run(programs);
   const double at_start = run.energy();
@@ -125,7 +130,7 @@ TEST(ChainOfWindows, OfFortyRunsThroughItsFirstSingularPosition) {
     drift = std::max(drift, std::fabs(run.energy() - at_start));
     opening = std::max(opening, run.opening());
   }
-  fmt::print("N = 40, 1 s: energy drift {:.1e} J, residual {:.1e} m\n", drift, opening);
+  fmt::print("N = {}, 1 s: energy drift {:.1e} J, residual {:.1e} m\n", count, drift, opening);
   EXPECT_LT(drift, 1e-5);
   EXPECT_LT(opening, 1e-9);
 }

@@ -17,7 +17,7 @@ namespace {
 
 // By what their remainders choose: at rest and off a dead position; tunable, moving and near one; an axis tilted.
 constexpr std::uint64_t kSeeds[] = {6, 9, 14};
-constexpr std::size_t kSeedCount = cases(5) > 1 ? std::size(kSeeds) : 1;
+const std::size_t kSeedCount = draws_all_cases() ? std::size(kSeeds) : 1;
 constexpr Looks kHalfASecond{0.05, 10};
 // m; numbers of a mechanism are rounded, and lengths are of order 1.
 constexpr double kClosedAtStart = 1e-15;

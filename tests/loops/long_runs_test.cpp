@@ -12,7 +12,7 @@ namespace {
 
 /// m; of rows without a length: without unit.
 constexpr double kOpen = 1e-12;
-constexpr long kSteps = static_cast<long>(cases(1000000));
+const long kSteps = static_cast<long>(cases(1000000));
 
 /// Runs at a step (s) that `jourdain report` recommends for the model, or a shorter one.
 template <class Model>
