@@ -91,9 +91,10 @@ constexpr const char* kReference = "auto";
 /// Scenes of each kind: trees with and without quaternions, drives, stiff parts and loops.
 std::vector<const char*> audited_scenes() {
   if (!draws_all_cases()) return {"double_pendulum", "quadrotor", "shaking_cart", "four_bar", "elastic_arm"};
-  return {"double_pendulum", "cart_pole", "spring_pendulum", "hoop_bead", "quadrotor", "lagrange_top",
-          "crane", "ur5", "shaking_cart", "four_bar", "slider_crank", "mcpherson_strut",
-          "spring_four_bar", "contact_wheel", "elastic_arm", "flyball_governor"};
+  return {"double_pendulum", "cart_pole",     "spring_pendulum", "hoop_bead",
+          "quadrotor",       "lagrange_top",  "crane",           "ur5",
+          "shaking_cart",    "four_bar",      "slider_crank",    "mcpherson_strut",
+          "spring_four_bar", "contact_wheel", "elastic_arm",     "flyball_governor"};
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, Audit, testing::ValuesIn(audited_scenes()));
 #endif
