@@ -162,7 +162,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 32 operations (12 mul, 18 add and sub, 1 div), 2 sin and cos.
+/// 30 operations (11 mul, 17 add and sub, 1 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept;

@@ -242,16 +242,14 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_16 = wheelv1_z - expression_15;
   const Real expression_17 = expression_13 * expression_16 * model.expression_5;
   const Real expression_18 = expression_11 + expression_17;
-  const Real adf1t_z = zdot[0] * Real(330.0);
-  const Real aa1c_z = zdot[0] + Real(9.81);
-  const Real aQp22 = aa1c_z * Real(30.0);
-  const Real adf2t_z = Real(30.0) * zdot[1];
-  const Real aef2_z = expression_18 + adf2t_z;
-  const Real af2c_z = adf1t_z + aef2_z;
-  const Real aQ1_0 = af2c_z + Real(3237.3);
-  const Real aQ2_0 = aQp22 + aef2_z;
-  const Real tau_2_0 = push2_0 + aQ2_0;
-  tau[0] = aQ1_0;
+  const Real ala1L_z = zdot[0] + Real(9.81);
+  const Real ala2L_z = ala1L_z + zdot[1];
+  const Real aL1f_z = ala1L_z * Real(300.0);
+  const Real aL2f_z = ala2L_z * Real(30.0);
+  const Real ae2f_z = expression_18 + aL2f_z;
+  const Real af2c_z = aL1f_z + ae2f_z;
+  const Real tau_2_0 = push2_0 + ae2f_z;
+  tau[0] = af2c_z;
   tau[1] = tau_2_0;
 }
 
@@ -277,9 +275,9 @@ template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage = state;
+  State<Real> stage;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, stage, input, v1, a1);
+  detail::rates(model, state, input, v1, a1);
   stage.t = state.t + half;
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];

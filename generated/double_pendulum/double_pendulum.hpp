@@ -29,7 +29,7 @@
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
 //   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 9.7e-17 of the
-//   sum of absolute terms, other errors are 3.9e-16 of their scale; cond(M) up to 2.3e+01
+//   sum of absolute terms, other errors are 4.2e-16 of their scale; cond(M) up to 2.3e+01
 // - the symbolic equations (M, k_bar, q_bar, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start
 // - mass_matrix: M of the equations
@@ -85,7 +85,7 @@ struct Model {
 
   Real c0;
   Real S_yy;
-  Real c2;
+  Real elbow_S_yy;
   Real l1;
   Real mr_y;
   Real elbow_h_y;
@@ -138,7 +138,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 50 operations (29 mul, 21 add and sub, 0 div), 4 sin and cos.
+/// 41 operations (26 mul, 15 add and sub, 0 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept;

@@ -56,7 +56,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   S_yy = parameters.l2 * mr_y;
   c0 = l1 * mr_y;
   elbow_h_y = l1 * (parameters.m1 + parameters.m2);
-  c2 = l1 * elbow_h_y;
+  elbow_S_yy = l1 * elbow_h_y;
   c6 = elbow_h_y * Real(9.81);
   invD_1 = Real(1.0) / S_yy;
 }
@@ -81,7 +81,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   const Real c1 = s0 * t4 - c0 * t5;
   const Real D1 = (s0 * s1 - c0 * c1) * model.c0;
   const Real E1 = D1 + model.S_yy;
-  const Real J0 = D1 + E1 + model.c2;
+  const Real J0 = D1 + E1 + model.elbow_S_yy;
   M[0][0] = J0;
   M[0][1] = M[1][0] = E1;
   M[1][1] = model.S_yy;
@@ -151,7 +151,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pln1 = pla1_x * h1b_y + pla1_y * h1b_x;
   const Real p1_1l_z = r1_x * h1b_x - r1_y * h1b_y;
   const Real L_1_0 = p1_1l_z * model.invD_1;
-  const Real H1_0_0 = p1_1l_z * L_1_0 - model.c2;
+  const Real H1_0_0 = p1_1l_z * L_1_0 - model.elbow_S_yy;
   const Real u1_0 = r1_y * plf1_x + (r1_x * plf1_y - (s0 * model.c6 - pln1 * L_1_0));
   const Real invD_0 = Real(1.0) / H1_0_0;
   const Real y_0 = u1_0 * invD_0;
@@ -172,25 +172,22 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = s0 * model.l1;
   const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.mr_y;
-  const Real h1b_y = c1 * model.mr_y;
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real h0b_x = s0 * model.elbow_h_y;
-  const Real h0_x = h1b_x + h0b_x;
-  const Real J0 = D1 + (D1 + model.c2 + model.S_yy);
-  const Real aQp0 = h0_x * Real(9.81);
-  const Real adn0_z = J0 * zdot[0];
-  const Real aW0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = r1_y * zdot[0] - r1_x * aW0w22;
-  const Real aa1o_y = r1_x * zdot[0] + (Real(9.81) + r1_y * aW0w22);
-  const Real zw_1 = state.z[1] * (state.z[0] + (state.z[0] + state.z[1]));
-  const Real adf1_x = h1b_y * zdot[1] + h1b_x * zw_1;
-  const Real adf1_y = h1b_x * zdot[1] - h1b_y * zw_1;
-  const Real adn1_z = model.S_yy * zdot[1];
-  const Real aQ0_0 = adn1_z + (aQp0 + (adn0_z + (r1_x * adf1_y - r1_y * adf1_x)));
-  const Real aQ1_0 = h1b_x * aa1o_y + (model.S_yy * zdot[0] - (h1b_y * aa1o_x - adn1_z));
-  tau[0] = aQ0_0;
-  tau[1] = aQ1_0;
+  const Real w1_z = state.z[0] + state.z[1];
+  const Real ala1w22 = state.z[0] * state.z[0];
+  const Real ala1o_x = r1_y * zdot[0] - r1_x * ala1w22;
+  const Real ala1o_y = r1_x * zdot[0] + (r1_y * ala1w22 + Real(9.81));
+  const Real ala1A_z = zdot[0] + zdot[1];
+  const Real aL1a_x = c1 * ala1o_x - s1 * ala1o_y;
+  const Real aL1w22 = w1_z * w1_z;
+  const Real aL1f_x = ala1A_z * model.mr_y;
+  const Real aL1f_y = aL1w22 * model.mr_y;
+  const Real aL1n_z = aL1a_x * model.mr_y - ala1A_z * model.S_yy;
+  const Real aL1F_x = c1 * aL1f_x + s1 * aL1f_y;
+  const Real aL1F_y = c1 * aL1f_y - s1 * aL1f_x;
+  const Real an1c_z = aL1n_z - (zdot[0] * model.elbow_S_yy + (s0 * model.c6 - (r1_x * aL1F_y + r1_y *
+      aL1F_x)));
+  tau[0] = -an1c_z;
+  tau[1] = -aL1n_z;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -206,7 +203,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real h1b_x = s1 * model.mr_y;
   const Real h1b_y = c1 * model.mr_y;
   const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + (D1 + model.c2 + model.S_yy);
+  const Real J0 = D1 + (D1 + model.elbow_S_yy + model.S_yy);
   const Real v0L_z = J0 * state.z[0];
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
@@ -236,9 +233,9 @@ template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage = state;
+  State<Real> stage;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, stage, input, v1, a1);
+  detail::rates(model, state, input, v1, a1);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
   detail::rates(model, stage, input, v2, a2);

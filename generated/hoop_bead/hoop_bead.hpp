@@ -177,7 +177,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 18 operations (12 mul, 6 add and sub, 0 div), 2 sin and cos.
+/// 17 operations (11 mul, 6 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;

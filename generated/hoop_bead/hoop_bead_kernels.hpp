@@ -120,7 +120,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   rate = parameters.rate;
   kL0w22 = rate * rate;
   c2 = radius * Real(0.9810000000000001);
-  c3 = radius * Real(0.1) * Real(9.81);
+  c3 = Real(9.81) * (radius * Real(0.1));
   c5 = Real(0.1) * (rate * Real(2.0));
 }
 
@@ -190,11 +190,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
   const Real push1_0 = state.z[0] * Real(0.01);
-  const Real zz_1 = state.z[0] * state.z[0];
-  const Real aco1_z = expression * zdot[0] + derivative * zz_1;
-  const Real adf1t_z = aco1_z * Real(0.1);
-  const Real tau_1_0 = expression * (adf1t_z + Real(0.9810000000000001)) + (push1_0 + Real(0.1) * (derivative
-      * (derivative * zdot[0] - expression * (zz_1 + model.kL0w22))));
+  const Real ala1zz = state.z[0] * state.z[0];
+  const Real ala1L_x = derivative * zdot[0] - expression * (ala1zz + model.kL0w22);
+  const Real ala1L_z = expression * zdot[0] + derivative * ala1zz + Real(9.81);
+  const Real tau_1_0 = push1_0 + (expression * ala1L_z + derivative * ala1L_x) * Real(0.1);
   tau[0] = tau_1_0;
 }
 
@@ -249,9 +248,9 @@ template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage = state;
+  State<Real> stage;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, stage, input, v1, a1);
+  detail::rates(model, state, input, v1, a1);
   stage.t = state.t + half;
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];

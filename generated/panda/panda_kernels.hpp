@@ -300,85 +300,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   detail::sine_cosine(state.y[5], s5, c5);
   Real s6, c6;
   detail::sine_cosine(state.y[6], s6, c6);
-  const Real S6b_t = s6 * Real(0.0024209437785212297) + c6 * Real(0.000782782563368496);
-  const Real S6b_xx = s6 * S6b_t + Real(0.002131604094419858);
-  const Real S6b_xy = c6 * S6b_t - Real(0.000391391281684248);
-  const Real S6b_xz = s6 * Real(0.0012555365982728983) - c6 * Real(0.0009653051699191118);
-  const Real S6b_yz = c6 * Real(0.0012555365982728983) + s6 * Real(0.0009653051699191118);
-  const Real S6b_yy = S6b_xx - Real(0.006684151967360946);
-  const Real h6b_x = s6 * Real(0.002034439958661797) - c6 * Real(0.0025736053713382033);
-  const Real h6b_y = c6 * Real(0.002034439958661797) + s6 * Real(0.0025736053713382033);
-  const Real h6c_y = h6b_x - Real(0.231847552695);
-  const Real S6c_xy = S6b_xz - Real(0.014748570382675314);
-  const Real S6c_xz = S6b_yz + Real(9.3569097314605e-05);
-  const Real S6c_yy = h6b_x * Real(0.176) - (S6b_xx + Real(0.021522255370587554));
-  const Real S6c_yz = S6b_xy - h6b_y * Real(0.088) - Real(0.0001037589172186849);
-  const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
-  const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
-  const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
-  const Real S5b_xy = S6c_xy - c5 * S5b_t;
-  const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
-  const Real S5b_yz = c5 * S6c_yz - s5 * S6c_xz;
-  const Real S5b_yy = S5b_zz + S5b_xx;
-  const Real h5b_x = c5 * Real(0.173804705569) + s5 * h6c_y;
-  const Real h5b_y = s5 * Real(0.173804705569) - c5 * h6c_y;
-  const Real h5c_x = h5b_y - Real(0.014653732538);
-  const Real h5c_y = h6b_y - Real(0.067870631425);
-  const Real S5c_xx = S5b_yy - Real(0.001451156065026715);
-  const Real S5c_xy = S5b_yz + Real(0.00151524447332703);
-  const Real S5c_xz = h5b_y * Real(0.384) - (S5b_xy + Real(0.0010267877770288943));
-  const Real S5c_yy = S6b_yy - Real(0.010045187828321242);
-  const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
-  const Real S4b_zz = S5c_xx + S5c_yy;
-  const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) - s4 * S4b_d;
-  const Real S4b_xx = S5c_xx + s4 * S4b_t;
-  const Real S4b_xy = S5c_xy - c4 * S4b_t;
-  const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
-  const Real S4b_yz = c4 * S5c_yz - s4 * S5c_xz;
-  const Real S4b_yy = S4b_zz - S4b_xx;
-  const Real h4b_x = c4 * h5c_x + s4 * h5c_y;
-  const Real h4b_y = c4 * h5c_y - s4 * h5c_x;
-  const Real h4c_x = h5b_x - Real(2.012523553603);
-  const Real h4c_y = h4b_x - Real(0.55278027465);
-  const Real S4c_xx = S5b_xx - h5b_x * Real(0.768) + Real(0.6972920750309718);
-  const Real S4c_xy = h5b_x * Real(0.0825) + (S4b_xz - Real(0.16284087268546085));
-  const Real S4c_xz = S4b_yz + Real(0.0016444875773692703);
-  const Real S4c_yy = S4b_xx + h4b_x * Real(0.165) - Real(0.051020136156815506);
-  const Real t152 = h4b_y * Real(0.0825);
-  const Real S4c_yz = S4b_xy - t152 - Real(0.0039053550262761);
-  const Real S3b_zz = S4c_xx - S4c_yy;
-  const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
-  const Real S3b_xx = S4c_xx + s3 * S3b_t;
-  const Real S3b_xy = S4c_xy - c3 * S3b_t;
-  const Real S3b_xz = c3 * S4c_xz + s3 * S4c_yz;
-  const Real S3b_yz = c3 * S4c_yz - s3 * S4c_xz;
-  const Real S3b_yy = S3b_zz - S3b_xx;
-  const Real h3b_x = c3 * h4c_x - s3 * h4c_y;
-  const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
-  const Real S3c_xx = S3b_yy + Real(0.165) * h3b_y + Real(0.0616024210265277);
-  const Real S3c_xy = t152 + S3b_yz - Real(0.00012191242095074341);
-  const Real S3c_xz = Real(0.0825) * h3b_x + (S3b_xy - h3b_y * Real(0.316)) - Real(0.24149476342611426);
-  const Real S3c_yy = S4b_yy - Real(0.022178148964878235);
-  const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
-  const Real S2b_zz = S3c_xx - S3c_yy;
-  const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
-  const Real S2b_xx = S3c_xx + s2 * S2b_t;
-  const Real S2b_xy = S3c_xy - c2 * S2b_t;
-  const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
-  const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
-  const Real S2b_yy = S2b_zz - S2b_xx;
-  const Real S2c_xy = S2b_xz + Real(0.00398335888393552);
-  const Real S2c_xz = S2b_yz - Real(0.0007689361029464);
-  const Real S2c_yz = S2b_xy - Real(0.01026110182100817);
-  const Real S1b_d = S2b_xx - (S3b_xx - h3b_x * Real(0.632) + Real(1.032162061231881)) +
-      Real(0.023077882494931805);
-  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) + s1 * S1b_d;
-  const Real S1b_xy = S2c_xy - c1 * S1b_t;
-  const Real S1b_yz = c1 * S2c_yz - s1 * S2c_xz;
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
@@ -393,146 +314,246 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real w5_z = w5pp_y - state.z[5];
   const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
   const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
-  const Real kKy1 = S1b_xy * state.z[0];
-  const Real kQp1 = state.z[0] * kKy1;
-  const Real zz_1 = state.z[1] * state.z[1];
-  const Real kal1o_y = state.z[0] * state.z[1];
-  const Real kal2p_x = s1 * kal1o_y;
-  const Real kal2p_y = c1 * kal1o_y;
-  const Real kKx2 = S2b_xz * w2pp_x - (S2b_xy * state.z[1] - S2b_xx * w2pp_y);
-  const Real kKy2 = S2b_yz * w2pp_x - (S2b_yy * state.z[1] - S2b_xy * w2pp_y);
-  const Real z2_2 = Real(2.0) * state.z[2];
-  const Real zz_2 = state.z[2] * state.z[2];
-  const Real kal2o_x = kal2p_y - state.z[2] * state.z[1];
-  const Real kal2o_y = w2pp_y * state.z[2];
-  const Real kal3p_x = c2 * kal2o_x - s2 * kal2o_y;
-  const Real kal3p_y = c2 * kal2o_y + s2 * kal2o_x;
-  const Real kL2w00 = w3pp_x * w3pp_x;
-  const Real kL2w01 = w3pp_x * w3pp_y;
-  const Real kL2w02 = w2_z * w3pp_x;
-  const Real kL2w11 = w3pp_y * w3pp_y;
-  const Real kL2w12 = w2_z * w3pp_y;
-  const Real kL2w22 = w2_z * w2_z;
-  const Real kL2U0_x = kL2w11 + kL2w22;
-  const Real kL2U0_z = kal3p_y + kL2w02;
-  const Real kL2U1_x = kal2p_x - kL2w01;
-  const Real kL2U1_z = kal3p_x + kL2w12;
-  const Real kL2U2_x = kal3p_y - kL2w02;
-  const Real kL2U2_z = kL2w00 + kL2w11;
-  const Real ka3o_x = Real(0.316) * kL2U0_z - Real(0.0825) * kL2U0_x;
-  const Real ka3o_z = Real(0.316) * kL2U2_z + Real(0.0825) * kL2U2_x;
-  const Real kKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z - S3b_xy * w3pp_x);
-  const Real kKy3 = S3b_yy * w3pp_x - (S3b_xy * w2_z + S3b_yz * w3pp_y);
-  const Real z2_3 = Real(2.0) * state.z[3];
-  const Real zz_3 = state.z[3] * state.z[3];
-  const Real zw_3 = state.z[3] * (w3pp_y + w3_z);
-  const Real kax3 = h3b_x * w2_z - h3b_y * w3pp_x;
-  const Real kdf3_x = h3b_x * zw_3;
-  const Real kdf3_y = h3b_y * zw_3;
-  const Real kdf3_z = z2_3 * kax3;
-  const Real kal3o_x = kal2p_x + w3pp_x * state.z[3];
-  const Real kal3o_y = kal3p_x - w2_z * state.z[3];
-  const Real kal4p_x = c3 * kal3o_x - s3 * kal3o_y;
-  const Real kal4p_y = c3 * kal3o_y + s3 * kal3o_x;
-  const Real kL3w00 = w4pp_x * w4pp_x;
-  const Real kL3w01 = w4pp_x * w4pp_y;
-  const Real kL3w12 = w3_z * w4pp_y;
-  const Real kL3w22 = w3_z * w3_z;
-  const Real kL3U0_y = kal3p_y - kL3w01;
-  const Real kL3U1_y = kL3w00 + kL3w22;
-  const Real kL3U2_y = kal4p_x - kL3w12;
-  const Real ka4o_y = Real(0.0825) * kL3U1_y + (c3 * ka3o_x - s3 * ka3o_z);
-  const Real ka4o_z = Real(0.316) * kL2U1_z - Real(0.0825) * (kL2U1_x - kL3U2_y);
-  const Real kKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y + S4b_xy * w3_z);
-  const Real kKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y + S4b_yz * w4pp_x);
-  const Real z2_4 = Real(2.0) * state.z[4];
-  const Real zz_4 = state.z[4] * state.z[4];
-  const Real zw_4 = state.z[4] * (w4pp_x + w4_z);
-  const Real kax4 = h4b_x * w4pp_y - h4b_y * w3_z;
-  const Real kdf4_x = h4b_x * zw_4;
-  const Real kdf4_y = h4b_y * zw_4;
-  const Real kdf4_z = z2_4 * kax4;
-  const Real kal4o_x = kal4p_y - w3_z * state.z[4];
-  const Real kal4o_y = kal3p_y - w4pp_y * state.z[4];
-  const Real kal5p_x = c4 * kal4o_x - s4 * kal4o_y;
-  const Real kal5p_y = c4 * kal4o_y + s4 * kal4o_x;
-  const Real kL4w00 = w5pp_x * w5pp_x;
-  const Real kL4w02 = w4_z * w5pp_x;
-  const Real kL4w11 = w5pp_y * w5pp_y;
-  const Real kL4w12 = w4_z * w5pp_y;
-  const Real kL4U0_z = kal5p_y + kL4w02;
-  const Real kL4U1_z = kal5p_x + kL4w12;
-  const Real kL4U2_z = kL4w00 + kL4w11;
-  const Real ka5o_x = Real(0.384) * kL4U0_z + (c4 * ka4o_y + s4 * ka4o_z);
-  const Real ka5o_z = Real(0.384) * kL4U2_z - (Real(0.0825) * kL3U0_y - (c3 * ka3o_z + s3 * ka3o_x));
-  const Real kKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z - S5b_xy * w5pp_x);
-  const Real kKy5 = S5b_yy * w5pp_x + (S5b_xy * w4_z - S5b_yz * w5pp_y);
-  const Real z2_5 = Real(2.0) * state.z[5];
-  const Real zz_5 = state.z[5] * state.z[5];
-  const Real zw_5 = state.z[5] * (w5pp_y + w5_z);
-  const Real kax5 = h5b_x * w4_z - h5b_y * w5pp_x;
-  const Real kdf5_x = h5b_x * zw_5;
-  const Real kdf5_y = h5b_y * zw_5;
-  const Real kdf5_z = z2_5 * kax5;
-  const Real kal5o_x = kal4p_x + w5pp_x * state.z[5];
-  const Real kal5o_y = kal5p_x - w4_z * state.z[5];
-  const Real kal6p_x = c5 * kal5o_x - s5 * kal5o_y;
-  const Real kal6p_y = c5 * kal5o_y + s5 * kal5o_x;
-  const Real kL5w00 = w6pp_x * w6pp_x;
-  const Real kL5w12 = w5_z * w6pp_y;
-  const Real kL5w22 = w5_z * w5_z;
-  const Real kL5U1_y = kL5w00 + kL5w22;
-  const Real kL5U2_y = kal6p_x - kL5w12;
-  const Real ka6o_y = Real(0.088) * kL5U1_y - (c5 * ka5o_x - s5 * ka5o_z);
-  const Real ka6o_z = Real(0.088) * kL5U2_y - (Real(0.384) * kL4U1_z + (c4 * ka4o_z - s4 * ka4o_y));
-  const Real kKx6 = S6b_xz * w6pp_x + (S6b_xx * w6pp_y + S6b_xy * w5_z);
-  const Real kKy6 = S6b_yy * w5_z - (S6b_xy * w6pp_y + S6b_yz * w6pp_x);
-  const Real kQp6 = w6pp_y * kKy6 + (w5_z * kKx6 - (h6b_y * ka6o_y - (h6b_x * ka6o_z - (S6b_yz * kal5p_y +
-      (Real(0.006684151967360946) * kal6p_x - S6b_xz * kal6p_y)))));
-  const Real z2_6 = Real(2.0) * state.z[6];
-  const Real zz_6 = state.z[6] * state.z[6];
-  const Real zw_6 = state.z[6] * (state.z[6] - (w6pp_x + w6pp_x));
-  const Real kax6 = h6b_x * w6pp_y + h6b_y * w5_z;
-  const Real kdf6_x = h6b_x * zw_6;
-  const Real kdf6_y = h6b_y * zw_6;
-  const Real kdf6_z = z2_6 * kax6;
-  const Real kdn6_x = S6b_yz * zz_6 + kKy6 * z2_6;
-  const Real kn6c_x = Real(0.088) * kdf6_y;
-  const Real kn6c_z = Real(0.088) * kdf6_z + (S6b_xz * zz_6 - kKx6 * z2_6);
-  const Real kf5_y = s5 * kdf6_z - (kdf5_y + c5 * kdf6_x);
-  const Real kf5_z = kdf5_z + kdf6_y;
-  const Real kn5_x = s5 * kdn6_x + (c5 * kn6c_x + (S5b_yz * zz_5 + kKy5 * z2_5));
-  const Real kn5c_x = Real(0.384) * kf5_z + (s5 * kn6c_x - (c5 * kdn6_x - (S5b_xz * zz_5 - kKx5 * z2_5)));
-  const Real kn5c_y = kn6c_z + Real(0.384) * kf5_y;
-  const Real kf4_x = s4 * kf5_z + (kdf4_x + c4 * kf5_y);
-  const Real kf4_y = s4 * kf5_y - (kdf4_y + c4 * kf5_z);
-  const Real kf4_z = s5 * kdf6_x + (c5 * kdf6_z + (kdf4_z - kdf5_x));
-  const Real kn4_x = s4 * kn5c_y - (c4 * kn5c_x + (S4b_yz * zz_4 + kKy4 * z2_4));
-  const Real kn4c_x = kn5_x + Real(0.0825) * kf4_y;
-  const Real kn4c_z = Real(0.0825) * kf4_z - (s4 * kn5c_x + (c4 * kn5c_y + (S4b_xz * zz_4 + kKx4 * z2_4)));
-  const Real kf3_x = s3 * kf4_x + (kdf3_x - c3 * kf4_z);
-  const Real kf3_y = s3 * kf4_z - (kdf3_y - c3 * kf4_x);
-  const Real kf3_z = kdf3_z - kf4_y;
-  const Real kn3c_x = Real(0.316) * kf3_z + (s3 * kn4c_x - (c3 * kn4_x + (S3b_xz * zz_3 - kKx3 * z2_3)));
-  const Real kn3c_y = Real(0.0825) * kf3_x + (kn4c_z - Real(0.316) * kf3_y);
-  const Real kn3c_z = Real(0.0825) * kf3_z + (s3 * kn4_x + (c3 * kn4c_x - (S3b_yz * zz_3 + kKy3 * z2_3)));
-  const Real kn2_x = s2 * kn3c_y + (c2 * kn3c_x + (S2b_yz * zz_2 + kKy2 * z2_2));
-  const Real kn1_x = s1 * kn2_x + (c1 * kn3c_z + (S1b_yz * zz_1 + Real(2.0) * (state.z[1] * kKy1)));
-  const Real kQ1_0 = s2 * kn3c_x - (c2 * kn3c_y + (kKx2 * z2_2 - (kQp1 - S2b_xz * zz_2)));
-  const Real kQ2_0 = kn3c_z - (w2pp_y * kKy2 + (S2b_xz * kal2p_y + (state.z[1] * kKx2 + S2b_zz * kal2p_x)));
-  const Real kQ3_0 = kn4c_z - (w3pp_x * kKx3 + (w2_z * kKy3 - (h3b_y * ka3o_z - (h3b_x * ka3o_x + (S3b_yz *
-      kal3p_x - (S3b_zz * kal3p_y - S3b_xz * kal2p_x))))));
-  const Real kQ4_0 = kn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 + (h4b_y * ka4o_y + (h4b_x * ka4o_z + (S4b_yz *
-      kal3p_y + (S4b_zz * kal4p_x + S4b_xz * kal4p_y))))));
-  const Real kQ5_0 = kn6c_z - (w5pp_x * kKx5 + (w4_z * kKy5 + (h5b_y * ka5o_z - (h5b_x * ka5o_x - (S5b_yz *
-      kal5p_x - (S5b_zz * kal5p_y - S5b_xz * kal4p_x))))));
-  k[0] = -kn1_x;
-  k[1] = kQ1_0;
-  k[2] = -kQ2_0;
-  k[3] = kQ3_0;
-  k[4] = -kQ4_0;
-  k[5] = -kQ5_0;
-  k[6] = kQp6;
+  const Real w6_z = w6pp_x - state.z[6];
+  const Real kla1A_y = state.z[0] * state.z[1];
+  const Real kla2np_x = s1 * kla1A_y;
+  const Real kla2np_y = c1 * kla1A_y;
+  const Real kla2A_x = kla2np_y - state.z[2] * state.z[1];
+  const Real kla2A_y = w2pp_y * state.z[2];
+  const Real kla3al_x = c2 * kla2A_x - s2 * kla2A_y;
+  const Real kla3al_y = c2 * kla2A_y + s2 * kla2A_x;
+  const Real kla3w00 = w3pp_x * w3pp_x;
+  const Real kla3w01 = w3pp_x * w3pp_y;
+  const Real kla3w02 = w2_z * w3pp_x;
+  const Real kla3w11 = w3pp_y * w3pp_y;
+  const Real kla3w12 = w2_z * w3pp_y;
+  const Real kla3w22 = w2_z * w2_z;
+  const Real kla3U0_x = kla3w11 + kla3w22;
+  const Real kla3U0_z = kla3al_y + kla3w02;
+  const Real kla3U1_x = kla2np_x - kla3w01;
+  const Real kla3U1_z = kla3al_x + kla3w12;
+  const Real kla3U2_x = kla3al_y - kla3w02;
+  const Real kla3U2_z = kla3w00 + kla3w11;
+  const Real kla3o_x = kla3U0_z * Real(0.316) - kla3U0_x * Real(0.0825);
+  const Real kla3o_y = kla3U1_z * Real(0.316) - kla3U1_x * Real(0.0825);
+  const Real kla3o_z = kla3U2_z * Real(0.316) + kla3U2_x * Real(0.0825);
+  const Real kla3A_x = kla2np_x + w3pp_x * state.z[3];
+  const Real kla3A_y = kla3al_x - w2_z * state.z[3];
+  const Real kla4al_x = c3 * kla3A_x - s3 * kla3A_y;
+  const Real kla4p_x = c3 * kla3o_z + s3 * kla3o_x;
+  const Real kla4p_y = c3 * kla3o_x - s3 * kla3o_z;
+  const Real kla4w00 = w4pp_x * w4pp_x;
+  const Real kla4w01 = w4pp_x * w4pp_y;
+  const Real kla4w12 = w3_z * w4pp_y;
+  const Real kla4w22 = w3_z * w3_z;
+  const Real kla4U0_y = kla3al_y - kla4w01;
+  const Real kla4U1_y = kla4w00 + kla4w22;
+  const Real kla4U2_y = kla4al_x - kla4w12;
+  const Real kla4o_x = kla4p_x - Real(0.0825) * kla4U0_y;
+  const Real kla4o_y = kla4p_y + Real(0.0825) * kla4U1_y;
+  const Real kla4o_z = kla3o_y + Real(0.0825) * kla4U2_y;
+  const Real kla4np_y = c3 * kla3A_y + s3 * kla3A_x;
+  const Real kla4A_x = kla4np_y - w3_z * state.z[4];
+  const Real kla4A_y = kla3al_y - w4pp_y * state.z[4];
+  const Real kla5al_x = c4 * kla4A_x - s4 * kla4A_y;
+  const Real kla5al_y = c4 * kla4A_y + s4 * kla4A_x;
+  const Real kla5p_x = c4 * kla4o_y + s4 * kla4o_z;
+  const Real kla5p_y = c4 * kla4o_z - s4 * kla4o_y;
+  const Real kla5w00 = w5pp_x * w5pp_x;
+  const Real kla5w02 = w4_z * w5pp_x;
+  const Real kla5w11 = w5pp_y * w5pp_y;
+  const Real kla5w12 = w4_z * w5pp_y;
+  const Real kla5U0_z = kla5al_y + kla5w02;
+  const Real kla5U1_z = kla5al_x + kla5w12;
+  const Real kla5U2_z = kla5w00 + kla5w11;
+  const Real kla5o_x = kla5p_x + kla5U0_z * Real(0.384);
+  const Real kla5o_y = kla5p_y + kla5U1_z * Real(0.384);
+  const Real kla5o_z = kla4o_x + kla5U2_z * Real(0.384);
+  const Real kla5A_x = kla4al_x + w5pp_x * state.z[5];
+  const Real kla5A_y = kla5al_x - w4_z * state.z[5];
+  const Real kla6al_x = c5 * kla5A_x - s5 * kla5A_y;
+  const Real kla6p_x = c5 * kla5o_z + s5 * kla5o_x;
+  const Real kla6p_y = c5 * kla5o_x - s5 * kla5o_z;
+  const Real kla6w00 = w6pp_x * w6pp_x;
+  const Real kla6w01 = w6pp_x * w6pp_y;
+  const Real kla6w12 = w5_z * w6pp_y;
+  const Real kla6w22 = w5_z * w5_z;
+  const Real kla6U0_y = kla5al_y - kla6w01;
+  const Real kla6U1_y = kla6w00 + kla6w22;
+  const Real kla6U2_y = kla6al_x - kla6w12;
+  const Real kla6o_x = kla6p_x + kla6U0_y * Real(0.088);
+  const Real kla6o_y = kla6p_y - kla6U1_y * Real(0.088);
+  const Real kla6o_z = kla5o_y - kla6U2_y * Real(0.088);
+  const Real kla6np_y = c5 * kla5A_y + s5 * kla5A_x;
+  const Real kla6A_x = kla6np_y + w5_z * state.z[6];
+  const Real kla6A_y = kla5al_y + w6pp_y * state.z[6];
+  const Real kL1w00 = w2pp_x * w2pp_x;
+  const Real kL1w01 = w2pp_x * w2pp_y;
+  const Real kL1w02 = w2pp_x * state.z[1];
+  const Real kL1w11 = w2pp_y * w2pp_y;
+  const Real kL1w12 = w2pp_y * state.z[1];
+  const Real kL1w22 = state.z[1] * state.z[1];
+  const Real kL1U0_x = kL1w11 + kL1w22;
+  const Real kL1U0_z = kla2np_y - kL1w02;
+  const Real kL1U1_y = kL1w00 + kL1w22;
+  const Real kL1U1_z = kla2np_x - kL1w12;
+  const Real kL1U2_x = kla2np_y + kL1w02;
+  const Real kL1U2_y = kla2np_x + kL1w12;
+  const Real kL1U2_z = kL1w00 + kL1w11;
+  const Real kL1n_x = (kL1U1_y - kL1U2_z) * Real(0.01026110182100817) - (kL1w01 * Real(0.0007689361029464) -
+      (kL1U2_x * Real(0.00398335888393552) + kL1U2_y * Real(0.023077882494931805)));
+  const Real kL1n_y = Real(0.0007689361029464) * (kL1U0_x - kL1U2_z) - (kL1w01 * Real(0.01026110182100817) -
+      (kL1U2_y * Real(0.00398335888393552) + kL1U2_x * Real(1.032162061231881)));
+  const Real kL2U0_y = kla2np_x + kla3w01;
+  const Real kL2U1_y = kla3w00 + kla3w22;
+  const Real kL2U2_y = kla3al_x - kla3w12;
+  const Real kL2n_x = (kla3U2_z - kL2U1_y) * Real(0.013297019103287584) + (kla3U2_x *
+      Real(0.00012191242095074341) + (kL2U2_y * Real(0.022178148964878235) - kla3U1_x *
+      Real(0.24149476342611426)));
+  const Real kL2n_y = Real(0.24149476342611426) * (kla3U0_x - kla3U2_z) - (kL2U2_y *
+      Real(0.00012191242095074341) + (kL2U0_y * Real(0.013297019103287584) + kla3U2_x *
+      Real(0.0616024210265277)));
+  const Real kL3w02 = w3_z * w4pp_x;
+  const Real kL3w11 = w4pp_y * w4pp_y;
+  const Real kL3U0_x = kla4w22 + kL3w11;
+  const Real kL3U0_z = kla4np_y - kL3w02;
+  const Real kL3U1_x = kla3al_y + kla4w01;
+  const Real kL3U1_z = kla4al_x + kla4w12;
+  const Real kL3U2_x = kla4np_y + kL3w02;
+  const Real kL3U2_z = kla4w00 + kL3w11;
+  const Real kL3f_x = kL3U0_x * Real(2.012523553603) - kla4U0_y * Real(0.55278027465);
+  const Real kL3f_y = kL3U1_x * Real(2.012523553603) + kla4U1_y * Real(0.55278027465);
+  const Real kL3n_x = (kla4U1_y - kL3U2_z) * Real(0.0039053550262761) + (kL3U1_x * Real(0.0016444875773692703)
+      - (kla4U2_y * Real(0.051020136156815506) + (kla3o_y * Real(0.55278027465) + kL3U2_x *
+      Real(0.16284087268546085))));
+  const Real kL3n_y = Real(0.0016444875773692703) * (kL3U0_x - kL3U2_z) - (kla4U0_y * Real(0.0039053550262761)
+      + (kL3U2_x * Real(0.6972920750309718) + (kla3o_y * Real(2.012523553603) + kla4U2_y *
+      Real(0.16284087268546085))));
+  const Real kL4w01 = w5pp_x * w5pp_y;
+  const Real kL4w22 = w4_z * w4_z;
+  const Real kL4U0_x = kla5w11 + kL4w22;
+  const Real kL4U0_y = kla4al_x + kL4w01;
+  const Real kL4U1_x = kla4al_x - kL4w01;
+  const Real kL4U1_y = kla5w00 + kL4w22;
+  const Real kL4U2_x = kla5al_y - kla5w02;
+  const Real kL4U2_y = kla5al_x - kla5w12;
+  const Real kL4f_x = kL4U0_y * Real(0.067870631425) + kL4U0_x * Real(0.014653732538);
+  const Real kL4f_y = kL4U1_y * Real(0.067870631425) - kL4U1_x * Real(0.014653732538);
+  const Real kL4n_x = (kla5U2_z - kL4U1_y) * Real(0.02389827041510187) + (kL4U2_x * Real(0.00151524447332703)
+      + (kL4U2_y * Real(0.010045187828321242) + (kL4U1_x * Real(0.0010267877770288943) + kla4o_x *
+      Real(0.067870631425))));
+  const Real kL4n_y = Real(0.0010267877770288943) * (kla5U2_z - kL4U0_x) + (kla4o_x * Real(0.014653732538) -
+      (kL4U2_y * Real(0.00151524447332703) + (kL4U2_x * Real(0.001451156065026715) + kL4U0_y *
+      Real(0.02389827041510187))));
+  const Real kL5w02 = w5_z * w6pp_x;
+  const Real kL5w11 = w6pp_y * w6pp_y;
+  const Real kL5U0_x = kla6w22 + kL5w11;
+  const Real kL5U0_z = kla6np_y - kL5w02;
+  const Real kL5U1_x = kla5al_y + kla6w01;
+  const Real kL5U1_z = kla6al_x + kla6w12;
+  const Real kL5U2_x = kla6np_y + kL5w02;
+  const Real kL5U2_z = kla6w00 + kL5w11;
+  const Real kL5f_x = kL5U0_x * Real(0.173804705569) - kla6U0_y * Real(0.231847552695);
+  const Real kL5f_y = kL5U1_x * Real(0.173804705569) + kla6U1_y * Real(0.231847552695);
+  const Real kL5n_x = (kla6U1_y - kL5U2_z) * Real(0.0001037589172186849) + (kL5U2_x *
+      Real(0.014748570382675314) - (kla5o_y * Real(0.231847552695) - (kla6U2_y * Real(0.021522255370587554) +
+      kL5U1_x * Real(9.3569097314605e-05))));
+  const Real kL5n_y = Real(9.3569097314605e-05) * (kL5U0_x - kL5U2_z) + (kla6U2_y * Real(0.014748570382675314)
+      + (kL5U2_x * Real(0.02893442254565989) - (kla5o_y * Real(0.173804705569) + kla6U0_y *
+      Real(0.0001037589172186849))));
+  const Real kL6w_x = c6 * w6pp_y - s6 * w5_z;
+  const Real kL6w_y = c6 * w5_z + s6 * w6pp_y;
+  const Real kL6al_x = c6 * kla6A_x + s6 * kla6A_y;
+  const Real kL6al_y = c6 * kla6A_y - s6 * kla6A_x;
+  const Real kL6a_x = c6 * kla6o_y - s6 * kla6o_z;
+  const Real kL6a_y = c6 * kla6o_z + s6 * kla6o_y;
+  const Real kL6w00 = kL6w_x * kL6w_x;
+  const Real kL6w01 = kL6w_x * kL6w_y;
+  const Real kL6w02 = w6_z * kL6w_x;
+  const Real kL6w11 = kL6w_y * kL6w_y;
+  const Real kL6w12 = w6_z * kL6w_y;
+  const Real kL6w22 = w6_z * w6_z;
+  const Real kL6U0_x = kL6w11 + kL6w22;
+  const Real kL6U0_y = kla6al_x + kL6w01;
+  const Real kL6U0_z = kL6al_y + kL6w02;
+  const Real kL6U1_x = kla6al_x - kL6w01;
+  const Real kL6U1_y = kL6w00 + kL6w22;
+  const Real kL6U1_z = kL6al_x + kL6w12;
+  const Real kL6U2_x = kL6al_y - kL6w02;
+  const Real kL6U2_y = kL6al_x - kL6w12;
+  const Real kL6U2_z = kL6w00 + kL6w11;
+  const Real kL6f_x = kL6U0_y * Real(0.002034439958661797) + kL6U0_x * Real(0.0025736053713382033);
+  const Real kL6f_y = kL6U1_y * Real(0.002034439958661797) - kL6U1_x * Real(0.0025736053713382033);
+  const Real kL6f_z = kL6U2_y * Real(0.002034439958661797) - kL6U2_x * Real(0.0025736053713382033);
+  const Real kL6n_x = (kL6U1_y - kL6U2_z) * Real(0.0012555365982728983) - (kL6U1_x *
+      Real(0.0009653051699191118) + (kL6U2_x * Real(0.000391391281684248) - (kla6o_x *
+      Real(0.002034439958661797) - kL6U2_y * Real(0.004552547872941088))));
+  const Real kL6n_y = Real(0.0009653051699191118) * (kL6U0_x - kL6U2_z) + (kL6U2_y *
+      Real(0.000391391281684248) + (kla6o_x * Real(0.0025736053713382033) + (kL6U2_x *
+      Real(0.002131604094419858) + kL6U0_y * Real(0.0012555365982728983))));
+  const Real kL6n_z = Real(0.000391391281684248) * (kL6U0_x - kL6U1_y) - (kL6U1_z *
+      Real(0.0009653051699191118) - (kL6a_y * Real(0.0025736053713382033) - (kL6U0_z *
+      Real(0.0012555365982728983) + (kL6U0_y * Real(0.004552547872941088) - (kL6a_x *
+      Real(0.002034439958661797) - kL6U1_x * Real(0.002131604094419858))))));
+  const Real kL6F_x = c6 * kL6f_x - s6 * kL6f_y;
+  const Real kL6F_y = c6 * kL6f_y + s6 * kL6f_x;
+  const Real kL6N_x = c6 * kL6n_x + s6 * kL6n_y;
+  const Real kn6c_x = kL6n_z + Real(0.088) * kL6F_y;
+  const Real t494 = kL5f_y + kL6F_x;
+  const Real t496 = kL5f_x + kL6f_z;
+  const Real kf5_y = c5 * t494 + s5 * t496;
+  const Real kf5_z = kL6F_y - (kL5U2_x * Real(0.173804705569) + kla6U2_y * Real(0.231847552695));
+  const Real kn5_z = Real(0.014748570382675314) * (kla6U1_y - kL5U0_x) - (Real(0.088) * kL6f_z + (s6 * kL6n_x
+      - (c6 * kL6n_y + (kla6p_x * Real(0.231847552695) + (kL5U1_x * Real(0.02893442254565989) - (kL5U0_z *
+      Real(0.0001037589172186849) - (kL5U1_z * Real(9.3569097314605e-05) + (kla6U0_y *
+      Real(0.021522255370587554) - kla6p_y * Real(0.173804705569)))))))));
+  const Real t513 = kL5n_y - kL6N_x;
+  const Real t515 = kL5n_x - kn6c_x;
+  const Real kn5c_x = c5 * t513 + (Real(0.384) * kf5_z - s5 * t515);
+  const Real kn5c_y = kn5_z - Real(0.384) * kf5_y;
+  const Real t521 = kL4f_x - kf5_y;
+  const Real t523 = kL4f_y - kf5_z;
+  const Real kf4_x = c4 * t521 + s4 * t523;
+  const Real kf4_y = c4 * t523 - s4 * t521;
+  const Real kf4_z = c5 * t496 - (s5 * t494 + (kL4U2_y * Real(0.067870631425) - kL4U2_x *
+      Real(0.014653732538)));
+  const Real t534 = kL4n_x + kn5c_x;
+  const Real t536 = kL4n_y - kn5c_y;
+  const Real kn4_x = c4 * t534 - s4 * t536;
+  const Real kn4_z = c5 * t515 + (s5 * t513 - (Real(0.00151524447332703) * (kL4U0_x - kL4U1_y) - (kla5p_y *
+      Real(0.014653732538) + (kla5U0_z * Real(0.02389827041510187) + (kL4U1_x * Real(0.001451156065026715) +
+      (kL4U0_y * Real(0.010045187828321242) + (kla5U1_z * Real(0.0010267877770288943) + kla5p_x *
+      Real(0.067870631425))))))));
+  const Real kn4c_x = kn4_z - Real(0.0825) * kf4_y;
+  const Real t554 = kL3f_x - kf4_z;
+  const Real t556 = kL3f_y + kf4_x;
+  const Real kf3_x = c3 * t554 - s3 * t556;
+  const Real kf3_y = c3 * t556 + s3 * t554;
+  const Real kf3_z = kf4_y - (kL3U2_x * Real(2.012523553603) + kla4U2_y * Real(0.55278027465));
+  const Real kn3_z = c4 * t536 + (s4 * t534 - (Real(0.16284087268546085) * (kla4U1_y - kL3U0_x) +
+      (Real(0.0825) * kf4_z + (kL3U0_z * Real(0.0039053550262761) - (kL3U1_z * Real(0.0016444875773692703) -
+      (kla4U0_y * Real(0.051020136156815506) + (kL3U1_x * Real(0.6972920750309718) + (kla4p_y *
+      Real(2.012523553603) - kla4p_x * Real(0.55278027465)))))))));
+  const Real t578 = kL3n_y - kn4_x;
+  const Real t580 = kL3n_x - kn4c_x;
+  const Real kn3c_x = c3 * t578 + (Real(0.316) * kf3_z - s3 * t580);
+  const Real kn3c_y = Real(0.0825) * kf3_x - (kn3_z - Real(0.316) * kf3_y);
+  const Real t589 = kL2n_x - kn3c_x;
+  const Real t591 = kL2n_y - kn3c_y;
+  const Real kn2_x = c2 * t589 - s2 * t591;
+  const Real kn2_z = c3 * t580 + (s3 * t578 + (Real(0.00012191242095074341) * (kla3U0_x - kL2U1_y) -
+      (Real(0.0825) * kf3_z + (kla3U1_x * Real(0.0616024210265277) - (kla3U1_z * Real(0.24149476342611426) -
+      (kL2U0_y * Real(0.022178148964878235) + kla3U0_z * Real(0.013297019103287584)))))));
+  const Real kn1_x = c1 * (kL1n_x - kn2_z) - s1 * (kL1n_y + kn2_x);
+  const Real kn1_z = c2 * t591 + (s2 * t589 + (Real(0.00398335888393552) * (kL1U0_x - kL1U1_y) - (kL1U1_z *
+      Real(0.0007689361029464) - (kL1w01 * Real(1.0090841787369491) + kL1U0_z * Real(0.01026110182100817)))));
+  k[0] = kn1_x;
+  k[1] = kn1_z;
+  k[2] = -kn2_z;
+  k[3] = -kn3_z;
+  k[4] = kn4_z;
+  k[5] = kn5_z;
+  k[6] = kL6n_z;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1000,96 +1021,6 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   detail::sine_cosine(state.y[5], s5, c5);
   Real s6, c6;
   detail::sine_cosine(state.y[6], s6, c6);
-  const Real S6b_t = s6 * Real(0.0024209437785212297) + c6 * Real(0.000782782563368496);
-  const Real S6b_xx = s6 * S6b_t + Real(0.002131604094419858);
-  const Real S6b_xy = c6 * S6b_t - Real(0.000391391281684248);
-  const Real S6b_xz = s6 * Real(0.0012555365982728983) - c6 * Real(0.0009653051699191118);
-  const Real S6b_yz = c6 * Real(0.0012555365982728983) + s6 * Real(0.0009653051699191118);
-  const Real S6b_yy = S6b_xx - Real(0.006684151967360946);
-  const Real h6b_x = s6 * Real(0.002034439958661797) - c6 * Real(0.0025736053713382033);
-  const Real h6b_y = c6 * Real(0.002034439958661797) + s6 * Real(0.0025736053713382033);
-  const Real h6c_y = h6b_x - Real(0.231847552695);
-  const Real S6c_xy = S6b_xz - Real(0.014748570382675314);
-  const Real S6c_xz = S6b_yz + Real(9.3569097314605e-05);
-  const Real S6c_yy = h6b_x * Real(0.176) - (S6b_xx + Real(0.021522255370587554));
-  const Real S6c_yz = S6b_xy - h6b_y * Real(0.088) - Real(0.0001037589172186849);
-  const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
-  const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
-  const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
-  const Real S5b_xy = S6c_xy - c5 * S5b_t;
-  const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
-  const Real S5b_yz = c5 * S6c_yz - s5 * S6c_xz;
-  const Real S5b_yy = S5b_zz + S5b_xx;
-  const Real h5b_x = c5 * Real(0.173804705569) + s5 * h6c_y;
-  const Real h5b_y = s5 * Real(0.173804705569) - c5 * h6c_y;
-  const Real h5c_x = h5b_y - Real(0.014653732538);
-  const Real h5c_y = h6b_y - Real(0.067870631425);
-  const Real S5c_xx = S5b_yy - Real(0.001451156065026715);
-  const Real S5c_xy = S5b_yz + Real(0.00151524447332703);
-  const Real S5c_xz = h5b_y * Real(0.384) - (S5b_xy + Real(0.0010267877770288943));
-  const Real S5c_yy = S6b_yy - Real(0.010045187828321242);
-  const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
-  const Real S4b_zz = S5c_xx + S5c_yy;
-  const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) - s4 * S4b_d;
-  const Real S4b_xx = S5c_xx + s4 * S4b_t;
-  const Real S4b_xy = S5c_xy - c4 * S4b_t;
-  const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
-  const Real S4b_yz = c4 * S5c_yz - s4 * S5c_xz;
-  const Real S4b_yy = S4b_zz - S4b_xx;
-  const Real h4b_x = c4 * h5c_x + s4 * h5c_y;
-  const Real h4b_y = c4 * h5c_y - s4 * h5c_x;
-  const Real h4c_x = h5b_x - Real(2.012523553603);
-  const Real h4c_y = h4b_x - Real(0.55278027465);
-  const Real S4c_xx = S5b_xx - h5b_x * Real(0.768) + Real(0.6972920750309718);
-  const Real S4c_xy = h5b_x * Real(0.0825) + (S4b_xz - Real(0.16284087268546085));
-  const Real S4c_xz = S4b_yz + Real(0.0016444875773692703);
-  const Real S4c_yy = S4b_xx + h4b_x * Real(0.165) - Real(0.051020136156815506);
-  const Real t152 = h4b_y * Real(0.0825);
-  const Real S4c_yz = S4b_xy - t152 - Real(0.0039053550262761);
-  const Real S3b_zz = S4c_xx - S4c_yy;
-  const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
-  const Real S3b_xx = S4c_xx + s3 * S3b_t;
-  const Real S3b_xy = S4c_xy - c3 * S3b_t;
-  const Real S3b_xz = c3 * S4c_xz + s3 * S4c_yz;
-  const Real S3b_yz = c3 * S4c_yz - s3 * S4c_xz;
-  const Real S3b_yy = S3b_zz - S3b_xx;
-  const Real h3b_x = c3 * h4c_x - s3 * h4c_y;
-  const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
-  const Real h3c_x = h3b_y + Real(0.746857959872);
-  const Real h3c_y = h4b_y - Real(0.028227094878);
-  const Real S3c_xx = S3b_yy + Real(0.165) * h3b_y + Real(0.0616024210265277);
-  const Real S3c_xy = t152 + S3b_yz - Real(0.00012191242095074341);
-  const Real S3c_xz = Real(0.0825) * h3b_x + (S3b_xy - h3b_y * Real(0.316)) - Real(0.24149476342611426);
-  const Real S3c_yy = S4b_yy - Real(0.022178148964878235);
-  const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
-  const Real S2b_zz = S3c_xx - S3c_yy;
-  const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
-  const Real S2b_xx = S3c_xx + s2 * S2b_t;
-  const Real S2b_xy = S3c_xy - c2 * S2b_t;
-  const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
-  const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
-  const Real S2b_yy = S2b_zz - S2b_xx;
-  const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
-  const Real h2c_x = h3b_x - Real(3.344500043512);
-  const Real h2c_y = c2 * h3c_x + s2 * h3c_y - Real(0.002031994566);
-  const Real S2c_xx = S3b_xx - h3b_x * Real(0.632) + Real(1.032162061231881);
-  const Real S2c_xy = S2b_xz + Real(0.00398335888393552);
-  const Real S2c_xz = S2b_yz - Real(0.0007689361029464);
-  const Real S2c_yy = S2b_xx + Real(0.023077882494931805);
-  const Real S2c_yz = S2b_xy - Real(0.01026110182100817);
-  const Real S1b_zz = S2c_xx + S2c_yy;
-  const Real S1b_d = S2c_xx - S2c_yy;
-  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) - s1 * S1b_d;
-  const Real S1b_xy = S2c_xy - c1 * S1b_t;
-  const Real S1b_xz = c1 * S2c_xz + s1 * S2c_yz;
-  const Real S1b_yz = c1 * S2c_yz - s1 * S2c_xz;
-  const Real h1b_y = c1 * h2c_y - s1 * h2c_x;
-  const Real S0b_zz = S2b_yy - (s1 * S1b_t + (S2c_xx - S1b_zz) - Real(0.0062531379269374545)) +
-      Real(0.008006428067536918);
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
@@ -1104,162 +1035,261 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real w5_z = w5pp_y - state.z[5];
   const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
   const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
-  const Real adn0_z = S0b_zz * zdot[0];
-  const Real aKy1 = S1b_xy * state.z[0];
-  const Real zz_1 = state.z[1] * state.z[1];
-  const Real adn1_z = S1b_zz * zdot[1];
-  const Real aal1o_y = state.z[0] * state.z[1];
-  const Real aal2p_x = c1 * zdot[0] - s1 * aal1o_y;
-  const Real aal2p_y = s1 * zdot[0] + c1 * aal1o_y;
-  const Real aL1a_x = c1 * Real(9.81);
-  const Real aL1a_y = s1 * Real(9.81);
-  const Real aKx2 = S2b_xz * w2pp_x - (S2b_xy * state.z[1] - S2b_xx * w2pp_y);
-  const Real aKy2 = S2b_yz * w2pp_x - (S2b_yy * state.z[1] - S2b_xy * w2pp_y);
-  const Real z2_2 = Real(2.0) * state.z[2];
-  const Real zz_2 = state.z[2] * state.z[2];
-  const Real adn2_z = S2b_zz * zdot[2];
-  const Real aal2o_x = aal2p_y - state.z[2] * state.z[1];
-  const Real aal2o_y = zdot[1] + w2pp_y * state.z[2];
-  const Real aal2o_z = aal2p_x + zdot[2];
-  const Real aal3p_x = c2 * aal2o_x - s2 * aal2o_y;
-  const Real aal3p_y = c2 * aal2o_y + s2 * aal2o_x;
-  const Real aL2a_x = c2 * aL1a_y;
-  const Real aL2a_y = s2 * aL1a_y;
-  const Real aL2w00 = w3pp_x * w3pp_x;
-  const Real aL2w01 = w3pp_x * w3pp_y;
-  const Real aL2w02 = w2_z * w3pp_x;
-  const Real aL2w11 = w3pp_y * w3pp_y;
-  const Real aL2w12 = w2_z * w3pp_y;
-  const Real aL2w22 = w2_z * w2_z;
-  const Real aL2U0_x = aL2w11 + aL2w22;
-  const Real aL2U0_z = aal3p_y + aL2w02;
-  const Real aL2U1_x = aal2o_z + aL2w01;
-  const Real aL2U1_z = aal3p_x + aL2w12;
-  const Real aL2U2_x = aal3p_y - aL2w02;
-  const Real aL2U2_z = aL2w00 + aL2w11;
-  const Real aa3o_x = Real(0.0825) * aL2U0_x + (aL2a_x - Real(0.316) * aL2U0_z);
-  const Real aa3o_z = Real(0.0825) * aL2U2_x - (aL1a_x - Real(0.316) * aL2U2_z);
-  const Real aKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z - S3b_xy * w3pp_x);
-  const Real aKy3 = S3b_yy * w3pp_x - (S3b_xy * w2_z + S3b_yz * w3pp_y);
-  const Real z2_3 = Real(2.0) * state.z[3];
-  const Real zz_3 = state.z[3] * state.z[3];
-  const Real zw_3 = state.z[3] * (w3pp_y + w3_z);
-  const Real aax3 = h3b_x * w2_z - h3b_y * w3pp_x;
-  const Real adf3_z = z2_3 * aax3;
-  const Real adn3_z = S3b_zz * zdot[3];
-  const Real aal3o_x = aal2o_z - w3pp_x * state.z[3];
-  const Real aal3o_y = aal3p_x - w2_z * state.z[3];
-  const Real aal3o_z = aal3p_y - zdot[3];
-  const Real aal4p_x = c3 * aal3o_x + s3 * aal3o_y;
-  const Real aal4p_y = c3 * aal3o_y - s3 * aal3o_x;
-  const Real aL3w00 = w4pp_x * w4pp_x;
-  const Real aL3w01 = w4pp_x * w4pp_y;
-  const Real aL3w12 = w3_z * w4pp_y;
-  const Real aL3w22 = w3_z * w3_z;
-  const Real aL3U0_y = aal3o_z - aL3w01;
-  const Real aL3U1_y = aL3w00 + aL3w22;
-  const Real aL3U2_y = aal4p_x + aL3w12;
-  const Real aa4o_y = Real(0.0825) * aL3U1_y - (c3 * aa3o_x + s3 * aa3o_z);
-  const Real aa4o_z = Real(0.0825) * (aL2U1_x - aL3U2_y) + (aL2a_y + Real(0.316) * aL2U1_z);
-  const Real aKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y + S4b_xy * w3_z);
-  const Real aKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y + S4b_yz * w4pp_x);
-  const Real z2_4 = Real(2.0) * state.z[4];
-  const Real zz_4 = state.z[4] * state.z[4];
-  const Real zw_4 = state.z[4] * (w4pp_x + w4_z);
-  const Real aax4 = h4b_x * w4pp_y - h4b_y * w3_z;
-  const Real adf4_z = z2_4 * aax4;
-  const Real adn4_z = S4b_zz * zdot[4];
-  const Real aal4o_x = aal4p_y - w3_z * state.z[4];
-  const Real aal4o_y = aal3o_z - w4pp_y * state.z[4];
-  const Real aal4o_z = aal4p_x + zdot[4];
-  const Real aal5p_x = c4 * aal4o_x - s4 * aal4o_y;
-  const Real aal5p_y = c4 * aal4o_y + s4 * aal4o_x;
-  const Real aL4w00 = w5pp_x * w5pp_x;
-  const Real aL4w02 = w4_z * w5pp_x;
-  const Real aL4w11 = w5pp_y * w5pp_y;
-  const Real aL4w12 = w4_z * w5pp_y;
-  const Real aL4U0_z = aal5p_y + aL4w02;
-  const Real aL4U1_z = aal5p_x + aL4w12;
-  const Real aL4U2_z = aL4w00 + aL4w11;
-  const Real aa5o_x = Real(0.384) * aL4U0_z + (c4 * aa4o_y + s4 * aa4o_z);
-  const Real aa5o_z = Real(0.384) * aL4U2_z - (Real(0.0825) * aL3U0_y - (c3 * aa3o_z - s3 * aa3o_x));
-  const Real aKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z - S5b_xy * w5pp_x);
-  const Real aKy5 = S5b_yy * w5pp_x + (S5b_xy * w4_z - S5b_yz * w5pp_y);
-  const Real z2_5 = Real(2.0) * state.z[5];
-  const Real zz_5 = state.z[5] * state.z[5];
-  const Real zw_5 = state.z[5] * (w5pp_y + w5_z);
-  const Real aax5 = h5b_x * w4_z - h5b_y * w5pp_x;
-  const Real adf5_z = z2_5 * aax5;
-  const Real adn5_z = S5b_zz * zdot[5];
-  const Real aal5o_x = aal4o_z - w5pp_x * state.z[5];
-  const Real aal5o_y = aal5p_x - w4_z * state.z[5];
-  const Real aal5o_z = aal5p_y - zdot[5];
-  const Real aal6p_x = c5 * aal5o_x + s5 * aal5o_y;
-  const Real aal6p_y = c5 * aal5o_y - s5 * aal5o_x;
-  const Real aL5w00 = w6pp_x * w6pp_x;
-  const Real aL5w12 = w5_z * w6pp_y;
-  const Real aL5w22 = w5_z * w5_z;
-  const Real aL5U1_y = aL5w00 + aL5w22;
-  const Real aL5U2_y = aal6p_x + aL5w12;
-  const Real aa6o_y = Real(0.088) * aL5U1_y - (c5 * aa5o_x - s5 * aa5o_z);
-  const Real aa6o_z = Real(0.088) * aL5U2_y + (Real(0.384) * aL4U1_z + (c4 * aa4o_z - s4 * aa4o_y));
-  const Real aKx6 = S6b_xz * w6pp_x + (S6b_xx * w6pp_y + S6b_xy * w5_z);
-  const Real aKy6 = S6b_yy * w5_z - (S6b_xy * w6pp_y + S6b_yz * w6pp_x);
-  const Real z2_6 = Real(2.0) * state.z[6];
-  const Real zz_6 = state.z[6] * state.z[6];
-  const Real zw_6 = state.z[6] * (state.z[6] - (w6pp_x + w6pp_x));
-  const Real aax6 = h6b_x * w6pp_y + h6b_y * w5_z;
-  const Real adf6_x = h6b_y * zdot[6] - h6b_x * zw_6;
-  const Real adf6_y = h6b_x * zdot[6] + h6b_y * zw_6;
-  const Real adf6_z = z2_6 * aax6;
-  const Real adn6_x = aKy6 * z2_6 + (S6b_xz * zdot[6] + S6b_yz * zz_6);
-  const Real adn6_z = Real(0.006684151967360946) * zdot[6];
-  const Real an6c_x = adn6_z - Real(0.088) * adf6_y;
-  const Real af5_y = s5 * adf6_z + (c5 * adf6_x - (h5b_x * zdot[5] + h5b_y * zw_5));
-  const Real af5_z = adf5_z + adf6_y;
-  const Real an5_z = Real(0.088) * adf6_z - (aKx6 * z2_6 - (S6b_xz * zz_6 - (adn5_z + S6b_yz * zdot[6])));
-  const Real an5c_x = Real(0.384) * af5_z - (s5 * an6c_x + (c5 * adn6_x + (aKx5 * z2_5 + (S5b_yz * zdot[5] -
-      S5b_xz * zz_5))));
-  const Real an5c_y = an5_z + Real(0.384) * af5_y;
-  const Real af4_x = s4 * af5_z + (c4 * af5_y - (h4b_y * zdot[4] - h4b_x * zw_4));
-  const Real af4_y = s4 * af5_y - (c4 * af5_z + (h4b_x * zdot[4] + h4b_y * zw_4));
-  const Real af4_z = s5 * adf6_x - (c5 * adf6_z - (h5b_x * zw_5 - (adf4_z + h5b_y * zdot[5])));
-  const Real an4_x = s4 * an5c_y - (c4 * an5c_x + (aKy4 * z2_4 + (S4b_xz * zdot[4] + S4b_yz * zz_4)));
-  const Real an4_z = s5 * adn6_x - (c5 * an6c_x - (aKy5 * z2_5 + (S5b_yz * zz_5 - (adn4_z - S5b_xz *
-      zdot[5]))));
-  const Real an4c_x = an4_z + Real(0.0825) * af4_y;
-  const Real af3_x = s3 * af4_x + (c3 * af4_z - (h3b_y * zdot[3] - h3b_x * zw_3));
-  const Real af3_y = s3 * af4_z - (c3 * af4_x - (h3b_x * zdot[3] + h3b_y * zw_3));
-  const Real af3_z = adf3_z - af4_y;
-  const Real an3_z = Real(0.0825) * af4_z + (s4 * an5c_x + (c4 * an5c_y + (aKx4 * z2_4 + (S4b_xz * zz_4 +
-      (adn3_z - S4b_yz * zdot[4])))));
-  const Real an3c_x = Real(0.316) * af3_z + (s3 * an4c_x - (c3 * an4_x - (aKx3 * z2_3 + (S3b_yz * zdot[3] -
-      S3b_xz * zz_3))));
+  const Real w6_z = w6pp_x - state.z[6];
+  const Real ala1A_y = state.z[0] * state.z[1];
+  const Real ala2p_x = c1 * Real(9.81);
+  const Real ala2p_y = s1 * Real(9.81);
+  const Real ala2np_x = c1 * zdot[0] - s1 * ala1A_y;
+  const Real ala2np_y = s1 * zdot[0] + c1 * ala1A_y;
+  const Real ala2A_x = ala2np_y - state.z[2] * state.z[1];
+  const Real ala2A_y = w2pp_y * state.z[2] + zdot[1];
+  const Real ala2A_z = ala2np_x + zdot[2];
+  const Real ala3al_x = c2 * ala2A_x - s2 * ala2A_y;
+  const Real ala3al_y = c2 * ala2A_y + s2 * ala2A_x;
+  const Real ala3p_x = c2 * ala2p_y;
+  const Real ala3p_y = s2 * ala2p_y;
+  const Real ala3w00 = w3pp_x * w3pp_x;
+  const Real ala3w01 = w3pp_x * w3pp_y;
+  const Real ala3w02 = w2_z * w3pp_x;
+  const Real ala3w11 = w3pp_y * w3pp_y;
+  const Real ala3w12 = w2_z * w3pp_y;
+  const Real ala3w22 = w2_z * w2_z;
+  const Real ala3U0_x = ala3w11 + ala3w22;
+  const Real ala3U0_z = ala3al_y + ala3w02;
+  const Real ala3U1_x = ala2A_z + ala3w01;
+  const Real ala3U1_z = ala3al_x + ala3w12;
+  const Real ala3U2_x = ala3al_y - ala3w02;
+  const Real ala3U2_z = ala3w00 + ala3w11;
+  const Real ala3o_x = ala3U0_x * Real(0.0825) + (ala3p_x - ala3U0_z * Real(0.316));
+  const Real ala3o_y = ala3U1_x * Real(0.0825) + (ala3p_y + ala3U1_z * Real(0.316));
+  const Real ala3o_z = ala3U2_x * Real(0.0825) - (ala2p_x - ala3U2_z * Real(0.316));
+  const Real ala3A_x = ala2A_z - w3pp_x * state.z[3];
+  const Real ala3A_y = ala3al_x - w2_z * state.z[3];
+  const Real ala3A_z = ala3al_y - zdot[3];
+  const Real ala4al_x = c3 * ala3A_x + s3 * ala3A_y;
+  const Real ala4p_x = c3 * ala3o_z - s3 * ala3o_x;
+  const Real ala4p_y = c3 * ala3o_x + s3 * ala3o_z;
+  const Real ala4w00 = w4pp_x * w4pp_x;
+  const Real ala4w01 = w4pp_x * w4pp_y;
+  const Real ala4w12 = w3_z * w4pp_y;
+  const Real ala4w22 = w3_z * w3_z;
+  const Real ala4U0_y = ala3A_z - ala4w01;
+  const Real ala4U1_y = ala4w00 + ala4w22;
+  const Real ala4U2_y = ala4al_x + ala4w12;
+  const Real ala4o_x = ala4p_x - Real(0.0825) * ala4U0_y;
+  const Real ala4o_y = ala4p_y - Real(0.0825) * ala4U1_y;
+  const Real ala4o_z = ala3o_y - Real(0.0825) * ala4U2_y;
+  const Real ala4np_y = c3 * ala3A_y - s3 * ala3A_x;
+  const Real ala4A_x = ala4np_y - w3_z * state.z[4];
+  const Real ala4A_y = ala3A_z - w4pp_y * state.z[4];
+  const Real ala4A_z = ala4al_x + zdot[4];
+  const Real ala5al_x = c4 * ala4A_x - s4 * ala4A_y;
+  const Real ala5al_y = c4 * ala4A_y + s4 * ala4A_x;
+  const Real ala5p_x = c4 * ala4o_y - s4 * ala4o_z;
+  const Real ala5p_y = c4 * ala4o_z + s4 * ala4o_y;
+  const Real ala5w00 = w5pp_x * w5pp_x;
+  const Real ala5w02 = w4_z * w5pp_x;
+  const Real ala5w11 = w5pp_y * w5pp_y;
+  const Real ala5w12 = w4_z * w5pp_y;
+  const Real ala5U0_z = ala5al_y + ala5w02;
+  const Real ala5U1_z = ala5al_x + ala5w12;
+  const Real ala5U2_z = ala5w00 + ala5w11;
+  const Real ala5o_x = ala5p_x - ala5U0_z * Real(0.384);
+  const Real ala5o_y = ala5p_y + ala5U1_z * Real(0.384);
+  const Real ala5o_z = ala4o_x + ala5U2_z * Real(0.384);
+  const Real ala5A_x = ala4A_z - w5pp_x * state.z[5];
+  const Real ala5A_y = ala5al_x - w4_z * state.z[5];
+  const Real ala5A_z = ala5al_y - zdot[5];
+  const Real ala6al_x = c5 * ala5A_x + s5 * ala5A_y;
+  const Real ala6p_x = c5 * ala5o_z - s5 * ala5o_x;
+  const Real ala6p_y = c5 * ala5o_x + s5 * ala5o_z;
+  const Real ala6w00 = w6pp_x * w6pp_x;
+  const Real ala6w01 = w6pp_x * w6pp_y;
+  const Real ala6w12 = w5_z * w6pp_y;
+  const Real ala6w22 = w5_z * w5_z;
+  const Real ala6U0_y = ala5A_z - ala6w01;
+  const Real ala6U1_y = ala6w00 + ala6w22;
+  const Real ala6U2_y = ala6al_x + ala6w12;
+  const Real ala6o_x = ala6p_x + ala6U0_y * Real(0.088);
+  const Real ala6o_y = ala6p_y + ala6U1_y * Real(0.088);
+  const Real ala6o_z = ala5o_y + ala6U2_y * Real(0.088);
+  const Real ala6np_y = c5 * ala5A_y - s5 * ala5A_x;
+  const Real ala6A_x = ala6np_y + w5_z * state.z[6];
+  const Real ala6A_y = ala5A_z + w6pp_y * state.z[6];
+  const Real ala6A_z = ala6al_x - zdot[6];
+  const Real aL0n_z = zdot[0] * Real(0.014259565994474374);
+  const Real aL1w00 = w2pp_x * w2pp_x;
+  const Real aL1w01 = w2pp_x * w2pp_y;
+  const Real aL1w02 = w2pp_x * state.z[1];
+  const Real aL1w11 = w2pp_y * w2pp_y;
+  const Real aL1w12 = w2pp_y * state.z[1];
+  const Real aL1w22 = state.z[1] * state.z[1];
+  const Real aL1U0_x = aL1w11 + aL1w22;
+  const Real aL1U0_y = zdot[1] + aL1w01;
+  const Real aL1U0_z = ala2np_y - aL1w02;
+  const Real aL1U1_x = zdot[1] - aL1w01;
+  const Real aL1U1_y = aL1w00 + aL1w22;
+  const Real aL1U1_z = ala2np_x + aL1w12;
+  const Real aL1U2_x = ala2np_y + aL1w02;
+  const Real aL1U2_y = ala2np_x - aL1w12;
+  const Real aL1U2_z = aL1w00 + aL1w11;
+  const Real aL1n_x = (aL1U1_y - aL1U2_z) * Real(0.01026110182100817) + (aL1U1_x * Real(0.0007689361029464) +
+      (aL1U2_x * Real(0.00398335888393552) - aL1U2_y * Real(0.023077882494931805)));
+  const Real aL1n_y = Real(0.0007689361029464) * (aL1U0_x - aL1U2_z) - (aL1U0_y * Real(0.01026110182100817) +
+      (aL1U2_y * Real(0.00398335888393552) - aL1U2_x * Real(1.032162061231881)));
+  const Real aL2U0_y = ala2A_z - ala3w01;
+  const Real aL2U1_y = ala3w00 + ala3w22;
+  const Real aL2U2_y = ala3al_x - ala3w12;
+  const Real aL2n_x = (ala3U2_z - aL2U1_y) * Real(0.013297019103287584) + (ala3U2_x *
+      Real(0.00012191242095074341) + (ala3U1_x * Real(0.24149476342611426) + (aL2U2_y *
+      Real(0.022178148964878235) - ala2p_x * Real(0.028227094878))));
+  const Real aL2n_y = Real(0.24149476342611426) * (ala3U0_x - ala3U2_z) - (aL2U2_y *
+      Real(0.00012191242095074341) + (ala3U2_x * Real(0.0616024210265277) - (ala2p_x * Real(0.746857959872) +
+      aL2U0_y * Real(0.013297019103287584))));
+  const Real aL3w02 = w3_z * w4pp_x;
+  const Real aL3w11 = w4pp_y * w4pp_y;
+  const Real aL3U0_x = ala4w22 + aL3w11;
+  const Real aL3U0_z = ala4np_y - aL3w02;
+  const Real aL3U1_x = ala3A_z + ala4w01;
+  const Real aL3U1_z = ala4al_x - ala4w12;
+  const Real aL3U2_x = ala4np_y + aL3w02;
+  const Real aL3U2_z = ala4w00 + aL3w11;
+  const Real aL3f_x = aL3U0_x * Real(2.012523553603) - ala4U0_y * Real(0.55278027465);
+  const Real aL3f_y = aL3U1_x * Real(2.012523553603) + ala4U1_y * Real(0.55278027465);
+  const Real aL3n_x = (ala4U1_y - aL3U2_z) * Real(0.0039053550262761) + (aL3U1_x * Real(0.0016444875773692703)
+      + (ala4U2_y * Real(0.051020136156815506) - (ala3o_y * Real(0.55278027465) + aL3U2_x *
+      Real(0.16284087268546085))));
+  const Real aL3n_y = Real(0.0016444875773692703) * (aL3U0_x - aL3U2_z) - (ala4U0_y * Real(0.0039053550262761)
+      + (aL3U2_x * Real(0.6972920750309718) + (ala3o_y * Real(2.012523553603) - ala4U2_y *
+      Real(0.16284087268546085))));
+  const Real aL4w01 = w5pp_x * w5pp_y;
+  const Real aL4w22 = w4_z * w4_z;
+  const Real aL4U0_x = ala5w11 + aL4w22;
+  const Real aL4U0_y = ala4A_z - aL4w01;
+  const Real aL4U1_x = ala4A_z + aL4w01;
+  const Real aL4U1_y = ala5w00 + aL4w22;
+  const Real aL4U2_x = ala5al_y - ala5w02;
+  const Real aL4U2_y = ala5al_x - ala5w12;
+  const Real aL4f_x = aL4U0_y * Real(0.067870631425) - aL4U0_x * Real(0.014653732538);
+  const Real aL4f_y = aL4U1_y * Real(0.067870631425) + aL4U1_x * Real(0.014653732538);
+  const Real aL4n_x = (ala5U2_z - aL4U1_y) * Real(0.02389827041510187) + (aL4U2_x * Real(0.00151524447332703)
+      + (aL4U2_y * Real(0.010045187828321242) - (aL4U1_x * Real(0.0010267877770288943) - ala4o_x *
+      Real(0.067870631425))));
+  const Real aL4n_y = Real(0.0010267877770288943) * (ala5U2_z - aL4U0_x) + (ala4o_x * Real(0.014653732538) -
+      (aL4U2_y * Real(0.00151524447332703) + (aL4U2_x * Real(0.001451156065026715) - aL4U0_y *
+      Real(0.02389827041510187))));
+  const Real aL5w02 = w5_z * w6pp_x;
+  const Real aL5w11 = w6pp_y * w6pp_y;
+  const Real aL5U0_x = ala6w22 + aL5w11;
+  const Real aL5U0_z = ala6np_y - aL5w02;
+  const Real aL5U1_x = ala5A_z + ala6w01;
+  const Real aL5U1_z = ala6al_x - ala6w12;
+  const Real aL5U2_x = ala6np_y + aL5w02;
+  const Real aL5U2_z = ala6w00 + aL5w11;
+  const Real aL5f_x = aL5U0_x * Real(0.173804705569) - ala6U0_y * Real(0.231847552695);
+  const Real aL5f_y = aL5U1_x * Real(0.173804705569) + ala6U1_y * Real(0.231847552695);
+  const Real aL5n_x = (ala6U1_y - aL5U2_z) * Real(0.0001037589172186849) + (aL5U2_x *
+      Real(0.014748570382675314) - (ala5o_y * Real(0.231847552695) + (ala6U2_y * Real(0.021522255370587554) -
+      aL5U1_x * Real(9.3569097314605e-05))));
+  const Real aL5n_y = Real(9.3569097314605e-05) * (aL5U0_x - aL5U2_z) - (ala6U2_y * Real(0.014748570382675314)
+      - (aL5U2_x * Real(0.02893442254565989) - (ala5o_y * Real(0.173804705569) + ala6U0_y *
+      Real(0.0001037589172186849))));
+  const Real aL6w_x = c6 * w6pp_y - s6 * w5_z;
+  const Real aL6w_y = c6 * w5_z + s6 * w6pp_y;
+  const Real aL6al_x = c6 * ala6A_x + s6 * ala6A_y;
+  const Real aL6al_y = c6 * ala6A_y - s6 * ala6A_x;
+  const Real aL6a_x = c6 * ala6o_y + s6 * ala6o_z;
+  const Real aL6a_y = c6 * ala6o_z - s6 * ala6o_y;
+  const Real aL6w00 = aL6w_x * aL6w_x;
+  const Real aL6w01 = aL6w_x * aL6w_y;
+  const Real aL6w02 = w6_z * aL6w_x;
+  const Real aL6w11 = aL6w_y * aL6w_y;
+  const Real aL6w12 = w6_z * aL6w_y;
+  const Real aL6w22 = w6_z * w6_z;
+  const Real aL6U0_x = aL6w11 + aL6w22;
+  const Real aL6U0_y = ala6A_z - aL6w01;
+  const Real aL6U0_z = aL6al_y + aL6w02;
+  const Real aL6U1_x = ala6A_z + aL6w01;
+  const Real aL6U1_y = aL6w00 + aL6w22;
+  const Real aL6U1_z = aL6al_x + aL6w12;
+  const Real aL6U2_x = aL6al_y - aL6w02;
+  const Real aL6U2_y = aL6al_x - aL6w12;
+  const Real aL6U2_z = aL6w00 + aL6w11;
+  const Real aL6f_x = aL6U0_y * Real(0.002034439958661797) - aL6U0_x * Real(0.0025736053713382033);
+  const Real aL6f_y = aL6U1_y * Real(0.002034439958661797) + aL6U1_x * Real(0.0025736053713382033);
+  const Real aL6f_z = aL6U2_y * Real(0.002034439958661797) - aL6U2_x * Real(0.0025736053713382033);
+  const Real aL6n_x = (aL6U1_y - aL6U2_z) * Real(0.0012555365982728983) + (aL6U1_x *
+      Real(0.0009653051699191118) - (aL6U2_x * Real(0.000391391281684248) - (ala6o_x *
+      Real(0.002034439958661797) - aL6U2_y * Real(0.004552547872941088))));
+  const Real aL6n_y = Real(0.0009653051699191118) * (aL6U0_x - aL6U2_z) + (aL6U2_y *
+      Real(0.000391391281684248) + (ala6o_x * Real(0.0025736053713382033) + (aL6U2_x *
+      Real(0.002131604094419858) - aL6U0_y * Real(0.0012555365982728983))));
+  const Real aL6n_z = Real(0.000391391281684248) * (aL6U0_x - aL6U1_y) - (aL6U1_z *
+      Real(0.0009653051699191118) - (aL6a_y * Real(0.0025736053713382033) - (aL6U0_z *
+      Real(0.0012555365982728983) - (aL6U0_y * Real(0.004552547872941088) - (aL6a_x *
+      Real(0.002034439958661797) - aL6U1_x * Real(0.002131604094419858))))));
+  const Real aL6F_x = c6 * aL6f_x + s6 * aL6f_y;
+  const Real aL6F_y = c6 * aL6f_y - s6 * aL6f_x;
+  const Real aL6N_x = c6 * aL6n_x + s6 * aL6n_y;
+  const Real an6c_x = aL6n_z + Real(0.088) * aL6F_y;
+  const Real t535 = aL5f_y - aL6F_x;
+  const Real t537 = aL5f_x + aL6f_z;
+  const Real af5_y = c5 * t535 + s5 * t537;
+  const Real af5_z = aL6F_y - (aL5U2_x * Real(0.173804705569) - ala6U2_y * Real(0.231847552695));
+  const Real an5_z = Real(0.014748570382675314) * (ala6U1_y - aL5U0_x) - (Real(0.088) * aL6f_z + (s6 * aL6n_x
+      - (c6 * aL6n_y + (ala6p_x * Real(0.231847552695) + (aL5U1_x * Real(0.02893442254565989) - (aL5U0_z *
+      Real(0.0001037589172186849) + (aL5U1_z * Real(9.3569097314605e-05) - (ala6U0_y *
+      Real(0.021522255370587554) + ala6p_y * Real(0.173804705569)))))))));
+  const Real t554 = aL5n_y - aL6N_x;
+  const Real t556 = aL5n_x - an6c_x;
+  const Real an5c_x = c5 * t554 + (Real(0.384) * af5_z - s5 * t556);
+  const Real an5c_y = an5_z - Real(0.384) * af5_y;
+  const Real t562 = aL4f_x + af5_y;
+  const Real t564 = aL4f_y - af5_z;
+  const Real af4_x = c4 * t562 - s4 * t564;
+  const Real af4_y = c4 * t564 + s4 * t562;
+  const Real af4_z = c5 * t537 - (s5 * t535 + (aL4U2_y * Real(0.067870631425) - aL4U2_x *
+      Real(0.014653732538)));
+  const Real t575 = aL4n_x + an5c_x;
+  const Real t577 = aL4n_y - an5c_y;
+  const Real an4_x = c4 * t575 - s4 * t577;
+  const Real an4_z = c5 * t556 + (s5 * t554 - (Real(0.00151524447332703) * (aL4U0_x - aL4U1_y) - (ala5p_y *
+      Real(0.014653732538) + (ala5U0_z * Real(0.02389827041510187) - (aL4U1_x * Real(0.001451156065026715) +
+      (aL4U0_y * Real(0.010045187828321242) - (ala5U1_z * Real(0.0010267877770288943) - ala5p_x *
+      Real(0.067870631425))))))));
+  const Real an4c_x = an4_z - Real(0.0825) * af4_y;
+  const Real t595 = aL3f_x - af4_z;
+  const Real t597 = aL3f_y - af4_x;
+  const Real af3_x = c3 * t595 - s3 * t597;
+  const Real af3_y = c3 * t597 + s3 * t595;
+  const Real af3_z = af4_y - (aL3U2_x * Real(2.012523553603) - ala4U2_y * Real(0.55278027465));
+  const Real an3_z = c4 * t577 + (s4 * t575 - (Real(0.16284087268546085) * (ala4U1_y - aL3U0_x) +
+      (Real(0.0825) * af4_z + (aL3U0_z * Real(0.0039053550262761) + (aL3U1_z * Real(0.0016444875773692703) +
+      (ala4U0_y * Real(0.051020136156815506) + (aL3U1_x * Real(0.6972920750309718) - (ala4p_y *
+      Real(2.012523553603) + ala4p_x * Real(0.55278027465)))))))));
+  const Real t619 = aL3n_y - an4_x;
+  const Real t621 = aL3n_x - an4c_x;
+  const Real an3c_x = c3 * t619 + (Real(0.316) * af3_z - s3 * t621);
   const Real an3c_y = Real(0.0825) * af3_x - (an3_z - Real(0.316) * af3_y);
-  const Real an2_x = s2 * an3c_y + (c2 * an3c_x + (aKy2 * z2_2 - (S2b_xz * zdot[2] - S2b_yz * zz_2)));
-  const Real an2_z = Real(0.0825) * af3_z + (s3 * an4_x + (c3 * an4c_x - (aKy3 * z2_3 + (S3b_yz * zz_3 -
-      (adn2_z - S3b_xz * zdot[3])))));
-  const Real an0_z = s1 * an2_x + (c1 * an2_z + (Real(2.0) * (state.z[1] * aKy1) + (S1b_yz * zz_1 + (adn0_z +
-      S1b_xz * zdot[1]))));
-  const Real aQ1_0 = s2 * an3c_x - (c2 * an3c_y + (aKx2 * z2_2 + (S2b_xz * zz_2 + (S2b_yz * zdot[2] + (adn1_z
-      + (S1b_xz * zdot[0] - (h1b_y * Real(9.81) + state.z[0] * aKy1)))))));
-  const Real aQ2_0 = an2_z - (w2pp_y * aKy2 + (h2b_y * aL1a_y + (S2b_xz * aal2p_y - (S2b_zz * aal2p_x -
-      (state.z[1] * aKx2 - S2b_yz * zdot[1])))));
-  const Real aQ3_0 = an3_z + (w3pp_x * aKx3 + (w2_z * aKy3 - (h3b_y * aa3o_z + (h3b_x * aa3o_x - (S3b_yz *
-      aal3p_x - (S3b_zz * aal3p_y + S3b_xz * aal2o_z))))));
-  const Real aQ4_0 = an4_z + (w4pp_y * aKy4 + (w3_z * aKx4 + (h4b_y * aa4o_y + (h4b_x * aa4o_z + (S4b_yz *
-      aal3o_z - (S4b_zz * aal4p_x - S4b_xz * aal4p_y))))));
-  const Real aQ5_0 = an5_z - (w5pp_x * aKx5 + (w4_z * aKy5 + (h5b_y * aa5o_z - (h5b_x * aa5o_x - (S5b_yz *
-      aal5p_x - (S5b_zz * aal5p_y + S5b_xz * aal4o_z))))));
-  const Real aQ6_0 = adn6_z - (w6pp_y * aKy6 + (w5_z * aKx6 - (h6b_y * aa6o_y + (h6b_x * aa6o_z + (S6b_yz *
-      aal5o_z - (Real(0.006684151967360946) * aal6p_x + S6b_xz * aal6p_y))))));
-  tau[0] = an0_z;
-  tau[1] = -aQ1_0;
-  tau[2] = aQ2_0;
-  tau[3] = aQ3_0;
-  tau[4] = aQ4_0;
-  tau[5] = aQ5_0;
-  tau[6] = aQ6_0;
+  const Real t630 = aL2n_x - an3c_x;
+  const Real t632 = aL2n_y - an3c_y;
+  const Real an2_x = c2 * t630 - s2 * t632;
+  const Real an2_z = c3 * t621 + (s3 * t619 + (Real(0.00012191242095074341) * (ala3U0_x - aL2U1_y) -
+      (Real(0.0825) * af3_z - (ala3U1_x * Real(0.0616024210265277) + (ala3U1_z * Real(0.24149476342611426) +
+      (ala3p_x * Real(0.028227094878) - (ala3U0_z * Real(0.013297019103287584) - (aL2U0_y *
+      Real(0.022178148964878235) + ala3p_y * Real(0.746857959872)))))))));
+  const Real an1_z = c2 * t632 + (s2 * t630 + (Real(0.00398335888393552) * (aL1U0_x - aL1U1_y) + (ala2p_y *
+      Real(3.344500043512) + (aL1U1_z * Real(0.0007689361029464) - (aL1U0_y * Real(0.023077882494931805) -
+      (aL1U0_z * Real(0.01026110182100817) - (aL1U1_x * Real(1.032162061231881) + ala2p_x *
+      Real(0.002031994566))))))));
+  const Real an0_z = c1 * (aL1n_x - an2_z) - (aL0n_z + s1 * (aL1n_y + an2_x));
+  tau[0] = -an0_z;
+  tau[1] = -an1_z;
+  tau[2] = an2_z;
+  tau[3] = an3_z;
+  tau[4] = -an4_z;
+  tau[5] = -an5_z;
+  tau[6] = -aL6n_z;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1451,9 +1481,9 @@ template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage = state;
+  State<Real> stage;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, stage, input, v1, a1);
+  detail::rates(model, state, input, v1, a1);
   stage.t = state.t + half;
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];

@@ -89,11 +89,12 @@ template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[3]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real zw_2 = state.z[2] * state.z[2];
-  const Real kdf2_x = c2 * zw_2 * Real(0.5);
-  const Real kdf2_y = Real(0.5) * (s2 * zw_2);
-  k[0] = kdf2_x;
-  k[1] = kdf2_y;
+  const Real kL2w22 = state.z[2] * state.z[2];
+  const Real kL2f_x = kL2w22 * Real(0.5);
+  const Real kL2F_x = c2 * kL2f_x;
+  const Real kL2F_y = s2 * kL2f_x;
+  k[0] = kL2F_x;
+  k[1] = kL2F_y;
   k[2] = Real(0.0);
 }
 
@@ -214,9 +215,9 @@ template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage = state;
+  State<Real> stage;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, stage, input, v1, a1);
+  detail::rates(model, state, input, v1, a1);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
   detail::rates(model, stage, input, v2, a2);

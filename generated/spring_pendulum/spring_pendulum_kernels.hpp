@@ -123,21 +123,19 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[2]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real S1c_xx = state.y[1] * state.y[1];
-  const Real h0b_y = s0 * state.y[1];
   const Real stretch1 = state.y[1] - Real(1.0);
   const Real push1_0 = stretch1 * model.k;
-  const Real aQp0 = h0b_y * Real(9.81);
-  const Real adn0_z = S1c_xx * zdot[0];
-  const Real aL0a_x = c0 * Real(9.81);
-  const Real aL0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = aL0a_x + state.y[1] * aL0w22;
-  const Real an1c_z = state.y[1] * (state.z[0] * state.z[1]) * Real(2.0);
-  const Real an0_z = adn0_z + an1c_z;
-  const Real aQ0_0 = aQp0 + an0_z;
-  const Real aQ1_0 = aa1o_x - zdot[1];
-  const Real tau_1_0 = push1_0 - aQ1_0;
-  tau[0] = aQ0_0;
+  const Real ala1p_x = c0 * Real(9.81);
+  const Real ala1p_y = s0 * Real(9.81);
+  const Real ala1w22 = state.z[0] * state.z[0];
+  const Real ala1o_x = ala1p_x + state.y[1] * ala1w22;
+  const Real ala1o_y = ala1p_y + state.y[1] * zdot[0];
+  const Real ala1co_x = state.z[0] * state.z[1] * Real(2.0);
+  const Real ala1L_x = ala1o_y + ala1co_x;
+  const Real ala1L_z = ala1o_x - zdot[1];
+  const Real an1c_z = state.y[1] * ala1L_x;
+  const Real tau_1_0 = push1_0 - ala1L_z;
+  tau[0] = an1c_z;
   tau[1] = tau_1_0;
 }
 
@@ -183,9 +181,9 @@ template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage = state;
+  State<Real> stage;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, stage, input, v1, a1);
+  detail::rates(model, state, input, v1, a1);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
   detail::rates(model, stage, input, v2, a2);

@@ -1325,9 +1325,9 @@ template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage = state;
+  State<Real> stage;
   Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, stage, input, v1, a1);
+  detail::rates(model, state, input, v1, a1);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
   detail::rates(model, stage, input, v2, a2);

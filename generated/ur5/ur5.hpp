@@ -178,7 +178,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 317 operations (174 mul, 143 add and sub, 0 div), 10 sin and cos.
+/// 294 operations (164 mul, 130 add and sub, 0 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "compile/expected_text.hpp"
+#include "compile/link_by_link.hpp"
 #include "compile/model_text.hpp"
 #include "compile/module_check.hpp"
 #include "compile/omissions.hpp"
@@ -81,6 +82,7 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
     if (options.derivation.articulated.empty())
       result.articulation = choose_articulation(mechanism, options.derivation);
     result.articulation.set(chosen.derivation);
+    choose_recursions(mechanism, chosen.derivation);
     equations = dynamics::derive_equations(mechanism, chosen.derivation);
     lowered = programs::lower_scene(programs::TreePrograms(mechanism, equations, options.derivation),
                                     result.functions, options.derivative_terms);

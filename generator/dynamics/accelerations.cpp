@@ -9,6 +9,7 @@ namespace jourdain::dynamics {
 using kinematics::cross;
 using kinematics::kGround;
 using kinematics::Link;
+using kinematics::Matrix3;
 
 JointAccelerations joint_accelerations(const Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                        const std::string& name) {
@@ -33,10 +34,32 @@ JointAccelerations joint_accelerations(const Scene& scene, const std::vector<Ex>
   return motion;
 }
 
+Matrix3 acceleration_gradient(const Vector3& omega, const Vector3& alpha, const std::string& name,
+                              kinematics::Statements& statements) {
+  Matrix3 products;  // ω ωᵀ, bound in a fixed order
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j)
+      products[i][j] = products[j][i] =
+          statements.bind(fmt::format("{}w{}{}", name, i, j), omega[i] * omega[j]);
+  Matrix3 U;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    U[i][i] = -products[j][j] - products[k][k];
+    U[j][k] = products[j][k] - alpha[i];
+    U[k][j] = products[j][k] + alpha[i];
+  }
+  return statements.bind(name + "U", U);
+}
+
 std::vector<Twist> link_accelerations(const Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                       const std::string& name) {
+  return link_accelerations(scene, joint_accelerations(scene, zdot, gravity, name), name,
+                            OriginField::kCrossProducts);
+}
+
+std::vector<Twist> link_accelerations(const Scene& scene, const JointAccelerations& motion,
+                                      const std::string& name, OriginField field) {
   kinematics::Statements& statements = scene.statements;
-  const JointAccelerations motion = joint_accelerations(scene, zdot, gravity, name);
   std::vector<Twist> result;
   for (std::size_t i = 0; i < scene.link_count(); ++i) {
     const Link& link = scene.tree.links[i];
@@ -50,8 +73,13 @@ std::vector<Twist> link_accelerations(const Scene& scene, const std::vector<Ex>&
       };
       const Vector3 w = in_C(scene.omega.own[p], "w"), alpha = in_C(result[p].angular, "al");
       const Vector3& r = scene.frames.r_CW(i);
-      const Vector3 wr = statements.bind(a + "wr", cross(w, r));
-      at.linear = statements.bind(a + "o", in_C(result[p].linear, "p") + cross(alpha, r) + cross(w, wr));
+      const Vector3 of_parent = in_C(result[p].linear, "p");
+      if (field == OriginField::kGradient) {
+        at.linear = statements.bind(a + "o", of_parent + acceleration_gradient(w, alpha, a, statements) * r);
+      } else {
+        const Vector3 wr = statements.bind(a + "wr", cross(w, r));
+        at.linear = statements.bind(a + "o", of_parent + cross(alpha, r) + cross(w, wr));
+      }
       at.angular = scene.frames.from_parent(i, result[p].angular, a + "n");
     }
     at.linear = scene.frames.from_C_to_W(i, at.linear, a + "t");

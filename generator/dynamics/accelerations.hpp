@@ -16,7 +16,18 @@ enum class Gravity { kNone, kAsAcceleration };
 JointAccelerations joint_accelerations(const Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                        const std::string& name);
 
-/// Of each link: α, and a of its origin, in W. With Gravity::kAsAcceleration a is less gravity.
+/// U = [α] + [ω][ω], so that points of a body at x from its origin have the acceleration a + U x.
+kinematics::Matrix3 acceleration_gradient(const Vector3& omega, const Vector3& alpha, const std::string& name,
+                                          kinematics::Statements& statements);
+
+/// Acceleration of a link's origin as a point of its parent: α × r + ω × (ω × r), or U r where U serves others.
+enum class OriginField { kCrossProducts, kGradient };
+
+/// Of each link: α, and a of its origin, in W.
+std::vector<Twist> link_accelerations(const Scene& scene, const JointAccelerations& motion,
+                                      const std::string& name, OriginField field);
+
+/// The same by ż. With Gravity::kAsAcceleration a is less gravity.
 std::vector<Twist> link_accelerations(const Scene& scene, const std::vector<Ex>& zdot, Gravity gravity,
                                       const std::string& name);
 

@@ -8,6 +8,7 @@
 #include "dynamics/energy.hpp"
 #include "dynamics/free_root.hpp"
 #include "dynamics/kinematic_functions.hpp"
+#include "dynamics/link_forces.hpp"
 #include "dynamics/loop_forces.hpp"
 #include "dynamics/outputs.hpp"
 #include "dynamics/scene.hpp"
@@ -39,6 +40,12 @@ class Derivation {
       equations_.closures = derive_closure(scene_, rates);
       return std::move(equations_);
     }
+    if (options_.forces_only) {
+      equations_.k_bar = k_bar();
+      equations_.tau =
+          inverse_dynamics("a", derive_applied_forces(scene_, Inputs::kZero), options_.tau_by_links);
+      return std::move(equations_);
+    }
     const AppliedForces applied = derive_applied_forces(scene_, Inputs::kGiven);
     if (options_.accelerations_only) {
       equations_.zdot = accelerations(applied);
@@ -49,9 +56,10 @@ class Derivation {
     equations_.k_bar = k_bar();
     equations_.q_bar = q_bar(applied);
     if (mechanism_.loops.empty()) equations_.zdot = accelerations(applied);
-    equations_.tau = inverse_dynamics("a", derive_applied_forces(scene_, Inputs::kZero));
+    equations_.tau =
+        inverse_dynamics("a", derive_applied_forces(scene_, Inputs::kZero), options_.tau_by_links);
     if (options_.for_derivatives) {
-      equations_.residual = inverse_dynamics("r", applied);
+      equations_.residual = inverse_dynamics("r", applied, false);
       equations_.load = load(applied);
     }
     equations_.kinetic_energy = derive_kinetic_energy(scene_);
@@ -134,8 +142,11 @@ class Derivation {
 
   /// Along each column, by ż.
   std::vector<std::vector<Ex>> generalized(const std::vector<Ex>& zdot, Gravity gravity,
-                                           const std::vector<Wrench>& applied, const std::string& name) {
-    return derive_generalized_forces(scene_, joint_accelerations(scene_, zdot, gravity, name), applied, name);
+                                           const std::vector<Wrench>& applied, const std::string& name,
+                                           bool by_links = false) {
+    const JointAccelerations motion = joint_accelerations(scene_, zdot, gravity, name);
+    if (by_links && has_forces_by_links(scene_)) return derive_forces_by_links(scene_, motion, applied, name);
+    return derive_generalized_forces(scene_, motion, applied, name);
   }
 
   /// Rows per link and column as rows of z.
@@ -152,7 +163,8 @@ class Derivation {
   std::vector<Ex> k_bar() {
     const std::vector<Ex> at_rest(count_, 0);
     const std::vector<Wrench> none(scene_.link_count());
-    std::vector<Ex> k = external_rows(generalized(at_rest, Gravity::kNone, none, "k"), "k");
+    std::vector<Ex> k =
+        external_rows(generalized(at_rest, Gravity::kNone, none, "k", options_.k_bar_by_links), "k");
     for (Ex& entry : k) entry = -entry;
     return k;
   }
@@ -220,9 +232,9 @@ class Derivation {
   }
 
   /// M ż − k̄ + q̄ with ż a leaf.
-  std::vector<Ex> inverse_dynamics(const std::string& name, const AppliedForces& applied) {
+  std::vector<Ex> inverse_dynamics(const std::string& name, const AppliedForces& applied, bool by_links) {
     std::vector<std::vector<Ex>> rows =
-        generalized(scene_.leaves.zdot, Gravity::kAsAcceleration, applied.on_link, name);
+        generalized(scene_.leaves.zdot, Gravity::kAsAcceleration, applied.on_link, name, by_links);
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (std::size_t c = 0; c < rows[i].size(); ++c)
         rows[i][c] = statements_.bind(named("tau", i, c), rows[i][c] - applied.along[i][c]);

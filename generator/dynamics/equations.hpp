@@ -20,7 +20,10 @@ struct DerivationOptions {
   bool planar = false;  ///< accelerations of links instead of joints where the scene moves_in_planes
   bool accelerations_only = false;  ///< nothing but zdot
   bool closures_only = false;       ///< nothing but the closures of loops
-  bool for_derivatives = false;     ///< fills in residual, load, rates of closures; outputs take ż, λ
+  bool forces_only = false;         ///< nothing but k_bar and tau
+  /// By derive_forces_by_links where no link is free, instead of derive_generalized_forces.
+  bool k_bar_by_links = false, tau_by_links = false;
+  bool for_derivatives = false;  ///< fills in residual, load, rates of closures; outputs take ż, λ
 };
 
 /// One requested output; entries are numbered row by row.

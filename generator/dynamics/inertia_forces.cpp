@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/accelerations.hpp"
 #include "dynamics/wrenches.hpp"
 
 namespace jourdain::dynamics {
@@ -13,24 +14,6 @@ using kinematics::Matrix3;
 using kinematics::Statements;
 
 namespace {
-
-/// U = [α] + [ω][ω], so that points of a body at x from its origin have the acceleration a + U x.
-Matrix3 acceleration_gradient(const Vector3& omega, const Vector3& alpha, const std::string& name,
-                              Statements& statements) {
-  Matrix3 products;  // ω ωᵀ, bound in a fixed order
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = i; j < 3; ++j)
-      products[i][j] = products[j][i] =
-          statements.bind(fmt::format("{}w{}{}", name, i, j), omega[i] * omega[j]);
-  Matrix3 U;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    U[i][i] = -products[j][j] - products[k][k];
-    U[j][k] = products[j][k] - alpha[i];
-    U[k][j] = products[j][k] + alpha[i];
-  }
-  return statements.bind(name + "U", U);
-}
 
 bool is_diagonal(const Matrix3& S) { return S[0][1].is_zero() && S[0][2].is_zero() && S[1][2].is_zero(); }
 

@@ -33,9 +33,8 @@ class Step {
                  {{"ny", {}, position_count()}, {"nz", {}, velocity_count()}}}});
   }
 
-  void stage_at_start() {
-    add({Declare{struct_type("State"), Declare::Change::kFree, {{"stage", {}, state}}}});
-  }
+  /// No copy of the state: its wide loads would wait for narrow stores of the step before.
+  void declare_stage() { add({Declare{struct_type("State"), Declare::Change::kFree, {{"stage"}}}}); }
 
   /// Arrays v1, …, a1, …; a single one is without number.
   void rate_arrays(int stages, bool one_line = true) {
@@ -112,9 +111,9 @@ void semi_implicit_euler(Step& step) {
 }
 
 void heun(Step& step) {
-  step.stage_at_start();
+  step.declare_stage();
   step.rate_arrays(2);
-  step.rates(stage, 1);
+  step.rates(state, 1);
   step.time(stage, h);
   step.advance(stage, h, [](const Rates& k) { return k(1); });
   step.rates(stage, 2);
@@ -126,9 +125,9 @@ void heun(Step& step) {
 /// W. Kutta, Zeitschrift für Mathematik und Physik 46 (1901).
 void rk4(Step& step) {
   const Expression half = step.scalar("half", 0.5 * h);
-  step.stage_at_start();
+  step.declare_stage();
   step.rate_arrays(4);
-  step.rates(stage, 1);
+  step.rates(state, 1);
   step.time(stage, half);
   step.advance(stage, half, [](const Rates& k) { return k(1); });
   step.rates(stage, 2);
@@ -179,9 +178,9 @@ Combination combination(Step& step, const std::string& letter, const std::vector
 
 void runge_kutta(Step& step, const Tableau& tableau) {
   const std::size_t stages = tableau.b.size();
-  step.stage_at_start();
+  step.declare_stage();
   step.rate_arrays(int(stages), false);
-  step.rates(stage, 1);
+  step.rates(state, 1);
   for (std::size_t i = 0; i + 1 < stages; ++i) {
     const Combination sum = combination(step, fmt::format("a{}", i + 2), tableau.A[i]);
     const Fraction& node = tableau.nodes[i];

@@ -5,6 +5,7 @@
 #include "dynamics/harmonics.hpp"
 #include "dynamics/scene.hpp"
 #include "properties/random.hpp"
+#include "properties/random_scene.hpp"
 #include "properties/random_tree.hpp"
 
 namespace jourdain::dynamics {
@@ -34,6 +35,44 @@ TEST(Solver, GivesTheSameAccelerationsWhicheverLinksAreArticulated) {
     EXPECT_LE(judge.backward_error(tests::interpreted<double>(mixed.module, "forward_dynamics", sample)),
               1e-13)
         << seed;
+  }
+}
+
+/// k̄ and τ, composite bodies against single links, in units of their term sums.
+void expect_forces_by_links(const model::Mechanism& mechanism, std::uint64_t seed) {
+  const tests::Derived by_composites = tests::derive(mechanism);
+  if (!ir::find_program(by_composites.module, "k_bar")) return;  // all is prescribed
+  DerivationOptions options;
+  options.k_bar_by_links = options.tau_by_links = true;
+  const tests::Derived by_links = tests::derive(mechanism, options);
+  const tests::Sample sample = tests::random_sample(mechanism, seed);
+  const tests::Judge judge(by_composites, sample);
+  EXPECT_LE(judge.k_bar_error(tests::interpreted<double>(by_links.module, "k_bar", sample)), 1e-13) << seed;
+  EXPECT_LE(judge.torque_error(tests::interpreted<double>(by_links.module, "inverse_dynamics", sample)),
+            1e-13)
+      << seed;
+}
+
+TEST(ForcesByLinks, AreThoseOfCompositeBodies) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) expect_forces_by_links(tests::random_tree(seed), seed);
+}
+
+TEST(ForcesByLinks, AreThoseOfCompositeBodiesForEveryKindOfJoint) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed)
+    if (const model::Mechanism scene = tests::random_scene(seed); scene.loops.empty())
+      expect_forces_by_links(scene, seed);
+}
+
+TEST(ForcesByLinks, TakeFewerOperationsForAGeneralArmAndAPlanarOne) {
+  for (const char* name : {"puma560.toml", "chain4.toml"}) {
+    const model::Mechanism mechanism = tests::read_model(tests::model_path(name));
+    DerivationOptions options;
+    options.tau_by_links = true;
+    const auto operations = [](const tests::Derived& derived) {
+      return ir::count_operations(*ir::find_program(derived.module, "inverse_dynamics")).arithmetic();
+    };
+    EXPECT_LT(operations(tests::derive(mechanism, options)), 0.88 * operations(tests::derive(mechanism)))
+        << name;
   }
 }
 
