@@ -26,6 +26,7 @@ class Hoisting {
   Module run() {
     Module result;
     for (const Program& function : module_.functions) result.functions.push_back(split(function));
+    for (Program& function : result.functions) name_constants(function);
     result.constants = remove_dead_code(constants_.finish("constants"));
     return result;
   }
@@ -78,8 +79,15 @@ class Hoisting {
     const auto [it, is_new] = index_.try_emplace(value.value, index_.size());
     if (is_new) constants_.output("constant", static_cast<int>(it->second), -1, {value.value, false});
     const Signed leaf = body.leaf(LeafKind::kConstant, it->second);
-    body.label(leaf.value, constants_.program().labels[value.value.value]);
     return value.negative ? -leaf : leaf;
+  }
+
+  /// A function may read a constant that a later one names.
+  void name_constants(Program& function) const {
+    for (std::size_t i = 0; i < function.nodes.size(); ++i)
+      if (const Node& node = function.nodes[i]; node.op == Op::kLeaf && node.leaf == LeafKind::kConstant)
+        for (const auto& [value, index] : index_)
+          if (index == node.index) function.labels[i] = constants_.program().labels[value.value];
   }
 
   const Module& module_;
