@@ -1,5 +1,6 @@
 #include "compile/link_by_link.hpp"
 
+#include "dynamics/link_forces.hpp"
 #include "passes/pipeline.hpp"
 #include "programs/tree_functions.hpp"
 
@@ -9,6 +10,11 @@ namespace {
 
 /// Programs with more nodes are not taken through all passes.
 constexpr std::size_t kLarge = 3000;
+
+bool may_go_by_links(const model::Mechanism& mechanism, const dynamics::DerivationOptions& derivation) {
+  kinematics::Statements statements;
+  return dynamics::has_forces_by_links(dynamics::Scene(mechanism, derivation.link_tree, statements));
+}
 
 std::size_t count(const dynamics::Equations& equations, ir::FunctionId function) {
   ir::Module module{{}, {programs::lower_function(equations, function)}};
@@ -20,6 +26,7 @@ std::size_t count(const dynamics::Equations& equations, ir::FunctionId function)
 }  // namespace
 
 void choose_recursions(const model::Mechanism& mechanism, dynamics::DerivationOptions& derivation) {
+  if (!may_go_by_links(mechanism, derivation)) return;
   dynamics::DerivationOptions composites = derivation;
   composites.forces_only = true;
   dynamics::DerivationOptions links = composites;

@@ -26,7 +26,7 @@ class Hoisting {
   Module run() {
     Module result;
     for (const Program& function : module_.functions) result.functions.push_back(split(function));
-    for (Program& function : result.functions) name_constants(function);
+    name_constants(result.functions);
     result.constants = remove_dead_code(constants_.finish("constants"));
     return result;
   }
@@ -82,12 +82,14 @@ class Hoisting {
     return value.negative ? -leaf : leaf;
   }
 
-  /// A function may read a constant that a later one names.
-  void name_constants(Program& function) const {
-    for (std::size_t i = 0; i < function.nodes.size(); ++i)
-      if (const Node& node = function.nodes[i]; node.op == Op::kLeaf && node.leaf == LeafKind::kConstant)
-        for (const auto& [value, index] : index_)
-          if (index == node.index) function.labels[i] = constants_.program().labels[value.value];
+  /// At the end, as a function may read a constant that a later one names.
+  void name_constants(std::vector<Program>& functions) const {
+    std::vector<std::string> names(index_.size());
+    for (const auto& [value, index] : index_) names[index] = constants_.program().labels[value.value];
+    for (Program& function : functions)
+      for (std::size_t i = 0; i < function.nodes.size(); ++i)
+        if (const Node& node = function.nodes[i]; node.op == Op::kLeaf && node.leaf == LeafKind::kConstant)
+          function.labels[i] = names[node.index];
   }
 
   const Module& module_;

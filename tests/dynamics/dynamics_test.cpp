@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "agreement/judge.hpp"
 #include "agreement/shared_data.hpp"
 #include "dynamics/harmonics.hpp"
+#include "dynamics/link_forces.hpp"
 #include "dynamics/scene.hpp"
 #include "properties/random.hpp"
 #include "properties/random_scene.hpp"
@@ -38,10 +41,14 @@ TEST(Solver, GivesTheSameAccelerationsWhicheverLinksAreArticulated) {
   }
 }
 
-/// k̄ and τ, composite bodies against single links, in units of their term sums.
-void expect_forces_by_links(const model::Mechanism& mechanism, std::uint64_t seed) {
+/// k̄ and τ, composite bodies against single links, in units of their term sums. Gives the kinds of links; none where
+/// nothing was compared.
+std::set<kinematics::LinkKind> expect_forces_by_links(const model::Mechanism& mechanism, std::uint64_t seed) {
+  kinematics::Statements statements;
+  const Scene scene(mechanism, {}, statements);
   const tests::Derived by_composites = tests::derive(mechanism);
-  if (!ir::find_program(by_composites.module, "k_bar")) return;  // all is prescribed
+  const bool all_prescribed = !ir::find_program(by_composites.module, "k_bar");
+  if (all_prescribed || !has_forces_by_links(scene)) return {};
   DerivationOptions options;
   options.k_bar_by_links = options.tau_by_links = true;
   const tests::Derived by_links = tests::derive(mechanism, options);
@@ -51,16 +58,23 @@ void expect_forces_by_links(const model::Mechanism& mechanism, std::uint64_t see
   EXPECT_LE(judge.torque_error(tests::interpreted<double>(by_links.module, "inverse_dynamics", sample)),
             1e-13)
       << seed;
+  std::set<kinematics::LinkKind> kinds;
+  for (const kinematics::Link& link : scene.tree.links) kinds.insert(link.kind);
+  return kinds;
 }
 
 TEST(ForcesByLinks, AreThoseOfCompositeBodies) {
-  for (std::uint64_t seed = 0; seed < 10; ++seed) expect_forces_by_links(tests::random_tree(seed), seed);
+  for (std::uint64_t seed = 0; seed < 10; ++seed)
+    EXPECT_FALSE(expect_forces_by_links(tests::random_tree(seed), seed).empty()) << seed;
 }
 
 TEST(ForcesByLinks, AreThoseOfCompositeBodiesForEveryKindOfJoint) {
-  for (std::uint64_t seed = 0; seed < 8; ++seed)
+  std::set<kinematics::LinkKind> seen;
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
     if (const model::Mechanism scene = tests::random_scene(seed); scene.loops.empty())
-      expect_forces_by_links(scene, seed);
+      seen.merge(expect_forces_by_links(scene, seed));
+  using Kind = kinematics::LinkKind;
+  EXPECT_EQ(seen, (std::set{Kind::kTurn, Kind::kSlide, Kind::kScrew, Kind::kCurve, Kind::kBall}));
 }
 
 TEST(ForcesByLinks, TakeFewerOperationsForAGeneralArmAndAPlanarOne) {

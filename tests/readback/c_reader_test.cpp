@@ -35,7 +35,8 @@ TEST(CReader, RefusesWhatCWouldRefuseOrComputeOtherwise) {
            {"pendulum.c", "return sin(x)", "return cos(x)"},
            {"pendulum.c", "state->y[0]", "state.y[0]"},
            {"pendulum.c", "stage.y[i]", "stage->y[i]"},
-           {"pendulum.c", "stage = *state", "stage = state"},
+           {"pendulum.c", "(model, state, input, v1", "(model, *state, input, v1"},
+           {"pendulum.c", "(model, state, input, v1", "(model, &stage, input, v1"},
            {"pendulum.c", "(model, &stage, input", "(model, stage, input"},
            {"pendulum.c", "&stage, input, v2", "state, input, v2"},
            {"pendulum.c", "for (i = 0;", "for (int i = 0;"},
@@ -53,6 +54,13 @@ TEST(CReader, RefusesWhatCWouldRefuseOrComputeOtherwise) {
            {"pendulum.c", "{\"pivot\", 0}", "{\"pivot\"}"},
            {"pendulum.c", "{\"pivot\", 0}", "{\"pivo?t\", 0}"}})
     EXPECT_NE(differences(text, change), std::vector<std::string>()) << change.from << " -> " << change.to;
+}
+
+TEST(CReader, RefusesAStructThatIsAssignedItsAddress) {
+  const CompiledText text = compiled_text("four_bar", {"initial_state", "close_loops"}, {ir::Language::kC});
+  ASSERT_EQ(text.differences(text.compiled.files), std::vector<std::string>());
+  EXPECT_NE(differences(text, {"four_bar.c", "closed = *state", "closed = state"}),
+            std::vector<std::string>());
 }
 
 TEST(CReader, KnowsThatANegativeNumberIsOneNumber) {
