@@ -16,7 +16,7 @@
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (21 operations
 //   of forward_dynamics)
 // - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
-//   (176 operations of forward_dynamics)
+//   (167 operations of forward_dynamics)
 // - constant factors: constant factors of a product are multiplied with each other first (1 operations of
 //   forward_dynamics)
 // - parameter-only values: values that depend on parameters alone are computed once, with the model (10

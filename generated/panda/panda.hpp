@@ -13,7 +13,7 @@
 // Left out
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (14 operations
 //   of forward_dynamics)
-// - snapped rotations: rotations by multiples of a right angle are permutations (926 operations of
+// - snapped rotations: rotations by multiples of a right angle are permutations (923 operations of
 //   forward_dynamics)
 // - common factors: factors that several terms of a sum share are multiplied once (1 operations of
 //   forward_dynamics)

@@ -33,6 +33,8 @@ class Grouping {
   Program run() {
     return remove_dead_code(copy_.run([this](ValueId id) -> std::optional<Signed> {
       const Node& node = program_[id];
+      if (node.op == Op::kMultiply && (is_reciprocal(node.a, node.b) || is_reciprocal(node.b, node.a)))
+        return copy_.builder().literal(1);
       if (constant_[id.value] || (node.op != Op::kMultiply && node.op != Op::kDivide)) return {};
       return joined(products_[id.value] = product(node));
     }));
@@ -44,6 +46,14 @@ class Grouping {
     if (node.op == Op::kLeaf)
       return node.leaf == ir::LeafKind::kParameter || node.leaf == ir::LeafKind::kConstant;
     return constant_[node.a.value] && (ir::operand_count(node.op) == 1 || constant_[node.b.value]);
+  }
+
+  /// Is `value` 1 over `divisor`, as the solver leaves it where a joint's inertia is all that moves?
+  bool is_reciprocal(ValueId value, ValueId divisor) const {
+    const Node& node = program_[value];
+    if (node.op != Op::kDivide || node.b != divisor) return false;
+    const Node& dividend = program_[node.a];
+    return dividend.op == Op::kLiteral && dividend.literal == 1 && dividend.tail[0] == 0;
   }
 
   Product product(const Node& node) {

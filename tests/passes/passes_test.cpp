@@ -72,6 +72,22 @@ TEST(GroupConstants, MultipliesConstantsWithEachOtherFirst) {
             "%5 = mul %2 %4\nr[0] := %0\nr[1] := %5\n");
 }
 
+TEST(GroupConstants, KnowsThatAValueTimesItsReciprocalIsOne) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), p = b.leaf(LeafKind::kParameter, 0);
+  const Signed inverse = b.divide(b.literal(1), p);
+  b.output("r", 0, -1, b.multiply(x, b.multiply(p, inverse)));
+  b.output("r", 1, -1, b.multiply(-x, b.divide(b.literal(1), x)));
+  b.output("r", 2, -1, b.multiply(x, b.divide(b.literal(2), x)));
+  const Program grouped = group_constants(b.finish("p"));
+  EXPECT_EQ(operations(grouped), 0u) << print(grouped);
+  const auto leaves = random_leaves(1);
+  const std::vector<double> values = ir::interpret(grouped, leaves);
+  EXPECT_EQ(values[0], leaves[LeafKind::kPosition][0]);
+  EXPECT_EQ(values[1], -1);
+  EXPECT_EQ(values[2], 2);
+}
+
 TEST(GroupConstants, NeverAddsOperationsAndKeepsValuesToRounding) {
   for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
     const Program before = random_program(seed), after = group_constants(before);
