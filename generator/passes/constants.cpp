@@ -48,7 +48,7 @@ class Grouping {
     return constant_[node.a.value] && (ir::operand_count(node.op) == 1 || constant_[node.b.value]);
   }
 
-  /// Is `value` 1 over `divisor`, as the solver leaves it where a joint's inertia is all that moves?
+  /// Is `value` 1 over `divisor`?
   bool is_reciprocal(ValueId value, ValueId divisor) const {
     const Node& node = program_[value];
     if (node.op != Op::kDivide || node.b != divisor) return false;

@@ -1,4 +1,4 @@
-// Reassociating pass: the constant factors of a product are multiplied with each other first.
+// Reassociating pass: the constant factors of a product are multiplied with each other first, and reciprocals cancel.
 #pragma once
 
 #include "ir/program.hpp"
@@ -7,7 +7,7 @@ namespace jourdain::passes {
 
 /// c (d x) becomes (c d) x, and (c x)/d becomes (c/d) x, where c and d are literals or depend on parameters
 /// alone and the inner product is used once. Two literals fold to one; hoisting takes the others out of the function.
-/// A value times its reciprocal is 1, which is where a value of 0 would have given no number.
+/// A value times its reciprocal becomes 1, also at 0, where the product is no number.
 ir::Program group_constants(const ir::Program& program);
 
 }  // namespace jourdain::passes
