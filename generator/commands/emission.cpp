@@ -47,6 +47,10 @@ void EmissionArguments::add_to(CLI::App& command) {
   command.add_flag(
       "--packs", packs,
       "C++: literals that every pack of numbers takes, sine and cosine at once where a pack has them");
+  command.add_flag(
+      "--own-sines", own_sines,
+      "C++: sine and cosine of double by sums and products, faster and of one cost up to 2^30 rad; "
+      "not with -ffast-math");
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
 
@@ -55,6 +59,7 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
       !conflict.empty())
     return conflict;
   if (packs && language == "c") return "--packs is of C++, and the language is c";
+  if (own_sines && language == "c") return "--own-sines is of C++, and the language is c";
   if (interface && language != "c") return "--interface is in C: add --language c";
   if (interface && loaded.options.name == "jourdain")
     return "jourdain_interface.h is the header of all models: choose another name with --name";
@@ -68,6 +73,7 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   choices.has_float = real != "double";
   choices.has_interface = interface;
   choices.packs = packs;
+  choices.own_sines = own_sines;
   if (!functions.empty()) loaded.options.functions = chosen;
   return "";
 }

@@ -13,9 +13,9 @@ struct EmissionArguments {
   std::vector<std::string> functions, frames;
   bool clock = false;
   std::string language = "c++", real = "both";
-  bool interface = false, packs = false;
+  bool interface = false, packs = false, own_sines = false;
 
-  /// Adds --functions, --frame, --language, --real, --interface, --packs and --clock.
+  /// Adds --functions, --frame, --language, --real, --interface, --packs, --own-sines and --clock.
   void add_to(CLI::App& command);
 
   /// Sets the options of `loaded` and adds the functions that are asked for to its mechanism. Returns what is wrong

@@ -61,14 +61,14 @@ class FileParser : public StatementParser {
     return false;
   }
 
-  /// Of a passage about packs, each of which stands once.
+  /// Of a passage about packs or sines, each of which stands once.
   bool read_meaning(const KnownText& text) {
-    if (!packs_read_.insert(&text).second) refuse_here("no second passage about packs");
-    known_.function_templates.insert(unit_.symbols["number"]);
+    if (!passages_read_.insert(&text).second) refuse_here("no second passage about packs or sines");
+    if (known_.packs) known_.function_templates.insert(unit_.symbols["number"]);
     if (!text.meaning) return true;
     FileParser inner(unit_, known_, *text.meaning, file_);
     inner.scope_ = scope_;
-    inner.item();
+    while (inner.peek().kind != TokenKind::kEnd) inner.item();
     return true;
   }
 
@@ -316,7 +316,7 @@ class FileParser : public StatementParser {
   const std::vector<std::string>& comments_;
   int file_ = 0;
   std::string scope_;
-  std::set<const KnownText*> packs_read_;
+  std::set<const KnownText*> passages_read_;
 };
 
 std::string text_of(const Unit& unit, const Expression& bound) {

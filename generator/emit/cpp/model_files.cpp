@@ -16,6 +16,7 @@
 #include "emit/operations.hpp"
 #include "emit/provenance.hpp"
 #include "emit/sentences.hpp"
+#include "emit/sine_blocks.hpp"
 #include "emit/templates.hpp"
 #include "emit/unique_names.hpp"
 
@@ -35,7 +36,9 @@ class Emitter {
         module_(module),
         scene_(model.facts),
         code_(model_code(model.facts, functions, module)),
-        steps_(step_records(model.facts, functions, module)) {}
+        steps_(step_records(model.facts, functions, module)) {
+    if (own_sines()) gather_sines();
+  }
 
   std::vector<File> files() const {
     const auto count = [](std::size_t n) { return fmt::format("{}", n); };
@@ -56,6 +59,8 @@ class Emitter {
         {"TIME", if_any(scene_.clock, "time.in") + if_any(scene_.clock && packs(), "packs_time.in")},
         {"PACKS", if_any(packs(), "packs.hpp.in")},
         {"SINE_COSINE", if_any(true, packs() ? "packs_sine.in" : "sine_cosine.in")},
+        {"SINES", if_any(true, own_sines() ? "own_sines.in" : "library_sines.in")},
+        {"SINE_BLOCKS", if_any(own_sines(), "sine_blocks.in")},
         {"STATE_DOC", state_doc()},
         {"STATE", state_members()},
         {"NG", guard_limits(model_)},
@@ -95,6 +100,17 @@ class Emitter {
 
  private:
   bool packs() const { return model_.choices.packs; }
+  bool own_sines() const { return model_.choices.own_sines; }
+
+  /// In functions of the state; steps evaluate them.
+  void gather_sines() {
+    for (std::size_t k = 0; k < functions_.size(); ++k) {
+      if (functions_[k].stepper) continue;
+      CutFunction& cut = code_.functions[k];
+      cut.function.body = in_sine_blocks(cut.function.body);
+      for (Function& part : cut.parts) part.body = in_sine_blocks(part.body);
+    }
+  }
 
   /// For packs every conversion to Real is a call of what they can customize.
   std::string with_numbers(const std::string& text) const {

@@ -1,0 +1,63 @@
+// Which sines and cosines of a body are computed at once.
+#include "emit/sine_blocks.hpp"
+
+#include <gtest/gtest.h>
+
+#include "emit/cpp/printer.hpp"
+
+namespace jourdain::emit {
+namespace {
+
+Expression y(int i) { return name("y")[i]; }
+
+void add_pair(Statements& body, const Expression& angle, const std::string& sine, const std::string& cosine) {
+  body.push_back({Declare{{}, Declare::Change::kFree, {{sine}, {cosine}}}});
+  body.push_back({SineCosine{angle, sine, cosine}});
+}
+
+std::string text(const Statements& body) { return cpp::statements_text(body, {}, 0); }
+
+TEST(SineBlocks, TakeFourThenTwoAndLeaveTheLast) {
+  Statements body;
+  for (int i = 0; i < 7; ++i) add_pair(body, y(i), "s" + std::to_string(i), "c" + std::to_string(i));
+  EXPECT_EQ(text(in_sine_blocks(body)),
+            "Real s0, c0, s1, c1, s2, c2, s3, c3;\n"
+            "detail::sine_cosine4(y[0], s0, c0, y[1], s1, c1, y[2], s2, c2, y[3], s3, c3);\n"
+            "Real s4, c4, s5, c5;\n"
+            "detail::sine_cosine2(y[4], s4, c4, y[5], s5, c5);\n"
+            "Real s6, c6;\n"
+            "detail::sine_cosine(y[6], s6, c6);\n");
+}
+
+TEST(SineBlocks, ComeAfterTheSumsOfTheirAnglesAndBeforeTheRest) {
+  Statements body;
+  add_pair(body, y(0), "s0", "c0");
+  body.push_back(constant("t", name("s0") * name("c0")));
+  body.push_back(constant("sum", y(0) + y(1)));
+  add_pair(body, name("sum"), "s1", "c1");
+  EXPECT_EQ(text(in_sine_blocks(body)),
+            "const Real sum = y[0] + y[1];\n"
+            "Real s0, c0, s1, c1;\n"
+            "detail::sine_cosine2(y[0], s0, c0, sum, s1, c1);\n"
+            "const Real t = s0 * c0;\n");
+}
+
+TEST(SineBlocks, LeaveAnglesThatFollowFromSinesFromTimeOrFromWhatIsWritten) {
+  for (const Expression& angle : {name("s0") + y(1), to_angle(name("t")), name("r")[0]}) {
+    Statements body;
+    add_pair(body, y(0), "s0", "c0");
+    body.push_back(set(name("r")[0], name("s0")));
+    add_pair(body, angle, "s1", "c1");
+    EXPECT_EQ(text(in_sine_blocks(body)), text(body));
+  }
+}
+
+TEST(SineBlocks, LeaveWhatRunsInALoop) {
+  Statements inner, body;
+  for (int i = 0; i < 4; ++i) add_pair(inner, y(i), "s" + std::to_string(i), "c" + std::to_string(i));
+  body.push_back(loop("i", 3, inner));
+  EXPECT_EQ(text(in_sine_blocks(body)), text(body));
+}
+
+}  // namespace
+}  // namespace jourdain::emit
