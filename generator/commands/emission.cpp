@@ -47,10 +47,9 @@ void EmissionArguments::add_to(CLI::App& command) {
   command.add_flag(
       "--packs", packs,
       "C++: literals that every pack of numbers takes, sine and cosine at once where a pack has them");
-  command.add_flag(
-      "--own-sines", own_sines,
-      "C++: sine and cosine of double by sums and products, faster and of one cost up to 2^30 rad; "
-      "not with -ffast-math");
+  command.add_flag("--own-sines", own_sines,
+                   "sine and cosine by sums and products, of one cost up to 2^30 rad (float: any); "
+                   "not with -ffast-math");
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
 
@@ -59,7 +58,6 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
       !conflict.empty())
     return conflict;
   if (packs && language == "c") return "--packs is of C++, and the language is c";
-  if (own_sines && language == "c") return "--own-sines is of C++, and the language is c";
   if (interface && language != "c") return "--interface is in C: add --language c";
   if (interface && loaded.options.name == "jourdain")
     return "jourdain_interface.h is the header of all models: choose another name with --name";

@@ -13,7 +13,7 @@ struct TextChoices {
   /// Number types of what is compiled: C++'s instantiations, C's files. At least one.
   bool has_double = true, has_float = true;
   bool packs = false;      ///< C++: numbers and angles by customization points, as packs of lanes want them
-  bool own_sines = false;  ///< C++: sine and cosine of double by sums and products instead of the C library
+  bool own_sines = false;  ///< sine and cosine by sums and products instead of the C library
   bool has_interface = false;  ///< C: instances and the table of variables too
 };
 

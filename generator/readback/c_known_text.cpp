@@ -6,13 +6,7 @@ namespace jourdain::readback {
 
 namespace {
 
-struct Passage {
-  const char* name;
-  const char*
-      text;  ///< @N@, @D@: prefixes; @R@: number type; @F@: suffix of numbers; @S@: what splits a factor
-};
-
-constexpr std::array<Passage, 17> kPassages = {{
+constexpr std::array<CPassage, 17> kPassages = {{
     {"time", R"(typedef struct {
   @R@ high, low, rest;
 } @N@time;
@@ -134,7 +128,9 @@ constexpr std::array<Passage, 17> kPassages = {{
 )"},
 }};
 
-std::string filled(const std::string& text, const CText& c) {
+}  // namespace
+
+std::string CKnownTexts::filled(const std::string& text, const CText& c) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '@') {
@@ -152,17 +148,19 @@ std::string filled(const std::string& text, const CText& c) {
   return result;
 }
 
-}  // namespace
-
 const std::deque<CKnownText>& CKnownTexts::all() const { return texts_; }
 
 CKnownTexts::CKnownTexts(const CText& c) {
-  for (const Passage& passage : kPassages) {
-    CKnownText& made = texts_.emplace_back();
-    made.name = passage.name;
-    made.text = filled(passage.text, c);
-    made.tokens = tokenize(made.name, made.text);
-  }
+  for (const CPassage& passage : kPassages) add(passage, c);
+  add_own_sines(c);
+}
+
+CKnownText& CKnownTexts::add(const CPassage& passage, const CText& c) {
+  CKnownText& made = texts_.emplace_back();
+  made.name = passage.name;
+  made.text = filled(passage.text, c);
+  made.tokens = tokenize(made.name, made.text);
+  return made;
 }
 
 }  // namespace jourdain::readback

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "readback/own_sines.hpp"
+
 namespace jourdain::readback {
 
 namespace {
@@ -178,103 +180,6 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 }
 )";
 
-// The double's own sine and cosine; what they compute is compared with 113 bits in tests/embed.
-constexpr const char* kOwnSines =
-    R"(#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2
-#error "emitted with --own-sines: sums have to be rounded as they are written, without -ffast-math or x87"
-#endif
-template <class V, class I> JOURDAIN_FUNCTION
-#if defined(__GNUC__)
-__attribute__((always_inline))
-#endif
-inline void turn(const V& x, V& s, V& c) noexcept {
-  const unsigned long long one = 1, zero = 0;
-  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
-  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
-  const I n = __builtin_bit_cast(I, shifted);
-  const V k = shifted - 6755399441055744.0;
-  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
-  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
-  const V g = r - p, h = g - q;
-  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
-  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
-  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
-                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) + y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
-  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
-                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) + y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
-  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
-  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
-  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
-  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
-  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
-}
-JOURDAIN_FUNCTION inline bool is_turned(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
-JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
-  if (is_turned(x)) {
-    turn<double, unsigned long long>(x, s, c);
-  } else {
-    s = ::sin(x);
-    c = ::cos(x);
-  }
-}
-JOURDAIN_FUNCTION inline double sine(double x) noexcept {
-  double s, c;
-  sine_cosine(x, s, c);
-  return s;
-}
-JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
-  double s, c;
-  sine_cosine(x, s, c);
-  return c;
-}
-JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0, const double& x1, double& s1, double& c1) noexcept {
-#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_turned(x0) && is_turned(x1)) {
-    typedef double Lanes __attribute__((vector_size(16)));
-    typedef unsigned long long Bits __attribute__((vector_size(16)));
-    Lanes s, c;
-    turn<Lanes, Bits>(Lanes{x0, x1}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    return;
-  }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-}
-JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0, const double& x1, double& s1, double& c1,
-                                           const double& x2, double& s2, double& c2, const double& x3, double& s3, double& c3) noexcept {
-#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_turned(x0) && is_turned(x1) && is_turned(x2) && is_turned(x3)) {
-    typedef double Lanes __attribute__((vector_size(32)));
-    typedef unsigned long long Bits __attribute__((vector_size(32)));
-    Lanes s, c;
-    turn<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    s2 = s[2];
-    c2 = c[2];
-    s3 = s[3];
-    c3 = c[3];
-    return;
-  }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-  sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
-}
-)";
-
-constexpr const char* kLibrarySines =
-    R"(JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
-JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-)";
-
 /// The text with its conversions written for packs.
 std::string for_packs(const std::string& text) {
   std::string result;
@@ -303,14 +208,14 @@ const std::vector<KnownText>& known_texts(bool packs) {
     std::vector<KnownText> list;
     list.push_back(known("", "Time", kTime));
     list.push_back(known("detail", "Angle", kAngle));
-    list.push_back(known("detail", "", kOwnSines, kLibrarySines));
+    list.push_back(known("detail", "", own_sines(), library_sines()));
     return list;
   }();
   static const std::vector<KnownText> of_packs = [] {
     std::vector<KnownText> list;
     list.push_back(known("", "Time", for_packs(kTime)));
     list.push_back(known("detail", "Angle", for_packs(kAngle)));
-    list.push_back(known("detail", "", kOwnSines, kLibrarySines));
+    list.push_back(known("detail", "", own_sines(), library_sines()));
     list.push_back(known("", "", kNumbers));
     list.push_back(known("", "", kNumberOfTime));
     list.push_back(known("detail", "", kNumberOfAngle));

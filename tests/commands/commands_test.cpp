@@ -229,7 +229,6 @@ TEST(Compile, NamesTheLanguagesThatThereAre) {
   expect(compile({"--language", "pascal"}), 2, "{c++,c}");
   expect(compile({"--real", "half"}), 2, "{float,double,both}");
   expect(compile({"--language", "c", "--packs"}), 2, "--packs is of C++");
-  expect(compile({"--language", "c", "--own-sines"}), 2, "--own-sines is of C++");
   EXPECT_EQ(files_in(folder.path()), 0u);
 }
 

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "emit/c/c_printer.hpp"
 #include "emit/c/c_structs.hpp"
@@ -36,15 +37,20 @@ bool mentions_word(const std::string& text, const std::string& word) {
 }
 
 /// The functions that programs call.
-std::vector<Passage> library(const CNames& names) {
+std::vector<Passage> library(const CNames& names, bool own_sines) {
   const std::map<std::string, std::string> holes = {{"D", names.internal("")},
                                                     {"N", names.global("")},
                                                     {"REAL", names.real()},
                                                     {"F", names.suffix()},
                                                     {"SPLIT", names.is_float ? "4096.0f" : "134217728.0"}};
   std::vector<Passage> list;
-  for (const auto& [name, text] : passages("c_library.in"))
-    list.push_back({names.internal(name), fill(text, holes)});
+  std::set<std::string> named;
+  std::vector<const char*> files = {"c_library.in"};
+  if (own_sines)
+    files.insert(files.begin(), names.is_float ? "c_own_sines_float.in" : "c_own_sines_double.in");
+  for (const char* file : files)
+    for (const auto& [name, text] : passages(file))
+      if (named.insert(name).second) list.push_back({names.internal(name), fill(text, holes)});
   return list;
 }
 
@@ -238,7 +244,7 @@ class CEmitter {
   }
 
   std::vector<Passage> passages() const {
-    std::vector<Passage> list = library(names());
+    std::vector<Passage> list = library(names(), model_.choices.own_sines);
     for (const Struct& of : code_.support.structs)
       list.push_back({names().type({Type::Kind::kStruct, of.name}), "\n" + c_internal_struct(names(), of)});
     for (const Table& table : code_.support.tables)

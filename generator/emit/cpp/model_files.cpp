@@ -60,6 +60,7 @@ class Emitter {
         {"PACKS", if_any(packs(), "packs.hpp.in")},
         {"SINE_COSINE", if_any(true, packs() ? "packs_sine.in" : "sine_cosine.in")},
         {"SINES", if_any(true, own_sines() ? "own_sines.in" : "library_sines.in")},
+        {"FLOAT_SINES", if_any(!own_sines(), "library_sines_float.in")},
         {"SINE_BLOCKS", if_any(own_sines(), "sine_blocks.in")},
         {"STATE_DOC", state_doc()},
         {"STATE", state_members()},

@@ -1,0 +1,12 @@
+// Sines and cosines that models have of their own, as they are written.
+#pragma once
+
+namespace jourdain::readback {
+
+/// A second copy of the text, apart from the templates; what it computes is compared with 113 bits in tests/embed.
+const char* own_sines();
+
+/// What it stands for.
+const char* library_sines();
+
+}  // namespace jourdain::readback
