@@ -100,8 +100,8 @@ JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) no
   const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
                                    283381887, 2488855287};
   const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
-  const bool is_small = a <= 1061752795;
-  const unsigned begin = a < 1056964608 ? 0 : (a / 8388608) - 126, m = (a & 8388607) | 8388608;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
   const unsigned word = begin / 32, left = 32 - (begin & 31);
   const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
   const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
@@ -110,7 +110,7 @@ JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) no
   const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
   const unsigned long long wide = 1, mantissa = m;
   const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
-  const unsigned n = is_small ? 0 : static_cast<unsigned>((turns + (wide << 61)) >> 62);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
   const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
   const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
   const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
@@ -118,11 +118,12 @@ JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) no
   const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
   const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
   const float sum = r1 + r2;
-  const float h = is_small ? __builtin_bit_cast(float, a) : sum, l = is_small ? 0.0f : (r2 - (sum - r1)) + r3;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
   const float z = h * h, half = z * 0.5f, w = 1.0f - half;
   const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
   const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
-  const unsigned flip = is_small ? 0 : static_cast<unsigned>(negative) << 31;
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
   const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
   const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
   const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
