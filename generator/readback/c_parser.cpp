@@ -81,6 +81,7 @@ class CFileParser : public StatementParser {
       if (!begins(text.tokens)) continue;
       for (std::size_t i = 0; i + 1 < text.tokens.tokens.size(); ++i) take();
       if (!known_.c_operations.insert(text.name).second) refuse_here("no second " + text.name);
+      unit_.has_own_sines = unit_.has_own_sines || text.meaning;
       if (text.meaning) CFileParser(unit_, known_, *text.meaning, file_, texts_).item();
       if (text.name == "time") add_sum(known_.c->prefix + "time", {unit_.symbols["Time"]});
       if (text.name == "angle")

@@ -201,6 +201,12 @@ KnownText known(const char* scope, const char* type, const std::string& text, co
   return made;
 }
 
+KnownText sines() {
+  KnownText made = known("detail", "", own_sines(), library_sines());
+  made.is_own_sines = true;
+  return made;
+}
+
 }  // namespace
 
 const std::vector<KnownText>& known_texts(bool packs) {
@@ -208,14 +214,14 @@ const std::vector<KnownText>& known_texts(bool packs) {
     std::vector<KnownText> list;
     list.push_back(known("", "Time", kTime));
     list.push_back(known("detail", "Angle", kAngle));
-    list.push_back(known("detail", "", own_sines(), library_sines()));
+    list.push_back(sines());
     return list;
   }();
   static const std::vector<KnownText> of_packs = [] {
     std::vector<KnownText> list;
     list.push_back(known("", "Time", for_packs(kTime)));
     list.push_back(known("detail", "Angle", for_packs(kAngle)));
-    list.push_back(known("detail", "", own_sines(), library_sines()));
+    list.push_back(sines());
     list.push_back(known("", "", kNumbers));
     list.push_back(known("", "", kNumberOfTime));
     list.push_back(known("detail", "", kNumberOfAngle));

@@ -18,6 +18,7 @@ struct KnownText {
   std::unique_ptr<std::string> text;
   Tokens tokens;                       ///< of `text`
   std::optional<Tokens> meaning = {};  ///< what is read in its place
+  bool is_own_sines = false;
 };
 
 /// A second copy, apart from the templates: what is written must be this, token by token. What it computes in

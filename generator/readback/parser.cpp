@@ -64,6 +64,7 @@ class FileParser : public StatementParser {
   /// Of a passage about packs or sines, each of which stands once.
   bool read_meaning(const KnownText& text) {
     if (!passages_read_.insert(&text).second) refuse_here("no second passage about packs or sines");
+    unit_.has_own_sines = unit_.has_own_sines || text.is_own_sines;
     if (known_.packs) known_.function_templates.insert(unit_.symbols["number"]);
     if (!text.meaning) return true;
     FileParser inner(unit_, known_, *text.meaning, file_);
