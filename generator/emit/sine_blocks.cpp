@@ -28,12 +28,13 @@ class Beginning {
  public:
   explicit Beginning(const Statements& body) : body_(body) {
     for (; end_ < body.size(); ++end_)
-      if (const auto* declare = std::get_if<Declare>(&body[end_].is))
+      if (const auto* declare = std::get_if<Declare>(&body[end_].is)) {
         for (const Variable& variable : declare->variables) declared_[variable.name] = end_;
-      else if (const auto* set = std::get_if<Set>(&body[end_].is))
+      } else if (const auto* set = std::get_if<Set>(&body[end_].is)) {
         for (const Expression& target : set->targets) add_names(target, written_);
-      else if (!std::holds_alternative<SineCosine>(body[end_].is))
+      } else if (!std::holds_alternative<SineCosine>(body[end_].is)) {
         break;
+      }
   }
 
   /// Statements of SineCosine whose angles are numbers that nothing before has to be computed for but `early()`.

@@ -10,7 +10,7 @@ template <class V, class I> JOURDAIN_FUNCTION
 #if defined(__GNUC__)
 __attribute__((always_inline))
 #endif
-inline void turn(const V& x, V& s, V& c) noexcept {
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
   const unsigned long long one = 1, zero = 0;
   const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
   const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
@@ -33,10 +33,10 @@ inline void turn(const V& x, V& s, V& c) noexcept {
   s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
   c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
 }
-JOURDAIN_FUNCTION inline bool is_turned(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
 JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
-  if (is_turned(x)) {
-    turn<double, unsigned long long>(x, s, c);
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
   } else {
     s = ::sin(x);
     c = ::cos(x);
@@ -55,11 +55,11 @@ JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
 JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
                                            const double& x1, double& s1, double& c1) noexcept {
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_turned(x0) && is_turned(x1)) {
+  if (is_in_range(x0) && is_in_range(x1)) {
     typedef double Lanes __attribute__((vector_size(16)));
     typedef unsigned long long Bits __attribute__((vector_size(16)));
     Lanes s, c;
-    turn<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
     s0 = s[0];
     c0 = c[0];
     s1 = s[1];
@@ -75,11 +75,11 @@ JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double&
                                            const double& x2, double& s2, double& c2,
                                            const double& x3, double& s3, double& c3) noexcept {
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_turned(x0) && is_turned(x1) && is_turned(x2) && is_turned(x3)) {
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
     typedef double Lanes __attribute__((vector_size(32)));
     typedef unsigned long long Bits __attribute__((vector_size(32)));
     Lanes s, c;
-    turn<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
     s0 = s[0];
     c0 = c[0];
     s1 = s[1];

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "embed/emit_model.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -107,14 +108,8 @@ struct Printed {
 class OwnSinesInBoth : public testing::Test {
  protected:
   void SetUp() override {
-    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--language", "c"}}) {
-      std::vector<std::string> command = {"env",           "-C",      JOURDAIN_SOURCE_DIR,
-                                          JOURDAIN_BINARY, "compile", "models/double_pendulum.toml",
-                                          "--own-sines",   "-o",      folder_.path()};
-      command.insert(command.end(), more.begin(), more.end());
-      const support::ProcessResult result = support::run_process(command);
-      ASSERT_EQ(result.status, 0) << result.output;
-    }
+    emit_model("double_pendulum", folder_.path(), {"--own-sines"});
+    emit_model("double_pendulum", folder_.path(), {"--own-sines", "--language", "c"});
     for (const char* ending : {".c", ".cpp"})
       support::write_file(folder_.path() + "/angles" + ending, kAngles);
   }

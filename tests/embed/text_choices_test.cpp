@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "agreement/compiled_batch.hpp"
+#include "embed/emit_model.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
@@ -13,16 +14,6 @@ namespace {
 
 constexpr const char* kModels[] = {"pendulum", "crane", "four_bar"};
 
-/// The model in a folder, compiled by the command with more options.
-void emit(const std::string& model, const std::string& folder, const std::vector<std::string>& options) {
-  std::vector<std::string> command = {
-      "env", "-C",  JOURDAIN_SOURCE_DIR, JOURDAIN_BINARY, "compile", fmt::format("models/{}.toml", model),
-      "-o",  folder};
-  command.insert(command.end(), options.begin(), options.end());
-  const support::ProcessResult result = support::run_process(command);
-  ASSERT_EQ(result.status, 0) << result.output;
-}
-
 std::string emitted(const std::string& model, const char* ending) {
   return support::read_file(fmt::format("{0}/{1}/{1}{2}", JOURDAIN_EMITTED, model, ending));
 }
@@ -30,7 +21,7 @@ std::string emitted(const std::string& model, const char* ending) {
 TEST(TextChoices, OfRealChangeTheCompiledSourceAlone) {
   for (const std::string model : kModels) {
     const support::TemporaryFolder folder;
-    emit(model, folder.path(), {"--real", "float"});
+    emit_model(model, folder.path(), {"--real", "float"});
     for (const char* ending : {".hpp", "_kernels.hpp"})  // the manifest names the option
       EXPECT_EQ(support::read_file(folder.path() + "/" + model + ending), emitted(model, ending));
     EXPECT_NE(support::read_file(folder.path() + "/" + model + ".cpp"), emitted(model, ".cpp"));
@@ -40,7 +31,7 @@ TEST(TextChoices, OfRealChangeTheCompiledSourceAlone) {
 TEST(TextChoices, FloatAloneLinksNoDouble) {
   for (const std::string model : kModels) {
     const support::TemporaryFolder folder;
-    emit(model, folder.path(), {"--real", "float"});
+    emit_model(model, folder.path(), {"--real", "float"});
     const std::string object = folder.path() + "/model.o";
     std::vector<std::string> command = {"g++", "-O2"};
     for (const std::string& flag : strict_flags()) command.push_back(flag);

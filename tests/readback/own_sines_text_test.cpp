@@ -57,7 +57,8 @@ void expect_every_change_seen(ir::Language language, const std::string& file, co
 }
 
 TEST(OwnSinesText, IsReadTokenByTokenInCpp) {
-  expect_every_change_seen(ir::Language::kCpp, "double_pendulum_kernels.hpp", "inline void turn(",
+  expect_every_change_seen(ir::Language::kCpp, "double_pendulum_kernels.hpp",
+                           "inline void sine_cosine_in_range(",
                            "JOURDAIN_FUNCTION inline double square_root");
 }
 
