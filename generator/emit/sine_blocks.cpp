@@ -69,7 +69,7 @@ class Beginning {
       if (written_.count(variable)) return false;
       const auto it = declared_.find(variable);
       if (it == declared_.end()) return true;
-      const Declare& declare = std::get<Declare>(body_[it->second].is);
+      const auto& declare = std::get<Declare>(body_[it->second].is);
       if (declare.change != Declare::Change::kConstant || declare.type.kind != Type::Kind::kReal ||
           declare.variables.size() != 1 || !declare.variables[0].value)
         return false;
@@ -89,7 +89,7 @@ void add_block(Statements& to, const Statements& body, const std::vector<std::si
   Declare declare{{}, Declare::Change::kFree, {}};
   Call call{fmt::format("sine_cosine{}", count), {}, true};
   for (std::size_t i = first; i < first + count; ++i) {
-    const SineCosine& pair = std::get<SineCosine>(body[pairs[i]].is);
+    const auto& pair = std::get<SineCosine>(body[pairs[i]].is);
     for (const std::string& variable : {pair.sine, pair.cosine}) declare.variables.push_back({variable});
     call.arguments.push_back(pair.angle);
     call.arguments.push_back(name(pair.sine));
