@@ -12,7 +12,9 @@
 // - bodies are rigid; joints are ideal and without limits
 // - time is a sum of three numbers, which 7 additions move
 // Left out
-// - parameter-only values: values that depend on parameters alone are computed once, with the model (11
+// - constant factors: constant factors of a product are multiplied with each other first (1 operations of
+//   forward_dynamics)
+// - parameter-only values: values that depend on parameters alone are computed once, with the model (15
 //   operations of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time but what the caller gives
@@ -25,8 +27,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.0e-16 of the
-//   sum of absolute terms, other errors are 3.2e-16 of their scale; cond(M) up to 4.1e+01
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 9.1e-17 of the
+//   sum of absolute terms, other errors are 2.7e-16 of their scale; cond(M) up to 4.1e+01
 // - the symbolic equations (M, k_bar, q_bar, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start
 // - mass_matrix: M of the equations
@@ -115,8 +117,13 @@ struct Model {
   Real mr_z;
   Real hinge_m;
   Real S_zz;
-  Real c3;
-  Real invD_1;
+  Real lgs1;
+  Real lc1_0;
+  Real lgs1_2;
+  Real lone0;
+  Real lM0_0;
+  Real lTh1;
+  Real lTh0;
 };
 
 // Names in order, closed by a null pointer.
@@ -158,7 +165,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 16 operations (11 mul, 4 add and sub, 1 div), 2 sin and cos.
+/// 14 operations (9 mul, 4 add and sub, 1 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept;
@@ -171,7 +178,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[2]) noexcept;
 
 /// Kinetic energy, J.
-/// 10 operations (8 mul, 2 add and sub, 0 div), 1 sin and cos.
+/// 8 operations (6 mul, 2 add and sub, 0 div), 1 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -182,7 +189,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 135 operations. For inputs sampled at the stages include cart_pole_kernels.hpp and pass a function of the
+/// 127 operations. For inputs sampled at the stages include cart_pole_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -10,13 +10,9 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // Left out
-// - base inertial parameters: what a joint's motion does not feel is counted with the parent (26 operations
-//   of forward_dynamics)
 // - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
-//   (39 operations of forward_dynamics)
-// - common factors: factors that several terms of a sum share are multiplied once (1 operations of
-//   forward_dynamics)
-// - constant factors: constant factors of a product are multiplied with each other first (2 operations of
+//   (60 operations of forward_dynamics)
+// - constant factors: constant factors of a product are multiplied with each other first (1 operations of
 //   forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time, states hold none
@@ -31,8 +27,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 6.6e-17 of the
-//   sum of absolute terms, other errors are 6.4e-16 of their scale; cond(M) up to 1.1e+03
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 4.7e-17 of the
+//   sum of absolute terms, other errors are 7.2e-16 of their scale; cond(M) up to 1.1e+03
 // - the symbolic equations (M, k_bar, q_bar, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start
 // - mass_matrix: M of the equations
@@ -107,37 +103,37 @@ template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 58 operations (30 mul, 28 add and sub, 0 div), 8 sin and cos.
+/// 32 operations (14 mul, 18 add and sub, 0 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[4][4]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 74 operations (46 mul, 28 add and sub, 0 div), 8 sin and cos.
+/// 48 operations (30 mul, 18 add and sub, 0 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[4]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 26 operations (18 mul, 8 add and sub, 0 div), 8 sin and cos.
+/// 22 operations (14 mul, 8 add and sub, 0 div), 8 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[4])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 151 operations (90 mul, 58 add and sub, 3 div), 8 sin and cos.
+/// 129 operations (77 mul, 49 add and sub, 3 div), 8 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[4]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 114 operations (65 mul, 49 add and sub, 0 div), 8 sin and cos.
+/// 112 operations (66 mul, 46 add and sub, 0 div), 8 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[4], Real
     (&tau)[4]) noexcept;
 
 /// Kinetic energy, J.
-/// 93 operations (54 mul, 39 add and sub, 0 div), 8 sin and cos.
+/// 41 operations (25 mul, 16 add and sub, 0 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -148,7 +144,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 702 operations.
+/// 614 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

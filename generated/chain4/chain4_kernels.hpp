@@ -9,12 +9,135 @@ namespace chain4 {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[4]) noexcept {
@@ -68,359 +252,271 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  Real t13, t14;
-  detail::sine_cosine(state.y[2], t13, t14);
-  const Real s2 = c1 * t13 - s1 * t14;
-  const Real c2 = s1 * t13 + c1 * t14;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
-  const Real s3 = c2 * t22 + s2 * t23;
-  const Real c3 = s2 * t22 - c2 * t23;
-  const Real h3b_x = c3 * Real(0.5);
-  const Real h3b_y = s3 * Real(0.5);
-  const Real D3 = c2 * h3b_x - s2 * h3b_y;
-  const Real E3 = D3 - Real(0.3333333333333333);
-  const Real Jc3 = D3 + E3;
-  const Real h2b_x = c2 * Real(1.5);
-  const Real h2b_y = s2 * Real(1.5);
-  const Real h2_x = h3b_x - h2b_x;
-  const Real h2_y = h3b_y + h2b_y;
-  const Real J2 = Jc3 - Real(1.3333333333333333);
-  const Real D2 = c1 * h2_x + s1 * h2_y;
-  const Real E2 = J2 + D2;
-  const Real Jc2 = D2 + E2;
-  const Real h1b_x = c1 * Real(2.5);
-  const Real h1b_y = s1 * Real(2.5);
-  const Real h1_x = h2_x - h1b_x;
-  const Real h1_y = h2_y - h1b_y;
-  const Real J1 = Jc2 - Real(2.3333333333333335);
-  const Real D1 = c0 * h1_x - s0 * h1_y;
-  const Real E1 = J1 - D1;
-  const Real Jc1 = D1 - E1;
-  const Real J0 = Jc1 + Real(3.3333333333333335);
-  const Real p_2_1l_z = c0 * h2_x - s0 * h2_y;
-  const Real p_2_1n_z = E2 - p_2_1l_z;
-  const Real p_3_2l_z = c1 * h3b_x + s1 * h3b_y;
-  const Real p_3_2n_z = E3 + p_3_2l_z;
-  const Real p_3_1l_z = c0 * h3b_x - s0 * h3b_y;
-  const Real p_3_1n_z = p_3_2n_z - p_3_1l_z;
-  M[0][0] = J0;
-  M[0][1] = M[1][0] = -E1;
-  M[0][2] = M[2][0] = -p_2_1n_z;
-  M[0][3] = M[3][0] = -p_3_1n_z;
-  M[1][1] = -J1;
-  M[1][2] = M[2][1] = -E2;
-  M[1][3] = M[3][1] = -p_3_2n_z;
-  M[2][2] = -J2;
-  M[2][3] = M[3][2] = -E3;
+  Real t9, c1_0, t10, c2_1;
+  detail::sine_cosine2(state.y[1], t9, c1_0, state.y[2], t10, c2_1);
+  const Real lac1_0 = c1_0 * Real(2.5);
+  const Real lac2_1 = c2_1 * Real(1.5);
+  const Real c2_0 = t9 * t10 - c1_0 * c2_1;
+  const Real lac2_0 = Real(1.5) * c2_0;
+  Real t21, c3_2;
+  detail::sine_cosine(state.y[3], t21, c3_2);
+  const Real lac3_2 = c3_2 * Real(0.5);
+  const Real c3_1 = t10 * t21 - c2_1 * c3_2;
+  const Real lac3_1 = Real(0.5) * c3_1;
+  const Real c3_0 = (c1_0 * t10 + c2_1 * t9) * t21 + c2_0 * c3_2;
+  const Real lac3_0 = Real(0.5) * c3_0;
+  const Real lMj3_2 = lac3_2 + Real(0.3333333333333333);
+  const Real lMj3_1 = lac3_1 - lMj3_2;
+  const Real lMj3_0 = lac3_0 + lMj3_1;
+  const Real lMc2_1 = lac2_1 - lac3_1;
+  const Real lMc2_0 = lac2_0 + lac3_0;
+  const Real lJj3 = c3_2 + Real(1.6666666666666667);
+  const Real lMj2_1 = lMc2_1 + lJj3;
+  const Real lMj2_0 = lMc2_0 - lMj2_1;
+  const Real lMc1_0 = lac1_0 - lMc2_0;
+  const Real lJj2 = lMj2_1 + (lMc2_1 + Real(2.3333333333333335));
+  const Real lMj1_0 = lMc1_0 + lJj2;
+  const Real lJj1 = lMj1_0 + (lMc1_0 + Real(3.3333333333333335));
+  M[0][0] = lJj1;
+  M[0][1] = M[1][0] = lMj1_0;
+  M[0][2] = M[2][0] = -lMj2_0;
+  M[0][3] = M[3][0] = -lMj3_0;
+  M[1][1] = lJj2;
+  M[1][2] = M[2][1] = lMj2_1;
+  M[1][3] = M[3][1] = -lMj3_1;
+  M[2][2] = lJj3;
+  M[2][3] = M[3][2] = lMj3_2;
   M[3][3] = Real(0.3333333333333333);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  Real t13, t14;
-  detail::sine_cosine(state.y[2], t13, t14);
-  const Real s2 = c1 * t13 - s1 * t14;
-  const Real c2 = s1 * t13 + c1 * t14;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
-  const Real s3 = c2 * t22 + s2 * t23;
-  const Real c3 = s2 * t22 - c2 * t23;
+  Real s1_0, t20, s2_1, t21;
+  detail::sine_cosine2(state.y[1], s1_0, t20, state.y[2], s2_1, t21);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
   const Real w3_z = w2_z + state.z[3];
-  const Real kla1w22 = state.z[0] * state.z[0];
-  const Real kla1o_x = c0 * kla1w22;
-  const Real kla1o_y = s0 * kla1w22;
-  const Real kla2w22 = w1_z * w1_z;
-  const Real kla2o_x = kla1o_x - c1 * kla2w22;
-  const Real kla2o_y = kla1o_y + s1 * kla2w22;
-  const Real kla3w22 = w2_z * w2_z;
-  const Real kla3o_x = kla2o_x - c2 * kla3w22;
-  const Real kla3o_y = kla2o_y - s2 * kla3w22;
-  const Real kL1a_y = c1 * kla1o_y + s1 * kla1o_x;
-  const Real kL1f_x = kla2w22 * Real(2.5);
-  const Real kL1n_z = kL1a_y * Real(2.5);
-  const Real kL1F_x = c1 * kL1f_x;
-  const Real kL1F_y = s1 * kL1f_x;
-  const Real kL2a_y = c2 * kla2o_y - s2 * kla2o_x;
-  const Real kL2f_x = kla3w22 * Real(1.5);
-  const Real kL2n_z = kL2a_y * Real(1.5);
-  const Real kL2F_x = c2 * kL2f_x;
-  const Real kL2F_y = s2 * kL2f_x;
-  const Real kL3a_y = c3 * kla3o_y + s3 * kla3o_x;
-  const Real kL3w22 = w3_z * w3_z;
-  const Real kL3f_x = kL3w22 * Real(0.5);
-  const Real kL3n_z = kL3a_y * Real(0.5);
-  const Real kL3F_x = c3 * kL3f_x;
-  const Real kL3F_y = s3 * kL3f_x;
-  const Real kf3c_x = kL2F_x - kL3F_x;
-  const Real kf3c_y = kL2F_y + kL3F_y;
-  const Real kn3c_z = kL3n_z - (kL2n_z - (c2 * kL3F_y + s2 * kL3F_x));
-  const Real kf2c_x = kL1F_x + kf3c_x;
-  const Real kf2c_y = kL1F_y - kf3c_y;
-  const Real kn2c_z = kn3c_z - (kL1n_z - (c1 * kf3c_y + s1 * kf3c_x));
-  const Real kn1c_z = kn2c_z + (c0 * kf2c_y + s0 * kf2c_x);
-  k[0] = kn1c_z;
-  k[1] = kn2c_z;
-  k[2] = kn3c_z;
-  k[3] = kL3n_z;
+  const Real lww0 = state.z[0] * state.z[0];
+  const Real lww1 = w1_z * w1_z;
+  const Real lww2 = w2_z * w2_z;
+  const Real lww3 = w3_z * w3_z;
+  const Real las1_0 = s1_0 * Real(2.5);
+  const Real las2_1 = s2_1 * Real(1.5);
+  const Real s2_0 = s2_1 * t20 + s1_0 * t21;
+  const Real las2_0 = Real(1.5) * s2_0;
+  Real s3_2, t32;
+  detail::sine_cosine(state.y[3], s3_2, t32);
+  const Real las3_2 = s3_2 * Real(0.5);
+  const Real s3_1 = t21 * s3_2 + s2_1 * t32;
+  const Real las3_1 = Real(0.5) * s3_1;
+  const Real s3_0 = (s1_0 * s2_1 - t20 * t21) * s3_2 - s2_0 * t32;
+  const Real las3_0 = Real(0.5) * s3_0;
+  const Real lk0 = lww1 * las1_0 + lww2 * las2_0 - lww3 * las3_0;
+  const Real lk1 = lww0 * las1_0 - lww2 * las2_1 - lww3 * las3_1;
+  const Real lk2 = lww0 * las2_0 + lww1 * las2_1 - lww3 * las3_2;
+  const Real lk3 = lww0 * las3_0 - lww1 * las3_1 - lww2 * las3_2;
+  const Real lks3 = lk2 - lk3;
+  const Real lks2 = lk1 + lks3;
+  const Real lks1 = lk0 - lks2;
+  k[0] = lks1;
+  k[1] = -lks2;
+  k[2] = -lks3;
+  k[3] = lk3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&q)[4]) noexcept {
-  Real t3, c0;
-  detail::sine_cosine(state.y[0], t3, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real t3, c0, t4, t5, t13, t14, t22, t23;
+  detail::sine_cosine4(state.y[0], t3, c0, state.y[1], t4, t5, state.y[2], t13, t14, state.y[3], t22, t23);
   const Real t8 = c0 * t4 + t3 * t5;
   const Real c1 = t3 * t4 - c0 * t5;
-  Real t13, t14;
-  detail::sine_cosine(state.y[2], t13, t14);
   const Real c2 = t8 * t13 + c1 * t14;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
   const Real c3 = (c1 * t13 - t8 * t14) * t22 - c2 * t23;
-  const Real h3b_x = c3 * Real(0.5);
-  const Real h2b_x = c2 * Real(1.5);
-  const Real h2_x = h3b_x - h2b_x;
-  const Real h1b_x = c1 * Real(2.5);
-  const Real h1_x = h2_x - h1b_x;
-  const Real h0b_x = c0 * Real(3.5);
-  const Real h0_x = h1_x + h0b_x;
-  const Real q_0 = h0_x * Real(9.81);
-  const Real q_1 = h1_x * Real(9.81);
-  const Real q_2 = h2_x * Real(9.81);
-  const Real q_3 = h3b_x * Real(9.81);
-  q[0] = q_0;
-  q[1] = q_1;
-  q[2] = q_2;
-  q[3] = q_3;
+  const Real lga0 = c0 * Real(34.335);
+  const Real lga1 = c1 * Real(24.525000000000002);
+  const Real lga2 = c2 * Real(14.715);
+  const Real lga3 = c3 * Real(4.905);
+  const Real lgs3 = lga2 - lga3;
+  const Real lgs2 = lga1 + lgs3;
+  const Real lgs1 = lga0 - lgs2;
+  q[0] = lgs1;
+  q[1] = -lgs2;
+  q[2] = -lgs3;
+  q[3] = lga3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[4])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  Real t13, t14;
-  detail::sine_cosine(state.y[2], t13, t14);
-  const Real s2 = c1 * t13 - s1 * t14;
-  const Real c2 = s1 * t13 + c1 * t14;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
-  const Real s3 = c2 * t22 + s2 * t23;
-  const Real c3 = s2 * t22 - c2 * t23;
+  Real t23, c0, s1_0, c1_0, s2_1, c2_1, s3_2, c3_2;
+  detail::sine_cosine4(state.y[0], t23, c0, state.y[1], s1_0, c1_0, state.y[2], s2_1, c2_1, state.y[3], s3_2,
+      c3_2);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
   const Real w3_z = w2_z + state.z[3];
-  const Real plww0 = state.z[0] * state.z[0];
-  const Real plww1 = w1_z * w1_z;
-  const Real pla1_x = c0 * plww0;
-  const Real pla1_y = s0 * plww0 - Real(9.81);
-  const Real plww2 = w2_z * w2_z;
-  const Real pla2_x = pla1_x - c1 * plww1;
-  const Real pla2_y = pla1_y + s1 * plww1;
-  const Real plww3 = w3_z * w3_z;
-  const Real pla3_x = pla2_x - c2 * plww2;
-  const Real pla3_y = pla2_y - s2 * plww2;
-  const Real h3b_x = c3 * Real(0.5);
-  const Real h3b_y = s3 * Real(0.5);
-  const Real plf3_x = plww3 * h3b_x;
-  const Real plf3_y = plww3 * h3b_y;
-  const Real pln3 = pla3_x * h3b_y + pla3_y * h3b_x;
-  const Real h2b_x = c2 * Real(1.5);
-  const Real h2b_y = s2 * Real(1.5);
-  const Real plf2_x = plf3_x - plww2 * h2b_x;
-  const Real plf2_y = plf3_y + plww2 * h2b_y;
-  const Real h1b_x = c1 * Real(2.5);
-  const Real h1b_y = s1 * Real(2.5);
-  const Real plf1_x = plf2_x - plww1 * h1b_x;
-  const Real plf1_y = plf2_y - plww1 * h1b_y;
-  const Real p3_3l_z = c2 * h3b_x - s2 * h3b_y;
-  const Real p3_2l_z = c1 * h3b_x + s1 * h3b_y;
-  const Real p3_1l_z = c0 * h3b_x - s0 * h3b_y;
-  const Real L_3_2 = p3_3l_z * Real(3.0);
-  const Real H3_2_2 = p3_3l_z * L_3_2 - Real(1.3333333333333333);
-  const Real H3_2_1 = p3_2l_z * L_3_2 - (c1 * h2b_x - s1 * h2b_y);
-  const Real H3_2_0 = p3_1l_z * L_3_2 - (c0 * h2b_x + s0 * h2b_y);
-  const Real L_3_1 = p3_2l_z * Real(3.0);
-  const Real L_3_0 = p3_1l_z * Real(3.0);
-  const Real u3_2 = pln3 * L_3_2 - (pla2_y * h2b_x - (pla2_x * h2b_y + (c2 * plf3_y + s2 * plf3_x)));
+  const Real lww0 = state.z[0] * state.z[0];
+  const Real lww1 = w1_z * w1_z;
+  const Real lww2 = w2_z * w2_z;
+  const Real lww3 = w3_z * w3_z;
+  const Real lg0 = c0 * Real(103.00500000000001);
+  const Real lac1_0 = c1_0 * Real(7.5);
+  const Real las1_0 = s1_0 * Real(7.5);
+  const Real c1 = s1_0 * t23 - c0 * c1_0;
+  const Real lg1 = c1 * Real(73.575);
+  const Real lac2_1 = c2_1 * Real(4.5);
+  const Real las2_1 = s2_1 * Real(4.5);
+  const Real s2_0 = c1_0 * s2_1 + s1_0 * c2_1;
+  const Real c2_0 = s1_0 * s2_1 - c1_0 * c2_1;
+  const Real lac2_0 = Real(4.5) * c2_0;
+  const Real las2_0 = Real(4.5) * s2_0;
+  const Real c2 = t23 * s2_0 + c0 * c2_0;
+  const Real lg2 = c2 * Real(44.145);
+  const Real lac3_2 = c3_2 * Real(1.5);
+  const Real las3_2 = s3_2 * Real(1.5);
+  const Real s3_1 = c2_1 * s3_2 + s2_1 * c3_2;
+  const Real c3_1 = s2_1 * s3_2 - c2_1 * c3_2;
+  const Real lac3_1 = Real(1.5) * c3_1;
+  const Real las3_1 = Real(1.5) * s3_1;
+  const Real s3_0 = c2_0 * s3_2 - s2_0 * c3_2;
+  const Real c3_0 = s2_0 * s3_2 + c2_0 * c3_2;
+  const Real lac3_0 = Real(1.5) * c3_0;
+  const Real las3_0 = Real(1.5) * s3_0;
+  const Real c3 = t23 * s3_0 - c0 * c3_0;
+  const Real lg3 = c3 * Real(14.715000000000002);
+  const Real lk0 = lww1 * las1_0 + lww2 * las2_0 - lww3 * las3_0;
+  const Real lk1 = lww0 * las1_0 - lww2 * las2_1 - lww3 * las3_1;
+  const Real lk2 = lww0 * las2_0 + lww1 * las2_1 - lww3 * las3_2;
+  const Real lk3 = lww0 * las3_0 - lww1 * las3_1 - lww2 * las3_2;
+  const Real lu0 = lg0 - lk0;
+  const Real lu1 = lg1 - lk1;
+  const Real lu2 = lg2 - lk2;
+  const Real lu3 = lg3 - lk3;
+  const Real H3_2_2 = lac3_2 * lac3_2 - Real(4.0);
+  const Real H3_2_1 = lac2_1 + lac3_2 * lac3_1;
+  const Real H3_2_0 = lac2_0 - lac3_2 * lac3_0;
+  const Real H3_1_1 = lac3_1 * lac3_1 - Real(7.0);
+  const Real H3_1_0 = lac1_0 - lac3_1 * lac3_0;
+  const Real H3_0_0 = lac3_0 * lac3_0 - Real(10.0);
+  const Real u3_2 = lu2 + lac3_2 * lu3;
+  const Real u3_1 = lu1 - lac3_1 * lu3;
+  const Real u3_0 = lu0 + lac3_0 * lu3;
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = H3_2_1 * L_2_1 - (p3_2l_z * L_3_1 - Real(2.3333333333333335));
-  const Real H2_1_0 = H3_2_0 * L_2_1 - (p3_1l_z * L_3_1 - (c0 * h1b_x - s0 * h1b_y));
+  const Real H2_1_1 = H3_1_1 - H3_2_1 * L_2_1;
+  const Real H2_1_0 = H3_1_0 - H3_2_0 * L_2_1;
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real u2_1 = u3_2 * L_2_1 - (pln3 * L_3_1 - (pla1_y * h1b_x + (pla1_x * h1b_y - (c1 * plf2_y - s1 *
-      plf2_x))));
+  const Real H2_0_0 = H3_0_0 - H3_2_0 * L_2_0;
+  const Real u2_1 = u3_1 + u3_2 * L_2_1;
+  const Real u2_0 = u3_0 + u3_2 * L_2_0;
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (p3_1l_z * L_3_0 - Real(3.3333333333333335)));
-  const Real u1_0 = c0 * (plf1_y + Real(34.335)) + (u2_1 * L_1_0 - (u3_2 * L_2_0 - (s0 * plf1_x + pln3 *
-      L_3_0)));
-  const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = u1_0 * invD_0;
+  const Real H1_0_0 = H2_0_0 - H2_1_0 * L_1_0;
+  const Real u1_0 = u2_0 - u2_1 * L_1_0;
+  const Real y_0 = u1_0 / H1_0_0;
   const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
   const Real y_2 = u3_2 * invD_2;
-  const Real zdot_2 = L_2_0 * y_0 - (y_2 - L_2_1 * zdot_1);
-  const Real y_3 = pln3 * Real(3.0);
-  const Real zdotr_1 = y_0 + zdot_1;
-  const Real zdotr_2 = zdot_1 + zdot_2;
-  const Real zdotr_3 = L_3_0 * y_0 + (L_3_1 * zdot_1 - (L_3_2 * zdot_2 - (zdot_2 - y_3)));
+  const Real zdot_2 = y_2 + (L_2_1 * zdot_1 + L_2_0 * y_0);
+  const Real zdot_3 = lu3 - (lac3_2 * zdot_2 - lac3_1 * zdot_1 + lac3_0 * y_0);
+  const Real zdotl_1 = y_0 + zdot_1;
+  const Real zdotl_2 = zdot_1 - zdot_2;
+  const Real zdotl_3 = zdot_2 - zdot_3;
   zdot[0] = y_0;
-  zdot[1] = -zdotr_1;
-  zdot[2] = zdotr_2;
-  zdot[3] = -zdotr_3;
+  zdot[1] = -zdotl_1;
+  zdot[2] = zdotl_2;
+  zdot[3] = zdotl_3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[4], Real (&tau)[4])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  Real t13, t14;
-  detail::sine_cosine(state.y[2], t13, t14);
-  const Real s2 = c1 * t13 - s1 * t14;
-  const Real c2 = s1 * t13 + c1 * t14;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
-  const Real s3 = c2 * t22 + s2 * t23;
-  const Real c3 = s2 * t22 - c2 * t23;
+  Real t23, c0, s1_0, c1_0, s2_1, c2_1, s3_2, c3_2;
+  detail::sine_cosine4(state.y[0], t23, c0, state.y[1], s1_0, c1_0, state.y[2], s2_1, c2_1, state.y[3], s3_2,
+      c3_2);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
   const Real w3_z = w2_z + state.z[3];
-  const Real ala1w22 = state.z[0] * state.z[0];
-  const Real ala1o_x = s0 * zdot[0] + c0 * ala1w22;
-  const Real ala1o_y = s0 * ala1w22 - (c0 * zdot[0] + Real(9.81));
-  const Real ala1A_z = zdot[0] + zdot[1];
-  const Real ala2w22 = w1_z * w1_z;
-  const Real ala2o_x = s1 * ala1A_z + (ala1o_x - c1 * ala2w22);
-  const Real ala2o_y = s1 * ala2w22 + (ala1o_y + c1 * ala1A_z);
-  const Real ala2A_z = ala1A_z + zdot[2];
-  const Real ala3w22 = w2_z * w2_z;
-  const Real ala3o_x = s2 * ala2A_z - (ala2o_x - c2 * ala3w22);
-  const Real ala3o_y = s2 * ala3w22 - (ala2o_y + c2 * ala2A_z);
-  const Real ala3A_z = ala2A_z + zdot[3];
-  const Real aL1a_y = c1 * ala1o_y + s1 * ala1o_x;
-  const Real aL1f_x = ala2w22 * Real(2.5);
-  const Real aL1f_y = ala1A_z * Real(2.5);
-  const Real aL2a_y = c2 * ala2o_y - s2 * ala2o_x;
-  const Real aL2f_x = ala3w22 * Real(1.5);
-  const Real aL2f_y = ala2A_z * Real(1.5);
-  const Real aL3a_y = c3 * ala3o_y + s3 * ala3o_x;
-  const Real aL3w22 = w3_z * w3_z;
-  const Real aL3f_x = aL3w22 * Real(0.5);
-  const Real aL3f_y = ala3A_z * Real(0.5);
-  const Real aL3n_z = ala3A_z * Real(0.3333333333333333) + aL3a_y * Real(0.5);
-  const Real aL3F_x = c3 * aL3f_x - s3 * aL3f_y;
-  const Real aL3F_y = c3 * aL3f_y + s3 * aL3f_x;
-  const Real af3c_x = aL3F_x - (c2 * aL2f_x + s2 * aL2f_y);
-  const Real af3c_y = aL3F_y - (c2 * aL2f_y - s2 * aL2f_x);
-  const Real an3c_z = s2 * aL3F_x + (c2 * aL3F_y - (aL2a_y * Real(1.5) + (ala2A_z * Real(1.3333333333333333) +
-      aL3n_z)));
-  const Real af2c_x = af3c_x - (c1 * aL1f_x - s1 * aL1f_y);
-  const Real af2c_y = af3c_y - (c1 * aL1f_y + s1 * aL1f_x);
-  const Real an2c_z = s1 * af3c_x - (c1 * af3c_y - (aL1a_y * Real(2.5) + (ala1A_z * Real(2.3333333333333335) -
-      an3c_z)));
-  const Real an1c_z = c0 * (af2c_y + Real(34.335)) + (s0 * af2c_x + (zdot[0] * Real(3.3333333333333335) +
-      an2c_z));
-  tau[0] = an1c_z;
-  tau[1] = an2c_z;
-  tau[2] = -an3c_z;
-  tau[3] = aL3n_z;
+  const Real lww0 = state.z[0] * state.z[0];
+  const Real lww1 = w1_z * w1_z;
+  const Real lww2 = w2_z * w2_z;
+  const Real lww3 = w3_z * w3_z;
+  const Real lg0 = c0 * Real(34.335);
+  const Real lac1_0 = c1_0 * Real(2.5);
+  const Real las1_0 = s1_0 * Real(2.5);
+  const Real c1 = s1_0 * t23 - c0 * c1_0;
+  const Real lg1 = c1 * Real(24.525000000000002);
+  const Real lac2_1 = c2_1 * Real(1.5);
+  const Real las2_1 = s2_1 * Real(1.5);
+  const Real s2_0 = c1_0 * s2_1 + s1_0 * c2_1;
+  const Real c2_0 = s1_0 * s2_1 - c1_0 * c2_1;
+  const Real lac2_0 = Real(1.5) * c2_0;
+  const Real las2_0 = Real(1.5) * s2_0;
+  const Real c2 = t23 * s2_0 + c0 * c2_0;
+  const Real lg2 = c2 * Real(14.715);
+  const Real lac3_2 = c3_2 * Real(0.5);
+  const Real las3_2 = s3_2 * Real(0.5);
+  const Real s3_1 = c2_1 * s3_2 + s2_1 * c3_2;
+  const Real c3_1 = s2_1 * s3_2 - c2_1 * c3_2;
+  const Real lac3_1 = Real(0.5) * c3_1;
+  const Real las3_1 = Real(0.5) * s3_1;
+  const Real s3_0 = c2_0 * s3_2 - s2_0 * c3_2;
+  const Real c3_0 = s2_0 * s3_2 + c2_0 * c3_2;
+  const Real lac3_0 = Real(0.5) * c3_0;
+  const Real las3_0 = Real(0.5) * s3_0;
+  const Real c3 = t23 * s3_0 - c0 * c3_0;
+  const Real lg3 = c3 * Real(4.905);
+  const Real lk0 = lww1 * las1_0 + lww2 * las2_0 - lww3 * las3_0;
+  const Real lk1 = lww0 * las1_0 - lww2 * las2_1 - lww3 * las3_1;
+  const Real lk2 = lww0 * las2_0 + lww1 * las2_1 - lww3 * las3_2;
+  const Real lk3 = lww0 * las3_0 - lww1 * las3_1 - lww2 * las3_2;
+  const Real lx1 = zdot[0] + zdot[1];
+  const Real lx2 = lx1 + zdot[2];
+  const Real lx3 = lx2 + zdot[3];
+  const Real la0 = lk0 - (lg0 + zdot[0] * Real(3.3333333333333335) + lac1_0 * lx1 - lac2_0 * lx2 - lac3_0 *
+      lx3);
+  const Real la1 = lk1 - (lg1 - (lx1 * Real(2.3333333333333335) + lac1_0 * zdot[0]) - lac2_1 * lx2 + lac3_1 *
+      lx3);
+  const Real la2 = lk2 - (lg2 - (lx2 * Real(1.3333333333333333) - lac2_0 * zdot[0] + lac2_1 * lx1) - lac3_2 *
+      lx3);
+  const Real la3 = lk3 - (lg3 + (lx3 * Real(0.3333333333333333) - lac3_0 * zdot[0] + lac3_2 * lx2 - lac3_1 *
+      lx1));
+  const Real las3 = la2 - la3;
+  const Real las2 = la1 + las3;
+  const Real las1 = la0 - las2;
+  tau[0] = -las1;
+  tau[1] = las2;
+  tau[2] = las3;
+  tau[3] = -la3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  Real t13, t14;
-  detail::sine_cosine(state.y[2], t13, t14);
-  const Real s2 = c1 * t13 - s1 * t14;
-  const Real c2 = s1 * t13 + c1 * t14;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
-  const Real s3 = c2 * t22 + s2 * t23;
-  const Real c3 = s2 * t22 - c2 * t23;
-  const Real h3b_x = c3 * Real(0.5);
-  const Real h3b_y = s3 * Real(0.5);
-  const Real D3 = c2 * h3b_x - s2 * h3b_y;
-  const Real h2b_x = c2 * Real(1.5);
-  const Real h2b_y = s2 * Real(1.5);
-  const Real h2_x = h3b_x - h2b_x;
-  const Real h2_y = h3b_y + h2b_y;
-  const Real J2 = D3 + (D3 - Real(1.6666666666666667));
-  const Real D2 = c1 * h2_x + s1 * h2_y;
-  const Real h1b_x = c1 * Real(2.5);
-  const Real h1b_y = s1 * Real(2.5);
-  const Real h1_x = h2_x - h1b_x;
-  const Real h1_y = h2_y - h1b_y;
-  const Real J1 = D2 + (J2 + (D2 - Real(2.3333333333333335)));
-  const Real D1 = c0 * h1_x - s0 * h1_y;
-  const Real J0 = D1 - (J1 - (D1 + Real(3.3333333333333335)));
+  Real t12, c1_0, t13, c2_1;
+  detail::sine_cosine2(state.y[1], t12, c1_0, state.y[2], t13, c2_1);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
-  const Real v0L_z = J0 * state.z[0];
-  const Real v1o_x = s0 * state.z[0];
-  const Real v1o_y = c0 * state.z[0];
-  const Real v1P_x = h1_y * state.z[1];
-  const Real v1P_y = h1_x * state.z[1];
-  const Real v1L_z = J1 * state.z[1];
-  const Real v2o_x = v1o_x + s1 * w1_z;
-  const Real v2o_y = v1o_y - c1 * w1_z;
-  const Real v2P_x = h2_y * state.z[2];
-  const Real v2P_y = h2_x * state.z[2];
-  const Real v2L_z = J2 * state.z[2];
-  const Real v3o_x = v2o_x - s2 * w2_z;
-  const Real v3o_y = v2o_y - c2 * w2_z;
-  const Real v3P_x = h3b_y * state.z[3];
-  const Real v3P_y = h3b_x * state.z[3];
-  const Real v3L_z = state.z[3] * Real(0.3333333333333333);
-  const Real T3 = v1o_x * v1P_x + (state.z[0] * v1L_z - (v1o_y * v1P_y - (w1_z * v2L_z + (v2o_x * v2P_x -
-      (v2o_y * v2P_y + (w2_z * v3L_z - (v3o_x * v3P_x - (v3o_y * v3P_y + Real(0.5) * (state.z[3] * v3L_z -
-      (state.z[2] * v2L_z - (state.z[0] * v0L_z - state.z[1] * v1L_z)))))))))));
-  return -T3;
+  const Real w3_z = w2_z + state.z[3];
+  const Real c2_0 = t12 * t13 - c1_0 * c2_1;
+  Real t21, c3_2;
+  detail::sine_cosine(state.y[3], t21, c3_2);
+  const Real c3_1 = t13 * t21 - c2_1 * c3_2;
+  const Real c3_0 = (c1_0 * t13 + c2_1 * t12) * t21 + c2_0 * c3_2;
+  const Real lp1 = w1_z * Real(1.1666666666666667) + state.z[0] * c1_0 * Real(2.5);
+  const Real lp2 = w2_z * Real(0.6666666666666666) - (state.z[0] * c2_0 - w1_z * c2_1) * Real(1.5);
+  const Real lp3 = w3_z * Real(0.16666666666666666) + (w2_z * c3_2 - (state.z[0] * c3_0 + w1_z * c3_1)) *
+      Real(0.5);
+  const Real T = w3_z * lp3 + (w2_z * lp2 + (state.z[0] * state.z[0] * Real(1.6666666666666667) + w1_z *
+      lp1));
+  return T;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s0, t3;
-  detail::sine_cosine(state.y[0], s0, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, t3, t4, t5, t13, t14, t22, t23;
+  detail::sine_cosine4(state.y[0], s0, t3, state.y[1], t4, t5, state.y[2], t13, t14, state.y[3], t22, t23);
   const Real s1 = t3 * t4 + s0 * t5;
   const Real t11 = s0 * t4 - t3 * t5;
-  Real t13, t14;
-  detail::sine_cosine(state.y[2], t13, t14);
   const Real s2 = t11 * t13 - s1 * t14;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
   const Real s3 = (s1 * t13 + t11 * t14) * t22 + s2 * t23;
   const Real h3b_y = s3 * Real(0.5);
   const Real h2b_y = s2 * Real(1.5);

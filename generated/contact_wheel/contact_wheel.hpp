@@ -149,20 +149,20 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 26 operations (9 mul, 15 add and sub, 1 div), 2 sin and cos.
+/// 25 operations (9 mul, 14 add and sub, 1 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 30 operations (11 mul, 17 add and sub, 1 div), 2 sin and cos.
+/// 28 operations (11 mul, 15 add and sub, 1 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 30 operations (11 mul, 17 add and sub, 1 div), 2 sin and cos.
+/// 29 operations (11 mul, 16 add and sub, 1 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept;
@@ -179,7 +179,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 191 operations.
+/// 183 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

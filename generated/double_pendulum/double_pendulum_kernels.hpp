@@ -9,12 +9,135 @@ namespace double_pendulum {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[2]) noexcept {
@@ -51,14 +235,20 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>
 
 template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
-  l1 = parameters.l1;
   mr_y = parameters.m2 * parameters.l2;
   S_yy = parameters.l2 * mr_y;
-  c0 = l1 * mr_y;
-  elbow_h_y = l1 * (parameters.m1 + parameters.m2);
-  elbow_S_yy = l1 * elbow_h_y;
-  c6 = elbow_h_y * Real(9.81);
-  invD_1 = Real(1.0) / S_yy;
+  lc1_0 = parameters.l1 * mr_y;
+  elbow_h_y = parameters.l1 * (parameters.m1 + parameters.m2);
+  elbow_S_yy = parameters.l1 * elbow_h_y;
+  lgs0 = elbow_h_y * Real(9.81);
+  lgs1 = mr_y * Real(9.81);
+  const Real lone0 = Real(1.0) / S_yy;
+  lM0_0 = elbow_S_yy * lone0;
+  lgs0_2 = lgs0 * lone0;
+  lc1_0_2 = lc1_0 * lone0;
+  lgs1_2 = lgs1 * lone0;
+  lTh0 = elbow_S_yy * Real(0.5);
+  lTh1 = S_yy * Real(0.5);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -73,154 +263,100 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  const Real D1 = (s0 * s1 - c0 * c1) * model.c0;
-  const Real E1 = D1 + model.S_yy;
-  const Real J0 = D1 + E1 + model.elbow_S_yy;
-  M[0][0] = J0;
-  M[0][1] = M[1][0] = E1;
+  const Real c1_0 = detail::cosine(state.y[1]);
+  const Real lac1_0 = c1_0 * model.lc1_0;
+  const Real lMj1_0 = lac1_0 + model.S_yy;
+  const Real lJj1 = lMj1_0 + (lac1_0 + model.elbow_S_yy);
+  M[0][0] = lJj1;
+  M[0][1] = M[1][0] = lMj1_0;
   M[1][1] = model.S_yy;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  const Real r1_x = s0 * model.l1;
-  const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.mr_y;
-  const Real h1b_y = c1 * model.mr_y;
   const Real w1_z = state.z[0] + state.z[1];
-  const Real kW0w22 = state.z[0] * state.z[0];
-  const Real ka1o_x = r1_x * kW0w22;
-  const Real ka1o_y = r1_y * kW0w22;
-  const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
-  const Real zw_1 = state.z[1] * (state.z[0] + w1_z);
-  const Real kdf1_x = h1b_x * zw_1;
-  const Real kdf1_y = h1b_y * zw_1;
-  const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
-  k[0] = kn1c_z;
-  k[1] = -kQp1;
+  const Real lww0 = state.z[0] * state.z[0];
+  const Real lww1 = w1_z * w1_z;
+  const Real s1_0 = detail::sine(state.y[1]);
+  const Real las1_0 = s1_0 * model.lc1_0;
+  const Real lk0 = lww1 * las1_0;
+  const Real lk1 = lww0 * las1_0;
+  const Real lks1 = lk0 - lk1;
+  k[0] = lks1;
+  k[1] = -lk1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[2]) noexcept {
-  Real s0, t3;
-  detail::sine_cosine(state.y[0], s0, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, t3, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, t3, state.y[1], t4, t5);
   const Real s1 = t3 * t4 + s0 * t5;
-  const Real h1b_x = s1 * model.mr_y;
-  const Real h0b_x = s0 * model.elbow_h_y;
-  const Real h0_x = h1b_x + h0b_x;
-  const Real q_0 = h0_x * Real(9.81);
-  const Real q_1 = h1b_x * Real(9.81);
-  q[0] = q_0;
-  q[1] = q_1;
+  const Real lga0 = s0 * model.lgs0;
+  const Real lga1 = s1 * model.lgs1;
+  const Real lgs1 = lga0 + lga1;
+  q[0] = lgs1;
+  q[1] = lga1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[2])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  const Real r1_x = s0 * model.l1;
-  const Real r1_y = c0 * model.l1;
+  Real s0, t15, s1_0, c1_0;
+  detail::sine_cosine2(state.y[0], s0, t15, state.y[1], s1_0, c1_0);
   const Real w1_z = state.z[0] + state.z[1];
-  const Real plww0 = state.z[0] * state.z[0];
-  const Real plww1 = w1_z * w1_z;
-  const Real pla1_x = r1_x * plww0;
-  const Real pla1_y = r1_y * plww0 + Real(9.81);
-  const Real h1b_x = s1 * model.mr_y;
-  const Real h1b_y = c1 * model.mr_y;
-  const Real plf1_x = plww1 * h1b_x;
-  const Real plf1_y = plww1 * h1b_y;
-  const Real pln1 = pla1_x * h1b_y + pla1_y * h1b_x;
-  const Real p1_1l_z = r1_x * h1b_x - r1_y * h1b_y;
-  const Real L_1_0 = p1_1l_z * model.invD_1;
-  const Real H1_0_0 = p1_1l_z * L_1_0 - model.elbow_S_yy;
-  const Real u1_0 = r1_y * plf1_x + (r1_x * plf1_y - (s0 * model.c6 - pln1 * L_1_0));
-  const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = u1_0 * invD_0;
-  const Real y_1 = pln1 * model.invD_1;
-  const Real zdotr_1 = y_1 - (y_0 + L_1_0 * y_0);
+  const Real lww0 = state.z[0] * state.z[0];
+  const Real lww1 = w1_z * w1_z;
+  const Real lg0 = s0 * model.lgs0_2;
+  const Real lac1_0 = c1_0 * model.lc1_0_2;
+  const Real las1_0 = s1_0 * model.lc1_0_2;
+  const Real s1 = s1_0 * t15 + s0 * c1_0;
+  const Real lg1 = s1 * model.lgs1_2;
+  const Real lk0 = lww1 * las1_0;
+  const Real lk1 = lww0 * las1_0;
+  const Real lu1 = lg1 + lk1;
+  const Real H1_0_0 = lac1_0 * lac1_0 - model.lM0_0;
+  const Real u1_0 = lk0 - (lg0 - lac1_0 * lu1);
+  const Real y_0 = u1_0 / H1_0_0;
+  const Real zdotl_1 = y_0 - (lu1 - lac1_0 * y_0);
   zdot[0] = -y_0;
-  zdot[1] = -zdotr_1;
+  zdot[1] = zdotl_1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  const Real r1_x = s0 * model.l1;
-  const Real r1_y = c0 * model.l1;
+  Real s0, t15, s1_0, c1_0;
+  detail::sine_cosine2(state.y[0], s0, t15, state.y[1], s1_0, c1_0);
   const Real w1_z = state.z[0] + state.z[1];
-  const Real ala1w22 = state.z[0] * state.z[0];
-  const Real ala1o_x = r1_y * zdot[0] - r1_x * ala1w22;
-  const Real ala1o_y = r1_x * zdot[0] + (r1_y * ala1w22 + Real(9.81));
-  const Real ala1A_z = zdot[0] + zdot[1];
-  const Real aL1a_x = c1 * ala1o_x - s1 * ala1o_y;
-  const Real aL1w22 = w1_z * w1_z;
-  const Real aL1f_x = ala1A_z * model.mr_y;
-  const Real aL1f_y = aL1w22 * model.mr_y;
-  const Real aL1n_z = aL1a_x * model.mr_y - ala1A_z * model.S_yy;
-  const Real aL1F_x = c1 * aL1f_x + s1 * aL1f_y;
-  const Real aL1F_y = c1 * aL1f_y - s1 * aL1f_x;
-  const Real an1c_z = aL1n_z - (zdot[0] * model.elbow_S_yy + (s0 * model.c6 - (r1_x * aL1F_y + r1_y *
-      aL1F_x)));
-  tau[0] = -an1c_z;
-  tau[1] = -aL1n_z;
+  const Real lww0 = state.z[0] * state.z[0];
+  const Real lww1 = w1_z * w1_z;
+  const Real lg0 = s0 * model.lgs0;
+  const Real lac1_0 = c1_0 * model.lc1_0;
+  const Real las1_0 = s1_0 * model.lc1_0;
+  const Real s1 = s1_0 * t15 + s0 * c1_0;
+  const Real lg1 = s1 * model.lgs1;
+  const Real lk0 = lww1 * las1_0;
+  const Real lk1 = lww0 * las1_0;
+  const Real lx1 = zdot[0] + zdot[1];
+  const Real la1 = lk1 + (lg1 + (lac1_0 * zdot[0] + lx1 * model.S_yy));
+  const Real las1 = lk0 - (lg0 + (zdot[0] * model.elbow_S_yy + (lac1_0 * lx1 + la1)));
+  tau[0] = -las1;
+  tau[1] = la1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  const Real r1_x = s0 * model.l1;
-  const Real r1_y = c0 * model.l1;
-  const Real h1b_x = s1 * model.mr_y;
-  const Real h1b_y = c1 * model.mr_y;
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + (D1 + model.elbow_S_yy + model.S_yy);
-  const Real v0L_z = J0 * state.z[0];
-  const Real v1o_x = r1_y * state.z[0];
-  const Real v1o_y = r1_x * state.z[0];
-  const Real v1P_x = h1b_y * state.z[1];
-  const Real v1P_y = h1b_x * state.z[1];
-  const Real v1L_z = model.S_yy * state.z[1];
-  const Real T1 = v1o_x * v1P_x - (state.z[0] * v1L_z + (v1o_y * v1P_y + (state.z[0] * v0L_z + state.z[1] *
-      v1L_z) * Real(0.5)));
-  return -T1;
+  const Real w1_z = state.z[0] + state.z[1];
+  const Real c1_0 = detail::cosine(state.y[1]);
+  const Real lp1 = state.z[0] * c1_0 * model.lc1_0 + w1_z * model.lTh1;
+  const Real T = state.z[0] * state.z[0] * model.lTh0 + w1_z * lp1;
+  return T;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  Real t3, c0;
-  detail::sine_cosine(state.y[0], t3, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real t3, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], t3, c0, state.y[1], t4, t5);
   const Real c1 = t3 * t4 - c0 * t5;
   const Real h1b_y = c1 * model.mr_y;
   const Real h0b_y = c0 * model.elbow_h_y;

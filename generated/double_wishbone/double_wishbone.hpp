@@ -29,8 +29,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 3.1e-16 of the
-//   sum of absolute terms, other errors are 1.0e-15 of their scale; cond(M) up to 1.0e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 4.7e-16 of the
+//   sum of absolute terms, other errors are 1.1e-15 of their scale; cond(M) up to 1.0e+00
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -209,47 +209,47 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 257 operations (152 mul, 101 add and sub, 4 div), 6 sin and cos.
+/// 235 operations (140 mul, 91 add and sub, 4 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[6]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 292 operations (166 mul, 122 add and sub, 4 div), 5 sin and cos.
+/// 279 operations (160 mul, 115 add and sub, 4 div), 5 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 566 operations (338 mul, 224 add and sub, 4 div), 6 sin and cos.
+/// 543 operations (325 mul, 214 add and sub, 4 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 338 operations (194 mul, 137 add and sub, 6 div), 5 sin and cos.
+/// 308 operations (177 mul, 124 add and sub, 6 div), 5 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 713 operations (416 mul, 289 add and sub, 7 div), 6 sin and cos.
+/// 679 operations (396 mul, 275 add and sub, 7 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 690 operations (405 mul, 278 add and sub, 6 div), 6 sin and cos.
+/// 659 operations (387 mul, 265 add and sub, 6 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 321 operations (193 mul, 124 add and sub, 4 div), 6 sin and cos.
+/// 299 operations (181 mul, 114 add and sub, 4 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 47 operations (24 mul, 22 add and sub, 0 div), 4 sin and cos.
+/// 44 operations (24 mul, 19 add and sub, 0 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -261,27 +261,27 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 204 operations (108 mul, 87 add and sub, 6 div), 5 sin and cos, 1 atan2.
+/// 196 operations (108 mul, 80 add and sub, 5 div), 5 sin and cos, 1 atan2.
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 335 operations (192 mul, 139 add and sub, 4 div), 6 sin and cos.
+/// 93 operations (47 mul, 46 add and sub, 0 div), 5 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 795 operations (453 mul, 334 add and sub, 7 div), 6 sin and cos.
+/// 760 operations (433 mul, 319 add and sub, 7 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 4191 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
+/// 3959 operations. For inputs sampled at the stages include double_wishbone_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

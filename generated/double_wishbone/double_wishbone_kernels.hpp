@@ -9,12 +9,135 @@ namespace double_wishbone {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -22,8 +145,60 @@ template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
+// Angle of (x, y) by one division, sums and products, at one cost for all of them, less than 2 ulp off and exactly odd
+// in y: the smaller over the larger, beyond 1/2 turned back by pi/4, then a polynomial by fpminimax of Sollya. Of
+// numbers up to half the largest one; no number of infinite ones.
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
 JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
+#else
+JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept {
+  using Bits = unsigned long long;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 63), is_behind = x_bits >> 63;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 63), is_steep = (a - b) >> 63;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const double large = __builtin_bit_cast(double, a ^ exchange), small = __builtin_bit_cast(double, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463024898437905) - (b ^ exchange)) >> 63;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 63);
+  const double turn = static_cast<double>(wide);
+  const double t = (small - turn * large) / (large + turn * small + static_cast<double>(nothing)), z = t * t;
+  const double w = z * z, v = w * w;
+  const double low = (-0.3333333333333333 + z * 0.1999999999999723) +
+                     w * (-0.142857142851601 + z * 0.11111111068604916);
+  const double middle = (-0.09090907407679288 + z * 0.07692268042911367) +
+                        w * (-0.06666065366369484 + z * 0.058762025197991216);
+  const double high = (-0.05219603216056109 + z * 0.04545914188460735) +
+                      w * (-0.035981529310843786 + z * 0.0219654180922859);
+  const double angle = t + t * z * (low + v * (middle + v * (high + v * -0.007274827974643591)));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const double eighths = static_cast<double>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 63);
+  const double rest = __builtin_bit_cast(double, part) + eighths * 3.061616997868383e-17;
+  return __builtin_bit_cast(double, __builtin_bit_cast(Bits, eighths * 0.7853981633974483 + rest) ^ sign);
+}
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept {
+  using Bits = unsigned;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 31), is_behind = x_bits >> 31;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 31), is_steep = (a - b) >> 31;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const float large = __builtin_bit_cast(float, a ^ exchange), small = __builtin_bit_cast(float, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463025f) - (b ^ exchange)) >> 31;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 31);
+  const float turn = static_cast<float>(wide);
+  const float t = (small - turn * large) / (large + turn * small + static_cast<float>(nothing)), z = t * t;
+  const float low = (-0.3333333f + z * 0.19999681f) + z * z * (-0.1427416f + z * 0.1094557f);
+  const float angle = t + t * z * (low + z * z * z * z * (-0.079587296f + z * 0.037864342f));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const float eighths = static_cast<float>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 31);
+  const float rest = __builtin_bit_cast(float, part) + eighths * 1.5695824e-07f;
+  return __builtin_bit_cast(float, __builtin_bit_cast(Bits, eighths * 0.785398f + rest) ^ sign);
+}
+#endif
 template <class Real> JOURDAIN_FUNCTION
 Real arctangent2(const Real& y, const Real& x) noexcept { return atan2(y, x); }
 
@@ -32,6 +207,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 // What products of two numbers lose by rounding (Dekker, Numerische Mathematik 18, 1971; factors are split by powers of
 // two, so that fused operations change nothing). Nothing where a number type is wider than that matters.
@@ -158,6 +394,8 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[6]) noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -169,11 +407,7 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -198,21 +432,20 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_x * Real(0.14) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) - Real(0.13)) +
-      Real(0.01));
-  const Real tie_rodd_y = expression_3 + (Real(0.36) + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
+  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t105 = q1r0_z * Real(0.03);
+  const Real t100 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t114 = Real(0.03) * top_joints1bf1_z;
+  const Real t109 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t126 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t126;
+  const Real t121 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t121;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t126 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t121 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -220,51 +453,52 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
-  const Real t173 = Real(1.0) / top_joints2am_z;
-  const Real t174 = top_jointax_y * t173;
-  const Real t180 = Real(0.31) * top_joints1bf1_x + (t114 + top_joints2bm_y * t174);
-  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
-  const Real t193 = Real(1.0) / (t114 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
-  const Real t194 = (t105 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
-  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t204 = tie_rods0bm_x * t193;
-  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t105 - (top_joints2bm_y * t187 + t180 * t194)));
-  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
-  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
-      t203 * t210)));
-  const Real t218 = s0 * top_jointbx1p_x - (c0 * top_jointbx1p_y - top_jointbx1_x * t174);
-  const Real t221 = top_jointbx1_x * t187 + t194 * t218;
-  const Real t227 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (t204 * t218 -
-      t210 * t221)));
-  const Real t230 = t209 * (t221 + t203 * t227);
-  const Real t235 = t193 * (t180 * t230 - (t218 + t184 * t227));
-  const Real t250 = tie_rods0bf0_x * s * t215 * model.c2;
-  const Real t252 = t209 * (t203 * t250);
-  const Real t256 = t193 * (t180 * t252 - t184 * t250);
-  const Real t263 = t235 * state.z[0] - t256;
-  const Real t264 = t230 * state.z[0] - t252;
-  const Real t265 = t227 * state.z[0] - t250;
-  const Real t268 = state.y[1] * Real(0.5);
-  const Real t269 = state.y[2] * Real(0.5);
-  const Real t270 = state.y[3] * Real(0.5);
-  const Real t271 = state.y[4] * Real(0.5);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
+  const Real t168 = Real(1.0) / top_joints2am_z;
+  const Real t169 = top_jointax_y * t168;
+  const Real t175 = Real(0.31) * top_joints1bf1_x + (t109 + top_joints2bm_y * t169);
+  const Real t179 = top_joints2bm_z * t169 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t185 = Real(1.0) / (t109 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t169));
+  const Real t186 = (t100 + (q1r0_y * Real(0.31) + top_joints2bm_x * Real(0.06992681194351041))) * t185;
+  const Real t190 = q1r0_x * Real(0.31) - (t100 - (top_joints2bm_y * Real(0.06992681194351041) + t175 *
+      t186));
+  const Real t192 = t190 * Real(0.0967741935483871);
+  const Real t193 = tie_rods0bm_x * t185;
+  const Real t198 = Real(1.0) / t190;
+  const Real t199 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t175 * t193)) * t198;
+  const Real t204 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t179 * t193 -
+      t192 * t199)));
+  const Real t207 = s0 * top_jointbx1p_x - (c0 * top_jointbx1p_y - top_jointbx1_x * t169);
+  const Real t210 = top_jointbx1_x * Real(0.06992681194351041) + t186 * t207;
+  const Real t216 = t204 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (t193 * t207 -
+      t199 * t210)));
+  const Real t219 = t198 * (t210 + t192 * t216);
+  const Real t224 = t185 * (t175 * t219 - (t207 + t179 * t216));
+  const Real t239 = tie_rods0bf0_x * s * t204 * model.c2;
+  const Real t240 = Real(0.0967741935483871) * t239;
+  const Real t241 = t224 * state.z[0] - t240;
+  const Real t242 = t219 * state.z[0] - t240;
+  const Real t243 = t216 * state.z[0] - t239;
+  const Real t245 = state.y[1] * Real(0.5);
+  const Real t246 = state.y[2] * Real(0.5);
+  const Real t247 = state.y[3] * Real(0.5);
+  const Real t248 = state.y[4] * Real(0.5);
   ydot[0] = state.z[0];
-  ydot[1] = -(t264 * t270 + (t263 * t269 - t265 * t271));
-  ydot[2] = -(t264 * t271 - (t263 * t268 - t265 * t270));
-  ydot[3] = t264 * t268 + (t263 * t271 + t265 * t269);
-  ydot[4] = t264 * t269 - (t263 * t270 + t265 * t268);
-  ydot[5] = t173 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 - top_joints2bm_z *
-      t227))) * state.z[0] - t173 * (top_joints2bm_y * t252 + (top_joints2bm_x * t256 - top_joints2bm_z *
-      t250));
+  ydot[1] = -(t242 * t247 + (t241 * t246 - t243 * t248));
+  ydot[2] = -(t242 * t248 - (t241 * t245 - t243 * t247));
+  ydot[3] = t242 * t245 + (t241 * t248 + t243 * t246);
+  ydot[4] = t242 * t246 - (t241 * t247 + t243 * t245);
+  ydot[5] = t168 * (top_joints2bm_x * t224 - (top_jointbx1_x - (top_joints2bm_y * t219 - top_joints2bm_z *
+      t216))) * state.z[0];
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -273,14 +507,10 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q133 + (q122 - Real(1.0));
+  const Real q1r0_x = q122 + q133 - Real(1.0);
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -293,31 +523,31 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
+  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
-  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
+  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t103 = q1r0_z * Real(0.03);
+  const Real t100 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t112 = Real(0.03) * top_joints1bf1_z;
+  const Real t109 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t124 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
+  const Real t121 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t121;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t121 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -325,30 +555,31 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
-  const Real t169 = Real(1.0) / top_joints2am_z;
-  const Real t170 = top_jointax_y * t169;
-  const Real t176 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t170);
-  const Real t180 = top_joints2bm_z * t170 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t183 = top_jointax_x * t169 * Real(0.0697564737441253);
-  const Real t189 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t170));
-  const Real t190 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t183)) * t189;
-  const Real t199 = t180 * t190 + (top_joints2bm_z * t183 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t200 = tie_rods0bm_x * t189;
-  const Real t205 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t183 + t176 * t190)));
-  const Real t206 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t176 * t200)) * t205;
-  const Real t214 = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + top_jointbx1_x * t170);
-  const Real t217 = top_jointbx1_x * t183 + t190 * t214;
-  const Real t223 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t180 * t200 -
-      t199 * t206))) * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t200 * t214 - t206 *
-      t217)));
-  const Real t226 = t205 * (t217 - t199 * t223);
-  const Real t231 = t189 * (t176 * t226 - (t214 - t180 * t223));
-  const Real t238 = t169 * (top_joints2bm_x * t231 - (top_jointbx1_x - (top_joints2bm_y * t226 +
-      top_joints2bm_z * t223)));
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real t166 = Real(1.0) / top_joints2am_z;
+  const Real t167 = top_jointax_y * t166;
+  const Real t173 = top_joints2bm_y * t167 + (t109 + Real(0.31) * top_joints1bf1_x);
+  const Real t177 = top_joints2bm_z * t167 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t183 = Real(1.0) / (top_joints2bm_x * t167 + (Real(0.31) * top_joints1bf1_y - t109));
+  const Real t184 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t100)) * t183;
+  const Real t188 = t173 * t184 - (top_joints2bm_y * Real(0.06992681194351041) - (t100 - q1r0_x *
+      Real(0.31)));
+  const Real t190 = t188 * Real(0.0967741935483871);
+  const Real t191 = tie_rods0bm_x * t183;
+  const Real t196 = Real(1.0) / t188;
+  const Real t197 = (t173 * t191 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t196;
+  const Real t204 = top_jointbx1_x * t167 - (c0 * top_jointbx1p_y - s0 * top_jointbx1p_x);
+  const Real t207 = top_jointbx1_x * Real(0.06992681194351041) - t184 * t204;
+  const Real t213 = (t197 * t207 + (t191 * t204 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x))) / (t190 * t197 - (t177 * t191 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t216 = t196 * (t207 - t190 * t213);
+  const Real t221 = t183 * (t177 * t213 + (t204 + t173 * t216));
+  const Real t228 = t166 * (top_joints2bm_z * t213 + (top_joints2bm_y * t216 + (top_jointbx1_x -
+      top_joints2bm_x * t221)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -357,20 +588,21 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
-  const Real p_2_1n_z = q1r2_x * Real(1.3056) + (q1r1_x * Real(0.0768) - (q1r0_z * Real(0.192) - q1r0_y *
-      Real(1.7608)));
-  const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
-      Real(0.98)));
-  M[0][0] = q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z *
-      S1at1r1_z - (h1at1_y * Real(0.04) - (t238 * t238 * Real(0.0505) + (t231 * (t231 * Real(1.4408) +
-      (p_1_1n_z + p_1_1n_z)) - (t223 * (t226 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t223 * Real(0.98)))) -
-      (t226 * (t226 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t223 * Real(0.192)))) + ((q1r1_x * q1r1_x +
-      q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) + Real(0.017799999999999996)))))))))));
+  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real t281 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
+  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - t281);
+  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + t281 * Real(0.4166666666666667));
+  M[0][0] = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y * S1at1r0_y + (q1r1_z * S1at1r0_z -
+      (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t228 * t228
+      * Real(0.0505) - (t221 * (p_1_1n_z + (p_1_1n_z - t221 * Real(1.4408))) - (t213 * (t213 * Real(0.98) -
+      (p_3_1n_z + (p_3_1n_z + t216 * Real(0.192)))) - t216 * (t213 * Real(0.192) + (p_2_1n_z + (p_2_1n_z -
+      t216 * Real(1.7608)))))))))))) + Real(3.9165000000000005));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -382,11 +614,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -412,21 +640,20 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_x * Real(0.14) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) - Real(0.13)) +
-      Real(0.01));
-  const Real tie_rodd_y = expression_3 + (Real(0.36) + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
+  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t106 = q1r0_z * Real(0.03);
+  const Real t101 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t115 = Real(0.03) * top_joints1bf1_z;
+  const Real t110 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t127 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t127;
+  const Real t122 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t122;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t127 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t122 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -434,59 +661,58 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t176 = Real(1.0) / top_joints2am_z;
-  const Real t177 = top_jointax_y * t176;
-  const Real t183 = Real(0.31) * top_joints1bf1_x + (t115 + top_joints2bm_y * t177);
-  const Real t187 = top_joints2bm_z * t177 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t190 = top_jointax_x * t176 * Real(0.0697564737441253);
-  const Real t196 = Real(1.0) / (t115 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t177));
-  const Real t197 = (t106 + (q1r0_y * Real(0.31) + top_joints2bm_x * t190)) * t196;
-  const Real t206 = t187 * t197 + (top_joints2bm_z * t190 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t207 = tie_rods0bm_x * t196;
-  const Real t212 = Real(1.0) / (q1r0_x * Real(0.31) - (t106 - (top_joints2bm_y * t190 + t183 * t197)));
-  const Real t213 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t183 * t207)) * t212;
-  const Real t218 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t187 * t207 -
-      t206 * t213)));
-  const Real t220 = top_jointbx1_y - top_jointbx1_x * t177;
-  const Real t223 = top_jointbx1_x * t190 - t197 * t220;
-  const Real t229 = t218 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t207 * t220 +
-      t213 * t223)));
-  const Real t232 = t212 * (t223 + t206 * t229);
-  const Real t237 = t196 * (t183 * t232 + (t220 - t187 * t229));
-  const Real t244 = t176 * (top_joints2bm_x * t237 - (top_jointbx1_x - (top_joints2bm_y * t232 -
-      top_joints2bm_z * t229)));
-  const Real t250 = tie_rods0at * t218;
-  const Real t252 = t212 * (t206 * t250);
-  const Real t256 = t196 * (t183 * t252 - t187 * t250);
-  const Real t263 = t237 * state.z[0] - t256;
-  const Real t264 = t232 * state.z[0] - t252;
-  const Real t265 = t229 * state.z[0] - t250;
-  const Real t266 = t244 * state.z[0] - t176 * (top_joints2bm_y * t252 + (top_joints2bm_x * t256 -
-      top_joints2bm_z * t250));
-  const Real top_jointam2t_y = top_jointax_x * t266;
-  const Real t269 = Real(0.03) * t265;
-  const Real top_jointbm1t_x = Real(0.31) * t264 - t269;
-  const Real top_jointbm1t_y = t269 - Real(0.31) * t263;
-  const Real top_jointbm1t_z = Real(0.03) * (t263 - t264);
-  const Real top_jointam2t_x = top_jointax_y * t266;
-  const Real top_jointam2a_y = t266 * top_jointam2t_x;
-  const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t264 * top_jointbm1t_z - t265 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t263 * top_jointbm1t_z - t265 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t263 * top_jointbm1t_y - t264 * top_jointbm1t_x;
+  const Real t171 = Real(1.0) / top_joints2am_z;
+  const Real t172 = top_jointax_y * t171;
+  const Real t178 = Real(0.31) * top_joints1bf1_x + (t110 + top_joints2bm_y * t172);
+  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t188 = Real(1.0) / (t110 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t172));
+  const Real t189 = (t101 + (q1r0_y * Real(0.31) + top_joints2bm_x * Real(0.06992681194351041))) * t188;
+  const Real t193 = q1r0_x * Real(0.31) - (t101 - (top_joints2bm_y * Real(0.06992681194351041) + t178 *
+      t189));
+  const Real t195 = t193 * Real(0.0967741935483871);
+  const Real t196 = tie_rods0bm_x * t188;
+  const Real t201 = Real(1.0) / t193;
+  const Real t202 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t178 * t196)) * t201;
+  const Real t207 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t182 * t196 -
+      t195 * t202)));
+  const Real t209 = top_jointbx1_y - top_jointbx1_x * t172;
+  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) - t189 * t209;
+  const Real t218 = t207 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t196 * t209 +
+      t202 * t212)));
+  const Real t221 = t201 * (t212 + t195 * t218);
+  const Real t226 = t188 * (t178 * t221 + (t209 - t182 * t218));
+  const Real t233 = t171 * (top_joints2bm_x * t226 - (top_jointbx1_x - (top_joints2bm_y * t221 -
+      top_joints2bm_z * t218)));
+  const Real t238 = t233 * state.z[0];
+  const Real t239 = tie_rods0at * t207;
+  const Real t240 = Real(0.0967741935483871) * t239;
+  const Real t241 = t226 * state.z[0] - t240;
+  const Real t242 = t221 * state.z[0] - t240;
+  const Real t243 = t218 * state.z[0] - t239;
+  const Real top_jointam2t_y = top_jointax_x * t238;
+  const Real t246 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 - t246;
+  const Real top_jointbm1t_y = t246 - Real(0.31) * t241;
+  const Real top_jointbm1t_z = Real(0.03) * (t241 - t242);
+  const Real top_jointam2t_x = top_jointax_y * t238;
+  const Real top_jointam2a_y = t238 * top_jointam2t_x;
+  const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
+  const Real top_jointbm1a_x = t242 * top_jointbm1t_z - t243 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t241 * top_jointbm1t_z - t243 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t241 * top_jointbm1t_y - t242 * top_jointbm1t_x;
   const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y - (q1r1_x * top_jointbm1t_x - q1r1_z *
       top_jointbm1t_z);
   const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y + (q1r2_x * top_jointbm1t_x + q1r2_z *
       top_jointbm1t_z);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t266 * top_jointam2t_y;
+  const Real top_jointam2a_x = t238 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
   const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x - q1r1_z *
       top_jointbm1a_z);
@@ -498,9 +724,9 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
   const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
       state.z[0] * top_jointbm0b_x));
-  const Real tie_rodbm1t_x = Real(0.07) * t264 - Real(0.02) * t265;
-  const Real tie_rodbm1t_y = Real(0.14) * t265 - Real(0.07) * t263;
-  const Real tie_rodbm1t_z = Real(0.14) * t264 - Real(0.02) * t263;
+  const Real tie_rodbm1t_x = Real(0.07) * t242 - Real(0.02) * t243;
+  const Real tie_rodbm1t_y = Real(0.14) * t243 - Real(0.07) * t241;
+  const Real tie_rodbm1t_z = Real(0.14) * t242 - Real(0.02) * t241;
   const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
@@ -511,26 +737,26 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t264 * tie_rodbm1t_z + t265 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t263 * tie_rodbm1t_z + t265 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t263 * tie_rodbm1t_y - t264 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t241 * tie_rodbm1t_y - t242 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x + q1r1_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x - q1r2_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x - q1r0_z * tie_rodbm1a_z);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
-  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
+  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y - state.z[0] *
       tie_rodbm0b_y));
-  const Real t419 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y + (state.z[0] *
-      top_jointbm0b_y + t177 * top_jointda_z)));
-  const Real t426 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y + (q1r0_z *
-      top_jointbm1a_z + (t190 * top_jointda_z + t197 * t419))));
-  const Real t437 = t218 * (t213 * t426 - (t207 * t419 + Real(3.123475237772121) * (tie_rodbm0v_y *
-      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
-      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t440 = t212 * (t426 + t206 * t437);
-  const Real t445 = t196 * (t183 * t440 - (t419 + t187 * t437));
+  const Real t396 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y + (state.z[0] *
+      top_jointbm0b_y + t172 * top_jointda_z)));
+  const Real t403 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y + (q1r0_z *
+      top_jointbm1a_z + (Real(0.06992681194351041) * top_jointda_z + t189 * t396))));
+  const Real t414 = t207 * (t202 * t403 - (t196 * t396 + Real(3.123475237772121) * (tie_rodbm0v_y *
+      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y + (tie_rodd_x *
+      tie_rodbm1app_z - (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
+  const Real t417 = t201 * (t403 + t195 * t414);
+  const Real t422 = t188 * (t178 * t417 - (t396 + t182 * t414));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -543,20 +769,20 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real kK1_x = w1p_x * Real(0.65);
   const Real kK1_y = w1p_y * Real(0.33) + w1p_z * Real(0.192);
   const Real kK1_z = w1p_z * Real(1.1108) + w1p_y * Real(0.192);
-  const Real ku1_x = t263 - Real(2.0) * w1p_x;
-  const Real ku1_y = t264 + Real(2.0) * w1p_y;
-  const Real ku1_z = t265 - Real(2.0) * w1p_z;
+  const Real ku1_x = t241 - Real(2.0) * w1p_x;
+  const Real ku1_y = t242 + Real(2.0) * w1p_y;
+  const Real ku1_z = t243 - Real(2.0) * w1p_z;
   const Real kSu1_x = Real(0.65) * ku1_x;
   const Real kSu1_y = Real(0.33) * ku1_y - Real(0.192) * ku1_z;
   const Real kSu1_z = Real(1.1108) * ku1_z - Real(0.192) * ku1_y;
   const Real kuh1 = Real(1.6) * ku1_y - Real(3.84) * ku1_z;
-  const Real kuw1 = t264 * ku1_y + (t263 * ku1_x + t265 * ku1_z);
-  const Real kdf1_x = t263 * kuh1;
-  const Real kdf1_y = Real(1.6) * kuw1 - t264 * kuh1;
-  const Real kdf1_z = Real(3.84) * kuw1 + t265 * kuh1;
-  const Real kdn1_x = t264 * kSu1_z - t265 * kSu1_y;
-  const Real kdn1_y = t263 * kSu1_z - t265 * kSu1_x;
-  const Real kdn1_z = t263 * kSu1_y - t264 * kSu1_x;
+  const Real kuw1 = t242 * ku1_y + (t241 * ku1_x + t243 * ku1_z);
+  const Real kdf1_x = t241 * kuh1;
+  const Real kdf1_y = Real(1.6) * kuw1 - t242 * kuh1;
+  const Real kdf1_z = Real(3.84) * kuw1 + t243 * kuh1;
+  const Real kdn1_x = t242 * kSu1_z - t243 * kSu1_y;
+  const Real kdn1_y = t241 * kSu1_z - t243 * kSu1_x;
+  const Real kdn1_z = t241 * kSu1_y - t242 * kSu1_x;
   const Real kf1p_x = q1r1_y * kdf1_y + (q1r1_x * kdf1_x - q1r1_z * kdf1_z);
   const Real kf1p_y = q1r2_y * kdf1_y - (q1r2_x * kdf1_x + q1r2_z * kdf1_z);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
@@ -567,17 +793,19 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
       Real(0.98)));
   k[0] = q1r0_y * kdn1_y + (q1r0_x * kdn1_x + (q1r0_z * kdn1_z - (Real(0.02) * kf1p_x - (Real(0.34) * kf1p_y +
-      (t445 * p_1_1n_z - (t440 * p_2_1n_z + (t437 * p_3_1n_z - (t237 * (ka1_y * Real(3.84) + (ka1_z *
-      Real(1.6) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t445 * Real(1.4408)))))) + (t232 * (w1p_x *
-      kK1_z + (ka1_x * Real(3.84) - (w1p_z * kK1_x - (kdn1_y - (t440 * Real(1.7608) + t437 * Real(0.192))))))
-      + (t229 * (w1p_x * kK1_y + (ka1_x * Real(1.6) - (w1p_y * kK1_x + (kdn1_z + (t440 * Real(0.192) + t437 *
-      Real(0.98)))))) - t244 * (t176 * (top_joints2bm_x * t445 - (top_jointda_z - (top_joints2bm_y * t440 -
-      top_joints2bm_z * t437)))) * Real(0.0505)))))))))));
+      (t422 * p_1_1n_z - (t417 * p_2_1n_z + (t414 * p_3_1n_z - (t226 * (ka1_y * Real(3.84) + (ka1_z *
+      Real(1.6) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t422 * Real(1.4408)))))) + (t221 * (w1p_x *
+      kK1_z + (ka1_x * Real(3.84) - (w1p_z * kK1_x - (kdn1_y - (t417 * Real(1.7608) + t414 * Real(0.192))))))
+      + (t218 * (w1p_x * kK1_y + (ka1_x * Real(1.6) - (w1p_y * kK1_x + (kdn1_z + (t417 * Real(0.192) + t414 *
+      Real(0.98)))))) - t233 * (t171 * (top_joints2bm_x * t422 - (top_jointda_z - (top_joints2bm_y * t417 -
+      top_joints2bm_z * t414)))) * Real(0.0505)))))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -589,11 +817,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -617,21 +841,20 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_x * Real(0.14) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) - Real(0.13)) +
-      Real(0.01));
-  const Real tie_rodd_y = expression_3 + (Real(0.36) + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
+  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t105 = q1r0_z * Real(0.03);
+  const Real t100 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t114 = Real(0.03) * top_joints1bf1_z;
+  const Real t109 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t126 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t126;
+  const Real t121 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t121;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t126 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t121 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -639,28 +862,28 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
-  const Real t171 = Real(1.0) / top_joints2am_z;
-  const Real t172 = top_jointax_y * t171;
-  const Real t178 = Real(0.31) * top_joints1bf1_x + (t114 + top_joints2bm_y * t172);
-  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t185 = top_jointax_x * t171 * Real(0.0697564737441253);
-  const Real t191 = Real(1.0) / (t114 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t172));
-  const Real t192 = (t105 + (q1r0_y * Real(0.31) + top_joints2bm_x * t185)) * t191;
-  const Real t201 = t182 * t192 + (top_joints2bm_z * t185 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t202 = tie_rods0bm_x * t191;
-  const Real t207 = Real(1.0) / (q1r0_x * Real(0.31) - (t105 - (top_joints2bm_y * t185 + t178 * t192)));
-  const Real t208 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t178 * t202)) * t207;
-  const Real t216 = s0 * top_jointbx1p_x - (c0 * top_jointbx1p_y - top_jointbx1_x * t172);
-  const Real t219 = top_jointbx1_x * t185 + t192 * t216;
-  const Real t225 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t182 * t202 -
-      t201 * t208))) * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (t202 * t216 - t208 *
-      t219)));
-  const Real t228 = t207 * (t219 + t201 * t225);
-  const Real t233 = t191 * (t178 * t228 - (t216 + t182 * t225));
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
+  const Real t166 = Real(1.0) / top_joints2am_z;
+  const Real t167 = top_jointax_y * t166;
+  const Real t173 = Real(0.31) * top_joints1bf1_x + (t109 + top_joints2bm_y * t167);
+  const Real t177 = top_joints2bm_z * t167 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t183 = Real(1.0) / (t109 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t167));
+  const Real t184 = (t100 + (q1r0_y * Real(0.31) + top_joints2bm_x * Real(0.06992681194351041))) * t183;
+  const Real t188 = q1r0_x * Real(0.31) - (t100 - (top_joints2bm_y * Real(0.06992681194351041) + t173 *
+      t184));
+  const Real t190 = t188 * Real(0.0967741935483871);
+  const Real t191 = tie_rods0bm_x * t183;
+  const Real t196 = Real(1.0) / t188;
+  const Real t197 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t173 * t191)) * t196;
+  const Real t204 = s0 * top_jointbx1p_x - (c0 * top_jointbx1p_y - top_jointbx1_x * t167);
+  const Real t207 = top_jointbx1_x * Real(0.06992681194351041) + t184 * t204;
+  const Real t213 = (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (t191 * t204 - t197 *
+      t207))) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t177 * t191 - t190 * t197)));
+  const Real t216 = t196 * (t207 + t190 * t213);
+  const Real t221 = t183 * (t173 * t216 - (t204 + t177 * t213));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = q1r1_z * Real(3.84) - (q1r1_y * Real(1.6) - Real(11.73));
   const Real h1c_y = q1r2_z * Real(3.84) - (q1r2_y * Real(1.6) - Real(0.64));
@@ -683,36 +906,33 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
       Real(0.06)));
   const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
       Real(0.06)));
-  const Real expression_4 = input.u[0] + (c0 * wheel_centerx1p_y + s0 * wheel_centerx1p_x - Real(0.21) +
-      Real(0.3275));
+  const Real expression_4 = s0 * wheel_centerx1p_x + (input.u[0] + c0 * wheel_centerx1p_y) +
+      Real(0.11750000000000002);
   const Real expression_5 = expression_4 * model.tyre;
-  const Real tyre_forcef1p_x = s0 * expression_5;
-  const Real tyre_forcef1p_y = c0 * expression_5;
-  const Real tyre_forcef1_x = q1r1_x * tyre_forcef1p_x + q1r2_x * tyre_forcef1p_y;
-  const Real tyre_forcef1_y = q1r1_y * tyre_forcef1p_x - q1r2_y * tyre_forcef1p_y;
-  const Real tyre_forcef1_z = q1r1_z * tyre_forcef1p_x - q1r2_z * tyre_forcef1p_y;
+  const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
+  const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
+  const Real tyre_forcef1_z = top_joints2bf1_z * expression_5;
   const Real tyre_forcem_x = Real(0.12) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_z;
-  const Real tyre_forcem_y = Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x;
-  const Real tyre_forcem_z = Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x;
-  const Real qloadf1p_x = q1r1_y * tyre_forcef1_y + (q1r1_x * tyre_forcef1_x + q1r1_z * tyre_forcef1_z);
-  const Real qloadf1p_y = q1r2_y * tyre_forcef1_y - (q1r2_x * tyre_forcef1_x - q1r2_z * tyre_forcef1_z);
-  const Real g1p_x = s0 * Real(9.81);
-  const Real g1p_y = c0 * Real(9.81);
-  const Real g1_x = q1r1_x * g1p_x + q1r2_x * g1p_y;
-  const Real g1_y = q1r1_y * g1p_x - q1r2_y * g1p_y;
-  const Real g1_z = q1r1_z * g1p_x - q1r2_z * g1p_y;
-  const Real q_1 = Real(1.6) * g1_z - (tyre_forcem_x - Real(3.84) * g1_y);
-  const Real q_2 = tyre_forcem_y - Real(3.84) * g1_x;
-  const Real q_3 = tyre_forcem_z + Real(1.6) * g1_x;
-  q[0] = -(strutbx_y * strutf_y - (strutbx_x * strutf_z + (q1r0_x * tyre_forcem_x - (q1r0_y * tyre_forcem_y +
-      (q1r0_z * tyre_forcem_z + (Real(0.02) * qloadf1p_x - (Real(0.34) * qloadf1p_y + (h0b_x * Real(9.81) +
-      (t233 * q_1 - (t228 * q_2 - (t225 * q_3 + t171 * (top_joints2bm_x * t233 - (top_jointbx1_x -
-      (top_joints2bm_y * t228 - top_joints2bm_z * t225))) * h2b_x * Real(9.786103333048876))))))))))));
+  const Real tyre_forcem_y = Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x;
+  const Real tyre_forcem_z = Real(0.01) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x;
+  const Real qloadf1p_x = q1r1_y * tyre_forcef1_y - (q1r1_x * tyre_forcef1_x - q1r1_z * tyre_forcef1_z);
+  const Real qloadf1p_y = q1r2_y * tyre_forcef1_y + (q1r2_x * tyre_forcef1_x + q1r2_z * tyre_forcef1_z);
+  const Real g1_x = top_joints2bf1_x * Real(9.81);
+  const Real q_1 = top_joints2bf1_z * Real(15.696000000000002) - (tyre_forcem_x - top_joints2bf1_y *
+      Real(37.6704));
+  const Real q_2 = tyre_forcem_y + Real(3.84) * g1_x;
+  const Real q_3 = tyre_forcem_z - Real(1.6) * g1_x;
+  q[0] = -(strutbx_y * strutf_y - (strutbx_x * strutf_z - (q1r0_x * tyre_forcem_x - (q1r0_y * tyre_forcem_y +
+      (q1r0_z * tyre_forcem_z + (Real(0.02) * qloadf1p_x - (Real(0.34) * qloadf1p_y - (h0b_x * Real(9.81) -
+      (t221 * q_1 - (t216 * q_2 - (t213 * q_3 - t166 * (top_joints2bm_x * t221 - (top_jointbx1_x -
+      (top_joints2bm_y * t216 - top_joints2bm_z * t213))) * h2b_x * Real(9.786103333048876))))))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -721,14 +941,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q133 + (q122 - Real(1.0));
+  const Real q1r0_x = q122 + q133 - Real(1.0);
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -741,33 +957,33 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
+  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
+  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
-  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
+  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t104 = q1r0_z * Real(0.03);
+  const Real t101 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t113 = Real(0.03) * top_joints1bf1_z;
+  const Real t110 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t125 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t125;
+  const Real t122 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t122;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t125 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t122 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -775,103 +991,102 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t174 = Real(1.0) / top_joints2am_z;
-  const Real t175 = top_jointax_y * t174;
-  const Real t181 = Real(0.31) * top_joints1bf1_x + (t113 + top_joints2bm_y * t175);
-  const Real t185 = top_joints2bm_z * t175 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t188 = top_jointax_x * t174 * Real(0.0697564737441253);
-  const Real t194 = Real(1.0) / (t113 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t175));
-  const Real t195 = (t104 + (q1r0_y * Real(0.31) + top_joints2bm_x * t188)) * t194;
-  const Real t204 = t185 * t195 + (top_joints2bm_z * t188 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t205 = tie_rods0bm_x * t194;
-  const Real t210 = Real(1.0) / (q1r0_x * Real(0.31) - (t104 - (top_joints2bm_y * t188 + t181 * t195)));
-  const Real t211 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t181 * t205)) * t210;
-  const Real t216 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t185 * t205 -
-      t204 * t211)));
-  const Real t218 = top_jointbx1_y + top_jointbx1_x * t175;
-  const Real t221 = top_jointbx1_x * t188 + t195 * t218;
-  const Real t227 = t216 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t205 * t218 -
-      t211 * t221)));
-  const Real t230 = t210 * (t221 - t204 * t227);
-  const Real t235 = t194 * (t181 * t230 - (t218 - t185 * t227));
-  const Real t242 = t174 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 +
-      top_joints2bm_z * t227)));
-  const Real t248 = tie_rods0at * t216;
-  const Real t250 = t210 * (t204 * t248);
-  const Real t254 = t194 * (t181 * t250 - t185 * t248);
-  const Real t261 = t235 * state.z[0] + t254;
-  const Real t262 = t230 * state.z[0] + t250;
-  const Real t263 = t227 * state.z[0] - t248;
-  const Real t264 = t242 * state.z[0] + t174 * (top_joints2bm_y * t250 + (top_joints2bm_x * t254 -
-      top_joints2bm_z * t248));
-  const Real top_jointam2t_y = top_jointax_x * t264;
-  const Real t267 = Real(0.03) * t263;
-  const Real top_jointbm1t_x = Real(0.31) * t262 + t267;
-  const Real top_jointbm1t_y = t267 + Real(0.31) * t261;
-  const Real top_jointbm1t_z = Real(0.03) * (t261 - t262);
-  const Real top_jointam2t_x = top_jointax_y * t264;
-  const Real top_jointam2a_y = t264 * top_jointam2t_x;
-  const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t262 * top_jointbm1t_z - t263 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t261 * top_jointbm1t_z + t263 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t261 * top_jointbm1t_y + t262 * top_jointbm1t_x;
-  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
-      top_jointbm1t_z);
-  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
-      top_jointbm1t_z);
+  const Real t171 = Real(1.0) / top_joints2am_z;
+  const Real t172 = top_jointax_y * t171;
+  const Real t178 = top_joints2bm_y * t172 + (t110 + Real(0.31) * top_joints1bf1_x);
+  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t188 = Real(1.0) / (top_joints2bm_x * t172 + (Real(0.31) * top_joints1bf1_y - t110));
+  const Real t189 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t188;
+  const Real t193 = t178 * t189 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
+      Real(0.31)));
+  const Real t195 = t193 * Real(0.0967741935483871);
+  const Real t196 = tie_rods0bm_x * t188;
+  const Real t201 = Real(1.0) / t193;
+  const Real t202 = (t178 * t196 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t201;
+  const Real t207 = Real(1.0) / (t195 * t202 - (t182 * t196 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t209 = top_jointbx1_y - top_jointbx1_x * t172;
+  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) + t189 * t209;
+  const Real t218 = t207 * (t202 * t212 - (t196 * t209 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t221 = t201 * (t212 - t195 * t218);
+  const Real t226 = t188 * (t182 * t218 - (t209 - t178 * t221));
+  const Real t233 = t171 * (top_joints2bm_z * t218 + (top_joints2bm_y * t221 + (top_jointbx1_x -
+      top_joints2bm_x * t226)));
+  const Real t238 = t233 * state.z[0];
+  const Real t239 = tie_rods0at * t207;
+  const Real t240 = Real(0.0967741935483871) * t239;
+  const Real t241 = t226 * state.z[0] + t240;
+  const Real t242 = t221 * state.z[0] - t240;
+  const Real t243 = t218 * state.z[0] + t239;
+  const Real top_jointam2t_y = top_jointax_x * t238;
+  const Real t246 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 + t246;
+  const Real top_jointbm1t_y = t246 - Real(0.31) * t241;
+  const Real top_jointbm1t_z = Real(0.03) * (t241 + t242);
+  const Real top_jointam2t_x = top_jointax_y * t238;
+  const Real top_jointam2a_y = t238 * top_jointam2t_x;
+  const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
+  const Real top_jointbm1a_x = t242 * top_jointbm1t_z + t243 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t241 * top_jointbm1t_z + t243 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t241 * top_jointbm1t_y - t242 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z + (q1r1_x * top_jointbm1t_x + q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z - (q1r2_x * top_jointbm1t_x - q1r2_y *
+      top_jointbm1t_y);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t264 * top_jointam2t_y;
+  const Real top_jointam2a_x = t238 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
-      top_jointbm1a_z);
-  const Real top_jointbm1app_y = q1r2_y * top_jointbm1a_y - (q1r2_x * top_jointbm1a_x - q1r2_z *
-      top_jointbm1a_z);
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z - (q1r2_x * top_jointbm1a_x + q1r2_y *
+      top_jointbm1a_y);
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
-  const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
-  const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
-      state.z[0] * top_jointbm0b_x));
-  const Real tie_rodbm1t_x = Real(0.07) * t262 + Real(0.02) * t263;
-  const Real tie_rodbm1t_y = Real(0.14) * t263 + Real(0.07) * t261;
-  const Real tie_rodbm1t_z = Real(0.14) * t262 - Real(0.02) * t261;
-  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
+  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
+      * top_jointbm1app_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t242 + Real(0.02) * t243;
+  const Real tie_rodbm1t_y = Real(0.14) * t243 - Real(0.07) * t241;
+  const Real tie_rodbm1t_z = Real(0.14) * t242 + Real(0.02) * t241;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t262 * tie_rodbm1t_z + t263 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t261 * tie_rodbm1t_z - t263 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t261 * tie_rodbm1t_y + t262 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
+  const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t241 * tie_rodbm1t_y - t242 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
-  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
-  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
-      tie_rodbm0b_y));
-  const Real t417 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
-      top_jointbm0b_y - t175 * top_jointda_z)));
-  const Real t424 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
-      top_jointbm1a_z - (t188 * top_jointda_z + t195 * t417))));
-  const Real t435 = t216 * (t211 * t424 - (t205 * t417 + Real(3.123475237772121) * (tie_rodbm0v_y *
-      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
-      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t438 = t210 * (t424 + t204 * t435);
-  const Real t443 = t194 * (t181 * t438 - (t417 + t185 * t435));
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t396 = t172 * top_jointda_z + (state.z[0] * top_jointbm0b_y - (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t403 = t189 * t396 - (Real(0.06992681194351041) * top_jointda_z + (q1r0_z * top_jointbm1a_z +
+      (q1r0_y * top_jointbm1a_y - (top_jointam2app_x + q1r0_x * top_jointbm1a_x))));
+  const Real t414 = t207 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
+      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t196 * t396 - t202 * t403));
+  const Real t417 = t201 * (t403 + t195 * t414);
+  const Real t422 = t188 * (t182 * t414 + (t396 - t178 * t417));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -880,11 +1095,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
-  const Real p_2_1n_z = q1r2_x * Real(1.3056) + (q1r1_x * Real(0.0768) - (q1r0_z * Real(0.192) - q1r0_y *
-      Real(1.7608)));
-  const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
-      Real(0.98)));
+  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real t482 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
+  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - t482);
+  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + t482 * Real(0.4166666666666667));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
@@ -898,7 +1112,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutbv0_y = state.z[0] * strutbx_x;
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_ll = strutd_y * strutd_y + strutd_z * strutd_z + Real(1e-18);
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
   const Real strut_e = strut_l - model.free_length;
@@ -906,18 +1120,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strut_Tl = strut_T / strut_l;
   const Real strutf_y = strutd_y * strut_Tl;
   const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - (Real(0.34) + (q1r1_z * Real(0.12) - q1r1_y *
-      Real(0.06)));
-  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
-      Real(0.06)));
-  const Real expression_4 = c0 * wheel_centerx1p_y + (input.u[0] + (s0 * wheel_centerx1p_x +
-      Real(0.11750000000000002)));
+  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
+      Real(0.01)));
+  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
+      Real(0.01)));
+  const Real expression_4 = c0 * wheel_centerx1p_y - (input.u[0] + s0 * wheel_centerx1p_x) -
+      Real(0.11750000000000002);
   const Real expression_5 = expression_4 * model.tyre;
-  const Real tyre_forcef1p_x = s0 * expression_5;
-  const Real tyre_forcef1p_y = c0 * expression_5;
-  const Real tyre_forcef1_x = q1r1_x * tyre_forcef1p_x + q1r2_x * tyre_forcef1p_y;
-  const Real tyre_forcef1_y = q1r1_y * tyre_forcef1p_x - q1r2_y * tyre_forcef1p_y;
-  const Real tyre_forcef1_z = q1r1_z * tyre_forcef1p_x - q1r2_z * tyre_forcef1p_y;
+  const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
+  const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
+  const Real tyre_forcef1_z = top_joints2bf1_z * expression_5;
   const Real rQp0 = h0b_x * Real(9.81);
   const Real rL0a_x = s0 * Real(9.81);
   const Real rL0a_y = c0 * Real(9.81);
@@ -930,45 +1142,47 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real ru1_x = t261 + Real(2.0) * w1p_x;
-  const Real ru1_y = t262 - Real(2.0) * w1p_y;
-  const Real ru1_z = t263 - Real(2.0) * w1p_z;
+  const Real ru1_x = t241 - Real(2.0) * w1p_x;
+  const Real ru1_y = t242 - Real(2.0) * w1p_y;
+  const Real ru1_z = t243 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
   const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
   const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
   const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ruw1 = t262 * ru1_y + (t261 * ru1_x + t263 * ru1_z);
+  const Real ruw1 = t243 * ru1_z + (t241 * ru1_x + t242 * ru1_y);
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t174 * (top_joints2bm_x * t443 - (top_jointda_z - (top_joints2bm_y * t438 -
-      top_joints2bm_z * t435))) * Real(0.0505);
-  const Real ref1_x = t435 * Real(1.6) - (tyre_forcef1_x - (t438 * Real(3.84) + t261 * ruh1));
-  const Real ref1_y = Real(1.6) * ruw1 - (tyre_forcef1_y - (t443 * Real(3.84) - t262 * ruh1));
-  const Real ref1_z = t443 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * ruw1 - t263 * ruh1));
-  const Real ren1_x = Real(0.06) * tyre_forcef1_z + (Real(0.12) * tyre_forcef1_y - (t443 * Real(1.4408) -
-      (t262 * rSu1_z - t263 * rSu1_y)));
-  const Real ren1_y = Real(0.12) * tyre_forcef1_x + (Real(0.01) * tyre_forcef1_z - (t435 * Real(0.192) + (t438
-      * Real(1.7608) + (t261 * rSu1_z - t263 * rSu1_x))));
-  const Real ren1_z = Real(0.06) * tyre_forcef1_x - (Real(0.01) * tyre_forcef1_y + (t438 * Real(0.192) + (t435
-      * Real(0.98) + (t261 * rSu1_y - t262 * rSu1_x))));
-  const Real rf1p_x = q1r1_y * ref1_y + (q1r1_x * ref1_x + q1r1_z * ref1_z);
-  const Real rf1p_y = q1r2_y * ref1_y - (q1r2_x * ref1_x - q1r2_z * ref1_z);
-  const Real rQ1_0 = Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (w1p_y * rK1_z - (w1p_z * rK1_y - ren1_x)));
-  const Real rQ1_1 = w1p_x * rK1_z - (Real(3.84) * ra1_x + (w1p_z * rK1_x - ren1_y));
-  const Real rQ1_2 = w1p_x * rK1_y - (Real(1.6) * ra1_x + (w1p_y * rK1_x - ren1_z));
-  const Real rQ2_0 = rQp2 + rdn2_z;
-  zdot[0] = Real(1.0) / (q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y *
-      S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t242 * t242 * Real(0.0505) + (t235 * (t235 *
-      Real(1.4408) + (p_1_1n_z + p_1_1n_z)) - (t227 * (t230 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t227 *
-      Real(0.98)))) - (t230 * (t230 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t227 * Real(0.192)))) + ((q1r1_x
-      * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) +
-      Real(0.017799999999999996)))))))))))) * (strutbx_y * strutf_y - (strutbx_x * strutf_z - (rQp0 - (q1r0_x
-      * ren1_x - (q1r0_y * ren1_y - (q1r0_z * ren1_z + (Real(0.02) * rf1p_x - (Real(0.34) * rf1p_y + (t235 *
-      rQ1_0 - (t230 * rQ1_1 - (t227 * rQ1_2 + t242 * rQ2_0)))))))))));
+  const Real rdn2_z = t171 * (top_joints2bm_z * t414 - (top_joints2bm_y * t417 - (top_jointda_z -
+      top_joints2bm_x * t422))) * Real(0.0505);
+  const Real ref1_x = t241 * ruh1 - (t417 * Real(3.84) + (tyre_forcef1_x + t414 * Real(1.6)));
+  const Real ref1_y = t242 * ruh1 - (t422 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * ruw1));
+  const Real ref1_z = t243 * ruh1 - (Real(3.84) * ruw1 + (tyre_forcef1_z - t422 * Real(1.6)));
+  const Real ren1_x = t243 * rSu1_y - (t242 * rSu1_z - (t422 * Real(1.4408) - (Real(0.12) * tyre_forcef1_y +
+      Real(0.06) * tyre_forcef1_z)));
+  const Real ren1_y = t243 * rSu1_x - (t241 * rSu1_z - (t417 * Real(1.7608) + (t414 * Real(0.192) -
+      (Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x))));
+  const Real ren1_z = t242 * rSu1_x - (t241 * rSu1_y - (t414 * Real(0.98) + (t417 * Real(0.192) + (Real(0.01)
+      * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x))));
+  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x + q1r1_y * ref1_y);
+  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x - q1r2_y * ref1_y);
+  const Real rQ1_0 = ren1_x + (w1p_z * rK1_y - (w1p_y * rK1_z - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
+  const Real rQ1_1 = ren1_y + (w1p_z * rK1_x + (Real(3.84) * ra1_x - w1p_x * rK1_z));
+  const Real rQ1_2 = ren1_z + (w1p_y * rK1_x + (Real(1.6) * ra1_x - w1p_x * rK1_y));
+  const Real rQ2_0 = rQp2 - rdn2_z;
+  zdot[0] = (t233 * rQ2_0 - (t218 * rQ1_2 - (t221 * rQ1_1 - (t226 * rQ1_0 - (Real(0.34) * rf1p_y - (Real(0.02)
+      * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x + (rQp0 - (strutbx_x * strutf_z -
+      strutbx_y * strutf_y))))))))))) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y *
+      S1at1r0_y + (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z -
+      (h1at1_y * Real(0.04) - (t233 * t233 * Real(0.0505) - (t226 * (p_1_1n_z + (p_1_1n_z - t226 *
+      Real(1.4408))) - (t218 * (t218 * Real(0.98) - (p_3_1n_z + (p_3_1n_z + t221 * Real(0.192)))) - t221 *
+      (t218 * Real(0.192) + (p_2_1n_z + (p_2_1n_z - t221 * Real(1.7608)))))))))))) +
+      Real(3.9165000000000005)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -977,14 +1191,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q133 + (q122 - Real(1.0));
+  const Real q1r0_x = q122 + q133 - Real(1.0);
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -997,33 +1207,33 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
+  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
+  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
-  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
+  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t104 = q1r0_z * Real(0.03);
+  const Real t101 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t113 = Real(0.03) * top_joints1bf1_z;
+  const Real t110 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t125 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t125;
+  const Real t122 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t122;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t125 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t122 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -1031,106 +1241,105 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t174 = Real(1.0) / top_joints2am_z;
-  const Real t175 = top_jointax_y * t174;
-  const Real t181 = Real(0.31) * top_joints1bf1_x + (t113 + top_joints2bm_y * t175);
-  const Real t185 = top_joints2bm_z * t175 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t188 = top_jointax_x * t174 * Real(0.0697564737441253);
-  const Real t194 = Real(1.0) / (t113 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t175));
-  const Real t195 = (t104 + (q1r0_y * Real(0.31) + top_joints2bm_x * t188)) * t194;
-  const Real t204 = t185 * t195 + (top_joints2bm_z * t188 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t205 = tie_rods0bm_x * t194;
-  const Real t210 = Real(1.0) / (q1r0_x * Real(0.31) - (t104 - (top_joints2bm_y * t188 + t181 * t195)));
-  const Real t211 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t181 * t205)) * t210;
-  const Real t216 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t185 * t205 -
-      t204 * t211)));
-  const Real t218 = top_jointbx1_y + top_jointbx1_x * t175;
-  const Real t221 = top_jointbx1_x * t188 + t195 * t218;
-  const Real t227 = t216 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t205 * t218 -
-      t211 * t221)));
-  const Real t230 = t210 * (t221 - t204 * t227);
-  const Real t235 = t194 * (t181 * t230 - (t218 - t185 * t227));
-  const Real t242 = t174 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 +
-      top_joints2bm_z * t227)));
-  const Real t248 = tie_rods0at * t216;
-  const Real t250 = t210 * (t204 * t248);
-  const Real t254 = t194 * (t181 * t250 - t185 * t248);
-  const Real t261 = t235 * state.z[0] + t254;
-  const Real t262 = t230 * state.z[0] + t250;
-  const Real t263 = t227 * state.z[0] - t248;
-  const Real t264 = t242 * state.z[0] + t174 * (top_joints2bm_y * t250 + (top_joints2bm_x * t254 -
-      top_joints2bm_z * t248));
-  const Real top_jointam2t_y = top_jointax_x * t264;
-  const Real t267 = Real(0.03) * t263;
-  const Real top_jointbm1t_x = Real(0.31) * t262 + t267;
-  const Real top_jointbm1t_y = t267 + Real(0.31) * t261;
-  const Real top_jointbm1t_z = Real(0.03) * (t261 - t262);
-  const Real top_jointam2t_x = top_jointax_y * t264;
-  const Real top_jointam2a_y = t264 * top_jointam2t_x;
-  const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t262 * top_jointbm1t_z - t263 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t261 * top_jointbm1t_z + t263 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t261 * top_jointbm1t_y + t262 * top_jointbm1t_x;
-  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
-      top_jointbm1t_z);
-  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
-      top_jointbm1t_z);
+  const Real t171 = Real(1.0) / top_joints2am_z;
+  const Real t172 = top_jointax_y * t171;
+  const Real t178 = top_joints2bm_y * t172 + (t110 + Real(0.31) * top_joints1bf1_x);
+  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t188 = Real(1.0) / (top_joints2bm_x * t172 + (Real(0.31) * top_joints1bf1_y - t110));
+  const Real t189 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t188;
+  const Real t193 = t178 * t189 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
+      Real(0.31)));
+  const Real t195 = t193 * Real(0.0967741935483871);
+  const Real t196 = tie_rods0bm_x * t188;
+  const Real t201 = Real(1.0) / t193;
+  const Real t202 = (t178 * t196 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t201;
+  const Real t207 = Real(1.0) / (t195 * t202 - (t182 * t196 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t209 = top_jointbx1_y - top_jointbx1_x * t172;
+  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) + t189 * t209;
+  const Real t218 = t207 * (t202 * t212 - (t196 * t209 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t221 = t201 * (t212 - t195 * t218);
+  const Real t226 = t188 * (t182 * t218 - (t209 - t178 * t221));
+  const Real t233 = t171 * (top_joints2bm_z * t218 + (top_joints2bm_y * t221 + (top_jointbx1_x -
+      top_joints2bm_x * t226)));
+  const Real t238 = t233 * state.z[0];
+  const Real t239 = tie_rods0at * t207;
+  const Real t240 = Real(0.0967741935483871) * t239;
+  const Real t241 = t226 * state.z[0] + t240;
+  const Real t242 = t221 * state.z[0] - t240;
+  const Real t243 = t218 * state.z[0] + t239;
+  const Real top_jointam2t_y = top_jointax_x * t238;
+  const Real t246 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 + t246;
+  const Real top_jointbm1t_y = t246 - Real(0.31) * t241;
+  const Real top_jointbm1t_z = Real(0.03) * (t241 + t242);
+  const Real top_jointam2t_x = top_jointax_y * t238;
+  const Real top_jointam2a_y = t238 * top_jointam2t_x;
+  const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
+  const Real top_jointbm1a_x = t242 * top_jointbm1t_z + t243 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t241 * top_jointbm1t_z + t243 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t241 * top_jointbm1t_y - t242 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z + (q1r1_x * top_jointbm1t_x + q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z - (q1r2_x * top_jointbm1t_x - q1r2_y *
+      top_jointbm1t_y);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t264 * top_jointam2t_y;
+  const Real top_jointam2a_x = t238 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
-      top_jointbm1a_z);
-  const Real top_jointbm1app_y = q1r2_y * top_jointbm1a_y - (q1r2_x * top_jointbm1a_x - q1r2_z *
-      top_jointbm1a_z);
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z - (q1r2_x * top_jointbm1a_x + q1r2_y *
+      top_jointbm1a_y);
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
-  const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
-  const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
-      state.z[0] * top_jointbm0b_x));
-  const Real tie_rodbm1t_x = Real(0.07) * t262 + Real(0.02) * t263;
-  const Real tie_rodbm1t_y = Real(0.14) * t263 + Real(0.07) * t261;
-  const Real tie_rodbm1t_z = Real(0.14) * t262 - Real(0.02) * t261;
-  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
+  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
+      * top_jointbm1app_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t242 + Real(0.02) * t243;
+  const Real tie_rodbm1t_y = Real(0.14) * t243 - Real(0.07) * t241;
+  const Real tie_rodbm1t_z = Real(0.14) * t242 + Real(0.02) * t241;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t262 * tie_rodbm1t_z + t263 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t261 * tie_rodbm1t_z - t263 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t261 * tie_rodbm1t_y + t262 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
+  const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t241 * tie_rodbm1t_y - t242 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
-  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
-  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
-      tie_rodbm0b_y));
-  const Real t417 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
-      top_jointbm0b_y - t175 * top_jointda_z)));
-  const Real t424 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
-      top_jointbm1a_z - (t188 * top_jointda_z + t195 * t417))));
-  const Real t435 = t216 * (t211 * t424 - (t205 * t417 + Real(3.123475237772121) * (tie_rodbm0v_y *
-      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
-      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t438 = t210 * (t424 + t204 * t435);
-  const Real t443 = t194 * (t181 * t438 - (t417 + t185 * t435));
-  const Real t453 = t443 - t235 * zdot[0];
-  const Real t455 = t438 - t230 * zdot[0];
-  const Real t457 = t435 + t227 * zdot[0];
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t396 = t172 * top_jointda_z + (state.z[0] * top_jointbm0b_y - (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t403 = t189 * t396 - (Real(0.06992681194351041) * top_jointda_z + (q1r0_z * top_jointbm1a_z +
+      (q1r0_y * top_jointbm1a_y - (top_jointam2app_x + q1r0_x * top_jointbm1a_x))));
+  const Real t414 = t207 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
+      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t196 * t396 - t202 * t403));
+  const Real t417 = t201 * (t403 + t195 * t414);
+  const Real t422 = t188 * (t182 * t414 + (t396 - t178 * t417));
+  const Real t432 = t422 + t226 * zdot[0];
+  const Real t434 = t417 - t221 * zdot[0];
+  const Real t436 = t414 + t218 * zdot[0];
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
@@ -1140,9 +1349,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
-  const Real S0b_zz = q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y +
-      (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) +
-      Real(3.8987000000000007) + Real(0.017799999999999996)))))));
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y * S1at1r0_y + (q1r1_z *
+      S1at1r0_z - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z - h1at1_y * Real(0.04)))))
+      + Real(3.9165000000000005));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
@@ -1153,7 +1362,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutbv0_y = state.z[0] * strutbx_x;
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_ll = strutd_y * strutd_y + strutd_z * strutd_z + Real(1e-18);
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
   const Real strut_e = strut_l - model.free_length;
@@ -1161,17 +1370,15 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strut_Tl = strut_T / strut_l;
   const Real strutf_y = strutd_y * strut_Tl;
   const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - (Real(0.34) + (q1r1_z * Real(0.12) - q1r1_y *
-      Real(0.06)));
-  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
-      Real(0.06)));
-  const Real expression_4 = s0 * wheel_centerx1p_x + (c0 * wheel_centerx1p_y + Real(0.11750000000000002));
+  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
+      Real(0.01)));
+  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
+      Real(0.01)));
+  const Real expression_4 = c0 * wheel_centerx1p_y - s0 * wheel_centerx1p_x - Real(0.11750000000000002);
   const Real expression_5 = expression_4 * model.tyre;
-  const Real tyre_forcef1p_x = s0 * expression_5;
-  const Real tyre_forcef1p_y = c0 * expression_5;
-  const Real tyre_forcef1_x = q1r1_x * tyre_forcef1p_x + q1r2_x * tyre_forcef1p_y;
-  const Real tyre_forcef1_y = q1r1_y * tyre_forcef1p_x - q1r2_y * tyre_forcef1p_y;
-  const Real tyre_forcef1_z = q1r1_z * tyre_forcef1p_x - q1r2_z * tyre_forcef1p_y;
+  const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
+  const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
+  const Real tyre_forcef1_z = top_joints2bf1_z * expression_5;
   const Real aQp0 = h0b_x * Real(9.81);
   const Real adn0_z = zdot[0] * S0b_zz;
   const Real aal1_x = q1r0_x * zdot[0];
@@ -1180,50 +1387,52 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aL0a_x = s0 * Real(9.81);
   const Real aL0a_y = c0 * Real(9.81);
   const Real aL0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = Real(0.02) * zdot[0] + (aL0a_x - Real(0.34) * aL0w22);
-  const Real aa1o_y = Real(0.02) * aL0w22 + (aL0a_y + Real(0.34) * zdot[0]);
-  const Real aa1_x = q1r1_x * aa1o_x + q1r2_x * aa1o_y;
-  const Real aa1_y = q1r1_y * aa1o_x - q1r2_y * aa1o_y;
-  const Real aa1_z = q1r1_z * aa1o_x - q1r2_z * aa1o_y;
+  const Real aa1o_x = Real(0.34) * aL0w22 - (aL0a_x + Real(0.02) * zdot[0]);
+  const Real aa1o_y = Real(0.34) * zdot[0] + (aL0a_y + Real(0.02) * aL0w22);
+  const Real aa1_x = q1r1_x * aa1o_x - q1r2_x * aa1o_y;
+  const Real aa1_y = q1r1_y * aa1o_x + q1r2_y * aa1o_y;
+  const Real aa1_z = q1r1_z * aa1o_x + q1r2_z * aa1o_y;
   const Real aK1_x = Real(0.65) * w1p_x;
   const Real aK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real aK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real au1_x = t261 + Real(2.0) * w1p_x;
-  const Real au1_y = t262 - Real(2.0) * w1p_y;
-  const Real au1_z = t263 - Real(2.0) * w1p_z;
+  const Real au1_x = t241 - Real(2.0) * w1p_x;
+  const Real au1_y = t242 - Real(2.0) * w1p_y;
+  const Real au1_z = t243 - Real(2.0) * w1p_z;
   const Real aSu1_x = Real(0.65) * au1_x;
   const Real aSu1_y = Real(0.33) * au1_y + Real(0.192) * au1_z;
   const Real aSu1_z = Real(1.1108) * au1_z + Real(0.192) * au1_y;
   const Real auh1 = Real(1.6) * au1_y + Real(3.84) * au1_z;
-  const Real auw1 = t262 * au1_y + (t261 * au1_x + t263 * au1_z);
+  const Real auw1 = t243 * au1_z + (t241 * au1_x + t242 * au1_y);
   const Real aQp2 = h2b_x * Real(9.786103333048876);
-  const Real adn2_z = (t174 * (top_joints2bm_x * t443 - (top_jointda_z - (top_joints2bm_y * t438 -
-      top_joints2bm_z * t435))) - t242 * zdot[0]) * Real(0.0505);
-  const Real aef1_x = t457 * Real(1.6) - (tyre_forcef1_x - (t455 * Real(3.84) + t261 * auh1));
-  const Real aef1_y = Real(1.6) * auw1 - (tyre_forcef1_y - (t453 * Real(3.84) - t262 * auh1));
-  const Real aef1_z = t453 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * auw1 - t263 * auh1));
-  const Real aen1_x = Real(0.06) * tyre_forcef1_z + (Real(0.12) * tyre_forcef1_y - (t453 * Real(1.4408) -
-      (t262 * aSu1_z - t263 * aSu1_y)));
-  const Real aen1_y = Real(0.12) * tyre_forcef1_x + (Real(0.01) * tyre_forcef1_z - (t457 * Real(0.192) + (t455
-      * Real(1.7608) + (t261 * aSu1_z - t263 * aSu1_x))));
-  const Real aen1_z = Real(0.06) * tyre_forcef1_x - (Real(0.01) * tyre_forcef1_y + (t455 * Real(0.192) + (t457
-      * Real(0.98) + (t261 * aSu1_y - t262 * aSu1_x))));
-  const Real af1p_x = q1r1_y * aef1_y + (q1r1_x * aef1_x + q1r1_z * aef1_z);
-  const Real af1p_y = q1r2_y * aef1_y - (q1r2_x * aef1_x - q1r2_z * aef1_z);
-  const Real aQ1_0 = Real(1.6) * aa1_z - (aal1_x * Real(1.4408) - (Real(3.84) * aa1_y - (w1p_y * aK1_z -
-      (w1p_z * aK1_y - aen1_x))));
-  const Real aQ1_1 = aal1_y * Real(1.7608) - (Real(0.192) * aal1_z - (Real(3.84) * aa1_x - (w1p_x * aK1_z -
-      (w1p_z * aK1_x - aen1_y))));
-  const Real aQ1_2 = Real(1.6) * aa1_x + (Real(0.192) * aal1_y - (aal1_z * Real(0.98) + (w1p_x * aK1_y -
-      (w1p_y * aK1_x - aen1_z))));
-  const Real aQ2_0 = aQp2 + adn2_z;
-  tau[0] = -(strutbx_y * strutf_y - (strutbx_x * strutf_z - (aQp0 - (adn0_z + (q1r0_x * aen1_x - (q1r0_y *
-      aen1_y - (q1r0_z * aen1_z + (Real(0.02) * af1p_x - (Real(0.34) * af1p_y + (t235 * aQ1_0 + (t230 * aQ1_1
-      - (t227 * aQ1_2 - t242 * aQ2_0))))))))))));
+  const Real adn2_z = (t171 * (top_joints2bm_z * t414 - (top_joints2bm_y * t417 - (top_jointda_z -
+      top_joints2bm_x * t422))) + t233 * zdot[0]) * Real(0.0505);
+  const Real aef1_x = t241 * auh1 - (t434 * Real(3.84) + (tyre_forcef1_x + t436 * Real(1.6)));
+  const Real aef1_y = t242 * auh1 - (t432 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * auw1));
+  const Real aef1_z = t243 * auh1 - (Real(3.84) * auw1 + (tyre_forcef1_z - t432 * Real(1.6)));
+  const Real aen1_x = t243 * aSu1_y - (t242 * aSu1_z - (t432 * Real(1.4408) - (Real(0.12) * tyre_forcef1_y +
+      Real(0.06) * tyre_forcef1_z)));
+  const Real aen1_y = t243 * aSu1_x - (t241 * aSu1_z - (t434 * Real(1.7608) + (t436 * Real(0.192) -
+      (Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x))));
+  const Real aen1_z = t242 * aSu1_x - (t241 * aSu1_y - (t436 * Real(0.98) + (t434 * Real(0.192) + (Real(0.01)
+      * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x))));
+  const Real af1p_x = q1r1_z * aef1_z - (q1r1_x * aef1_x + q1r1_y * aef1_y);
+  const Real af1p_y = q1r2_z * aef1_z + (q1r2_x * aef1_x - q1r2_y * aef1_y);
+  const Real aQ1_0 = aen1_x + (w1p_z * aK1_y - (w1p_y * aK1_z + (Real(3.84) * aa1_y + (aal1_x * Real(1.4408) +
+      Real(1.6) * aa1_z))));
+  const Real aQ1_1 = aen1_y + (w1p_z * aK1_x - (w1p_x * aK1_z + (Real(3.84) * aa1_x + (Real(0.192) * aal1_z -
+      aal1_y * Real(1.7608)))));
+  const Real aQ1_2 = aen1_z + (w1p_y * aK1_x - (w1p_x * aK1_y + (aal1_z * Real(0.98) - (Real(0.192) * aal1_y -
+      Real(1.6) * aa1_x))));
+  const Real aQ2_0 = aQp2 - adn2_z;
+  tau[0] = -(t233 * aQ2_0 - (t218 * aQ1_2 - (t221 * aQ1_1 - (t226 * aQ1_0 - (Real(0.34) * af1p_y - (Real(0.02)
+      * af1p_x - (q1r0_z * aen1_z - (q1r0_y * aen1_y - (q1r0_x * aen1_x - (adn0_z - (aQp0 - (strutbx_x *
+      strutf_z - strutbx_y * strutf_y))))))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -1232,14 +1441,10 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q133 + (q122 - Real(1.0));
+  const Real q1r0_x = q122 + q133 - Real(1.0);
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -1252,32 +1457,32 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
+  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
-  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
+  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t103 = q1r0_z * Real(0.03);
+  const Real t100 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t112 = Real(0.03) * top_joints1bf1_z;
+  const Real t109 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t124 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t124;
+  const Real t121 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t121;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t124 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t121 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -1285,49 +1490,48 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t173 = Real(1.0) / top_joints2am_z;
-  const Real t174 = top_jointax_y * t173;
-  const Real t180 = Real(0.31) * top_joints1bf1_x + (t112 + top_joints2bm_y * t174);
-  const Real t184 = top_joints2bm_z * t174 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t187 = top_jointax_x * t173 * Real(0.0697564737441253);
-  const Real t193 = Real(1.0) / (t112 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t174));
-  const Real t194 = (t103 + (q1r0_y * Real(0.31) + top_joints2bm_x * t187)) * t193;
-  const Real t203 = t184 * t194 + (top_joints2bm_z * t187 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t204 = tie_rods0bm_x * t193;
-  const Real t209 = Real(1.0) / (q1r0_x * Real(0.31) - (t103 - (top_joints2bm_y * t187 + t180 * t194)));
-  const Real t210 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t180 * t204)) * t209;
-  const Real t215 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t184 * t204 -
-      t203 * t210)));
-  const Real t218 = s0 * top_jointbx1p_x + (c0 * top_jointbx1p_y + top_jointbx1_x * t174);
-  const Real t221 = top_jointbx1_x * t187 + t194 * t218;
-  const Real t227 = t215 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t204 * t218 -
-      t210 * t221)));
-  const Real t230 = t209 * (t221 - t203 * t227);
-  const Real t235 = t193 * (t180 * t230 - (t218 - t184 * t227));
-  const Real t248 = tie_rods0at * t215;
-  const Real t250 = t209 * (t203 * t248);
-  const Real t254 = t193 * (t180 * t250 - t184 * t248);
-  const Real t261 = t235 * state.z[0] + t254;
-  const Real t262 = t230 * state.z[0] + t250;
-  const Real t263 = t227 * state.z[0] - t248;
-  const Real t264 = t173 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 +
-      top_joints2bm_z * t227))) * state.z[0] + t173 * (top_joints2bm_y * t250 + (top_joints2bm_x * t254 -
-      top_joints2bm_z * t248));
+  const Real t170 = Real(1.0) / top_joints2am_z;
+  const Real t171 = top_jointax_y * t170;
+  const Real t177 = top_joints2bm_y * t171 + (t109 + Real(0.31) * top_joints1bf1_x);
+  const Real t181 = top_joints2bm_z * t171 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = Real(1.0) / (top_joints2bm_x * t171 + (Real(0.31) * top_joints1bf1_y - t109));
+  const Real t188 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t100)) * t187;
+  const Real t192 = t177 * t188 - (top_joints2bm_y * Real(0.06992681194351041) - (t100 - q1r0_x *
+      Real(0.31)));
+  const Real t194 = t192 * Real(0.0967741935483871);
+  const Real t195 = tie_rods0bm_x * t187;
+  const Real t200 = Real(1.0) / t192;
+  const Real t201 = (t177 * t195 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t200;
+  const Real t206 = Real(1.0) / (t194 * t201 - (t181 * t195 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t209 = top_jointbx1_x * t171 - (c0 * top_jointbx1p_y - s0 * top_jointbx1p_x);
+  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) - t188 * t209;
+  const Real t218 = t206 * (t201 * t212 + (t195 * t209 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t221 = t200 * (t212 - t194 * t218);
+  const Real t226 = t187 * (t181 * t218 + (t209 + t177 * t221));
+  const Real t238 = t170 * (top_joints2bm_z * t218 + (top_joints2bm_y * t221 + (top_jointbx1_x -
+      top_joints2bm_x * t226))) * state.z[0];
+  const Real t239 = tie_rods0at * t206;
+  const Real t240 = Real(0.0967741935483871) * t239;
+  const Real t241 = t226 * state.z[0] + t240;
+  const Real t242 = t221 * state.z[0] - t240;
+  const Real t243 = t218 * state.z[0] + t239;
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
   const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
   const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
-  const Real S0b_zz = q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y +
-      (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) +
-      Real(3.8987000000000007) + Real(0.017799999999999996)))))));
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y * S1at1r0_y + (q1r1_z *
+      S1at1r0_z - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z - h1at1_y * Real(0.04)))))
+      + Real(3.9165000000000005));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -1337,25 +1541,23 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
   const Real v1_y = q1r1_y * v1o_x - q1r2_y * v1o_y;
   const Real v1_z = q1r1_z * v1o_x - q1r2_z * v1o_y;
-  const Real v1P_x = t263 * Real(1.6) - t262 * Real(3.84);
-  const Real v1L_x = t261 * Real(1.4408);
-  const Real v1L_y = t263 * Real(0.192) - t262 * Real(1.7608);
-  const Real v1L_z = t262 * Real(0.192) - t263 * Real(0.98);
-  const Real T3 = w1p_y * v1L_y + (w1p_x * v1L_x + (w1p_z * v1L_z + (v1_x * v1P_x - (Real(3.84) * (t261 *
-      v1_y) + (Real(1.6) * (t261 * v1_z) + (t262 * v1L_y - (t261 * v1L_x - (t263 * v1L_z - (state.z[0] * v0L_z
-      + (t264 * t264 * Real(0.0505) + derivative * derivative * Real(3.0)))))) * Real(0.5))))));
+  const Real v1P_x = t243 * Real(1.6) - t242 * Real(3.84);
+  const Real v1L_x = t241 * Real(1.4408);
+  const Real v1L_y = t243 * Real(0.192) - t242 * Real(1.7608);
+  const Real v1L_z = t242 * Real(0.192) - t243 * Real(0.98);
+  const Real T3 = (derivative * derivative * Real(3.0) + (t238 * t238 * Real(0.0505) + (state.z[0] * v0L_z -
+      (t243 * v1L_z - (t241 * v1L_x - t242 * v1L_y))))) * Real(0.5) + (Real(1.6) * (t241 * v1_z) + (Real(3.84)
+      * (t241 * v1_y) + (v1_x * v1P_x + (w1p_z * v1L_z - (w1p_x * v1L_x - w1p_y * v1L_y)))));
   return T3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d3 = state.y[4] * Real(2.0);
   const Real q122 = Real(2.0) * (state.y[3] * state.y[3]);
   const Real q133 = state.y[4] * q1d3;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -1371,15 +1573,11 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
   const Real h0b_y = c0 * h1c_y - s0 * h1c_x;
-  const Real hg0_z = h0b_y + Real(8.943256088156396);
-  const Real hg2_z = hg0_z + h2b_y * Real(0.9975640502598242);
-  const Real hg3_z = hg2_z + Real(0.81);
+  const Real hg3_z = h0b_y + h2b_y * Real(0.9975640502598242) + Real(9.753256088156396);
   const Real strutbx_x = c0 * Real(0.22);
   const Real strutbx_y = s0 * Real(0.22);
-  const Real strutbx0_y = strutbx_x + Real(0.36);
-  const Real strutbx0_z = strutbx_y + Real(0.21);
-  const Real strutd_y = strutbx0_y - Real(0.46);
-  const Real strutd_z = strutbx0_z - Real(0.62);
+  const Real strutd_y = strutbx_x - Real(0.10000000000000003);
+  const Real strutd_z = strutbx_y - Real(0.41000000000000003);
   const Real strut_ll = strutd_y * strutd_y + Real(1e-18) + strutd_z * strutd_z;
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_e = strut_l - model.free_length;
@@ -1448,78 +1646,76 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real t1, t2;
   detail::sine_cosine(state.y[0], t1, t2);
-  const Real t9 = t2 * Real(0.34) + t1 * Real(0.02) + Real(0.36);
-  const Real t11 = t9 - Real(0.43);
-  const Real t16 = t2 * Real(0.02) - t1 * Real(0.34) - Real(0.21);
-  const Real t18 = t16 + Real(0.4687542479592758);
-  const Real t22 = detail::cosine(detail::Angle<Real>(state.t) * model.rate);
-  const Real t28 = t9 - (Real(0.36) - (t22 - Real(1.0)) * model.c1);
-  const Real t30 = t16 + Real(0.27);
-  const Real t43 = (t18 * t18 + (t11 * t11 + Real(0.000773678907551894)) - Real(0.0979) +
-      Real(0.058581070877761425)) * Real(0.5);
-  const Real t50 = t18 * Real(0.031245752040724203) - (t11 * Real(0.24) - Real(6.077361763854758e-05));
-  const Real t57 = t18 * Real(0.2394153720623578) + (t11 * Real(0.03132205098267723) +
+  const Real t7 = t2 * Real(0.34) + t1 * Real(0.02);
+  const Real t9 = t7 - Real(0.07);
+  const Real t14 = t2 * Real(0.02) - t1 * Real(0.34) - Real(0.21);
+  const Real t16 = t14 + Real(0.4687542479592758);
+  const Real t20 = detail::cosine(detail::Angle<Real>(state.t) * model.rate);
+  const Real t25 = t7 + (t20 - Real(1.0)) * model.c1;
+  const Real t27 = t14 + Real(0.27);
+  const Real t36 = (t16 * t16 + t9 * t9 - Real(0.038545250214686674)) * Real(0.5);
+  const Real t43 = t16 * Real(0.031245752040724203) - (t9 * Real(0.24) - Real(6.077361763854758e-05));
+  const Real t50 = t16 * Real(0.2394153720623578) + (t9 * Real(0.03132205098267723) +
       Real(0.0004656677253133288));
-  const Real t60 = t57 * t57 + t50 * t50;
-  const Real t61 = t43 * t43;
-  const Real t63 = detail::square_root(t60 - t61);
-  const Real t72 = (t57 * t63 - t43 * t50) / t60;
-  const Real t73 = (t50 * t63 + t43 * t57) / t60;
-  const Real t86 = t73 * Real(0.01674155369859007) - (t72 * Real(0.002184915826985278) +
+  const Real t53 = t50 * t50 + t43 * t43;
+  const Real t54 = t36 * t36;
+  const Real t56 = detail::square_root(t53 - t54);
+  const Real t65 = (t50 * t56 - t36 * t43) / t53;
+  const Real t66 = (t43 * t56 + t36 * t50) / t53;
+  const Real t79 = t66 * Real(0.01674155369859007) - (t65 * Real(0.002184915826985278) +
       Real(0.02781508417301472));
-  const Real t87 = Real(0.03132205098267723) * t73 - (t11 - Real(0.24) * t72);
-  const Real t88 = Real(0.2394153720623578) * t73 - (t18 + Real(0.031245752040724203) * t72);
-  const Real t93 = t1 * t88 - t2 * t87;
-  const Real t94 = t2 * t88 + t1 * t87;
-  const Real t99 = t1 * t30 - t2 * t28;
-  const Real t100 = t2 * t30 + t1 * t28;
-  const Real t114 = t94 * t100 + (t93 * t99 + t86 * Real(0.14));
-  const Real t116 = t114 * Real(10.21450459652707);
-  const Real t120 = Real(0.14) - t86 * t116;
-  const Real t121 = t99 - t93 * t116;
-  const Real t122 = t100 - t94 * t116;
-  const Real t128 = Real(1.0) / (t122 * t122 + (t121 * t121 + t120 * t120));
-  const Real t131 = Real(0.5) * (t30 * t30 + (t28 * t28 + Real(0.019600000000000003)) -
-      Real(0.10250000000000001) + Real(0.024900000000000005)) + t114 * Real(0.27068437180796734);
-  const Real t132 = t128 * t131;
-  const Real t148 = Real(10.21450459652707) * (t128 * (t131 * t132 - Real(0.01772686414708887)));
-  const Real t153 = t86 * Real(3.1960138605029655);
-  const Real t154 = t93 * Real(3.1960138605029655);
-  const Real t155 = t94 * Real(3.1960138605029655);
-  const Real t157 = detail::square_root(-t148) * Real(7.5107627169405085);
-  const Real t161 = t132 * Real(7.5107627169405085);
-  const Real t165 = (t94 * t121 - t93 * t122) * t157 + t120 * t161;
-  const Real t166 = (t86 * t122 - t94 * t120) * t157 + t121 * t161;
-  const Real t167 = (t93 * t120 - t86 * t121) * t157 + t122 * t161;
-  const Real t180 = detail::square_root(Real(1.0) - (t166 + (t153 + (t154 * t165 - t153 * t166))));
-  const Real t182 = Real(0.5) * (Real(1.0) / t180);
-  const Real t184 = t182 * (t154 - t165);
-  const Real t186 = t182 * (t155 - (t155 * t166 - t154 * t167));
-  const Real t188 = t182 * (t167 - (t153 * t167 - t155 * t165));
-  const Real t189 = Real(0.5) * t180;
-  const Real t212 = t189 * Real(0.5227505978949086) + t188 * Real(0.524091614422574) + (t186 *
-      Real(0.42675505450857476) - t184 * Real(0.5195574227588697));
-  const Real t213 = t186 * Real(0.524091614422574) + t189 * Real(0.5195574227588697) - (t188 *
-      Real(0.42675505450857476) - t184 * Real(0.5227505978949086));
-  const Real t214 = t188 * Real(0.5195574227588697) - t186 * Real(0.5227505978949086) + (t189 *
-      Real(0.42675505450857476) + t184 * Real(0.524091614422574));
-  const Real t221 = t189 * Real(0.524091614422574) - (t188 * Real(0.5227505978949086) + t186 *
-      Real(0.5195574227588697)) - t184 * Real(0.42675505450857476);
-  Real t224, t223;
-  detail::sine_cosine(state.y[5], t224, t223);
-  const Real t234 = state.y[5] + detail::arctangent2(-(t72 * t224 + t73 * t223), -(t73 * t224 - t72 * t223));
-  const Real t235 = state.y[5] - t234;
-  const Real t238 = t221 - state.y[1];
-  const Real t242 = t212 + state.y[2];
-  const Real t246 = t213 + state.y[3];
-  const Real t250 = t214 - state.y[4];
-  closed.y[5] = t234;
-  closed.y[1] = t221;
-  closed.y[2] = -t212;
-  closed.y[3] = -t213;
-  closed.y[4] = t214;
-  closed.regularity = -((Real(1.0) - t61 / t60) * (t148 / (t128 * Real(0.18107113531245014))));
-  closed.opening = t235 * t235 + t238 * t238 + t242 * t242 + t246 * t246 + t250 * t250;
+  const Real t80 = Real(0.03132205098267723) * t66 - (t9 - Real(0.24) * t65);
+  const Real t81 = Real(0.2394153720623578) * t66 - (t16 + Real(0.031245752040724203) * t65);
+  const Real t86 = t1 * t81 - t2 * t80;
+  const Real t87 = t2 * t81 + t1 * t80;
+  const Real t92 = t1 * t27 - t2 * t25;
+  const Real t93 = t2 * t27 + t1 * t25;
+  const Real t103 = t87 * t93 + (t86 * t92 + t79 * Real(0.14));
+  const Real t105 = t103 * Real(10.21450459652707);
+  const Real t109 = Real(0.14) - t79 * t105;
+  const Real t110 = t92 - t86 * t105;
+  const Real t111 = t93 - t87 * t105;
+  const Real t117 = Real(1.0) / (t111 * t111 + (t110 * t110 + t109 * t109));
+  const Real t120 = Real(0.5) * (t25 * t25 + t27 * t27 - Real(0.058)) + t103 * Real(0.27068437180796734);
+  const Real t121 = t117 * t120;
+  const Real t133 = t120 * t121 - Real(0.01772686414708887);
+  const Real t139 = t79 * Real(3.1960138605029655);
+  const Real t140 = t86 * Real(3.1960138605029655);
+  const Real t141 = t87 * Real(3.1960138605029655);
+  const Real t143 = detail::square_root(-(Real(10.21450459652707) * (t117 * t133))) *
+      Real(7.5107627169405085);
+  const Real t147 = t121 * Real(7.5107627169405085);
+  const Real t151 = (t87 * t110 - t86 * t111) * t143 + t109 * t147;
+  const Real t152 = (t79 * t111 - t87 * t109) * t143 + t110 * t147;
+  const Real t153 = (t86 * t109 - t79 * t110) * t143 + t111 * t147;
+  const Real t166 = detail::square_root(Real(1.0) - (t152 + (t139 + (t140 * t151 - t139 * t152))));
+  const Real t168 = Real(0.5) * (Real(1.0) / t166);
+  const Real t170 = t168 * (t140 - t151);
+  const Real t172 = t168 * (t141 - (t141 * t152 - t140 * t153));
+  const Real t174 = t168 * (t153 - (t139 * t153 - t141 * t151));
+  const Real t175 = Real(0.5) * t166;
+  const Real t198 = t175 * Real(0.5227505978949086) + t174 * Real(0.524091614422574) + (t172 *
+      Real(0.42675505450857476) - t170 * Real(0.5195574227588697));
+  const Real t199 = t172 * Real(0.524091614422574) + t175 * Real(0.5195574227588697) - (t174 *
+      Real(0.42675505450857476) - t170 * Real(0.5227505978949086));
+  const Real t200 = t174 * Real(0.5195574227588697) - t172 * Real(0.5227505978949086) + (t175 *
+      Real(0.42675505450857476) + t170 * Real(0.524091614422574));
+  const Real t207 = t175 * Real(0.524091614422574) - (t174 * Real(0.5227505978949086) + t172 *
+      Real(0.5195574227588697)) - t170 * Real(0.42675505450857476);
+  Real t210, t209;
+  detail::sine_cosine(state.y[5], t210, t209);
+  const Real t219 = detail::arctangent2(-(t65 * t210 + t66 * t209), -(t66 * t210 - t65 * t209));
+  const Real t223 = t207 - state.y[1];
+  const Real t227 = t198 + state.y[2];
+  const Real t231 = t199 + state.y[3];
+  const Real t235 = t200 - state.y[4];
+  closed.y[5] = state.y[5] + t219;
+  closed.y[1] = t207;
+  closed.y[2] = -t198;
+  closed.y[3] = -t199;
+  closed.y[4] = t200;
+  closed.regularity = -((Real(1.0) - t54 / t53) * t133 * Real(56.41155659018357));
+  closed.opening = t219 * t219 + t223 * t223 + t227 * t227 + t231 * t231 + t235 * t235;
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
@@ -1527,6 +1723,8 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -1535,149 +1733,55 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q133 + (q122 - Real(1.0));
+  const Real q1r0_x = q122 + q133 - Real(1.0);
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  const Real t31 = q1r0_x * Real(0.03);
-  const Real t32 = q1r0_y * Real(0.03);
-  const Real top_jointd_x = top_jointax_y * Real(0.0697564737441253) + (q1r0_z * Real(0.31) + (t31 - t32 +
-      Real(0.01))) + Real(0.01781508417301472);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
+  const Real top_jointd_x = (q1r0_x - q1r0_y) * Real(0.03) + (top_jointax_y * Real(0.0697564737441253) +
+      q1r0_z * Real(0.31) + Real(0.02781508417301472));
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
   const Real q101 = state.y[1] * q1d1;
   const Real q1r1_x = q112 + q103;
-  const Real t48 = Real(1.0) - q111;
-  const Real q1r1_y = q133 - t48;
+  const Real t45 = Real(1.0) - q111;
+  const Real q1r1_y = q133 - t45;
   const Real q1r1_z = q123 - q101;
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
-  const Real q1r2_z = q122 - t48;
-  const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
+  const Real q1r2_z = q122 - t45;
   const Real top_jointbx1p_x = Real(0.31) * q1r1_z - Real(0.03) * (q1r1_x - q1r1_y) + Real(0.34);
   const Real top_jointbx1p_y = Real(0.31) * q1r2_z + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
-  const Real top_jointd_y = top_jointax_x + (top_jointbx1_x + Real(0.36)) - Real(0.43);
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
-  const Real top_jointd_z = top_jointax_y * Real(0.9975640502598242) + (top_jointbx1_y - Real(0.21) +
-      Real(0.4687542479592758));
+  const Real top_jointd_y = s0 * top_jointbx1p_y + (c0 * top_jointbx1p_x + (s2 * Real(0.03132205098267723) -
+      c2 * Real(0.24))) - Real(0.07);
+  const Real top_jointd_z = s0 * top_jointbx1p_x - (top_jointax_y * Real(0.9975640502598242) + c0 *
+      top_jointbx1p_y) - Real(0.25875424795927576);
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
-  Real s, c;
-  detail::sine_cosine(expression, s, c);
+  const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
-      Real(0.13))));
-  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
-  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real tie_rodll = tie_rodd_y * tie_rodd_y + (tie_rodd_x * tie_rodd_x + tie_rodd_z * tie_rodd_z);
+  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
+  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = s0 * tie_rodbx1p_y - (expression_3 - c0 * tie_rodbx1p_x);
+  const Real tie_rodd_z = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x + Real(0.060000000000000026);
+  const Real tie_rodll = tie_rodd_z * tie_rodd_z + (tie_rodd_x * tie_rodd_x + tie_rodd_y * tie_rodd_y);
   const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
-  const Real t137 = q1r0_z * Real(0.03);
-  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
-  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t146 = Real(0.03) * top_joints1bf1_z;
-  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
-  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
-  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t158 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t158;
-  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t158 - Real(0.31) * top_joints2bf1_x;
-  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
-  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
-  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
-  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
-  const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
-  const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t206 = Real(1.0) / top_joints2am_z;
-  const Real t207 = top_jointax_y * t206;
-  const Real t213 = Real(0.31) * top_joints1bf1_x + (t146 + top_joints2bm_y * t207);
-  const Real t217 = top_joints2bm_z * t207 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t219 = Real(0.0697564737441253) * (top_jointax_x * t206);
-  const Real t225 = Real(1.0) / (t146 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t207));
-  const Real t226 = (t137 + (q1r0_y * Real(0.31) + top_joints2bm_x * t219)) * t225;
-  const Real t234 = t32 + (t31 + (top_joints2bm_z * t219 + t217 * t226));
-  const Real t235 = tie_rods0bm_x * t225;
-  const Real t240 = Real(1.0) / (q1r0_x * Real(0.31) - (t137 - (top_joints2bm_y * t219 + t213 * t226)));
-  const Real t241 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t213 * t235)) * t240;
-  const Real t246 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t217 * t235 -
-      t234 * t241)));
-  const Real t248 = top_jointbx1_y - top_jointbx1_x * t207;
-  const Real t251 = top_jointbx1_x * t219 - t226 * t248;
-  const Real t257 = t246 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t235 * t248 +
-      t241 * t251)));
-  const Real t260 = t240 * (t251 + t234 * t257);
-  const Real t265 = t225 * (t213 * t260 + (t248 - t217 * t257));
-  const Real t278 = tie_rods0at * t246;
-  const Real t280 = t240 * (t234 * t278);
-  const Real t284 = t225 * (t213 * t280 - t217 * t278);
-  const Real t291 = t265 * state.z[0] - t284;
-  const Real t292 = t260 * state.z[0] - t280;
-  const Real t293 = t257 * state.z[0] - t278;
-  const Real t294 = t206 * (top_joints2bm_x * t265 - (top_jointbx1_x - (top_joints2bm_y * t260 -
-      top_joints2bm_z * t257))) * state.z[0] - t206 * (top_joints2bm_y * t280 + (top_joints2bm_x * t284 -
-      top_joints2bm_z * t278));
-  const Real top_jointam2t_y = top_jointax_x * t294;
-  const Real top_jointam2vpp_x = Real(0.0697564737441253) * top_jointam2t_y;
-  const Real t298 = Real(0.03) * t293;
-  const Real top_jointbm1t_x = Real(0.31) * t292 - t298;
-  const Real top_jointbm1t_y = t298 - Real(0.31) * t291;
-  const Real top_jointbm1t_z = Real(0.03) * (t291 - t292);
-  const Real top_jointdv_x = q1r0_x * top_jointbm1t_x + (top_jointam2vpp_x - (q1r0_y * top_jointbm1t_y -
-      q1r0_z * top_jointbm1t_z));
-  const Real top_jointam2t_x = top_jointax_y * t294;
-  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y - (q1r1_x * top_jointbm1t_x - q1r1_z *
-      top_jointbm1t_z);
-  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y + (q1r2_x * top_jointbm1t_x + q1r2_z *
-      top_jointbm1t_z);
-  const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointdv_y = c0 * top_jointbm1vpp_x - (top_jointam2t_x - (s0 * top_jointbm1vpp_y -
-      top_jointbm0t_x));
-  const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
-  const Real top_jointam2vpp_z = Real(0.9975640502598242) * top_jointam2t_y;
-  const Real top_jointdv_z = top_jointam2vpp_z + (c0 * top_jointbm1vpp_y - (s0 * top_jointbm1vpp_x -
-      top_jointbm0t_y));
-  const Real tie_rodbm1t_x = Real(0.07) * t292 - Real(0.02) * t293;
-  const Real tie_rodbm1t_y = Real(0.14) * t293 - Real(0.07) * t291;
-  const Real tie_rodbm1t_z = Real(0.14) * t292 - Real(0.02) * t291;
-  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
-  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
-  const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = s0 * tie_rodbm1vpp_x - (c0 * tie_rodbm1vpp_y - tie_rodbm0t_y);
-  const Real tie_roddv_y = c0 * tie_rodbm1vpp_x + (derivative + (s0 * tie_rodbm1vpp_y - tie_rodbm0t_x));
-  const Real tie_rodlv = Real(3.123475237772121) * (tie_rodd_z * tie_rodbm0v_y + (tie_rodd_x * tie_rodbm1vpp_z
-      + tie_rodd_y * tie_roddv_y));
   g[0] = top_jointd_x;
   g[1] = top_jointd_y;
-  g[2] = -top_jointd_z;
+  g[2] = top_jointd_z;
   g[3] = g_tie_rod;
-  g_rate[0] = -top_jointdv_x;
-  g_rate[1] = -top_jointdv_y;
-  g_rate[2] = top_jointdv_z;
-  g_rate[3] = tie_rodlv;
+  g_rate[0] = Real(0.0);
+  g_rate[1] = Real(0.0);
+  g_rate[2] = Real(0.0);
+  g_rate[3] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept {
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
   const Real q1d3 = Real(2.0) * state.y[4];
   const Real q122 = state.y[3] * q1d2;
@@ -1686,14 +1790,10 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q133 + (q122 - Real(1.0));
+  const Real q1r0_x = q122 + q133 - Real(1.0);
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
-  Real s2, c2;
-  detail::sine_cosine(state.y[5], s2, c2);
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -1706,33 +1806,33 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
+  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
+  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - (q1r0_y * Real(0.02) - Real(0.14)));
-  const Real tie_rodd_y = Real(0.36) + (expression_3 + (tie_rodbx1_x - Real(0.36)));
+  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
+  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real t104 = q1r0_z * Real(0.03);
+  const Real t101 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t113 = Real(0.03) * top_joints1bf1_z;
+  const Real t110 = Real(0.03) * top_joints1bf1_z;
   const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t125 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t125;
+  const Real t122 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t122;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t125 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_y = t122 - Real(0.31) * top_joints2bf1_x;
   const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
   const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -1740,105 +1840,104 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t174 = Real(1.0) / top_joints2am_z;
-  const Real t175 = top_jointax_y * t174;
-  const Real t181 = Real(0.31) * top_joints1bf1_x + (t113 + top_joints2bm_y * t175);
-  const Real t185 = top_joints2bm_z * t175 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t188 = top_jointax_x * t174 * Real(0.0697564737441253);
-  const Real t194 = Real(1.0) / (t113 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t175));
-  const Real t195 = (t104 + (q1r0_y * Real(0.31) + top_joints2bm_x * t188)) * t194;
-  const Real t204 = t185 * t195 + (top_joints2bm_z * t188 + Real(0.03) * (q1r0_x + q1r0_y));
-  const Real t205 = tie_rods0bm_x * t194;
-  const Real t210 = Real(1.0) / (q1r0_x * Real(0.31) - (t104 - (top_joints2bm_y * t188 + t181 * t195)));
-  const Real t211 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t181 * t205)) * t210;
-  const Real t216 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t185 * t205 -
-      t204 * t211)));
-  const Real t218 = top_jointbx1_y + top_jointbx1_x * t175;
-  const Real t221 = top_jointbx1_x * t188 + t195 * t218;
-  const Real t227 = t216 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t205 * t218 -
-      t211 * t221)));
-  const Real t230 = t210 * (t221 - t204 * t227);
-  const Real t235 = t194 * (t181 * t230 - (t218 - t185 * t227));
-  const Real t242 = t174 * (top_joints2bm_x * t235 - (top_jointbx1_x - (top_joints2bm_y * t230 +
-      top_joints2bm_z * t227)));
-  const Real t248 = tie_rods0at * t216;
-  const Real t250 = t210 * (t204 * t248);
-  const Real t254 = t194 * (t181 * t250 - t185 * t248);
-  const Real t261 = t235 * state.z[0] + t254;
-  const Real t262 = t230 * state.z[0] + t250;
-  const Real t263 = t227 * state.z[0] - t248;
-  const Real t264 = t242 * state.z[0] + t174 * (top_joints2bm_y * t250 + (top_joints2bm_x * t254 -
-      top_joints2bm_z * t248));
-  const Real top_jointam2t_y = top_jointax_x * t264;
-  const Real t267 = Real(0.03) * t263;
-  const Real top_jointbm1t_x = Real(0.31) * t262 + t267;
-  const Real top_jointbm1t_y = t267 + Real(0.31) * t261;
-  const Real top_jointbm1t_z = Real(0.03) * (t261 - t262);
-  const Real top_jointam2t_x = top_jointax_y * t264;
-  const Real top_jointam2a_y = t264 * top_jointam2t_x;
-  const Real top_jointam2app_x = Real(0.0697564737441253) * top_jointam2a_y;
-  const Real top_jointbm1a_x = t262 * top_jointbm1t_z - t263 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t261 * top_jointbm1t_z + t263 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t261 * top_jointbm1t_y + t262 * top_jointbm1t_x;
-  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y + (q1r1_x * top_jointbm1t_x - q1r1_z *
-      top_jointbm1t_z);
-  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y - (q1r2_x * top_jointbm1t_x + q1r2_z *
-      top_jointbm1t_z);
+  const Real t171 = Real(1.0) / top_joints2am_z;
+  const Real t172 = top_jointax_y * t171;
+  const Real t178 = top_joints2bm_y * t172 + (t110 + Real(0.31) * top_joints1bf1_x);
+  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t188 = Real(1.0) / (top_joints2bm_x * t172 + (Real(0.31) * top_joints1bf1_y - t110));
+  const Real t189 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t188;
+  const Real t193 = t178 * t189 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
+      Real(0.31)));
+  const Real t195 = t193 * Real(0.0967741935483871);
+  const Real t196 = tie_rods0bm_x * t188;
+  const Real t201 = Real(1.0) / t193;
+  const Real t202 = (t178 * t196 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t201;
+  const Real t207 = Real(1.0) / (t195 * t202 - (t182 * t196 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t209 = top_jointbx1_y - top_jointbx1_x * t172;
+  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) + t189 * t209;
+  const Real t218 = t207 * (t202 * t212 - (t196 * t209 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t221 = t201 * (t212 - t195 * t218);
+  const Real t226 = t188 * (t182 * t218 - (t209 - t178 * t221));
+  const Real t233 = t171 * (top_joints2bm_z * t218 + (top_joints2bm_y * t221 + (top_jointbx1_x -
+      top_joints2bm_x * t226)));
+  const Real t238 = t233 * state.z[0];
+  const Real t239 = tie_rods0at * t207;
+  const Real t240 = Real(0.0967741935483871) * t239;
+  const Real t241 = t226 * state.z[0] + t240;
+  const Real t242 = t221 * state.z[0] - t240;
+  const Real t243 = t218 * state.z[0] + t239;
+  const Real top_jointam2t_y = top_jointax_x * t238;
+  const Real t246 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 + t246;
+  const Real top_jointbm1t_y = t246 - Real(0.31) * t241;
+  const Real top_jointbm1t_z = Real(0.03) * (t241 + t242);
+  const Real top_jointam2t_x = top_jointax_y * t238;
+  const Real top_jointam2a_y = t238 * top_jointam2t_x;
+  const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
+  const Real top_jointbm1a_x = t242 * top_jointbm1t_z + t243 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t241 * top_jointbm1t_z + t243 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t241 * top_jointbm1t_y - t242 * top_jointbm1t_x;
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z + (q1r1_x * top_jointbm1t_x + q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z - (q1r2_x * top_jointbm1t_x - q1r2_y *
+      top_jointbm1t_y);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t264 * top_jointam2t_y;
+  const Real top_jointam2a_x = t238 * top_jointam2t_y;
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x + q1r1_z *
-      top_jointbm1a_z);
-  const Real top_jointbm1app_y = q1r2_y * top_jointbm1a_y - (q1r2_x * top_jointbm1a_x - q1r2_z *
-      top_jointbm1a_z);
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z - (q1r2_x * top_jointbm1a_x + q1r2_y *
+      top_jointbm1a_y);
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
-  const Real top_jointbm0b_y = top_jointbm0t_y - Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
   const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
-  const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
-      state.z[0] * top_jointbm0b_x));
-  const Real tie_rodbm1t_x = Real(0.07) * t262 + Real(0.02) * t263;
-  const Real tie_rodbm1t_y = Real(0.14) * t263 + Real(0.07) * t261;
-  const Real tie_rodbm1t_z = Real(0.14) * t262 - Real(0.02) * t261;
-  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y + (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y - (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y + (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
+  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
+      * top_jointbm1app_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t242 + Real(0.02) * t243;
+  const Real tie_rodbm1t_y = Real(0.14) * t243 - Real(0.07) * t241;
+  const Real tie_rodbm1t_z = Real(0.14) * t242 + Real(0.02) * t241;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t262 * tie_rodbm1t_z + t263 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t261 * tie_rodbm1t_z - t263 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t261 * tie_rodbm1t_y + t262 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x - q1r1_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x + q1r2_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x + q1r0_z * tie_rodbm1a_z);
+  const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t241 * tie_rodbm1t_y - t242 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
-  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
-  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
-      tie_rodbm0b_y));
-  const Real t417 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y - (state.z[0] *
-      top_jointbm0b_y - t175 * top_jointda_z)));
-  const Real t424 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y - (q1r0_z *
-      top_jointbm1a_z - (t188 * top_jointda_z + t195 * t417))));
-  const Real t435 = t216 * (t211 * t424 - (t205 * t417 + Real(3.123475237772121) * (tie_rodbm0v_y *
-      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
-      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t438 = t210 * (t424 + t204 * t435);
-  const Real t443 = t194 * (t181 * t438 - (t417 + t185 * t435));
-  const Real t450 = t174 * (top_joints2bm_x * t443 - (top_jointda_z - (top_joints2bm_y * t438 -
-      top_joints2bm_z * t435)));
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t396 = t172 * top_jointda_z + (state.z[0] * top_jointbm0b_y - (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t403 = t189 * t396 - (Real(0.06992681194351041) * top_jointda_z + (q1r0_z * top_jointbm1a_z +
+      (q1r0_y * top_jointbm1a_y - (top_jointam2app_x + q1r0_x * top_jointbm1a_x))));
+  const Real t414 = t207 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
+      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t196 * t396 - t202 * t403));
+  const Real t417 = t201 * (t403 + t195 * t414);
+  const Real t422 = t188 * (t182 * t414 + (t396 - t178 * t417));
+  const Real t429 = t171 * (top_joints2bm_z * t414 - (top_joints2bm_y * t417 - (top_jointda_z -
+      top_joints2bm_x * t422)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -1847,11 +1946,10 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
-  const Real p_2_1n_z = q1r2_x * Real(1.3056) + (q1r1_x * Real(0.0768) - (q1r0_z * Real(0.192) - q1r0_y *
-      Real(1.7608)));
-  const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
-      Real(0.98)));
+  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real t482 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
+  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - t482);
+  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + t482 * Real(0.4166666666666667));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
@@ -1865,7 +1963,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutbv0_y = state.z[0] * strutbx_x;
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_ll = strutd_y * strutd_y + strutd_z * strutd_z + Real(1e-18);
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
   const Real strut_e = strut_l - model.free_length;
@@ -1873,21 +1971,19 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strut_Tl = strut_T / strut_l;
   const Real strutf_y = strutd_y * strut_Tl;
   const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - (Real(0.34) + (q1r1_z * Real(0.12) - q1r1_y *
-      Real(0.06)));
-  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
-      Real(0.06)));
-  const Real expression_4 = c0 * wheel_centerx1p_y + (input.u[0] + (s0 * wheel_centerx1p_x +
-      Real(0.11750000000000002)));
+  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
+      Real(0.01)));
+  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
+      Real(0.01)));
+  const Real expression_4 = c0 * wheel_centerx1p_y - (input.u[0] + s0 * wheel_centerx1p_x) -
+      Real(0.11750000000000002);
   const Real expression_5 = expression_4 * model.tyre;
-  const Real tyre_forcef1p_x = s0 * expression_5;
-  const Real tyre_forcef1p_y = c0 * expression_5;
-  const Real tyre_forcef1_x = q1r1_x * tyre_forcef1p_x + q1r2_x * tyre_forcef1p_y;
-  const Real tyre_forcef1_y = q1r1_y * tyre_forcef1p_x - q1r2_y * tyre_forcef1p_y;
-  const Real tyre_forcef1_z = q1r1_z * tyre_forcef1p_x - q1r2_z * tyre_forcef1p_y;
+  const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
+  const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
+  const Real tyre_forcef1_z = top_joints2bf1_z * expression_5;
   const Real tyre_forcem_x = Real(0.12) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_z;
-  const Real tyre_forcem_y = Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x;
-  const Real tyre_forcem_z = Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x;
+  const Real tyre_forcem_y = Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x;
+  const Real tyre_forcem_z = Real(0.01) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x;
   const Real rQp0 = h0b_x * Real(9.81);
   const Real rL0a_x = s0 * Real(9.81);
   const Real rL0a_y = c0 * Real(9.81);
@@ -1900,71 +1996,70 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real t670 = w1p_y * rK1_z;
-  const Real t671 = w1p_z * rK1_y;
-  const Real t673 = w1p_x * rK1_z;
-  const Real t674 = w1p_z * rK1_x;
-  const Real t676 = w1p_x * rK1_y;
-  const Real t677 = w1p_y * rK1_x;
-  const Real ru1_x = t261 + Real(2.0) * w1p_x;
-  const Real ru1_y = t262 - Real(2.0) * w1p_y;
-  const Real ru1_z = t263 - Real(2.0) * w1p_z;
+  const Real t638 = w1p_x * rK1_z;
+  const Real t639 = w1p_z * rK1_x;
+  const Real t641 = w1p_x * rK1_y;
+  const Real t642 = w1p_y * rK1_x;
+  const Real ru1_x = t241 - Real(2.0) * w1p_x;
+  const Real ru1_y = t242 - Real(2.0) * w1p_y;
+  const Real ru1_z = t243 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
   const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
   const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
   const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ruw1 = t262 * ru1_y + (t261 * ru1_x + t263 * ru1_z);
-  const Real t709 = t262 * rSu1_z;
-  const Real t710 = t263 * rSu1_y;
-  const Real t713 = t261 * rSu1_z;
-  const Real t714 = t263 * rSu1_x;
-  const Real t717 = t261 * rSu1_y;
-  const Real t718 = t262 * rSu1_x;
+  const Real ruw1 = t243 * ru1_z + (t241 * ru1_x + t242 * ru1_y);
+  const Real t674 = t242 * rSu1_z;
+  const Real t675 = t243 * rSu1_y;
+  const Real t678 = t241 * rSu1_z;
+  const Real t679 = t243 * rSu1_x;
+  const Real t682 = t241 * rSu1_y;
+  const Real t683 = t242 * rSu1_x;
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t450 * Real(0.0505);
-  const Real ref1_x = t435 * Real(1.6) - (tyre_forcef1_x - (t438 * Real(3.84) + t261 * ruh1));
-  const Real ref1_y = Real(1.6) * ruw1 - (tyre_forcef1_y - (t443 * Real(3.84) - t262 * ruh1));
-  const Real ref1_z = t443 * Real(1.6) - (tyre_forcef1_z + (Real(3.84) * ruw1 - t263 * ruh1));
-  const Real ren1_x = t443 * Real(1.4408) - (tyre_forcem_x + (t709 - t710));
-  const Real ren1_y = t435 * Real(0.192) - (tyre_forcem_y - (t438 * Real(1.7608) + (t713 - t714)));
-  const Real ren1_z = t438 * Real(0.192) + (tyre_forcem_z + (t435 * Real(0.98) + (t717 - t718)));
-  const Real rf1p_x = q1r1_y * ref1_y + (q1r1_x * ref1_x + q1r1_z * ref1_z);
-  const Real rf1p_y = q1r2_y * ref1_y - (q1r2_x * ref1_x - q1r2_z * ref1_z);
-  const Real rQ1_0 = Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (t670 - (t671 + ren1_x)));
-  const Real rQ1_1 = t673 - (Real(3.84) * ra1_x + (t674 + ren1_y));
-  const Real rQ1_2 = t676 - (Real(1.6) * ra1_x + (t677 + ren1_z));
-  const Real rQ2_0 = rQp2 + rdn2_z;
-  const Real t783 = Real(1.0) / (q1r1_z * S1at1r0_z + (q1r1_y * S1at1r0_y - (h1at1_x * Real(0.68) - (q1r2_y *
-      S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t242 * t242 * Real(0.0505) + (t235 * (t235 *
-      Real(1.4408) + (p_1_1n_z + p_1_1n_z)) - (t227 * (t230 * Real(0.192) - (p_3_1n_z + (p_3_1n_z + t227 *
-      Real(0.98)))) - (t230 * (t230 * Real(1.7608) - (p_2_1n_z + (p_2_1n_z + t227 * Real(0.192)))) + ((q1r1_x
-      * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.8987000000000007) +
-      Real(0.017799999999999996)))))))))))) * (strutbx_y * strutf_y - (strutbx_x * strutf_z - (rQp0 + (q1r0_x
-      * ren1_x - (q1r0_y * ren1_y - (q1r0_z * ren1_z - (Real(0.02) * rf1p_x - (Real(0.34) * rf1p_y + (t235 *
-      rQ1_0 - (t230 * rQ1_1 - (t227 * rQ1_2 + t242 * rQ2_0)))))))))));
-  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t783;
-  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t783;
+  const Real rdn2_z = t429 * Real(0.0505);
+  const Real ref1_x = t241 * ruh1 - (t417 * Real(3.84) + (tyre_forcef1_x + t414 * Real(1.6)));
+  const Real ref1_y = t242 * ruh1 - (t422 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * ruw1));
+  const Real ref1_z = t243 * ruh1 - (Real(3.84) * ruw1 + (tyre_forcef1_z - t422 * Real(1.6)));
+  const Real ren1_x = t675 - (t674 + (tyre_forcem_x - t422 * Real(1.4408)));
+  const Real ren1_y = t679 - (t678 - (t417 * Real(1.7608) - (tyre_forcem_y - t414 * Real(0.192))));
+  const Real ren1_z = t683 - (t682 - (t414 * Real(0.98) + (tyre_forcem_z + t417 * Real(0.192))));
+  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x + q1r1_y * ref1_y);
+  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x - q1r2_y * ref1_y);
+  const Real t723 = w1p_y * rK1_z - w1p_z * rK1_y;
+  const Real rQ1_0 = ren1_x + (Real(1.6) * ra1_z + Real(3.84) * ra1_y - t723);
+  const Real rQ1_1 = ren1_y + (t639 + (Real(3.84) * ra1_x - t638));
+  const Real rQ1_2 = ren1_z + (t642 + (Real(1.6) * ra1_x - t641));
+  const Real rQ2_0 = rQp2 - rdn2_z;
+  const Real t748 = (t233 * rQ2_0 - (t218 * rQ1_2 - (t221 * rQ1_1 - (t226 * rQ1_0 - (Real(0.34) * rf1p_y -
+      (Real(0.02) * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x + (rQp0 - (strutbx_x *
+      strutf_z - strutbx_y * strutf_y))))))))))) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y
+      * S1at1r0_y + (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z -
+      (h1at1_y * Real(0.04) - (t233 * t233 * Real(0.0505) - (t226 * (p_1_1n_z + (p_1_1n_z - t226 *
+      Real(1.4408))) - (t218 * (t218 * Real(0.98) - (p_3_1n_z + (p_3_1n_z + t221 * Real(0.192)))) - t221 *
+      (t218 * Real(0.192) + (p_2_1n_z + (p_2_1n_z - t221 * Real(1.7608)))))))))))) +
+      Real(3.9165000000000005)));
+  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t748;
+  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t748;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real rdn2_z_2 = Real(0.0505) * (t450 - t242 * t783);
-  const Real rQ2_0_2 = rQp2 + rdn2_z_2;
-  const Real t805 = t174 * rQ2_0_2;
-  const Real t819 = t194 * (t671 - (t670 - (Real(1.6) * ra1_z_2 + (Real(3.84) * ra1_y_2 - (tyre_forcem_x -
-      (t710 - (t709 - (top_joints2bm_x * t805 + Real(1.4408) * (t443 - t783 * (q1r0_x + t235))))))))));
-  const Real t824 = t435 - t783 * (q1r0_z - t227);
-  const Real t828 = t438 + t783 * (q1r0_y - t230);
-  const Real t839 = t210 * (t674 - (t673 - (Real(3.84) * ra1_x_2 - (tyre_forcem_y + (t714 - (t713 +
-      (top_joints2bm_y * t805 + (t181 * t819 + (Real(0.192) * t824 + Real(1.7608) * t828)))))))));
-  const Real t855 = t216 * (t677 - (t676 - (Real(1.6) * ra1_x_2 + (tyre_forcem_z - (t718 - (t717 -
-      (top_joints2bm_z * t805 + (t185 * t819 - (t204 * t839 + (Real(0.192) * t828 + Real(0.98) *
-      t824))))))))));
-  const Real t857 = t839 + t211 * t855;
-  const Real t861 = t195 * t857 - (t819 + t205 * t855);
-  lambda[0] = t857;
-  lambda[1] = -t861;
-  lambda[2] = t175 * t861 - (t805 - t188 * t857);
-  lambda[3] = -t855;
+  const Real rdn2_z_2 = Real(0.0505) * (t429 + t233 * t748);
+  const Real rQ2_0_2 = rQp2 - rdn2_z_2;
+  const Real t770 = t171 * rQ2_0_2;
+  const Real t783 = t188 * (Real(1.4408) * (t422 - t748 * (q1r0_x - t226)) + (top_joints2bm_x * t770 - (t674 -
+      (t675 - (tyre_forcem_x - (Real(3.84) * ra1_y_2 - (t723 - Real(1.6) * ra1_z_2)))))));
+  const Real t788 = t414 - t748 * (q1r0_z - t218);
+  const Real t792 = t417 + t748 * (q1r0_y - t221);
+  const Real t803 = t201 * (Real(1.7608) * t792 + (Real(0.192) * t788 - (t178 * t783 - (top_joints2bm_y * t770
+      - (t678 - (t679 - (tyre_forcem_y - (Real(3.84) * ra1_x_2 - (t638 - t639)))))))));
+  const Real t819 = t207 * (Real(0.98) * t788 + (Real(0.192) * t792 + (t195 * t803 + (t182 * t783 -
+      (top_joints2bm_z * t770 + (t682 - (t683 + (tyre_forcem_z + (Real(1.6) * ra1_x_2 - (t641 -
+      t642))))))))));
+  const Real t821 = t803 - t202 * t819;
+  const Real t825 = t196 * t819 + (t783 + t189 * t821);
+  lambda[0] = -t821;
+  lambda[1] = -t825;
+  lambda[2] = -(Real(0.06992681194351041) * t821 + (t770 - t172 * t825));
+  lambda[3] = t819;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

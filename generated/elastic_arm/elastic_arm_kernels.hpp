@@ -9,12 +9,135 @@ namespace elastic_arm {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 // What products of two numbers lose by rounding (Dekker, Numerische Mathematik 18, 1971; factors are split by powers of
 // two, so that fused operations change nothing). Nothing where a number type is wider than that matters.
@@ -157,73 +341,50 @@ State<Real> initial_state(const Model<Real>& model) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) noexcept {
-  Real t2, t3;
-  detail::sine_cosine(state.y[0], t2, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = t3 * t4 + t2 * t5;
-  const Real c1 = t2 * t4 - t3 * t5;
-  const Real r2_x = s1 * Real(0.5);
-  const Real r2_y = c1 * Real(0.5);
-  Real t17, t18;
-  detail::sine_cosine(state.y[2], t17, t18);
-  const Real t21 = c1 * t17 - s1 * t18;
-  const Real t24 = s1 * t17 + c1 * t18;
-  Real t25, t26;
-  detail::sine_cosine(state.y[3], t25, t26);
-  const Real s3 = t24 * t25 + t21 * t26;
-  const Real c3 = t21 * t25 - t24 * t26;
-  Real t35, t36;
-  detail::sine_cosine(state.y[4], t35, t36);
-  const Real t39 = c3 * t35 - s3 * t36;
-  const Real t42 = s3 * t35 + c3 * t36;
-  Real t43, t44;
-  detail::sine_cosine(state.y[5], t43, t44);
-  const Real s5 = t42 * t43 + t39 * t44;
-  const Real c5 = t39 * t43 - t42 * t44;
-  const Real h5b_x = s5 * Real(0.3);
-  const Real h5b_y = c5 * Real(0.3);
-  const Real D4 = (s3 * h5b_x + c3 * h5b_y) * Real(0.4);
-  const Real E4 = D4 - Real(0.06999999999999999);
-  const Real h3b_x = s3 * Real(1.8);
-  const Real h3b_y = c3 * Real(1.8);
-  const Real h3_x = h5b_x - h3b_x;
-  const Real h3_y = h5b_y - h3b_y;
-  const Real J3 = D4 + E4 - Real(0.6133333333333334);
-  const Real J2 = J3 - Real(0.03);
-  const Real D2 = r2_x * h3_x + r2_y * h3_y;
-  const Real E2 = J2 - D2;
-  const Real J1 = D2 - E2 + Real(2.325);
-  const Real J0 = J1 + Real(0.05);
-  const Real p_3_2n_z = J3 - D2;
-  const Real p_4_2l_z = r2_x * h5b_x + r2_y * h5b_y;
-  const Real p_4_2n_z = E4 - p_4_2l_z;
-  const Real p_5_4n_z = D4 - Real(0.06);
-  const Real p_5_2n_z = p_4_2l_z - p_5_4n_z;
-  const Real t88 = -E2;
-  const Real t89 = -p_3_2n_z;
-  const Real t90 = -p_4_2n_z;
-  const Real t92 = -J3;
-  const Real t93 = -E4;
-  const Real t94 = -p_5_4n_z;
-  M[0][0] = J0;
-  M[0][1] = M[1][0] = J1;
-  M[0][2] = M[2][0] = t88;
-  M[0][3] = M[3][0] = t89;
-  M[0][4] = M[4][0] = t90;
-  M[0][5] = M[5][0] = p_5_2n_z;
-  M[1][1] = J1;
-  M[1][2] = M[2][1] = t88;
-  M[1][3] = M[3][1] = t89;
-  M[1][4] = M[4][1] = t90;
-  M[1][5] = M[5][1] = p_5_2n_z;
-  M[2][2] = -J2;
-  M[2][3] = M[3][2] = t92;
-  M[2][4] = M[4][2] = t93;
-  M[2][5] = M[5][2] = t94;
-  M[3][3] = t92;
-  M[3][4] = M[4][3] = t93;
-  M[3][5] = M[5][3] = t94;
+  Real t4, t5, t6, t7, t16, t17, t18, t19;
+  detail::sine_cosine4(state.y[2], t4, t5, state.y[3], t6, t7, state.y[4], t16, t17, state.y[5], t18, t19);
+  const Real t10 = t5 * t6 + t4 * t7;
+  const Real c3_1 = t4 * t6 - t5 * t7;
+  const Real lac3_1 = c3_1 * Real(0.9);
+  const Real c5_3 = t16 * t18 - t17 * t19;
+  const Real lac5_3 = c5_3 * Real(0.12);
+  const Real c5_1 = t18 * (c3_1 * t16 - t10 * t17) - t19 * (t10 * t16 + c3_1 * t17);
+  const Real lac5_1 = c5_1 * Real(0.15);
+  const Real lMj5_3 = lac5_3 - Real(0.06);
+  const Real lMj5_1 = lac5_1 - lMj5_3;
+  const Real lMj4_3 = lac5_3 - Real(0.06999999999999999);
+  const Real lMj4_1 = lac5_1 - lMj4_3;
+  const Real lMc3_1 = lac3_1 - lac5_1;
+  const Real lJj4 = lMj4_3 + (lac5_3 - Real(0.6133333333333334));
+  const Real lMj3_1 = lMc3_1 + lJj4;
+  const Real lJj3 = lJj4 - Real(0.03);
+  const Real lMj2_1 = lMc3_1 + lJj3;
+  const Real lJj2 = lMj2_1 + (lMc3_1 - Real(2.325));
+  const Real lJj1 = lJj2 - Real(0.05);
+  const Real t56 = -lJj2;
+  const Real t57 = -lMj2_1;
+  const Real t58 = -lMj3_1;
+  const Real t60 = -lJj4;
+  const Real t61 = -lMj4_3;
+  const Real t62 = -lMj5_3;
+  M[0][0] = -lJj1;
+  M[0][1] = M[1][0] = t56;
+  M[0][2] = M[2][0] = t57;
+  M[0][3] = M[3][0] = t58;
+  M[0][4] = M[4][0] = lMj4_1;
+  M[0][5] = M[5][0] = lMj5_1;
+  M[1][1] = t56;
+  M[1][2] = M[2][1] = t57;
+  M[1][3] = M[3][1] = t58;
+  M[1][4] = M[4][1] = lMj4_1;
+  M[1][5] = M[5][1] = lMj5_1;
+  M[2][2] = -lJj3;
+  M[2][3] = M[3][2] = t60;
+  M[2][4] = M[4][2] = t61;
+  M[2][5] = M[5][2] = t62;
+  M[3][3] = t60;
+  M[3][4] = M[4][3] = t61;
+  M[3][5] = M[5][3] = t62;
   M[4][4] = Real(0.06999999999999999);
   M[4][5] = M[5][4] = Real(0.06);
   M[5][5] = Real(0.06);
@@ -231,95 +392,51 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
-  Real t2, t3;
-  detail::sine_cosine(state.y[0], t2, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = t3 * t4 + t2 * t5;
-  const Real c1 = t2 * t4 - t3 * t5;
-  const Real r2_x = s1 * Real(0.5);
-  const Real r2_y = c1 * Real(0.5);
-  Real t17, t18;
-  detail::sine_cosine(state.y[2], t17, t18);
-  const Real t21 = c1 * t17 - s1 * t18;
-  const Real t24 = s1 * t17 + c1 * t18;
-  Real t25, t26;
-  detail::sine_cosine(state.y[3], t25, t26);
-  const Real s3 = t24 * t25 + t21 * t26;
-  const Real c3 = t21 * t25 - t24 * t26;
-  const Real r4_x = s3 * Real(0.4);
-  const Real r4_y = c3 * Real(0.4);
-  Real t38, t39;
-  detail::sine_cosine(state.y[4], t38, t39);
-  const Real t42 = c3 * t38 - s3 * t39;
-  const Real t45 = s3 * t38 + c3 * t39;
-  Real t46, t47;
-  detail::sine_cosine(state.y[5], t46, t47);
-  const Real s5 = t45 * t46 + t42 * t47;
-  const Real c5 = t42 * t46 - t45 * t47;
+  Real t18, t19, t20, t21, t30, t31, t32, t33;
+  detail::sine_cosine4(state.y[2], t18, t19, state.y[3], t20, t21, state.y[4], t30, t31, state.y[5], t32,
+      t33);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4_z = w3_z + state.z[4];
   const Real w5_z = w4_z + state.z[5];
-  const Real kla2w22 = w1_z * w1_z;
-  const Real kla2o_x = r2_x * kla2w22;
-  const Real kla2o_y = r2_y * kla2w22;
-  const Real kla4w22 = w3_z * w3_z;
-  const Real kla4o_x = kla2o_x - r4_x * kla4w22;
-  const Real kla4o_y = kla2o_y - r4_y * kla4w22;
-  const Real kL3a_x = c3 * kla2o_x - s3 * kla2o_y;
-  const Real kL3f_y = kla4w22 * Real(1.8);
-  const Real kL3n_z = kL3a_x * Real(1.8);
-  const Real kL3F_x = s3 * kL3f_y;
-  const Real kL3F_y = c3 * kL3f_y;
-  const Real kL5a_x = c5 * kla4o_x - s5 * kla4o_y;
-  const Real kL5w22 = w5_z * w5_z;
-  const Real kL5f_y = kL5w22 * Real(0.3);
-  const Real kL5n_z = kL5a_x * Real(0.3);
-  const Real kL5F_x = s5 * kL5f_y;
-  const Real kL5F_y = c5 * kL5f_y;
-  const Real kf4c_x = kL3F_x - kL5F_x;
-  const Real kf4c_y = kL3F_y - kL5F_y;
-  const Real kn4c_z = kL5n_z - (kL3n_z - (r4_x * kL5F_y - r4_y * kL5F_x));
-  const Real kn2c_z = kn4c_z + (r2_x * kf4c_y - r2_y * kf4c_x);
-  const Real t101 = -kn2c_z;
-  const Real t102 = -kn4c_z;
-  const Real t103 = -kL5n_z;
-  k[0] = t101;
-  k[1] = t101;
-  k[2] = t102;
-  k[3] = t102;
-  k[4] = t103;
-  k[5] = t103;
+  const Real lww1 = w1_z * w1_z;
+  const Real lww3 = w3_z * w3_z;
+  const Real lww5 = w5_z * w5_z;
+  const Real s3_1 = t19 * t20 + t18 * t21;
+  const Real t27 = t18 * t20 - t19 * t21;
+  const Real las3_1 = s3_1 * Real(0.9);
+  const Real s5_3 = t31 * t32 + t30 * t33;
+  const Real las5_3 = s5_3 * Real(0.12);
+  const Real s5_1 = t32 * (s3_1 * t30 + t27 * t31) + t33 * (t27 * t30 - s3_1 * t31);
+  const Real las5_1 = s5_1 * Real(0.15);
+  const Real lk1 = lww3 * las3_1 - lww5 * las5_1;
+  const Real lk3 = lww1 * las3_1 - lww5 * las5_3;
+  const Real lk5 = lww1 * las5_1 - lww3 * las5_3;
+  const Real lks4 = lk3 - lk5;
+  const Real lks2 = lk1 - lks4;
+  const Real t61 = -lks4;
+  k[0] = lks2;
+  k[1] = lks2;
+  k[2] = t61;
+  k[3] = t61;
+  k[4] = lk5;
+  k[5] = lk5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[6]) noexcept {
-  Real t2, t3;
-  detail::sine_cosine(state.y[0], t2, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real t2, t3, t4, t5, t14, t15, t22, t23;
+  detail::sine_cosine4(state.y[0], t2, t3, state.y[1], t4, t5, state.y[2], t14, t15, state.y[3], t22, t23);
+  Real t32, t33, t40, t41;
+  detail::sine_cosine2(state.y[4], t32, t33, state.y[5], t40, t41);
   const Real t8 = t3 * t4 + t2 * t5;
   const Real c1 = t2 * t4 - t3 * t5;
-  Real t14, t15;
-  detail::sine_cosine(state.y[2], t14, t15);
   const Real t18 = c1 * t14 - t8 * t15;
   const Real t21 = t8 * t14 + c1 * t15;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
   const Real t26 = t21 * t22 + t18 * t23;
   const Real c3 = t18 * t22 - t21 * t23;
-  Real t32, t33;
-  detail::sine_cosine(state.y[4], t32, t33);
-  Real t40, t41;
-  detail::sine_cosine(state.y[5], t40, t41);
   const Real c5 = (c3 * t32 - t26 * t33) * t40 - (t26 * t32 + c3 * t33) * t41;
-  const Real h5b_y = c5 * Real(0.3);
-  const Real h3b_y = c3 * Real(1.8);
-  const Real h3_y = h5b_y - h3b_y;
-  const Real h1b_y = c1 * Real(5.15);
-  const Real h1_y = h3_y + h1b_y;
   const Real push0_0 = state.z[0] * Real(8.0);
   const Real push1_0 = state.y[1] * model.k + state.z[1] * model.expression_7;
   const Real push2_0 = state.z[2] * Real(4.0);
@@ -340,15 +457,17 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real expression_11 = expression_10 * Real(2.0);
   const Real expression_12 = expression_11 + Real(2.9282972584132296);
   const Real push4_0 = expression_12 - state.z[4];
-  const Real t100 = h1_y * Real(9.81);
-  const Real q_0 = push0_0_2 - t100;
-  const Real q_1 = push1_0 - t100;
-  const Real t103 = h3_y * Real(9.81);
-  const Real q_2 = push2_0_2 - t103;
-  const Real q_3 = push3_0 - t103;
-  const Real t106 = h5b_y * Real(9.81);
-  const Real q_4 = push4_0 + t106;
-  const Real q_5 = push5_0 - t106;
+  const Real lga1 = c1 * Real(50.5215);
+  const Real lga3 = c3 * Real(17.658);
+  const Real lga5 = c5 * Real(2.943);
+  const Real lgs4 = lga3 - lga5;
+  const Real lgs2 = lga1 - lgs4;
+  const Real q_0 = push0_0_2 - lgs2;
+  const Real q_1 = push1_0 - lgs2;
+  const Real q_2 = push2_0_2 + lgs4;
+  const Real q_3 = push3_0 + lgs4;
+  const Real q_4 = push4_0 + lga5;
+  const Real q_5 = push5_0 - lga5;
   q[0] = q_0;
   q[1] = q_1;
   q[2] = q_2;
@@ -360,30 +479,22 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[6])
     noexcept {
-  Real t2, t3;
-  detail::sine_cosine(state.y[0], t2, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real t2, t3, t4, t5, t17, t18, t25, t26;
+  detail::sine_cosine4(state.y[0], t2, t3, state.y[1], t4, t5, state.y[2], t17, t18, state.y[3], t25, t26);
+  Real t38, t39, t46, t47;
+  detail::sine_cosine2(state.y[4], t38, t39, state.y[5], t46, t47);
   const Real s1 = t3 * t4 + t2 * t5;
   const Real c1 = t2 * t4 - t3 * t5;
   const Real r2_x = s1 * Real(0.5);
   const Real r2_y = c1 * Real(0.5);
-  Real t17, t18;
-  detail::sine_cosine(state.y[2], t17, t18);
   const Real t21 = c1 * t17 - s1 * t18;
   const Real t24 = s1 * t17 + c1 * t18;
-  Real t25, t26;
-  detail::sine_cosine(state.y[3], t25, t26);
   const Real s3 = t24 * t25 + t21 * t26;
   const Real c3 = t21 * t25 - t24 * t26;
   const Real r4_x = s3 * Real(0.4);
   const Real r4_y = c3 * Real(0.4);
-  Real t38, t39;
-  detail::sine_cosine(state.y[4], t38, t39);
   const Real t42 = c3 * t38 - s3 * t39;
   const Real t45 = s3 * t38 + c3 * t39;
-  Real t46, t47;
-  detail::sine_cosine(state.y[5], t46, t47);
   const Real s5 = t45 * t46 + t42 * t47;
   const Real c5 = t42 * t46 - t45 * t47;
   const Real w1_z = state.z[0] + state.z[1];
@@ -451,9 +562,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real L_3_1 = H5_3_1 * invD_3;
   const Real H3_1_1 = H5_1_1 - H5_3_1 * L_3_1;
   const Real u3_1 = u5_1 + u5_3 * L_3_1;
-  const Real invD_1 = Real(1.0) / H3_1_1;
   const Real y_0 = plu0 * Real(20.0);
-  const Real y_1 = u3_1 * invD_1;
+  const Real y_1 = u3_1 / H3_1_1;
   const Real y_2 = plu2 * Real(33.333333333333336);
   const Real y_3 = u5_3 * invD_3;
   const Real zdot_3 = y_3 + L_3_1 * y_1;
@@ -476,30 +586,22 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept {
-  Real t2, t3;
-  detail::sine_cosine(state.y[0], t2, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real t2, t3, t4, t5, t17, t18, t25, t26;
+  detail::sine_cosine4(state.y[0], t2, t3, state.y[1], t4, t5, state.y[2], t17, t18, state.y[3], t25, t26);
+  Real t38, t39, t46, t47;
+  detail::sine_cosine2(state.y[4], t38, t39, state.y[5], t46, t47);
   const Real s1 = t3 * t4 + t2 * t5;
   const Real c1 = t2 * t4 - t3 * t5;
   const Real r2_x = s1 * Real(0.5);
   const Real r2_y = c1 * Real(0.5);
-  Real t17, t18;
-  detail::sine_cosine(state.y[2], t17, t18);
   const Real t21 = c1 * t17 - s1 * t18;
   const Real t24 = s1 * t17 + c1 * t18;
-  Real t25, t26;
-  detail::sine_cosine(state.y[3], t25, t26);
   const Real s3 = t24 * t25 + t21 * t26;
   const Real c3 = t21 * t25 - t24 * t26;
   const Real r4_x = s3 * Real(0.4);
   const Real r4_y = c3 * Real(0.4);
-  Real t38, t39;
-  detail::sine_cosine(state.y[4], t38, t39);
   const Real t42 = c3 * t38 - s3 * t39;
   const Real t45 = s3 * t38 + c3 * t39;
-  Real t46, t47;
-  detail::sine_cosine(state.y[5], t46, t47);
   const Real s5 = t45 * t46 + t42 * t47;
   const Real c5 = t42 * t46 - t45 * t47;
   const Real w1_z = state.z[0] + state.z[1];
@@ -534,19 +636,19 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real ala2A_z = ala1A_z + zdot[2];
   const Real ala3A_z = ala2A_z + zdot[3];
   const Real ala4w22 = w3_z * w3_z;
-  const Real ala4o_x = ala2o_x - (r4_x * ala4w22 + r4_y * ala3A_z);
-  const Real ala4o_y = ala2o_y - (r4_x * ala3A_z - r4_y * ala4w22);
+  const Real t124 = r4_x * ala4w22 + r4_y * ala3A_z;
+  const Real ala4o_x = ala2o_x - t124;
+  const Real t128 = r4_x * ala3A_z - r4_y * ala4w22;
+  const Real ala4o_y = ala2o_y - t128;
   const Real ala4A_z = ala3A_z + zdot[4];
   const Real ala5A_z = ala4A_z + zdot[5];
   const Real aL0n_z = zdot[0] * Real(0.05);
   const Real aL1n_z = ala1A_z * Real(2.325) - c1 * Real(50.5215);
   const Real aL2n_z = ala2A_z * Real(0.03);
   const Real aL3a_x = c3 * ala2o_x + s3 * ala2o_y;
-  const Real aL3f_x = ala3A_z * Real(1.8);
-  const Real aL3f_y = ala4w22 * Real(1.8);
   const Real aL3n_z = ala3A_z * Real(0.6133333333333334) - aL3a_x * Real(1.8);
-  const Real aL3F_x = c3 * aL3f_x + s3 * aL3f_y;
-  const Real aL3F_y = c3 * aL3f_y - s3 * aL3f_x;
+  const Real aL3F_x = t124 * Real(4.5);
+  const Real aL3F_y = t128 * Real(4.5);
   const Real aL4n_z = ala4A_z * Real(0.01);
   const Real aL5a_x = c5 * ala4o_x + s5 * ala4o_y;
   const Real aL5w22 = w5_z * w5_z;
@@ -557,10 +659,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aL5F_y = c5 * aL5f_y - s5 * aL5f_x;
   const Real an5c_z = aL4n_z + aL5n_z;
   const Real af4c_x = aL3F_x - aL5F_x;
-  const Real af4c_y = aL3F_y - aL5F_y;
+  const Real af4c_y = aL3F_y + aL5F_y;
   const Real an4c_z = an5c_z + (aL3n_z + (r4_x * aL5F_y - r4_y * aL5F_x));
   const Real an3c_z = aL2n_z + an4c_z;
-  const Real an2c_z = an3c_z + (aL1n_z + (r2_x * af4c_y - r2_y * af4c_x));
+  const Real an2c_z = an3c_z + (aL1n_z - (r2_x * af4c_y + r2_y * af4c_x));
   const Real an1c_z = aL0n_z + an2c_z;
   const Real tau_0_0 = push0_0_2 + an1c_z;
   const Real tau_1_0 = push1_0 + an2c_z;
@@ -578,87 +680,37 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real t2, t3;
-  detail::sine_cosine(state.y[0], t2, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = t3 * t4 + t2 * t5;
-  const Real c1 = t2 * t4 - t3 * t5;
-  const Real r2_x = s1 * Real(0.5);
-  const Real r2_y = c1 * Real(0.5);
-  Real t17, t18;
-  detail::sine_cosine(state.y[2], t17, t18);
-  const Real t21 = c1 * t17 - s1 * t18;
-  const Real t24 = s1 * t17 + c1 * t18;
-  Real t25, t26;
-  detail::sine_cosine(state.y[3], t25, t26);
-  const Real s3 = t24 * t25 + t21 * t26;
-  const Real c3 = t21 * t25 - t24 * t26;
-  const Real r4_x = s3 * Real(0.4);
-  const Real r4_y = c3 * Real(0.4);
-  Real t38, t39;
-  detail::sine_cosine(state.y[4], t38, t39);
-  const Real t42 = c3 * t38 - s3 * t39;
-  const Real t45 = s3 * t38 + c3 * t39;
-  Real t46, t47;
-  detail::sine_cosine(state.y[5], t46, t47);
-  const Real s5 = t45 * t46 + t42 * t47;
-  const Real c5 = t42 * t46 - t45 * t47;
-  const Real h5b_x = s5 * Real(0.3);
-  const Real h5b_y = c5 * Real(0.3);
-  const Real D4 = r4_x * h5b_x + r4_y * h5b_y;
-  const Real h3b_x = s3 * Real(1.8);
-  const Real h3b_y = c3 * Real(1.8);
-  const Real h3_x = h5b_x - h3b_x;
-  const Real h3_y = h5b_y - h3b_y;
-  const Real J3 = D4 + (D4 - Real(0.6833333333333333));
-  const Real J2 = J3 - Real(0.03);
-  const Real D2 = r2_x * h3_x + r2_y * h3_y;
-  const Real J1 = D2 - (J2 - (D2 + Real(2.325)));
-  const Real J0 = J1 + Real(0.05);
+  Real t15, t16, t17, t18, t25, t26, t27, t28;
+  detail::sine_cosine4(state.y[2], t15, t16, state.y[3], t17, t18, state.y[4], t25, t26, state.y[5], t27,
+      t28);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w2_z = w1_z + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4_z = w3_z + state.z[4];
-  const Real v0L_z = J0 * state.z[0];
-  const Real v1L_z = J1 * state.z[1];
-  const Real v2o_x = r2_y * w1_z;
-  const Real v2o_y = r2_x * w1_z;
-  const Real v2L_z = J2 * state.z[2];
-  const Real v3L_z = J3 * state.z[3];
-  const Real v4o_x = v2o_x - r4_y * w3_z;
-  const Real v4o_y = v2o_y - r4_x * w3_z;
-  const Real v4L_z = state.z[4] * Real(0.06999999999999999);
-  const Real v5L_z = state.z[5] * Real(0.06);
-  const Real t120 = state.z[2] + state.z[3];
-  const Real t125 = state.z[4] + state.z[5];
-  const Real T5 = w1_z * v2L_z - (state.z[0] * v1L_z - (w2_z * v3L_z - (w3_z * v4L_z + (w4_z * v5L_z + (v4o_y
-      * (h5b_x * t125) + (v4o_x * (h5b_y * t125) + (v2o_y * (h3_x * t120) + (Real(0.5) * (state.z[5] * v5L_z +
-      (state.z[4] * v4L_z - (state.z[3] * v3L_z + (state.z[2] * v2L_z - (state.z[0] * v0L_z + state.z[1] *
-      v1L_z))))) + v2o_x * (h3_y * t120)))))))));
-  return -T5;
+  const Real w5_z = w4_z + state.z[5];
+  const Real t21 = t16 * t17 + t15 * t18;
+  const Real c3_1 = t15 * t17 - t16 * t18;
+  const Real c5_3 = t25 * t27 - t26 * t28;
+  const Real c5_1 = t27 * (c3_1 * t25 - t21 * t26) - t28 * (t21 * t25 + c3_1 * t26);
+  const Real lp3 = w3_z * Real(0.3066666666666667) - w1_z * c3_1 * Real(0.9);
+  const Real lp5 = w5_z * Real(0.03) + w1_z * c5_1 * Real(0.15) - w3_z * c5_3 * Real(0.12);
+  const Real T = state.z[0] * state.z[0] * Real(0.025) + w1_z * w1_z * Real(1.1625) + w2_z * w2_z *
+      Real(0.015) + w3_z * lp3 + w4_z * w4_z * Real(0.005) + w5_z * lp5;
+  return T;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  Real t2, t3;
-  detail::sine_cosine(state.y[0], t2, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real t2, t3, t4, t5, t14, t15, t22, t23;
+  detail::sine_cosine4(state.y[0], t2, t3, state.y[1], t4, t5, state.y[2], t14, t15, state.y[3], t22, t23);
+  Real t32, t33, t40, t41;
+  detail::sine_cosine2(state.y[4], t32, t33, state.y[5], t40, t41);
   const Real s1 = t3 * t4 + t2 * t5;
   const Real t11 = t2 * t4 - t3 * t5;
-  Real t14, t15;
-  detail::sine_cosine(state.y[2], t14, t15);
   const Real t18 = t11 * t14 - s1 * t15;
   const Real t21 = s1 * t14 + t11 * t15;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
   const Real s3 = t21 * t22 + t18 * t23;
   const Real t29 = t18 * t22 - t21 * t23;
-  Real t32, t33;
-  detail::sine_cosine(state.y[4], t32, t33);
-  Real t40, t41;
-  detail::sine_cosine(state.y[5], t40, t41);
   const Real s5 = (s3 * t32 + t29 * t33) * t40 + (t29 * t32 - s3 * t33) * t41;
   const Real h5b_x = s5 * Real(0.3);
   const Real h3b_x = s3 * Real(1.8);
@@ -672,30 +724,22 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  Real t2, t3;
-  detail::sine_cosine(state.y[0], t2, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real t2, t3, t4, t5, t17, t18, t25, t26;
+  detail::sine_cosine4(state.y[0], t2, t3, state.y[1], t4, t5, state.y[2], t17, t18, state.y[3], t25, t26);
+  Real t38, t39, t46, t47;
+  detail::sine_cosine2(state.y[4], t38, t39, state.y[5], t46, t47);
   const Real s1 = t3 * t4 + t2 * t5;
   const Real c1 = t2 * t4 - t3 * t5;
   const Real r2_x = s1 * Real(0.5);
   const Real r2_y = c1 * Real(0.5);
-  Real t17, t18;
-  detail::sine_cosine(state.y[2], t17, t18);
   const Real t21 = c1 * t17 - s1 * t18;
   const Real t24 = s1 * t17 + c1 * t18;
-  Real t25, t26;
-  detail::sine_cosine(state.y[3], t25, t26);
   const Real s3 = t24 * t25 + t21 * t26;
   const Real c3 = t21 * t25 - t24 * t26;
   const Real r4_x = s3 * Real(0.4);
   const Real r4_y = c3 * Real(0.4);
-  Real t38, t39;
-  detail::sine_cosine(state.y[4], t38, t39);
   const Real t42 = c3 * t38 - s3 * t39;
   const Real t45 = s3 * t38 + c3 * t39;
-  Real t46, t47;
-  detail::sine_cosine(state.y[5], t46, t47);
   const Real s5 = t45 * t46 + t42 * t47;
   const Real c5 = t42 * t46 - t45 * t47;
   const Real link3x2_x = r2_x - r4_x;

@@ -11,9 +11,11 @@
 // - bodies are rigid; joints are ideal and without limits
 // - a spring's length is sqrt(|dr|^2 + (1e-09 m)^2), so that its direction is defined at zero length
 // Left out
-// - base inertial parameters: what a joint's motion does not feel is counted with the parent (3 operations of
+// - base inertial parameters: what a joint's motion does not feel is counted with the parent (1 operations of
 //   forward_dynamics)
-// - common factors: factors that several terms of a sum share are multiplied once (3 operations of
+// - common factors: factors that several terms of a sum share are multiplied once (2 operations of
+//   forward_dynamics)
+// - constant factors: constant factors of a product are multiplied with each other first (5 operations of
 //   forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time, states hold none
@@ -27,8 +29,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 4.5e-17 of the
-//   sum of absolute terms, other errors are 3.5e-16 of their scale; cond(M) up to 2.9e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 3.2e-17 of the
+//   sum of absolute terms, other errors are 3.7e-16 of their scale; cond(M) up to 2.9e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start
 // - mass_matrix: M of the equations
@@ -110,7 +112,7 @@ template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 12 operations (4 mul, 8 add and sub, 0 div), 4 sin and cos.
+/// 8 operations (4 mul, 4 add and sub, 0 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[4][4]) noexcept;
 
@@ -121,37 +123,37 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[4]) noe
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 90 operations (50 mul, 34 add and sub, 4 div), 6 sin and cos.
+/// 64 operations (34 mul, 24 add and sub, 4 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[4])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 138 operations (82 mul, 49 add and sub, 5 div), 6 sin and cos.
+/// 103 operations (63 mul, 33 add and sub, 5 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[4]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 141 operations (82 mul, 53 add and sub, 4 div), 6 sin and cos.
+/// 107 operations (64 mul, 37 add and sub, 4 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[4], Real
     (&tau)[4]) noexcept;
 
 /// Kinetic energy, J.
-/// 23 operations (12 mul, 11 add and sub, 0 div), 4 sin and cos.
+/// 19 operations (12 mul, 7 add and sub, 0 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 47 operations (22 mul, 23 add and sub, 0 div), 6 sin and cos.
+/// 38 operations (20 mul, 16 add and sub, 0 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 650 operations.
+/// 510 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -9,12 +9,135 @@ namespace flyball_governor {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[4]) noexcept {
@@ -72,12 +256,9 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  const Real S0b_zz = (s3 * s3 + s2 * s2) * Real(5.0999975) - ((c2 + c3) * Real(0.515) +
-      Real(0.0025075000000000015) + Real(0.029002500000000004) + Real(5.1000025) - Real(2.5e-06) + Real(5.1));
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
+  const Real S0b_zz = (s3 * s3 + s2 * s2) * Real(5.0999975) - ((c2 + c3) * Real(0.515) + Real(10.23151));
   M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = Real(0.0);
   M[0][2] = M[2][0] = Real(0.0);
@@ -92,10 +273,8 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[4][4]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real h3b_x = s3 * Real(5.15);
   const Real h2b_x = s2 * Real(5.15);
   const Real kL0w22 = state.z[0] * state.z[0];
@@ -121,81 +300,59 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept 
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[4]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
+  Real s0, c0, s2, c2;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
-  const Real link1ax_x = c0 * Real(0.05);
-  const Real link1ax_y = s0 * Real(0.05);
   const Real link1bx_x = s2 * Real(0.5);
   const Real link1bx_y = c2 * Real(0.5);
   const Real link1bv2_x = link1bx_y * state.z[2];
-  const Real link1bv2_y = link1bx_x * state.z[2];
-  const Real link1bv2p_x = c0 * link1bv2_y;
-  const Real link1bv2p_y = s0 * link1bv2_y;
-  const Real link1bx2p_x = Real(0.05) + link1bx_y;
   const Real link1bx2p_z = link1bx_x - Real(1.0);
-  const Real link1bx2_x = c0 * link1bx2p_x;
-  const Real link1bx2_y = s0 * link1bx2p_x;
-  const Real link1d_x = link1ax_x - link1bx2_x;
-  const Real link1d_y = link1ax_y - link1bx2_y;
+  const Real link1d_x = c0 * link1bx_y;
+  const Real link1d_y = s0 * link1bx_y;
   const Real link1d_z = link1bx2p_z + state.y[1];
   const Real link1v_z = link1bv2_x + state.z[1];
   const Real link1_ll = link1d_x * link1d_x + Real(1e-18) + link1d_y * link1d_y + link1d_z * link1d_z;
   const Real link1_l = detail::square_root(link1_ll);
-  const Real link1_rate = (link1bv2p_x * link1d_x + link1bv2p_y * link1d_y + link1d_z * link1v_z) / link1_l;
+  const Real link1_rate = (link1bx_x * link1bv2_x - link1d_z * link1v_z) / link1_l;
   const Real link1_e = Real(0.5) - link1_l;
-  const Real link1_T = link1_e * model.k - link1_rate * model.c;
+  const Real link1_T = link1_e * model.k + link1_rate * model.c;
   const Real link1_Tl = link1_T / link1_l;
-  const Real link1f_x = link1d_x * link1_Tl;
-  const Real link1f_y = link1d_y * link1_Tl;
   const Real link1f_z = link1d_z * link1_Tl;
-  const Real link1fb2p_x = c0 * link1f_x + s0 * link1f_y;
-  const Real push2_0 = link1bx_x * link1fb2p_x + link1bx_y * link1f_z;
+  const Real link1fb2p_x = link1bx_y * link1_Tl;
+  const Real push2_0 = link1bx_x * link1fb2p_x - link1bx_y * link1f_z;
   const Real link2bx_x = s3 * Real(0.5);
   const Real link2bx_y = c3 * Real(0.5);
   const Real link2bv3_x = link2bx_y * state.z[3];
-  const Real link2bv3_y = link2bx_x * state.z[3];
-  const Real link2bv3p_x = c0 * link2bv3_y;
-  const Real link2bv3p_y = s0 * link2bv3_y;
-  const Real link2bx3p_x = Real(0.05) + link2bx_y;
   const Real link2bx3p_z = Real(1.0) - link2bx_x;
-  const Real link2bx3_x = c0 * link2bx3p_x;
-  const Real link2bx3_y = s0 * link2bx3p_x;
-  const Real link2d_x = link1ax_x - link2bx3_x;
-  const Real link2d_y = link1ax_y - link2bx3_y;
+  const Real link2d_x = c0 * link2bx_y;
+  const Real link2d_y = s0 * link2bx_y;
   const Real link2d_z = state.y[1] - link2bx3p_z;
   const Real link2v_z = state.z[1] + link2bv3_x;
   const Real link2_ll = Real(1e-18) + link2d_x * link2d_x + link2d_y * link2d_y + link2d_z * link2d_z;
   const Real link2_l = detail::square_root(link2_ll);
-  const Real link2_rate = (link2bv3p_x * link2d_x + link2bv3p_y * link2d_y + link2d_z * link2v_z) / link2_l;
+  const Real link2_rate = (link2bx_x * link2bv3_x - link2d_z * link2v_z) / link2_l;
   const Real link2_e = Real(0.5) - link2_l;
-  const Real link2_T = model.k * link2_e - model.c * link2_rate;
+  const Real link2_T = model.k * link2_e + model.c * link2_rate;
   const Real link2_Tl = link2_T / link2_l;
-  const Real link2f_x = link2d_x * link2_Tl;
-  const Real link2f_y = link2d_y * link2_Tl;
   const Real link2f_z = link2d_z * link2_Tl;
   const Real push1_0 = link1f_z + link2f_z;
-  const Real link2fb3p_x = c0 * link2f_x + s0 * link2f_y;
-  const Real push3_0 = link2bx_x * link2fb3p_x + link2bx_y * link2f_z;
+  const Real link2fb3p_x = link2bx_y * link2_Tl;
+  const Real push3_0 = link2bx_x * link2fb3p_x - link2bx_y * link2f_z;
   const Real q_1 = push1_0 - Real(29.43000000000001);
-  const Real q_2 = push2_0 + c2 * Real(50.5215);
-  const Real q_3 = push3_0 + c3 * Real(50.5215);
+  const Real q_2 = push2_0 - c2 * Real(50.5215);
+  const Real q_3 = push3_0 - c3 * Real(50.5215);
   q[0] = Real(0.0);
   q[1] = -q_1;
-  q[2] = -q_2;
-  q[3] = -q_3;
+  q[2] = q_2;
+  q[3] = q_3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[4])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
+  Real s0, c0, s2, c2;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
   const Real S3b_t = s3 * Real(5.0999975);
@@ -206,56 +363,39 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S2b_xy = c2 * S2b_t;
   const Real h2b_x = s2 * Real(5.15);
   const Real h2b_y = c2 * Real(5.15);
-  const Real link1ax_x = c0 * Real(0.05);
-  const Real link1ax_y = s0 * Real(0.05);
   const Real link1bx_x = s2 * Real(0.5);
   const Real link1bx_y = c2 * Real(0.5);
   const Real link1bv2_x = link1bx_y * state.z[2];
-  const Real link1bv2_y = link1bx_x * state.z[2];
-  const Real link1bv2p_x = c0 * link1bv2_y;
-  const Real link1bv2p_y = s0 * link1bv2_y;
-  const Real link1bx2p_x = Real(0.05) + link1bx_y;
-  const Real link1bx2_x = c0 * link1bx2p_x;
-  const Real link1bx2_y = s0 * link1bx2p_x;
-  const Real link1d_x = link1ax_x - link1bx2_x;
-  const Real link1d_y = link1ax_y - link1bx2_y;
+  const Real link1d_x = c0 * link1bx_y;
+  const Real link1d_y = s0 * link1bx_y;
   const Real link1d_z = state.y[1] + (link1bx_x - Real(1.0));
   const Real link1v_z = link1bv2_x + state.z[1];
   const Real link1_ll = link1d_z * link1d_z + (link1d_y * link1d_y + (link1d_x * link1d_x + Real(1e-18)));
   const Real link1_l = detail::square_root(link1_ll);
-  const Real link1_rate = (link1d_z * link1v_z + (link1bv2p_x * link1d_x + link1bv2p_y * link1d_y)) / link1_l;
+  const Real link1_rate = (link1d_z * link1v_z - link1bx_x * link1bv2_x) / link1_l;
   const Real link1_e = Real(0.5) - link1_l;
   const Real link1_T = link1_e * model.k - link1_rate * model.c;
   const Real link1_Tl = link1_T / link1_l;
-  const Real link1f_x = link1d_x * link1_Tl;
-  const Real link1f_y = link1d_y * link1_Tl;
   const Real link1f_z = link1d_z * link1_Tl;
-  const Real link1fb2p_x = c0 * link1f_x + s0 * link1f_y;
+  const Real link1fb2p_x = link1bx_y * link1_Tl;
   const Real link2bx_x = s3 * Real(0.5);
   const Real link2bx_y = c3 * Real(0.5);
   const Real link2bv3_x = link2bx_y * state.z[3];
-  const Real link2bv3_y = link2bx_x * state.z[3];
-  const Real link2bv3p_x = c0 * link2bv3_y;
-  const Real link2bv3p_y = s0 * link2bv3_y;
-  const Real link2bx3p_x = Real(0.05) + link2bx_y;
-  const Real link2bx3_x = c0 * link2bx3p_x;
-  const Real link2bx3_y = s0 * link2bx3p_x;
-  const Real link2d_x = link1ax_x - link2bx3_x;
-  const Real link2d_y = link1ax_y - link2bx3_y;
-  const Real link2d_z = link2bx_x + (state.y[1] - Real(1.0));
+  const Real link2d_x = c0 * link2bx_y;
+  const Real link2d_y = s0 * link2bx_y;
+  const Real t59 = state.y[1] - Real(1.0);
+  const Real link2d_z = link2bx_x + t59;
   const Real link2v_z = state.z[1] + link2bv3_x;
   const Real link2_ll = link2d_z * link2d_z + (link2d_y * link2d_y + (Real(1e-18) + link2d_x * link2d_x));
   const Real link2_l = detail::square_root(link2_ll);
-  const Real link2_rate = (link2d_z * link2v_z + (link2bv3p_x * link2d_x + link2bv3p_y * link2d_y)) / link2_l;
+  const Real link2_rate = (link2d_z * link2v_z - link2bx_x * link2bv3_x) / link2_l;
   const Real link2_e = Real(0.5) - link2_l;
   const Real link2_T = model.k * link2_e - model.c * link2_rate;
   const Real link2_Tl = link2_T / link2_l;
-  const Real link2f_x = link2d_x * link2_Tl;
-  const Real link2f_y = link2d_y * link2_Tl;
   const Real link2f_z = link2d_z * link2_Tl;
-  const Real link2fb3p_x = c0 * link2f_x + s0 * link2f_y;
+  const Real link2fb3p_x = link2bx_y * link2_Tl;
   const Real bL0w22 = state.z[0] * state.z[0];
-  const Real ba2o_x = Real(0.05) * bL0w22;
+  const Real ba2o_x = bL0w22 * Real(0.05);
   const Real bKy2 = S2b_xy * state.z[0];
   const Real z2_2 = state.z[2] * Real(2.0);
   const Real bax2 = h2b_x * state.z[0];
@@ -268,18 +408,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real bdn3_x = bKy3 * z2_3;
   const Real bn2c_z = Real(0.05) * (bdf2_z + bdf3_z) + (bdn2_x + bdn3_x);
   const Real b_1 = link1f_z + link2f_z - Real(29.43000000000001);
-  const Real b_2 = h2b_x * ba2o_x + (state.z[0] * bKy2 - (h2b_y * Real(9.81) + (link1bx_x * link1fb2p_x +
-      link1bx_y * link1f_z)));
-  const Real b_3 = h3b_x * ba2o_x + (state.z[0] * bKy3 - (h3b_y * Real(9.81) + (link2bx_x * link2fb3p_x +
-      link2bx_y * link2f_z)));
-  const Real S0b_zz = (h3b_y + h2b_y) * Real(0.1) - (s3 * S3b_t + (s2 * S2b_t - Real(5.1) + Real(2.5e-06)) -
-      Real(5.1000025) - Real(0.029002500000000004) - Real(0.0025075000000000015));
-  const Real invD_0 = Real(1.0) / S0b_zz;
-  const Real y_0 = bn2c_z * invD_0;
+  const Real b_2 = h2b_x * ba2o_x + (state.z[0] * bKy2 - (h2b_y * Real(9.81) + link1fb2p_x * t59));
+  const Real b_3 = h3b_x * ba2o_x + (state.z[0] * bKy3 - (h3b_y * Real(9.81) + t59 * link2fb3p_x));
+  const Real S0b_zz = s2 * S2b_t + (s3 * S3b_t - (h3b_y + h2b_y) * Real(0.1)) - Real(10.23151);
+  const Real y_0 = bn2c_z / S0b_zz;
   const Real y_1 = b_1 * Real(0.33333333333333326);
   const Real y_2 = b_2 * Real(0.19607833525571802);
   const Real y_3 = b_3 * Real(0.19607833525571802);
-  zdot[0] = y_0;
+  zdot[0] = -y_0;
   zdot[1] = y_1;
   zdot[2] = -y_2;
   zdot[3] = -y_3;
@@ -288,10 +424,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[4], Real
     (&tau)[4]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
+  Real s0, c0, s2, c2;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
   const Real S3b_t = s3 * Real(5.0999975);
@@ -302,78 +436,60 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S2b_xy = c2 * S2b_t;
   const Real h2b_x = s2 * Real(5.15);
   const Real h2b_y = c2 * Real(5.15);
-  const Real S0b_zz = (h3b_y + h2b_y) * Real(0.1) - (s3 * S3b_t + (s2 * S2b_t - Real(5.1) + Real(2.5e-06)) -
-      Real(5.1000025) - Real(0.029002500000000004) - Real(0.0025075000000000015));
-  const Real link1ax_x = c0 * Real(0.05);
-  const Real link1ax_y = s0 * Real(0.05);
+  const Real S0b_zz = s2 * S2b_t + (s3 * S3b_t - (h3b_y + h2b_y) * Real(0.1)) - Real(10.23151);
   const Real link1bx_x = s2 * Real(0.5);
   const Real link1bx_y = c2 * Real(0.5);
   const Real link1bv2_x = link1bx_y * state.z[2];
-  const Real link1bv2_y = link1bx_x * state.z[2];
-  const Real link1bv2p_x = c0 * link1bv2_y;
-  const Real link1bv2p_y = s0 * link1bv2_y;
-  const Real link1bx2p_x = Real(0.05) + link1bx_y;
-  const Real link1bx2_x = c0 * link1bx2p_x;
-  const Real link1bx2_y = s0 * link1bx2p_x;
-  const Real link1d_x = link1ax_x - link1bx2_x;
-  const Real link1d_y = link1ax_y - link1bx2_y;
+  const Real link1d_x = c0 * link1bx_y;
+  const Real link1d_y = s0 * link1bx_y;
   const Real link1d_z = state.y[1] + (link1bx_x - Real(1.0));
   const Real link1v_z = link1bv2_x + state.z[1];
   const Real link1_ll = link1d_z * link1d_z + (link1d_y * link1d_y + (link1d_x * link1d_x + Real(1e-18)));
   const Real link1_l = detail::square_root(link1_ll);
-  const Real link1_rate = (link1d_z * link1v_z + (link1bv2p_x * link1d_x + link1bv2p_y * link1d_y)) / link1_l;
+  const Real link1_rate = (link1d_z * link1v_z - link1bx_x * link1bv2_x) / link1_l;
   const Real link1_e = Real(0.5) - link1_l;
   const Real link1_T = link1_e * model.k - link1_rate * model.c;
   const Real link1_Tl = link1_T / link1_l;
-  const Real link1f_x = link1d_x * link1_Tl;
-  const Real link1f_y = link1d_y * link1_Tl;
   const Real link1f_z = link1d_z * link1_Tl;
-  const Real link1fb2p_x = c0 * link1f_x + s0 * link1f_y;
+  const Real link1fb2p_x = link1bx_y * link1_Tl;
   const Real link2bx_x = s3 * Real(0.5);
   const Real link2bx_y = c3 * Real(0.5);
   const Real link2bv3_x = link2bx_y * state.z[3];
-  const Real link2bv3_y = link2bx_x * state.z[3];
-  const Real link2bv3p_x = c0 * link2bv3_y;
-  const Real link2bv3p_y = s0 * link2bv3_y;
-  const Real link2bx3p_x = Real(0.05) + link2bx_y;
-  const Real link2bx3_x = c0 * link2bx3p_x;
-  const Real link2bx3_y = s0 * link2bx3p_x;
-  const Real link2d_x = link1ax_x - link2bx3_x;
-  const Real link2d_y = link1ax_y - link2bx3_y;
-  const Real link2d_z = link2bx_x + (state.y[1] - Real(1.0));
+  const Real link2d_x = c0 * link2bx_y;
+  const Real link2d_y = s0 * link2bx_y;
+  const Real t68 = state.y[1] - Real(1.0);
+  const Real link2d_z = link2bx_x + t68;
   const Real link2v_z = state.z[1] + link2bv3_x;
   const Real link2_ll = link2d_z * link2d_z + (link2d_y * link2d_y + (Real(1e-18) + link2d_x * link2d_x));
   const Real link2_l = detail::square_root(link2_ll);
-  const Real link2_rate = (link2d_z * link2v_z + (link2bv3p_x * link2d_x + link2bv3p_y * link2d_y)) / link2_l;
+  const Real link2_rate = (link2d_z * link2v_z - link2bx_x * link2bv3_x) / link2_l;
   const Real link2_e = Real(0.5) - link2_l;
   const Real link2_T = model.k * link2_e - model.c * link2_rate;
   const Real link2_Tl = link2_T / link2_l;
-  const Real link2f_x = link2d_x * link2_Tl;
-  const Real link2f_y = link2d_y * link2_Tl;
   const Real link2f_z = link2d_z * link2_Tl;
-  const Real link2fb3p_x = c0 * link2f_x + s0 * link2f_y;
+  const Real link2fb3p_x = link2bx_y * link2_Tl;
   const Real adn0_z = S0b_zz * zdot[0];
   const Real adf1t_z = zdot[1] * Real(3.000000000000001);
   const Real aL0w22 = state.z[0] * state.z[0];
-  const Real aa2o_x = Real(0.05) * aL0w22;
+  const Real aa2o_x = aL0w22 * Real(0.05);
   const Real aKy2 = S2b_xy * state.z[0];
   const Real z2_2 = state.z[2] * Real(2.0);
   const Real aax2 = h2b_x * state.z[0];
   const Real adf2_z = z2_2 * aax2;
   const Real adn2_x = aKy2 * z2_2;
-  const Real adn2_z = Real(5.1000025) * zdot[2];
+  const Real adn2_z = zdot[2] * Real(5.1000025);
   const Real aKy3 = S3b_xy * state.z[0];
   const Real z2_3 = state.z[3] * Real(2.0);
   const Real aax3 = h3b_x * state.z[0];
   const Real adf3_z = z2_3 * aax3;
   const Real adn3_x = aKy3 * z2_3;
   const Real adn3_z = Real(5.1000025) * zdot[3];
-  const Real an0_z = Real(0.05) * (adf2_z + adf3_z) + (adn2_x - (adn0_z - adn3_x));
+  const Real an0_z = Real(0.05) * (adf2_z + adf3_z) + (adn2_x + (adn0_z + adn3_x));
   const Real tau_1_0 = adf1t_z - (link1f_z + link2f_z) + Real(29.43000000000001);
-  const Real tau_2_0 = adn2_z + (h2b_x * aa2o_x + (state.z[0] * aKy2 - (h2b_y * Real(9.81) + (link1bx_x *
-      link1fb2p_x + link1bx_y * link1f_z))));
-  const Real tau_3_0 = adn3_z + (h3b_x * aa2o_x + (state.z[0] * aKy3 - (h3b_y * Real(9.81) + (link2bx_x *
-      link2fb3p_x + link2bx_y * link2f_z))));
+  const Real tau_2_0 = adn2_z + (h2b_x * aa2o_x + (state.z[0] * aKy2 - (h2b_y * Real(9.81) + link1fb2p_x *
+      t68)));
+  const Real tau_3_0 = adn3_z + (h3b_x * aa2o_x + (state.z[0] * aKy3 - (h3b_y * Real(9.81) + t68 *
+      link2fb3p_x)));
   tau[0] = -an0_z;
   tau[1] = tau_1_0;
   tau[2] = tau_2_0;
@@ -382,49 +498,37 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  const Real S0b_zz = (s3 * s3 + s2 * s2) * Real(5.0999975) - ((c2 + c3) * Real(0.515) +
-      Real(0.0025075000000000015) + Real(0.029002500000000004) + Real(5.1000025) - Real(2.5e-06) + Real(5.1));
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
+  const Real S0b_zz = (s3 * s3 + s2 * s2) * Real(5.0999975) - ((c2 + c3) * Real(0.515) + Real(10.23151));
   const Real v0L_z = S0b_zz * state.z[0];
-  const Real T3 = (Real(5.1000025) * (state.z[2] * state.z[2] + state.z[3] * state.z[3]) - (state.z[0] * v0L_z
+  const Real T3 = ((state.z[2] * state.z[2] + state.z[3] * state.z[3]) * Real(5.1000025) - (state.z[0] * v0L_z
       - state.z[1] * state.z[1] * Real(3.000000000000001))) * Real(0.5);
   return T3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
+  Real s0, c0, s2, c2;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
   Real s3, c3;
   detail::sine_cosine(state.y[3], s3, c3);
   const Real h1r_z = state.y[1] * Real(3.000000000000001);
   const Real hg0_z = h1r_z - (s2 + s3) * Real(5.15) + Real(10.75);
-  const Real link1ax_x = c0 * Real(0.05);
-  const Real link1ax_y = s0 * Real(0.05);
   const Real link1bx_x = s2 * Real(0.5);
   const Real link1bx_y = c2 * Real(0.5);
-  const Real link1bx2p_x = Real(0.05) + link1bx_y;
-  const Real link1bx2_x = c0 * link1bx2p_x;
-  const Real link1bx2_y = s0 * link1bx2p_x;
-  const Real link1d_x = link1ax_x - link1bx2_x;
-  const Real link1d_y = link1ax_y - link1bx2_y;
-  const Real link1d_z = link1bx_x + (state.y[1] - Real(1.0));
+  const Real link1d_x = c0 * link1bx_y;
+  const Real link1d_y = s0 * link1bx_y;
+  const Real t24 = state.y[1] - Real(1.0);
+  const Real link1d_z = link1bx_x + t24;
   const Real link1_ll = link1d_x * link1d_x + (link1d_y * link1d_y + link1d_z * link1d_z + Real(1e-18));
   const Real link1_l = detail::square_root(link1_ll);
   const Real link1_e = Real(0.5) - link1_l;
   const Real link2bx_x = s3 * Real(0.5);
   const Real link2bx_y = c3 * Real(0.5);
-  const Real link2bx3p_x = Real(0.05) + link2bx_y;
-  const Real link2bx3_x = c0 * link2bx3p_x;
-  const Real link2bx3_y = s0 * link2bx3p_x;
-  const Real link2d_x = link1ax_x - link2bx3_x;
-  const Real link2d_y = link1ax_y - link2bx3_y;
-  const Real link2d_z = Real(1.0) - (state.y[1] + link2bx_x);
+  const Real link2d_x = c0 * link2bx_y;
+  const Real link2d_y = s0 * link2bx_y;
+  const Real link2d_z = t24 + link2bx_x;
   const Real link2_ll = link2d_x * link2d_x + (Real(1e-18) + (link2d_y * link2d_y + link2d_z * link2d_z));
   const Real link2_l = detail::square_root(link2_ll);
   const Real link2_e = Real(0.5) - link2_l;

@@ -26,8 +26,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.8e-16 of the
-//   sum of absolute terms, other errors are 6.6e-16 of their scale; cond(M) up to 1.0e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.5e-16 of the
+//   sum of absolute terms, other errors are 4.3e-16 of their scale; cond(M) up to 1.0e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -173,42 +173,42 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 28 operations (20 mul, 7 add and sub, 1 div), 6 sin and cos.
+/// 26 operations (19 mul, 6 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[3]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 49 operations (32 mul, 16 add and sub, 1 div), 6 sin and cos.
+/// 38 operations (25 mul, 12 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 85 operations (59 mul, 25 add and sub, 1 div), 6 sin and cos.
+/// 77 operations (53 mul, 23 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 39 operations (26 mul, 12 add and sub, 1 div), 6 sin and cos.
+/// 37 operations (25 mul, 11 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 117 operations (75 mul, 40 add and sub, 2 div), 6 sin and cos.
+/// 103 operations (65 mul, 36 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 111 operations (70 mul, 40 add and sub, 1 div), 6 sin and cos.
+/// 101 operations (64 mul, 36 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 54 operations (38 mul, 15 add and sub, 1 div), 6 sin and cos.
+/// 48 operations (35 mul, 12 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -225,27 +225,27 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 76 operations (42 mul, 28 add and sub, 5 div), 6 sin and cos, 2 atan2.
+/// 50 operations (27 mul, 19 add and sub, 3 div), 6 sin and cos, 2 atan2.
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 41 operations (26 mul, 14 add and sub, 1 div), 6 sin and cos.
+/// 17 operations (10 mul, 7 add and sub, 0 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 141 operations (89 mul, 50 add and sub, 2 div), 6 sin and cos.
+/// 127 operations (79 mul, 46 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 727 operations. For inputs sampled at the stages include four_bar_kernels.hpp and pass a function of the
+/// 637 operations. For inputs sampled at the stages include four_bar_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -13,9 +13,9 @@
 // - angles that follow from time are sums of two numbers, so that the phase stays right: operation counts
 //   hold each of their operations, sines and cosines as one, it takes several (see detail::Angle)
 // Left out
-// - constant factors: constant factors of a product are multiplied with each other first (3 operations of
+// - constant factors: constant factors of a product are multiplied with each other first (6 operations of
 //   forward_dynamics)
-// - parameter-only values: values that depend on parameters alone are computed once, with the model (10
+// - parameter-only values: values that depend on parameters alone are computed once, with the model (11
 //   operations of forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - joint springs: none
@@ -27,7 +27,7 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.4e-18 of the
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.8e-18 of the
 //   sum of absolute terms, other errors are 3.5e-16 of their scale; cond(M) up to 2.4e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, initial y, initial z, outputs): the numeric reference
 // - initial_state: the description's start
@@ -125,7 +125,7 @@ struct Model {
   JOURDAIN_FUNCTION explicit Model(const Parameters& = {}) noexcept;
 
   Real S1b_d;
-  Real spin_S_xx;
+  Real c1;
   Real S1b_zz;
   Real c3;
   Real c4;
@@ -136,7 +136,6 @@ struct Model {
   Real v2L_z;
   Real c10;
   Real speed;
-  Real z2_2;
 };
 
 // Names in order, closed by a null pointer.
@@ -160,12 +159,12 @@ template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 5 operations (2 mul, 3 add and sub, 0 div), 1 sin and cos.
+/// 3 operations (2 mul, 1 add and sub, 0 div), 1 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 12 operations (10 mul, 2 add and sub, 0 div), 2 sin and cos.
+/// 11 operations (9 mul, 2 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept;
 
@@ -177,14 +176,14 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 25 operations (16 mul, 8 add and sub, 1 div), 2 sin and cos.
+/// 21 operations (14 mul, 6 add and sub, 1 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 26 operations (16 mul, 10 add and sub, 0 div), 2 sin and cos.
+/// 23 operations (15 mul, 8 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept;
@@ -200,14 +199,14 @@ template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
-/// 105 operations (71 mul, 33 add and sub, 1 div), 4 sin and cos.
+/// 67 operations (47 mul, 19 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 171 operations.
+/// 155 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -9,12 +9,135 @@ namespace gimbal_gyroscope {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -119,18 +242,19 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real mr_x = parameters.weight * Real(0.12);
   const Real S_xx = Real(0.12) * mr_x;
   const Real hung_mass_S_xx = S_xx + Real(0.0035);
-  spin_S_xx = hung_mass_S_xx + Real(9.999999999999983e-05);
+  const Real spin_S_xx = hung_mass_S_xx + Real(9.999999999999983e-05);
   S1b_zz = spin_S_xx + Real(0.0016);
   S1b_d = spin_S_xx - Real(0.0016);
+  c1 = spin_S_xx + Real(0.0126);
   speed = parameters.speed;
-  z2_2 = Real(2.0) * speed;
+  const Real z2_2 = Real(2.0) * speed;
   c3 = Real(0.0011) * z2_2;
   c4 = mr_x * Real(9.81);
   invD_1 = Real(1.0) / S1b_zz;
   const Real spin_S_xx_2 = Real(0.0035) + (S_xx + Real(9.999999999999983e-05));
   S1b_zz_2 = Real(0.0016) + spin_S_xx_2;
   S1b_d_2 = Real(0.0016) - spin_S_xx_2;
-  c7 = spin_S_xx_2 + Real(0.0126);
+  c7 = Real(0.0126) + spin_S_xx_2;
   v2L_z = speed * Real(0.0022);
   c10 = speed * v2L_z;
 }
@@ -149,9 +273,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real S1b_xx = s1 * s1 * model.S1b_d - model.spin_S_xx;
-  const Real S1c_yy = S1b_xx - Real(0.006999999999999999);
-  const Real S0b_zz = S1c_yy - Real(0.0056);
+  const Real S0b_zz = s1 * s1 * model.S1b_d - model.c1;
   M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = Real(0.0);
   M[1][1] = model.S1b_zz;
@@ -162,7 +284,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
   const Real w2pp_y = c1 * state.z[0];
-  const Real kKx1 = c1 * s1 * state.z[0] * model.S1b_d;
+  const Real kKx1 = s1 * w2pp_y * model.S1b_d;
   const Real kQp1 = state.z[0] * kKx1;
   const Real kdn1_y = kKx1 * state.z[1] * Real(2.0);
   const Real kdn2_y = w2pp_y * model.c3;
@@ -189,11 +311,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
   const Real S1b_t = s1 * model.S1b_d;
-  const Real S1b_xy = c1 * S1b_t;
   const Real w2pp_y = c1 * state.z[0];
   const Real push0_0 = state.z[0] * Real(0.001);
   const Real push1_0 = Real(0.001) * state.z[1];
-  const Real bKx1 = S1b_xy * state.z[0];
+  const Real bKx1 = S1b_t * w2pp_y;
   const Real bQp1 = c1 * model.c4 + state.z[0] * bKx1;
   const Real bdn1_y = state.z[1] * bKx1 * Real(2.0);
   const Real bdn2_y = w2pp_y * model.c3;
@@ -202,11 +323,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real bQ1_0 = bQp1 - bdn2_y;
   const Real b_0 = push0_0 - bn1_y;
   const Real b_1 = push1_0 + bQ1_0;
-  const Real S1b_xx = s1 * S1b_t - model.spin_S_xx;
-  const Real S1c_yy = S1b_xx - Real(0.006999999999999999);
-  const Real S0b_zz = S1c_yy - Real(0.0056);
-  const Real invD_0 = Real(1.0) / S0b_zz;
-  const Real y_0 = b_0 * invD_0;
+  const Real S0b_zz = s1 * S1b_t - model.c1;
+  const Real y_0 = b_0 / S0b_zz;
   const Real y_1 = b_1 * model.invD_1;
   zdot[0] = y_0;
   zdot[1] = -y_1;
@@ -218,15 +336,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
   const Real S1b_t = s1 * model.S1b_d;
-  const Real S1b_xx = s1 * S1b_t - model.spin_S_xx;
-  const Real S1b_xy = c1 * S1b_t;
-  const Real S1c_yy = S1b_xx - Real(0.006999999999999999);
-  const Real S0b_zz = S1c_yy - Real(0.0056);
+  const Real S0b_zz = s1 * S1b_t - model.c1;
   const Real w2pp_y = c1 * state.z[0];
   const Real push0_0 = state.z[0] * Real(0.001);
   const Real push1_0 = Real(0.001) * state.z[1];
   const Real adn0_z = S0b_zz * zdot[0];
-  const Real aKx1 = S1b_xy * state.z[0];
+  const Real aKx1 = S1b_t * w2pp_y;
   const Real aQp1 = c1 * model.c4 + state.z[0] * aKx1;
   const Real adn1_y = state.z[1] * aKx1 * Real(2.0);
   const Real adn1_z = zdot[1] * model.S1b_zz;
@@ -269,33 +384,26 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   Real s2, c2;
   detail::sine_cosine(expression, s2, c2);
   const Real S1b_t = s1 * model.S1b_d;
-  const Real S1b_xy = c1 * S1b_t;
   const Real w2pp_x = s1 * state.z[0];
   const Real w2pp_y = c1 * state.z[0];
   const Real w2_z = model.speed + w2pp_x;
   const Real push0_0 = state.z[0] * Real(0.001);
   const Real push1_0 = Real(0.001) * state.z[1];
-  const Real bKx1 = S1b_xy * state.z[0];
+  const Real bKx1 = S1b_t * w2pp_y;
   const Real bQp1 = c1 * model.c4 + state.z[0] * bKx1;
   const Real bdn1_y = state.z[1] * bKx1 * Real(2.0);
-  const Real bKx2 = w2pp_y * Real(0.0011);
-  const Real bKy2 = state.z[1] * Real(0.0011);
-  const Real bdn2_y = bKx2 * model.z2_2;
-  const Real bn1b_y = model.z2_2 * (c1 * bKy2);
+  const Real bdn2_y = w2pp_y * model.c3;
+  const Real bn1b_y = model.c3 * (c1 * state.z[1]);
   const Real bn1_y = bdn1_y - bn1b_y;
   const Real bQ1_0 = bQp1 - bdn2_y;
   const Real b_0 = push0_0 - bn1_y;
   const Real b_1 = push1_0 + bQ1_0;
-  const Real S1b_xx = s1 * S1b_t - model.spin_S_xx;
-  const Real S1c_yy = S1b_xx - Real(0.006999999999999999);
-  const Real S0b_zz = S1c_yy - Real(0.0056);
-  const Real invD_0 = Real(1.0) / S0b_zz;
-  const Real y_0 = b_0 * invD_0;
+  const Real S0b_zz = s1 * S1b_t - model.c1;
+  const Real y_0 = b_0 / S0b_zz;
   const Real y_1 = b_1 * model.invD_1;
   const Real driveal1o_x = state.z[0] * state.z[1];
   const Real driveal2p_x = c1 * driveal1o_x + s1 * y_0;
-  const Real t55 = driveal2p_x * Real(0.0022);
-  const Real driveQp2 = t55 + state.z[1] * bKx2 - w2pp_y * bKy2;
+  const Real driveQp2 = driveal2p_x * Real(0.0022);
   const Real reactla2p_y = c1 * Real(9.81);
   const Real reactla2np_y = c1 * y_0 - s1 * driveal1o_x;
   const Real reactla2A_x = reactla2np_y + model.speed * state.z[1];
@@ -306,30 +414,21 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real react3b3al_y = c2 * reactla2A_y + s2 * reactla2A_x;
   const Real react3b3a_x = c2 * reactla2p_y;
   const Real react3b3a_y = s2 * reactla2p_y;
-  const Real react3b3Sw_x = Real(0.0011) * react3b3w_x;
-  const Real react3b3Sw_y = Real(0.0011) * react3b3w_y;
   const Real react3b3Sw_z = w2_z * Real(9.999999999999983e-05);
-  const Real react3b3F_x = react3b3a_x * Real(1.2);
   const Real react3b3F_y = react3b3a_y * Real(1.2);
   const Real react3b3F_z = s1 * Real(11.772);
-  const Real react3b3N_x = react3b3al_x * Real(0.0012) + w2_z * react3b3Sw_y - react3b3w_y * react3b3Sw_z;
-  const Real react3b3N_y = react3b3al_y * Real(0.0012) + w2_z * react3b3Sw_x - react3b3w_x * react3b3Sw_z;
-  const Real react3b3N_z = t55 - react3b3w_x * react3b3Sw_y + react3b3w_y * react3b3Sw_x;
-  const Real react3b3f_x = c2 * react3b3F_x + s2 * react3b3F_y;
-  const Real react3b3f_y = c2 * react3b3F_y - s2 * react3b3F_x;
-  const Real react3b3n_x = c2 * react3b3N_x + s2 * react3b3N_y;
-  const Real react3b3n_y = c2 * react3b3N_y - s2 * react3b3N_x;
-  const Real react3cf_x = c2 * react3b3f_x - s2 * react3b3f_y;
-  const Real react3cf_y = c2 * react3b3f_y + s2 * react3b3f_x;
-  const Real react3cn_x = c2 * react3b3n_x - s2 * react3b3n_y;
-  const Real react3cn_y = c2 * react3b3n_y + s2 * react3b3n_x;
+  const Real react3b3N_x = react3b3al_x * Real(0.0012) + w2_z * react3b3w_y * Real(0.0011) - react3b3w_y *
+      react3b3Sw_z;
+  const Real react3b3N_y = react3b3al_y * Real(0.0012) + Real(0.0011) * (w2_z * react3b3w_x) - react3b3w_x *
+      react3b3Sw_z;
+  const Real react3cf_x = react3b3a_x * Real(1.2);
   result.motor_torque = driveQp2;
-  result.rotor_bearing.force[0] = -react3cf_y;
+  result.rotor_bearing.force[0] = -react3b3F_y;
   result.rotor_bearing.force[1] = react3b3F_z;
   result.rotor_bearing.force[2] = react3cf_x;
-  result.rotor_bearing.moment[0] = -react3cn_y;
-  result.rotor_bearing.moment[1] = react3b3N_z;
-  result.rotor_bearing.moment[2] = react3cn_x;
+  result.rotor_bearing.moment[0] = -react3b3N_y;
+  result.rotor_bearing.moment[1] = driveQp2;
+  result.rotor_bearing.moment[2] = react3b3N_x;
 }
 
 template <class Real> JOURDAIN_FUNCTION

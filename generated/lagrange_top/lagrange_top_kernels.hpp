@@ -183,8 +183,8 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real q0r2_z = (state.y[1] * state.y[1] + state.y[2] * state.y[2]) * Real(2.0) - Real(1.0);
-  const Real V = q0r2_z * Real(0.9810000000000001);
+  const Real V = (state.y[1] * state.y[1] + state.y[2] * state.y[2]) * Real(1.9620000000000002) -
+      Real(0.9810000000000001);
   return -V;
 }
 
@@ -228,15 +228,11 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real reactla0t_z = q0r2_z * Real(9.81);
   const Real react0b0wh_x = Real(0.1) * state.z[1];
   const Real react0b0wh_y = Real(0.1) * state.z[0];
-  const Real react0b0Sw_x = state.z[0] * Real(0.01);
-  const Real react0b0Sw_y = state.z[1] * Real(0.01);
-  const Real react0b0Sw_z = state.z[2] * Real(0.049999999999999996);
   const Real react0b0F_x = ba0_x - (Real(0.1) * y_1 - state.z[2] * react0b0wh_y);
   const Real react0b0F_y = ba0_y - (Real(0.1) * y_0 - state.z[2] * react0b0wh_x);
   const Real react0b0F_z = reactla0t_z + (state.z[0] * react0b0wh_y + state.z[1] * react0b0wh_x);
-  const Real react0b0N_x = bQp0_x - y_0 * Real(0.06) + state.z[1] * react0b0Sw_z - state.z[2] * react0b0Sw_y;
-  const Real react0b0N_y = bQp0_y - y_1 * Real(0.06) + state.z[0] * react0b0Sw_z - state.z[2] * react0b0Sw_x;
-  const Real react0b0N_z = state.z[0] * react0b0Sw_y - state.z[1] * react0b0Sw_x;
+  const Real react0b0N_x = bQ0_0 - y_0 * Real(0.06);
+  const Real react0b0N_y = bQ0_1 - y_1 * Real(0.06);
   result.pose.position[0] = Real(0.0);
   result.pose.position[1] = Real(0.0);
   result.pose.position[2] = Real(0.0);
@@ -254,7 +250,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.support.force[2] = -react0b0F_z;
   result.support.moment[0] = -react0b0N_x;
   result.support.moment[1] = react0b0N_y;
-  result.support.moment[2] = -react0b0N_z;
+  result.support.moment[2] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -30,7 +30,7 @@
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
 //   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.8e-16 of the
-//   sum of absolute terms, other errors are 3.5e-15 of their scale; cond(M) up to 1.0e+00
+//   sum of absolute terms, other errors are 2.6e-15 of their scale; cond(M) up to 1.0e+00
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -206,42 +206,42 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 359 operations (211 mul, 145 add and sub, 3 div), 4 sin and cos.
+/// 342 operations (203 mul, 136 add and sub, 3 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[5]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 400 operations (228 mul, 169 add and sub, 3 div), 3 sin and cos.
+/// 379 operations (218 mul, 158 add and sub, 3 div), 3 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 830 operations (494 mul, 333 add and sub, 3 div), 4 sin and cos.
+/// 806 operations (479 mul, 324 add and sub, 3 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 519 operations (302 mul, 211 add and sub, 5 div), 4 sin and cos.
+/// 501 operations (294 mul, 201 add and sub, 5 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 999 operations (583 mul, 409 add and sub, 6 div), 4 sin and cos.
+/// 970 operations (566 mul, 397 add and sub, 6 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 977 operations (573 mul, 398 add and sub, 5 div), 4 sin and cos.
+/// 951 operations (558 mul, 387 add and sub, 5 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 421 operations (250 mul, 168 add and sub, 3 div), 4 sin and cos.
+/// 403 operations (242 mul, 158 add and sub, 3 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -258,27 +258,27 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 304 operations (172 mul, 109 add and sub, 17 div), 3 sin and cos.
+/// 215 operations (119 mul, 82 add and sub, 8 div), 3 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 513 operations (303 mul, 207 add and sub, 3 div), 4 sin and cos.
+/// 455 operations (270 mul, 182 add and sub, 3 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[3], Real (&g_rate)[3])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 1069 operations (612 mul, 450 add and sub, 6 div), 4 sin and cos.
+/// 1040 operations (595 mul, 438 add and sub, 6 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[3]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5831 operations. For inputs sampled at the stages include mcpherson_strut_kernels.hpp and pass a function
+/// 5558 operations. For inputs sampled at the stages include mcpherson_strut_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -9,12 +9,135 @@ namespace mcpherson_strut {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -182,8 +305,8 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
   const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
-  const Real strutd_y = strutax1_x + Real(0.59) - Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x + Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -206,37 +329,32 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
-      Real(0.13))));
-  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
+  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r1_y * struts0af1p_x + (q1r0_y * strutad1p_z + q1r2_y * struts0af1p_y);
-  const Real struts0af1_z = q1r1_z * struts0af1p_x - (q1r0_z * strutad1p_z - q1r2_z * struts0af1p_y);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
   const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
       (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
-  const Real struts0af1_x = q1r1_x * struts0af1p_x + (q1r0_x * strutad1p_z - q1r2_x * struts0af1p_y);
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
   const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
       (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
   const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
       (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r1_y * struts1af1p_x - (q1r0_y * strutad1p_z_2 - q1r2_y * struts1af1p_y);
-  const Real struts1af1_z = q1r1_z * struts1af1p_x + (q1r0_z * strutad1p_z_2 + q1r2_z * struts1af1p_y);
+  const Real struts1af1_y = q1r1_y * strutad1p_x_2 - (q1r0_y * strutad1p_z_2 - q1r2_y * strutad1p_y_2);
+  const Real struts1af1_z = q1r1_z * strutad1p_x_2 + (q1r0_z * strutad1p_z_2 + q1r2_z * strutad1p_y_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r1_x * struts1af1p_x - (q1r0_x * strutad1p_z_2 + q1r2_x * struts1af1p_y);
+  const Real struts1af1_x = q1r1_x * strutad1p_x_2 - (q1r0_x * strutad1p_z_2 + q1r2_x * strutad1p_y_2);
   const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
       (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -244,40 +362,40 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
-  const Real t311 = Real(1.0) / struts0am_y;
-  const Real t312 = struts1am_y * t311;
-  const Real t324 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
-      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t312))));
-  const Real t325 = tie_rods0bm_y * t311;
-  const Real t330 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
-      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t312)))));
-  const Real t331 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t325)) * t330;
-  const Real t336 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
-      t325 + t324 * t331)));
-  const Real t340 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
-      t312));
-  const Real t346 = t336 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
-      t325 + t331 * t340)));
-  const Real t349 = t330 * (t340 + t324 * t346);
-  const Real t361 = tie_rods0bf0_x * s * t336 * model.c2;
-  const Real t363 = t330 * (t324 * t361);
-  const Real t368 = t349 * state.z[0] - t363;
-  const Real t369 = t311 * (struts0am_x * t349 - (struts0am_z + struts0am_z_2 * t346)) * state.z[0] - t311 *
-      (struts0am_x * t363 - struts0am_z_2 * t361);
-  const Real t370 = t346 * state.z[0] - t361;
-  const Real t372 = state.y[1] * Real(0.5);
-  const Real t373 = state.y[2] * Real(0.5);
-  const Real t374 = state.y[3] * Real(0.5);
-  const Real t375 = state.y[4] * Real(0.5);
+  const Real t292 = Real(1.0) / struts0am_y;
+  const Real t293 = struts1am_y * t292;
+  const Real t305 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
+      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t293))));
+  const Real t306 = tie_rods0bm_y * t292;
+  const Real t311 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
+      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t293)))));
+  const Real t312 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t306)) * t311;
+  const Real t317 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
+      t306 + t305 * t312)));
+  const Real t321 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
+      t293));
+  const Real t327 = t317 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
+      t306 + t312 * t321)));
+  const Real t330 = t311 * (t321 + t305 * t327);
+  const Real t342 = tie_rods0bf0_x * s * t317 * model.c2;
+  const Real t344 = t311 * (t305 * t342);
+  const Real t349 = t330 * state.z[0] - t344;
+  const Real t350 = t292 * (struts0am_x * t330 - (struts0am_z + struts0am_z_2 * t327)) * state.z[0] - t292 *
+      (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t327 * state.z[0] - t342;
+  const Real t353 = state.y[1] * Real(0.5);
+  const Real t354 = state.y[2] * Real(0.5);
+  const Real t355 = state.y[3] * Real(0.5);
+  const Real t356 = state.y[4] * Real(0.5);
   ydot[0] = state.z[0];
-  ydot[1] = -(t369 * t374 + (t368 * t373 - t370 * t375));
-  ydot[2] = -(t369 * t375 - (t368 * t372 - t370 * t374));
-  ydot[3] = t369 * t372 + (t368 * t375 + t370 * t373);
-  ydot[4] = t369 * t373 - (t368 * t374 + t370 * t372);
+  ydot[1] = -(t350 * t355 + (t349 * t354 - t351 * t356));
+  ydot[2] = -(t350 * t356 - (t349 * t353 - t351 * t355));
+  ydot[3] = t350 * t353 + (t349 * t356 + t351 * t354);
+  ydot[4] = t350 * t354 - (t349 * t355 + t351 * t353);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -311,8 +429,8 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
   const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
-  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x - Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -334,63 +452,58 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
+  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
+  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
   const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
       (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
+  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
   const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
       (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
   const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
       - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
   const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
       (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
-  const Real t309 = Real(1.0) / struts0am_y;
-  const Real t310 = struts1am_y * t309;
-  const Real t322 = struts0am_z_2 * t310 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t290 = Real(1.0) / struts0am_y;
+  const Real t291 = struts1am_y * t290;
+  const Real t303 = struts0am_z_2 * t291 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t323 = tie_rods0bm_y * t309;
-  const Real t328 = Real(1.0) / (struts0am_x * t310 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t304 = tie_rods0bm_y * t290;
+  const Real t309 = Real(1.0) / (struts0am_x * t291 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t329 = (struts0am_x * t323 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t328;
-  const Real t338 = struts0am_z * t310 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t310 = (struts0am_x * t304 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t309;
+  const Real t318 = struts0am_z * t291 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t344 = Real(1.0) / (t322 * t329 - (struts0am_z_2 * t323 - (Real(0.14) * tie_rods0bf1_y -
-      Real(0.02) * tie_rods0bf1_x))) * (t329 * t338 - (struts0am_z * t323 - (tie_rodbx1_x * tie_rods0bf0_y -
-      tie_rodbx1_y * tie_rods0bf0_x)));
-  const Real t347 = t328 * (t338 - t322 * t344);
-  const Real t352 = t309 * (struts0am_z_2 * t344 - (struts0am_z - struts0am_x * t347));
+  const Real t324 = (t310 * t318 - (struts0am_z * t304 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x))) / (t303 * t310 - (struts0am_z_2 * t304 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t327 = t309 * (t318 - t303 * t324);
+  const Real t332 = t290 * (struts0am_z_2 * t324 - (struts0am_z - struts0am_x * t327));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -400,15 +513,14 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
   const Real p_1_1f_y = q1r2_z * Real(1.14) + q1r2_y * Real(6.08);
   const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + (q1r1_x * Real(0.1216) + q1r2_x *
-      Real(2.0672)));
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.0228) + q1r2_x *
-      Real(0.3876)));
-  M[0][0] = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t347 * (p_1_1n_z + (p_1_1n_z -
-      t347 * Real(2.607))) - (t344 * (t344 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t352 * Real(0.1824)))) +
-      (t352 * (t344 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t352 * Real(2.8728)))) - (h1at1_y * Real(0.04) -
-      (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
-      S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001));
+  const Real t385 = q1r1_x * Real(0.1216) + q1r2_x * Real(2.0672);
+  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + t385);
+  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - t385 * Real(0.1875));
+  M[0][0] = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (q1r1_y * S1at1r0_y - (q1r1_z *
+      S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y * S1at1r1_y - (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) -
+      (t332 * (t324 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t332 * Real(2.8728)))) + (t324 * (t324 *
+      Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t332 * Real(0.1824)))) - t327 * (p_1_1n_z + (p_1_1n_z - t327 *
+      Real(2.607)))))))))) - Real(4.612500000000001));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -442,8 +554,8 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
   const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
-  const Real strutd_y = strutax1_x + Real(0.59) - Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x + Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -466,37 +578,32 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
-      Real(0.13))));
-  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
+  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r1_y * struts0af1p_x + (q1r0_y * strutad1p_z + q1r2_y * struts0af1p_y);
-  const Real struts0af1_z = q1r1_z * struts0af1p_x - (q1r0_z * strutad1p_z - q1r2_z * struts0af1p_y);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
   const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
       (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
-  const Real struts0af1_x = q1r1_x * struts0af1p_x + (q1r0_x * strutad1p_z - q1r2_x * struts0af1p_y);
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
   const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
       (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
   const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
       (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r1_y * struts1af1p_x - (q1r0_y * strutad1p_z_2 - q1r2_y * struts1af1p_y);
-  const Real struts1af1_z = q1r1_z * struts1af1p_x + (q1r0_z * strutad1p_z_2 + q1r2_z * struts1af1p_y);
+  const Real struts1af1_y = q1r1_y * strutad1p_x_2 - (q1r0_y * strutad1p_z_2 - q1r2_y * strutad1p_y_2);
+  const Real struts1af1_z = q1r1_z * strutad1p_x_2 + (q1r0_z * strutad1p_z_2 + q1r2_z * strutad1p_y_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r1_x * struts1af1p_x - (q1r0_x * strutad1p_z_2 + q1r2_x * struts1af1p_y);
+  const Real struts1af1_x = q1r1_x * strutad1p_x_2 - (q1r0_x * strutad1p_z_2 + q1r2_x * strutad1p_y_2);
   const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
       (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -504,36 +611,36 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t313 = Real(1.0) / struts0am_y;
-  const Real t314 = struts1am_y * t313;
-  const Real t326 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
-      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t314))));
-  const Real t327 = tie_rods0bm_y * t313;
-  const Real t332 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
-      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t314)))));
-  const Real t333 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t327)) * t332;
-  const Real t338 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
-      t327 + t326 * t333)));
-  const Real t342 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
-      t314));
-  const Real t348 = t338 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
-      t327 + t333 * t342)));
-  const Real t351 = t332 * (t342 + t326 * t348);
-  const Real t356 = t313 * (struts0am_x * t351 - (struts0am_z + struts0am_z_2 * t348));
-  const Real t361 = tie_rods0at * t338;
-  const Real t363 = t332 * (t326 * t361);
-  const Real t368 = t351 * state.z[0] - t363;
-  const Real t369 = t356 * state.z[0] - t313 * (struts0am_x * t363 - struts0am_z_2 * t361);
-  const Real t370 = t348 * state.z[0] - t361;
-  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
-  const Real strutam1t_y = Real(0.01) * t370 - Real(0.2) * t368;
-  const Real strutam1t_z = Real(0.01) * t369 - Real(0.03) * t368;
+  const Real t294 = Real(1.0) / struts0am_y;
+  const Real t295 = struts1am_y * t294;
+  const Real t307 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
+      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t295))));
+  const Real t308 = tie_rods0bm_y * t294;
+  const Real t313 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
+      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t295)))));
+  const Real t314 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t308)) * t313;
+  const Real t319 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
+      t308 + t307 * t314)));
+  const Real t323 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
+      t295));
+  const Real t329 = t319 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
+      t308 + t314 * t323)));
+  const Real t332 = t313 * (t323 + t307 * t329);
+  const Real t337 = t294 * (struts0am_x * t332 - (struts0am_z + struts0am_z_2 * t329));
+  const Real t342 = tie_rods0at * t319;
+  const Real t344 = t313 * (t307 * t342);
+  const Real t349 = t332 * state.z[0] - t344;
+  const Real t350 = t337 * state.z[0] - t294 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t329 * state.z[0] - t342;
+  const Real strutam1t_x = Real(0.2) * t350 - Real(0.03) * t351;
+  const Real strutam1t_y = Real(0.01) * t351 - Real(0.2) * t349;
+  const Real strutam1t_z = Real(0.01) * t350 - Real(0.03) * t349;
   const Real strutam1vpp_x = q1r1_y * strutam1t_y - (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
   const Real strutam1vpp_y = q1r2_y * strutam1t_y + (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
   const Real strutam1vpp_z = q1r0_y * strutam1t_y - (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
@@ -543,9 +650,9 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = strutam1vp_x - strutam0t_x;
   const Real strutam0v_y = strutam1vp_y - strutam0t_y;
-  const Real strutad1t_x = Real(0.35112344158839165) * t370;
-  const Real strutad1t_y = Real(0.9363291775690445) * t370;
-  const Real strutad1t_z = Real(0.35112344158839165) * t368 + Real(0.9363291775690445) * t369;
+  const Real strutad1t_x = Real(0.35112344158839165) * t351;
+  const Real strutad1t_y = Real(0.9363291775690445) * t351;
+  const Real strutad1t_z = Real(0.35112344158839165) * t349 + Real(0.9363291775690445) * t350;
   const Real strutad1vpp_x = q1r1_y * strutad1t_y - (q1r1_x * strutad1t_x + q1r1_z * strutad1t_z);
   const Real strutad1vpp_y = q1r2_y * strutad1t_y + (q1r2_x * strutad1t_x - q1r2_z * strutad1t_z);
   const Real strutad1vpp_z = q1r0_y * strutad1t_y - (q1r0_x * strutad1t_x - q1r0_z * strutad1t_z);
@@ -555,32 +662,32 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real strutad0t_y = strutad1_x * state.z[0];
   const Real strutad0v_x = strutad1vp_x + strutad0t_x;
   const Real strutad0v_y = strutad1vp_y - strutad0t_y;
-  const Real strutam1a_x = t369 * strutam1t_z + t370 * strutam1t_y;
-  const Real strutam1a_y = t368 * strutam1t_z + t370 * strutam1t_x;
-  const Real strutam1a_z = t368 * strutam1t_y - t369 * strutam1t_x;
+  const Real strutam1a_x = t350 * strutam1t_z + t351 * strutam1t_y;
+  const Real strutam1a_y = t349 * strutam1t_z + t351 * strutam1t_x;
+  const Real strutam1a_z = t349 * strutam1t_y - t350 * strutam1t_x;
   const Real strutam1app_x = q1r1_y * strutam1a_y + (q1r1_x * strutam1a_x + q1r1_z * strutam1a_z);
   const Real strutam1app_y = q1r2_y * strutam1a_y - (q1r2_x * strutam1a_x - q1r2_z * strutam1a_z);
   const Real strutam1app_z = q1r0_y * strutam1a_y + (q1r0_x * strutam1a_x - q1r0_z * strutam1a_z);
-  const Real strutam0b_x = strutam0t_x - Real(2.0) * strutam1vp_x;
-  const Real strutam0b_y = strutam0t_y - Real(2.0) * strutam1vp_y;
-  const Real strutam0a_x = s0 * strutam1app_y + (c0 * strutam1app_x + state.z[0] * strutam0b_y);
-  const Real strutam0a_y = s0 * strutam1app_x - (c0 * strutam1app_y - state.z[0] * strutam0b_x);
-  const Real strutad1a_x = t369 * strutad1t_z + t370 * strutad1t_y;
-  const Real strutad1a_y = t368 * strutad1t_z + t370 * strutad1t_x;
-  const Real strutad1a_z = t368 * strutad1t_y - t369 * strutad1t_x;
+  const Real strutam0b_x = strutam1vp_x + strutam0v_x;
+  const Real strutam0b_y = strutam1vp_y + strutam0v_y;
+  const Real strutam0a_x = s0 * strutam1app_y + (c0 * strutam1app_x - state.z[0] * strutam0b_y);
+  const Real strutam0a_y = s0 * strutam1app_x - (c0 * strutam1app_y + state.z[0] * strutam0b_x);
+  const Real strutad1a_x = t350 * strutad1t_z + t351 * strutad1t_y;
+  const Real strutad1a_y = t349 * strutad1t_z + t351 * strutad1t_x;
+  const Real strutad1a_z = t349 * strutad1t_y - t350 * strutad1t_x;
   const Real strutad1app_x = q1r1_y * strutad1a_y + (q1r1_x * strutad1a_x + q1r1_z * strutad1a_z);
   const Real strutad1app_y = q1r2_y * strutad1a_y - (q1r2_x * strutad1a_x - q1r2_z * strutad1a_z);
   const Real strutad1app_z = q1r0_y * strutad1a_y + (q1r0_x * strutad1a_x - q1r0_z * strutad1a_z);
-  const Real strutad0b_x = strutad0t_x + Real(2.0) * strutad1vp_x;
-  const Real strutad0b_y = strutad0t_y - Real(2.0) * strutad1vp_y;
-  const Real strutad0a_x = s0 * strutad1app_y + (c0 * strutad1app_x + state.z[0] * strutad0b_y);
+  const Real strutad0b_x = strutad1vp_x + strutad0v_x;
+  const Real strutad0b_y = strutad1vp_y + strutad0v_y;
+  const Real strutad0a_x = s0 * strutad1app_y + (c0 * strutad1app_x - state.z[0] * strutad0b_y);
   const Real strutad0a_y = s0 * strutad1app_x - (c0 * strutad1app_y + state.z[0] * strutad0b_x);
   const Real bias_strut = strutad1_x * strutam0a_x + (strutad1p_z * strutam1app_z - (strutad1_y * strutam0a_y
       - (strutd_x * strutad1app_z + (strutd_y * strutad0a_x + (strutd_z * strutad0a_y - Real(2.0) *
       (strutam0v_x * strutad0v_x + (strutam1vpp_z * strutad1vpp_z + strutam0v_y * strutad0v_y)))))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 + Real(0.2088879845220991) * t368;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 - Real(0.9156733568092016) * t368;
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 + Real(0.9156733568092016) * t351;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 + Real(0.2088879845220991) * t349;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 - Real(0.9156733568092016) * t349;
   const Real strutad1vpp_x_2 = q1r1_y * strutad1t_y_2 + (q1r1_x * strutad1t_x_2 - q1r1_z * strutad1t_z_2);
   const Real strutad1vpp_y_2 = q1r2_y * strutad1t_y_2 - (q1r2_x * strutad1t_x_2 + q1r2_z * strutad1t_z_2);
   const Real strutad1vpp_z_2 = q1r0_y * strutad1t_y_2 + (q1r0_x * strutad1t_x_2 + q1r0_z * strutad1t_z_2);
@@ -590,19 +697,19 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
   const Real strutad0v_x_2 = strutad1vp_x_2 + strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 - strutad0t_y_2;
-  const Real strutad1a_x_2 = t369 * strutad1t_z_2 + t370 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t368 * strutad1t_z_2 - t370 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t368 * strutad1t_y_2 + t369 * strutad1t_x_2;
+  const Real strutad1a_x_2 = t350 * strutad1t_z_2 + t351 * strutad1t_y_2;
+  const Real strutad1a_y_2 = t349 * strutad1t_z_2 - t351 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t349 * strutad1t_y_2 + t350 * strutad1t_x_2;
   const Real strutad1app_x_2 = q1r1_y * strutad1a_y_2 + (q1r1_x * strutad1a_x_2 + q1r1_z * strutad1a_z_2);
   const Real strutad1app_y_2 = q1r2_y * strutad1a_y_2 - (q1r2_x * strutad1a_x_2 - q1r2_z * strutad1a_z_2);
   const Real strutad1app_z_2 = q1r0_y * strutad1a_y_2 + (q1r0_x * strutad1a_x_2 - q1r0_z * strutad1a_z_2);
-  const Real strutad0b_x_2 = strutad0t_x_2 + Real(2.0) * strutad1vp_x_2;
-  const Real strutad0b_y_2 = strutad0t_y_2 - Real(2.0) * strutad1vp_y_2;
-  const Real strutad0a_x_2 = s0 * strutad1app_y_2 + (c0 * strutad1app_x_2 + state.z[0] * strutad0b_y_2);
+  const Real strutad0b_x_2 = strutad1vp_x_2 + strutad0v_x_2;
+  const Real strutad0b_y_2 = strutad1vp_y_2 + strutad0v_y_2;
+  const Real strutad0a_x_2 = s0 * strutad1app_y_2 + (c0 * strutad1app_x_2 - state.z[0] * strutad0b_y_2);
   const Real strutad0a_y_2 = s0 * strutad1app_x_2 - (c0 * strutad1app_y_2 + state.z[0] * strutad0b_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t369 - Real(0.02) * t370;
-  const Real tie_rodbm1t_y = Real(0.14) * t370 - Real(0.07) * t368;
-  const Real tie_rodbm1t_z = Real(0.14) * t369 - Real(0.02) * t368;
+  const Real tie_rodbm1t_x = Real(0.07) * t350 - Real(0.02) * t351;
+  const Real tie_rodbm1t_y = Real(0.14) * t351 - Real(0.07) * t349;
+  const Real tie_rodbm1t_z = Real(0.14) * t350 - Real(0.02) * t349;
   const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
   const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
@@ -613,26 +720,26 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t369 * tie_rodbm1t_z + t370 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t368 * tie_rodbm1t_z + t370 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t368 * tie_rodbm1t_y - t369 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t350 * tie_rodbm1t_z + t351 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z + t351 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y - t350 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x + q1r1_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x - q1r2_z * tie_rodbm1a_z);
   const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x - q1r0_z * tie_rodbm1a_z);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y - Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
-  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y + state.z[0] *
+  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y - state.z[0] *
       tie_rodbm0b_y));
-  const Real t702 = strutad1_x_2 * strutam0a_x - (strutad1p_z_2 * strutam1app_z + (strutad1_y_2 * strutam0a_y
-      - (strutd_x * strutad1app_z_2 + (strutd_y * strutad0a_x_2 + (strutd_z * strutad0a_y_2 - (t314 *
+  const Real t676 = strutad1_x_2 * strutam0a_x - (strutad1p_z_2 * strutam1app_z + (strutad1_y_2 * strutam0a_y
+      - (strutd_x * strutad1app_z_2 + (strutd_y * strutad0a_x_2 + (strutd_z * strutad0a_y_2 - (t295 *
       bias_strut + Real(2.0) * (strutam0v_x * strutad0v_x_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_y *
       strutad0v_y_2))))))));
-  const Real t713 = t338 * (t333 * t702 + (t327 * bias_strut + Real(3.123475237772121) * (tie_rodbm0v_y *
-      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y - (tie_rodd_x *
-      tie_rodbm1app_z + (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t716 = t332 * (t702 - t326 * t713);
-  const Real t721 = t313 * (struts0am_x * t716 - (bias_strut - struts0am_z_2 * t713));
+  const Real t687 = t319 * (t314 * t676 + (t308 * bias_strut + Real(3.123475237772121) * (tie_rodbm0v_y *
+      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y + (tie_rodd_x *
+      tie_rodbm1app_z - (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
+  const Real t690 = t313 * (t676 - t307 * t687);
+  const Real t695 = t294 * (struts0am_x * t690 - (bias_strut - struts0am_z_2 * t687));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -645,20 +752,20 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real kK1_x = w1p_x * Real(0.6499999999999999);
   const Real kK1_y = w1p_z * Real(0.1824) + w1p_y * Real(0.3842000000000001);
   const Real kK1_z = w1p_z * Real(2.2228) + w1p_y * Real(0.1824);
-  const Real ku1_x = t368 - Real(2.0) * w1p_x;
-  const Real ku1_y = t369 + Real(2.0) * w1p_y;
-  const Real ku1_z = t370 - Real(2.0) * w1p_z;
+  const Real ku1_x = t349 - Real(2.0) * w1p_x;
+  const Real ku1_y = t350 + Real(2.0) * w1p_y;
+  const Real ku1_z = t351 - Real(2.0) * w1p_z;
   const Real kSu1_x = Real(0.6499999999999999) * ku1_x;
   const Real kSu1_y = Real(0.1824) * ku1_z - Real(0.3842000000000001) * ku1_y;
   const Real kSu1_z = Real(2.2228) * ku1_z - Real(0.1824) * ku1_y;
   const Real kuh1 = Real(1.14) * ku1_y - Real(6.08) * ku1_z;
-  const Real kuw1 = t369 * ku1_y + (t368 * ku1_x + t370 * ku1_z);
-  const Real kdf1_x = t368 * kuh1;
-  const Real kdf1_y = Real(1.14) * kuw1 - t369 * kuh1;
-  const Real kdf1_z = Real(6.08) * kuw1 + t370 * kuh1;
-  const Real kdn1_x = t369 * kSu1_z + t370 * kSu1_y;
-  const Real kdn1_y = t368 * kSu1_z - t370 * kSu1_x;
-  const Real kdn1_z = t368 * kSu1_y + t369 * kSu1_x;
+  const Real kuw1 = t350 * ku1_y + (t349 * ku1_x + t351 * ku1_z);
+  const Real kdf1_x = t349 * kuh1;
+  const Real kdf1_y = Real(1.14) * kuw1 - t350 * kuh1;
+  const Real kdf1_z = Real(6.08) * kuw1 + t351 * kuh1;
+  const Real kdn1_x = t350 * kSu1_z + t351 * kSu1_y;
+  const Real kdn1_y = t349 * kSu1_z - t351 * kSu1_x;
+  const Real kdn1_z = t349 * kSu1_y + t350 * kSu1_x;
   const Real kf1p_x = q1r1_y * kdf1_y + (q1r1_x * kdf1_x - q1r1_z * kdf1_z);
   const Real kf1p_y = q1r2_y * kdf1_y - (q1r2_x * kdf1_x + q1r2_z * kdf1_z);
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
@@ -669,10 +776,10 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real p_3_1n_z = q1r2_x * Real(0.3876) + (q1r1_x * Real(0.0228) - (q1r0_z * Real(1.0342) - q1r0_y *
       Real(0.1824)));
   k[0] = q1r0_y * kdn1_y + (q1r0_x * kdn1_x - (q1r0_z * kdn1_z + (Real(0.02) * kf1p_x - (Real(0.34) * kf1p_y +
-      (t716 * p_1_1n_z - (t721 * p_2_1n_z - (t713 * p_3_1n_z + (t351 * (ka1_y * Real(6.08) + (ka1_z *
-      Real(1.14) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t716 * Real(2.607)))))) + (t356 * (w1p_x *
-      kK1_z + (ka1_x * Real(6.08) - (w1p_z * kK1_x - (kdn1_y - (t721 * Real(2.8728) - t713 * Real(0.1824))))))
-      + t348 * (w1p_x * kK1_y + (ka1_x * Real(1.14) - (w1p_y * kK1_x - (kdn1_z - (t721 * Real(0.1824) - t713 *
+      (t690 * p_1_1n_z - (t695 * p_2_1n_z - (t687 * p_3_1n_z + (t332 * (ka1_y * Real(6.08) + (ka1_z *
+      Real(1.14) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t690 * Real(2.607)))))) + (t337 * (w1p_x *
+      kK1_z + (ka1_x * Real(6.08) - (w1p_z * kK1_x - (kdn1_y - (t695 * Real(2.8728) - t687 * Real(0.1824))))))
+      + t329 * (w1p_x * kK1_y + (ka1_x * Real(1.14) - (w1p_y * kK1_x - (kdn1_z - (t695 * Real(0.1824) - t687 *
       Real(1.0342)))))))))))))));
 }
 
@@ -710,8 +817,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
   const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
-  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x - Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -734,37 +841,32 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
-      Real(0.13))));
-  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
+  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z + strutax1_y * strutad1_x);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r1_y * struts0af1p_x + (q1r0_y * strutad1p_z + q1r2_y * struts0af1p_y);
-  const Real struts0af1_z = q1r1_z * struts0af1p_x - (q1r0_z * strutad1p_z - q1r2_z * struts0af1p_y);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
   const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x + strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = q1r1_x * struts0an1p_x + (q1r0_x * struts0an0_z + (q1r2_x * struts0an1p_y -
       (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
-  const Real struts0af1_x = q1r1_x * struts0af1p_x + (q1r0_x * strutad1p_z - q1r2_x * struts0af1p_y);
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
   const Real struts0am_y = q1r1_y * struts0an1p_x + (q1r0_y * struts0an0_z - (q1r2_y * struts0an1p_y -
       (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
   const Real struts0am_z_2 = q1r1_z * struts0an1p_x - (q1r0_z * struts0an0_z + (q1r2_z * struts0an1p_y +
       (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r1_y * struts1af1p_x - (q1r0_y * strutad1p_z_2 - q1r2_y * struts1af1p_y);
-  const Real struts1af1_z = q1r1_z * struts1af1p_x + (q1r0_z * strutad1p_z_2 + q1r2_z * struts1af1p_y);
+  const Real struts1af1_y = q1r1_y * strutad1p_x_2 - (q1r0_y * strutad1p_z_2 - q1r2_y * strutad1p_y_2);
+  const Real struts1af1_z = q1r1_z * strutad1p_x_2 + (q1r0_z * strutad1p_z_2 + q1r2_z * strutad1p_y_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r1_x * struts1af1p_x - (q1r0_x * strutad1p_z_2 + q1r2_x * struts1af1p_y);
+  const Real struts1af1_x = q1r1_x * strutad1p_x_2 - (q1r0_x * strutad1p_z_2 + q1r2_x * strutad1p_y_2);
   const Real struts1am_y = q1r1_y * struts1an1p_x + (q1r0_y * struts1an0_z - (q1r2_y * struts1an1p_y -
       (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -772,34 +874,34 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
-  const Real t311 = Real(1.0) / struts0am_y;
-  const Real t312 = struts1am_y * t311;
-  const Real t324 = q1r1_z * struts1an1p_x - (q1r0_z * struts1an0_z + (q1r2_z * struts1an1p_y + (Real(0.01) *
-      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t312))));
-  const Real t325 = tie_rods0bm_y * t311;
-  const Real t330 = Real(1.0) / (q1r1_x * struts1an1p_x + (q1r0_x * struts1an0_z + (q1r2_x * struts1an1p_y -
-      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t312)))));
-  const Real t331 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t325)) * t330;
-  const Real t336 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
-      t325 + t324 * t331)));
-  const Real t340 = strutax1_x * strutad1_y_2 - (struts1an0_z + (strutax1_y * strutad1_x_2 + struts0am_z *
-      t312));
-  const Real t346 = t336 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (struts0am_z *
-      t325 + t331 * t340)));
-  const Real t349 = t330 * (t340 - t324 * t346);
-  const Real t354 = t311 * (struts0am_x * t349 - (struts0am_z - struts0am_z_2 * t346));
-  const Real t361 = tie_rods0bf0_x * s * t336 * model.c2;
-  const Real t363 = t330 * (t324 * t361);
-  const Real t368 = t349 * state.z[0] + t363;
-  const Real t369 = t354 * state.z[0] + t311 * (struts0am_x * t363 - struts0am_z_2 * t361);
-  const Real t370 = t346 * state.z[0] - t361;
-  const Real strutam1t_x = Real(0.2) * t369 + Real(0.03) * t370;
-  const Real strutam1t_y = Real(0.01) * t370 + Real(0.2) * t368;
-  const Real strutam1t_z = Real(0.01) * t369 - Real(0.03) * t368;
+  const Real t292 = Real(1.0) / struts0am_y;
+  const Real t293 = struts1am_y * t292;
+  const Real t305 = q1r1_z * struts1an1p_x - (q1r0_z * struts1an0_z + (q1r2_z * struts1an1p_y + (Real(0.01) *
+      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t293))));
+  const Real t306 = tie_rods0bm_y * t292;
+  const Real t311 = Real(1.0) / (q1r1_x * struts1an1p_x + (q1r0_x * struts1an0_z + (q1r2_x * struts1an1p_y -
+      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t293)))));
+  const Real t312 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t306)) * t311;
+  const Real t317 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
+      t306 + t305 * t312)));
+  const Real t321 = strutax1_x * strutad1_y_2 - (struts1an0_z + (strutax1_y * strutad1_x_2 + struts0am_z *
+      t293));
+  const Real t327 = t317 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (struts0am_z *
+      t306 + t312 * t321)));
+  const Real t330 = t311 * (t321 - t305 * t327);
+  const Real t335 = t292 * (struts0am_x * t330 - (struts0am_z - struts0am_z_2 * t327));
+  const Real t342 = tie_rods0bf0_x * s * t317 * model.c2;
+  const Real t344 = t311 * (t305 * t342);
+  const Real t349 = t330 * state.z[0] + t344;
+  const Real t350 = t335 * state.z[0] + t292 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t327 * state.z[0] - t342;
+  const Real strutam1t_x = Real(0.2) * t350 + Real(0.03) * t351;
+  const Real strutam1t_y = Real(0.01) * t351 + Real(0.2) * t349;
+  const Real strutam1t_z = Real(0.01) * t350 - Real(0.03) * t349;
   const Real strutam1vpp_x = q1r1_y * strutam1t_y + (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
   const Real strutam1vpp_y = q1r2_y * strutam1t_y - (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
   const Real strutam1vpp_z = q1r0_y * strutam1t_y + (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
@@ -831,8 +933,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
       spring_damperfb1p_y);
   const Real wheel_centerx1p_x = q1r1_z * Real(0.12) - (t35 + q1r1_y * Real(0.06));
   const Real wheel_centerx1p_y = q1r2_z * Real(0.12) + (t44 - q1r2_y * Real(0.06));
-  const Real expression_4 = input.u[0] - (Real(0.21) - (c0 * wheel_centerx1p_y - s0 * wheel_centerx1p_x) -
-      Real(0.3275));
+  const Real expression_4 = s0 * wheel_centerx1p_x - (input.u[0] + c0 * wheel_centerx1p_y) -
+      Real(0.11750000000000002);
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -849,15 +951,15 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real g1_x = q1r1_x * g1p_x + q1r2_x * g1p_y;
   const Real g1_y = q1r1_y * g1p_x - q1r2_y * g1p_y;
   const Real g1_z = q1r1_z * g1p_x - q1r2_z * g1p_y;
-  const Real q_1 = Real(0.03) * spring_damperfb1_z - (Real(0.2) * spring_damperfb1_y - (tyre_forcem_x -
+  const Real q_1 = Real(0.03) * spring_damperfb1_z - (Real(0.2) * spring_damperfb1_y + (tyre_forcem_x +
       (Real(1.14) * g1_z + Real(6.08) * g1_y)));
-  const Real q_2 = Real(0.2) * spring_damperfb1_x + (Real(0.01) * spring_damperfb1_z - (tyre_forcem_y -
+  const Real q_2 = Real(0.2) * spring_damperfb1_x + (Real(0.01) * spring_damperfb1_z + (tyre_forcem_y +
       Real(6.08) * g1_x));
-  const Real q_3 = Real(0.03) * spring_damperfb1_x + (Real(0.01) * spring_damperfb1_y - (tyre_forcem_z +
+  const Real q_3 = Real(0.03) * spring_damperfb1_x + (Real(0.01) * spring_damperfb1_y + (tyre_forcem_z -
       Real(1.14) * g1_x));
-  q[0] = strutax1_y * spring_damperf_y - (strutax1_x * spring_damperf_z - (q1r0_x * tyre_forcem_x - (q1r0_y *
-      tyre_forcem_y + (q1r0_z * tyre_forcem_z + (Real(0.02) * qloadf1p_x - (Real(0.34) * qloadf1p_y + (h0b_x *
-      Real(9.81) + (t349 * q_1 - (t354 * q_2 + t346 * q_3)))))))));
+  q[0] = strutax1_y * spring_damperf_y - (strutax1_x * spring_damperf_z + (q1r0_x * tyre_forcem_x - (q1r0_y *
+      tyre_forcem_y + (q1r0_z * tyre_forcem_z + (Real(0.02) * qloadf1p_x - (Real(0.34) * qloadf1p_y - (h0b_x *
+      Real(9.81) + (t330 * q_1 - (t335 * q_2 + t327 * q_3)))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -894,8 +996,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
   const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
-  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x - Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -918,74 +1020,69 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
+  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
+  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
   const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
       (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
+  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
   const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
       (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
   const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
       - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
   const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
       (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t313 = Real(1.0) / struts0am_y;
-  const Real t314 = struts1am_y * t313;
-  const Real t326 = struts0am_z_2 * t314 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t294 = Real(1.0) / struts0am_y;
+  const Real t295 = struts1am_y * t294;
+  const Real t307 = struts0am_z_2 * t295 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t327 = tie_rods0bm_y * t313;
-  const Real t332 = Real(1.0) / (struts0am_x * t314 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t308 = tie_rods0bm_y * t294;
+  const Real t313 = Real(1.0) / (struts0am_x * t295 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t333 = (struts0am_x * t327 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t332;
-  const Real t338 = Real(1.0) / (t326 * t333 - (struts0am_z_2 * t327 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t314 = (struts0am_x * t308 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t313;
+  const Real t319 = Real(1.0) / (t307 * t314 - (struts0am_z_2 * t308 - (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t342 = struts0am_z * t314 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t323 = struts0am_z * t295 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t348 = t338 * (t333 * t342 - (struts0am_z * t327 - (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y
+  const Real t329 = t319 * (t314 * t323 - (struts0am_z * t308 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t351 = t332 * (t342 - t326 * t348);
-  const Real t356 = t313 * (struts0am_z_2 * t348 - (struts0am_z - struts0am_x * t351));
-  const Real t361 = tie_rods0at * t338;
-  const Real t363 = t332 * (t326 * t361);
-  const Real t368 = t351 * state.z[0] - t363;
-  const Real t369 = t356 * state.z[0] - t313 * (struts0am_x * t363 - struts0am_z_2 * t361);
-  const Real t370 = t348 * state.z[0] + t361;
-  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
-  const Real strutam1t_y = Real(0.01) * t370 + Real(0.2) * t368;
-  const Real strutam1t_z = Real(0.01) * t369 + Real(0.03) * t368;
+  const Real t332 = t313 * (t323 - t307 * t329);
+  const Real t337 = t294 * (struts0am_z_2 * t329 - (struts0am_z - struts0am_x * t332));
+  const Real t342 = tie_rods0at * t319;
+  const Real t344 = t313 * (t307 * t342);
+  const Real t349 = t332 * state.z[0] + t344;
+  const Real t350 = t337 * state.z[0] + t294 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t329 * state.z[0] - t342;
+  const Real strutam1t_x = Real(0.2) * t350 - Real(0.03) * t351;
+  const Real strutam1t_y = Real(0.01) * t351 + Real(0.2) * t349;
+  const Real strutam1t_z = Real(0.01) * t350 + Real(0.03) * t349;
   const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
   const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
   const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
@@ -995,9 +1092,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = strutam1vp_x - strutam0t_x;
   const Real strutam0v_y = strutam1vp_y + strutam0t_y;
-  const Real strutad1t_x = Real(0.35112344158839165) * t370;
-  const Real strutad1t_y = Real(0.9363291775690445) * t370;
-  const Real strutad1t_z = Real(0.35112344158839165) * t368 - Real(0.9363291775690445) * t369;
+  const Real strutad1t_x = Real(0.35112344158839165) * t351;
+  const Real strutad1t_y = Real(0.9363291775690445) * t351;
+  const Real strutad1t_z = Real(0.35112344158839165) * t349 - Real(0.9363291775690445) * t350;
   const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
   const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
   const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
@@ -1007,33 +1104,33 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0t_y = strutad1_x * state.z[0];
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
-  const Real strutam1a_x = t369 * strutam1t_z + t370 * strutam1t_y;
-  const Real strutam1a_y = t368 * strutam1t_z - t370 * strutam1t_x;
-  const Real strutam1a_z = t368 * strutam1t_y + t369 * strutam1t_x;
+  const Real strutam1a_x = t350 * strutam1t_z + t351 * strutam1t_y;
+  const Real strutam1a_y = t349 * strutam1t_z - t351 * strutam1t_x;
+  const Real strutam1a_z = t349 * strutam1t_y + t350 * strutam1t_x;
   const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
   const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
   const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
-  const Real strutam0b_x = strutam0t_x - Real(2.0) * strutam1vp_x;
-  const Real strutam0b_y = strutam0t_y + Real(2.0) * strutam1vp_y;
+  const Real strutam0b_x = strutam1vp_x + strutam0v_x;
+  const Real strutam0b_y = strutam1vp_y + strutam0v_y;
   const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
-  const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
-  const Real strutad1a_x = t369 * strutad1t_z - t370 * strutad1t_y;
-  const Real strutad1a_y = t368 * strutad1t_z + t370 * strutad1t_x;
-  const Real strutad1a_z = t368 * strutad1t_y + t369 * strutad1t_x;
+  const Real strutam0a_y = state.z[0] * strutam0b_x - (c0 * strutam1app_y - s0 * strutam1app_x);
+  const Real strutad1a_x = t350 * strutad1t_z - t351 * strutad1t_y;
+  const Real strutad1a_y = t349 * strutad1t_z + t351 * strutad1t_x;
+  const Real strutad1a_z = t349 * strutad1t_y + t350 * strutad1t_x;
   const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
   const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
   const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
-  const Real strutad0b_x = strutad0t_x - Real(2.0) * strutad1vp_x;
-  const Real strutad0b_y = strutad0t_y + Real(2.0) * strutad1vp_y;
+  const Real strutad0b_x = strutad1vp_x + strutad0v_x;
+  const Real strutad0b_y = strutad1vp_y + strutad0v_y;
   const Real strutad0a_x = state.z[0] * strutad0b_y - (c0 * strutad1app_x + s0 * strutad1app_y);
-  const Real strutad0a_y = state.z[0] * strutad0b_x - (c0 * strutad1app_y - s0 * strutad1app_x);
+  const Real strutad0a_y = state.z[0] * strutad0b_x + (c0 * strutad1app_y - s0 * strutad1app_x);
   const Real bias_strut = Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z * strutad1vpp_z +
-      strutam0v_x * strutad0v_x)) - (strutd_z * strutad0a_y + (strutd_y * strutad0a_x + (strutd_x *
-      strutad1app_z + (strutad1_y * strutam0a_y - (strutad1p_z * strutam1app_z - strutad1_x *
+      strutam0v_x * strutad0v_x)) + (strutd_z * strutad0a_y - (strutd_y * strutad0a_x + (strutd_x *
+      strutad1app_z - (strutad1_y * strutam0a_y + (strutad1p_z * strutam1app_z - strutad1_x *
       strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 - Real(0.2088879845220991) * t368;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 + Real(0.9156733568092016) * t368;
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 + Real(0.9156733568092016) * t351;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 - Real(0.2088879845220991) * t349;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 + Real(0.9156733568092016) * t349;
   const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
   const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
   const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
@@ -1043,19 +1140,19 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
   const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
-  const Real strutad1a_x_2 = t369 * strutad1t_z_2 + t370 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t368 * strutad1t_z_2 + t370 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t368 * strutad1t_y_2 - t369 * strutad1t_x_2;
+  const Real strutad1a_x_2 = t350 * strutad1t_z_2 + t351 * strutad1t_y_2;
+  const Real strutad1a_y_2 = t349 * strutad1t_z_2 + t351 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t349 * strutad1t_y_2 - t350 * strutad1t_x_2;
   const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
   const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
   const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
-  const Real strutad0b_x_2 = strutad0t_x_2 - Real(2.0) * strutad1vp_x_2;
-  const Real strutad0b_y_2 = strutad0t_y_2 + Real(2.0) * strutad1vp_y_2;
+  const Real strutad0b_x_2 = strutad1vp_x_2 + strutad0v_x_2;
+  const Real strutad0b_y_2 = strutad1vp_y_2 + strutad0v_y_2;
   const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
-  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t369 - Real(0.02) * t370;
-  const Real tie_rodbm1t_y = Real(0.14) * t370 + Real(0.07) * t368;
-  const Real tie_rodbm1t_z = Real(0.14) * t369 + Real(0.02) * t368;
+  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 - (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
+  const Real tie_rodbm1t_x = Real(0.07) * t350 - Real(0.02) * t351;
+  const Real tie_rodbm1t_y = Real(0.14) * t351 + Real(0.07) * t349;
+  const Real tie_rodbm1t_z = Real(0.14) * t350 + Real(0.02) * t349;
   const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
@@ -1066,26 +1163,26 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t369 * tie_rodbm1t_z + t370 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t368 * tie_rodbm1t_z - t370 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t368 * tie_rodbm1t_y + t369 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t350 * tie_rodbm1t_z + t351 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z - t351 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y + t350 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y + Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
   const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
       tie_rodbm1app_x));
-  const Real t702 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t314 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
-      (strutd_x * strutad1app_z_2 - (strutad1_y_2 * strutam0a_y - (strutad1p_z_2 * strutam1app_z -
+  const Real t676 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
+      * strutad0v_x_2)) - (t295 * bias_strut - (strutd_z * strutad0a_y_2 - (strutd_y * strutad0a_x_2 -
+      (strutd_x * strutad1app_z_2 + (strutad1_y_2 * strutam0a_y + (strutad1p_z_2 * strutam1app_z -
       strutad1_x_2 * strutam0a_x))))));
-  const Real t713 = t338 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
-      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t327 * bias_strut + t333 * t702));
-  const Real t716 = t332 * (t702 + t326 * t713);
-  const Real t721 = t313 * (struts0am_z_2 * t713 - (bias_strut + struts0am_x * t716));
+  const Real t687 = t319 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
+      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t308 * bias_strut + t314 * t676));
+  const Real t690 = t313 * (t676 - t307 * t687);
+  const Real t695 = t294 * (struts0am_z_2 * t687 + (bias_strut + struts0am_x * t690));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -1095,10 +1192,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
   const Real p_1_1f_y = q1r2_z * Real(1.14) + q1r2_y * Real(6.08);
   const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + (q1r1_x * Real(0.1216) + q1r2_x *
-      Real(2.0672)));
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.0228) + q1r2_x *
-      Real(0.3876)));
+  const Real t748 = q1r1_x * Real(0.1216) + q1r2_x * Real(2.0672);
+  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + t748);
+  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - t748 * Real(0.1875));
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
@@ -1126,8 +1222,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       spring_damperfb1p_x);
   const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
   const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - input.u[0])) +
-      Real(0.3275);
+  const Real expression_4 = c0 * wheel_centerx1p_y - (input.u[0] + s0 * wheel_centerx1p_x) -
+      Real(0.11750000000000002);
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -1146,22 +1242,22 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rK1_x = Real(0.6499999999999999) * w1p_x;
   const Real rK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real rK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
-  const Real ru1_x = t368 - Real(2.0) * w1p_x;
-  const Real ru1_y = t369 - Real(2.0) * w1p_y;
-  const Real ru1_z = t370 + Real(2.0) * w1p_z;
+  const Real ru1_x = t349 - Real(2.0) * w1p_x;
+  const Real ru1_y = t350 - Real(2.0) * w1p_y;
+  const Real ru1_z = t351 + Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.6499999999999999) * ru1_x;
   const Real rSu1_y = Real(0.1824) * ru1_z - Real(0.3842000000000001) * ru1_y;
   const Real rSu1_z = Real(2.2228) * ru1_z - Real(0.1824) * ru1_y;
   const Real ruh1 = Real(1.14) * ru1_y - Real(6.08) * ru1_z;
-  const Real ruw1 = t370 * ru1_z + (t368 * ru1_x + t369 * ru1_y);
-  const Real ref1_x = t368 * ruh1 + (t721 * Real(6.08) + (tyre_forcef1_x + t713 * Real(1.14)));
-  const Real ref1_y = t369 * ruh1 + (t716 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * ruw1));
-  const Real ref1_z = t370 * ruh1 + (Real(6.08) * ruw1 + (tyre_forcef1_z + t716 * Real(1.14)));
-  const Real ren1_x = t370 * rSu1_y + (t369 * rSu1_z - (t716 * Real(2.607) + (Real(0.12) * tyre_forcef1_y +
+  const Real ruw1 = t351 * ru1_z + (t349 * ru1_x + t350 * ru1_y);
+  const Real ref1_x = t349 * ruh1 - (t695 * Real(6.08) + (tyre_forcef1_x + t687 * Real(1.14)));
+  const Real ref1_y = t350 * ruh1 + (t690 * Real(6.08) - (tyre_forcef1_y + Real(1.14) * ruw1));
+  const Real ref1_z = t351 * ruh1 + (Real(6.08) * ruw1 - (tyre_forcef1_z - t690 * Real(1.14)));
+  const Real ren1_x = t351 * rSu1_y + (t350 * rSu1_z - (t690 * Real(2.607) - (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real ren1_y = t370 * rSu1_x - (t368 * rSu1_z - (t713 * Real(0.1824) + (t721 * Real(2.8728) +
+  const Real ren1_y = t351 * rSu1_x - (t349 * rSu1_z + (t687 * Real(0.1824) + (t695 * Real(2.8728) +
       (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real ren1_z = t369 * rSu1_x + (t368 * rSu1_y - (t721 * Real(0.1824) + (t713 * Real(1.0342) -
+  const Real ren1_z = t350 * rSu1_x + (t349 * rSu1_y + (t695 * Real(0.1824) + (t687 * Real(1.0342) -
       (Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
   const Real rf1p_x = q1r1_z * ref1_z + (q1r1_x * ref1_x + q1r1_y * ref1_y);
   const Real rf1p_y = q1r2_z * ref1_z - (q1r2_x * ref1_x - q1r2_y * ref1_y);
@@ -1171,14 +1267,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       spring_damperfb1_z - Real(0.2) * spring_damperfb1_x))));
   const Real tau_1_2 = ren1_z + (w1p_y * rK1_x - (w1p_x * rK1_y - (Real(1.14) * ra1_x - (Real(0.01) *
       spring_damperfb1_y - Real(0.03) * spring_damperfb1_x))));
-  zdot[0] = Real(1.0) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t351 * (p_1_1n_z +
-      (p_1_1n_z - t351 * Real(2.607))) - (t348 * (t348 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t356 *
-      Real(0.1824)))) + (t356 * (t348 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t356 * Real(2.8728)))) -
-      (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y *
-      S1at1r0_y - q1r1_z * S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001))) * (t348 * tau_1_2 -
-      (t356 * tau_1_1 + (t351 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x + (q1r0_z * ren1_z +
-      (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x * spring_damperf_z - strutax1_y *
-      spring_damperf_y))))))))));
+  zdot[0] = (t329 * tau_1_2 - (t337 * tau_1_1 + (t332 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x
+      + (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x * spring_damperf_z -
+      strutax1_y * spring_damperf_y)))))))))) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) *
+      Real(0.6499999999999999) - (q1r1_y * S1at1r0_y - (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y *
+      S1at1r1_y - (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t337 * (t329 * Real(0.1824) + (p_2_1n_z +
+      (p_2_1n_z + t337 * Real(2.8728)))) + (t329 * (t329 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t337 *
+      Real(0.1824)))) - t332 * (p_1_1n_z + (p_1_1n_z - t332 * Real(2.607)))))))))) -
+      Real(4.612500000000001)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1215,8 +1311,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
   const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
-  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x - Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -1239,74 +1335,69 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
+  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
+  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
   const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
       (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
+  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
   const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
       (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
   const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
       - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
   const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
       (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t313 = Real(1.0) / struts0am_y;
-  const Real t314 = struts1am_y * t313;
-  const Real t326 = struts0am_z_2 * t314 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t294 = Real(1.0) / struts0am_y;
+  const Real t295 = struts1am_y * t294;
+  const Real t307 = struts0am_z_2 * t295 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t327 = tie_rods0bm_y * t313;
-  const Real t332 = Real(1.0) / (struts0am_x * t314 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t308 = tie_rods0bm_y * t294;
+  const Real t313 = Real(1.0) / (struts0am_x * t295 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t333 = (struts0am_x * t327 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t332;
-  const Real t338 = Real(1.0) / (t326 * t333 - (struts0am_z_2 * t327 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t314 = (struts0am_x * t308 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t313;
+  const Real t319 = Real(1.0) / (t307 * t314 - (struts0am_z_2 * t308 - (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t342 = struts0am_z * t314 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t323 = struts0am_z * t295 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t348 = t338 * (t333 * t342 - (struts0am_z * t327 - (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y
+  const Real t329 = t319 * (t314 * t323 - (struts0am_z * t308 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t351 = t332 * (t342 - t326 * t348);
-  const Real t356 = t313 * (struts0am_z_2 * t348 - (struts0am_z - struts0am_x * t351));
-  const Real t361 = tie_rods0at * t338;
-  const Real t363 = t332 * (t326 * t361);
-  const Real t368 = t351 * state.z[0] - t363;
-  const Real t369 = t356 * state.z[0] - t313 * (struts0am_x * t363 - struts0am_z_2 * t361);
-  const Real t370 = t348 * state.z[0] + t361;
-  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
-  const Real strutam1t_y = Real(0.01) * t370 + Real(0.2) * t368;
-  const Real strutam1t_z = Real(0.01) * t369 + Real(0.03) * t368;
+  const Real t332 = t313 * (t323 - t307 * t329);
+  const Real t337 = t294 * (struts0am_z_2 * t329 - (struts0am_z - struts0am_x * t332));
+  const Real t342 = tie_rods0at * t319;
+  const Real t344 = t313 * (t307 * t342);
+  const Real t349 = t332 * state.z[0] + t344;
+  const Real t350 = t337 * state.z[0] + t294 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t329 * state.z[0] - t342;
+  const Real strutam1t_x = Real(0.2) * t350 - Real(0.03) * t351;
+  const Real strutam1t_y = Real(0.01) * t351 + Real(0.2) * t349;
+  const Real strutam1t_z = Real(0.01) * t350 + Real(0.03) * t349;
   const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
   const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
   const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
@@ -1316,9 +1407,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = strutam1vp_x - strutam0t_x;
   const Real strutam0v_y = strutam1vp_y + strutam0t_y;
-  const Real strutad1t_x = Real(0.35112344158839165) * t370;
-  const Real strutad1t_y = Real(0.9363291775690445) * t370;
-  const Real strutad1t_z = Real(0.35112344158839165) * t368 - Real(0.9363291775690445) * t369;
+  const Real strutad1t_x = Real(0.35112344158839165) * t351;
+  const Real strutad1t_y = Real(0.9363291775690445) * t351;
+  const Real strutad1t_z = Real(0.35112344158839165) * t349 - Real(0.9363291775690445) * t350;
   const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
   const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
   const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
@@ -1328,33 +1419,33 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0t_y = strutad1_x * state.z[0];
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
-  const Real strutam1a_x = t369 * strutam1t_z + t370 * strutam1t_y;
-  const Real strutam1a_y = t368 * strutam1t_z - t370 * strutam1t_x;
-  const Real strutam1a_z = t368 * strutam1t_y + t369 * strutam1t_x;
+  const Real strutam1a_x = t350 * strutam1t_z + t351 * strutam1t_y;
+  const Real strutam1a_y = t349 * strutam1t_z - t351 * strutam1t_x;
+  const Real strutam1a_z = t349 * strutam1t_y + t350 * strutam1t_x;
   const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
   const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
   const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
-  const Real strutam0b_x = strutam0t_x - Real(2.0) * strutam1vp_x;
-  const Real strutam0b_y = strutam0t_y + Real(2.0) * strutam1vp_y;
+  const Real strutam0b_x = strutam1vp_x + strutam0v_x;
+  const Real strutam0b_y = strutam1vp_y + strutam0v_y;
   const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
-  const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
-  const Real strutad1a_x = t369 * strutad1t_z - t370 * strutad1t_y;
-  const Real strutad1a_y = t368 * strutad1t_z + t370 * strutad1t_x;
-  const Real strutad1a_z = t368 * strutad1t_y + t369 * strutad1t_x;
+  const Real strutam0a_y = state.z[0] * strutam0b_x - (c0 * strutam1app_y - s0 * strutam1app_x);
+  const Real strutad1a_x = t350 * strutad1t_z - t351 * strutad1t_y;
+  const Real strutad1a_y = t349 * strutad1t_z + t351 * strutad1t_x;
+  const Real strutad1a_z = t349 * strutad1t_y + t350 * strutad1t_x;
   const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
   const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
   const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
-  const Real strutad0b_x = strutad0t_x - Real(2.0) * strutad1vp_x;
-  const Real strutad0b_y = strutad0t_y + Real(2.0) * strutad1vp_y;
+  const Real strutad0b_x = strutad1vp_x + strutad0v_x;
+  const Real strutad0b_y = strutad1vp_y + strutad0v_y;
   const Real strutad0a_x = state.z[0] * strutad0b_y - (c0 * strutad1app_x + s0 * strutad1app_y);
-  const Real strutad0a_y = state.z[0] * strutad0b_x - (c0 * strutad1app_y - s0 * strutad1app_x);
+  const Real strutad0a_y = state.z[0] * strutad0b_x + (c0 * strutad1app_y - s0 * strutad1app_x);
   const Real bias_strut = Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z * strutad1vpp_z +
-      strutam0v_x * strutad0v_x)) - (strutd_z * strutad0a_y + (strutd_y * strutad0a_x + (strutd_x *
-      strutad1app_z + (strutad1_y * strutam0a_y - (strutad1p_z * strutam1app_z - strutad1_x *
+      strutam0v_x * strutad0v_x)) + (strutd_z * strutad0a_y - (strutd_y * strutad0a_x + (strutd_x *
+      strutad1app_z - (strutad1_y * strutam0a_y + (strutad1p_z * strutam1app_z - strutad1_x *
       strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 - Real(0.2088879845220991) * t368;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 + Real(0.9156733568092016) * t368;
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 + Real(0.9156733568092016) * t351;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 - Real(0.2088879845220991) * t349;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 + Real(0.9156733568092016) * t349;
   const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
   const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
   const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
@@ -1364,19 +1455,19 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
   const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
-  const Real strutad1a_x_2 = t369 * strutad1t_z_2 + t370 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t368 * strutad1t_z_2 + t370 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t368 * strutad1t_y_2 - t369 * strutad1t_x_2;
+  const Real strutad1a_x_2 = t350 * strutad1t_z_2 + t351 * strutad1t_y_2;
+  const Real strutad1a_y_2 = t349 * strutad1t_z_2 + t351 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t349 * strutad1t_y_2 - t350 * strutad1t_x_2;
   const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
   const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
   const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
-  const Real strutad0b_x_2 = strutad0t_x_2 - Real(2.0) * strutad1vp_x_2;
-  const Real strutad0b_y_2 = strutad0t_y_2 + Real(2.0) * strutad1vp_y_2;
+  const Real strutad0b_x_2 = strutad1vp_x_2 + strutad0v_x_2;
+  const Real strutad0b_y_2 = strutad1vp_y_2 + strutad0v_y_2;
   const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
-  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t369 - Real(0.02) * t370;
-  const Real tie_rodbm1t_y = Real(0.14) * t370 + Real(0.07) * t368;
-  const Real tie_rodbm1t_z = Real(0.14) * t369 + Real(0.02) * t368;
+  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 - (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
+  const Real tie_rodbm1t_x = Real(0.07) * t350 - Real(0.02) * t351;
+  const Real tie_rodbm1t_y = Real(0.14) * t351 + Real(0.07) * t349;
+  const Real tie_rodbm1t_z = Real(0.14) * t350 + Real(0.02) * t349;
   const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
@@ -1387,28 +1478,28 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t369 * tie_rodbm1t_z + t370 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t368 * tie_rodbm1t_z - t370 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t368 * tie_rodbm1t_y + t369 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t350 * tie_rodbm1t_z + t351 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z - t351 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y + t350 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y + Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
   const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
       tie_rodbm1app_x));
-  const Real t702 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t314 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
-      (strutd_x * strutad1app_z_2 - (strutad1_y_2 * strutam0a_y - (strutad1p_z_2 * strutam1app_z -
+  const Real t676 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
+      * strutad0v_x_2)) - (t295 * bias_strut - (strutd_z * strutad0a_y_2 - (strutd_y * strutad0a_x_2 -
+      (strutd_x * strutad1app_z_2 + (strutad1_y_2 * strutam0a_y + (strutad1p_z_2 * strutam1app_z -
       strutad1_x_2 * strutam0a_x))))));
-  const Real t713 = t338 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
-      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t327 * bias_strut + t333 * t702));
-  const Real t716 = t332 * (t702 + t326 * t713);
-  const Real t724 = t716 - t351 * zdot[0];
-  const Real t726 = t313 * (struts0am_z_2 * t713 - (bias_strut + struts0am_x * t716)) + t356 * zdot[0];
-  const Real t728 = t713 + t348 * zdot[0];
+  const Real t687 = t319 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
+      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t308 * bias_strut + t314 * t676));
+  const Real t690 = t313 * (t676 - t307 * t687);
+  const Real t698 = t690 - t332 * zdot[0];
+  const Real t700 = t294 * (struts0am_z_2 * t687 + (bias_strut + struts0am_x * t690)) - t337 * zdot[0];
+  const Real t702 = t687 - t329 * zdot[0];
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -1417,9 +1508,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
-  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (h1at1_y * Real(0.04) -
-      (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
-      S1at1r0_z)))) - Real(0.0202) - Real(4.592300000000001));
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (q1r1_y * S1at1r0_y -
+      (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y * S1at1r1_y - (q1r2_z * S1at1r1_z - h1at1_y *
+      Real(0.04))))) - Real(4.612500000000001));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
@@ -1445,7 +1536,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       spring_damperfb1p_x);
   const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
   const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (Real(0.21) + c0 * wheel_centerx1p_y) + Real(0.3275);
+  const Real expression_4 = c0 * wheel_centerx1p_y - s0 * wheel_centerx1p_x - Real(0.11750000000000002);
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -1468,22 +1559,22 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aK1_x = Real(0.6499999999999999) * w1p_x;
   const Real aK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real aK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
-  const Real au1_x = t368 - Real(2.0) * w1p_x;
-  const Real au1_y = t369 - Real(2.0) * w1p_y;
-  const Real au1_z = t370 + Real(2.0) * w1p_z;
+  const Real au1_x = t349 - Real(2.0) * w1p_x;
+  const Real au1_y = t350 - Real(2.0) * w1p_y;
+  const Real au1_z = t351 + Real(2.0) * w1p_z;
   const Real aSu1_x = Real(0.6499999999999999) * au1_x;
   const Real aSu1_y = Real(0.1824) * au1_z - Real(0.3842000000000001) * au1_y;
   const Real aSu1_z = Real(2.2228) * au1_z - Real(0.1824) * au1_y;
   const Real auh1 = Real(1.14) * au1_y - Real(6.08) * au1_z;
-  const Real auw1 = t370 * au1_z + (t368 * au1_x + t369 * au1_y);
-  const Real aef1_x = t368 * auh1 + (t726 * Real(6.08) + (tyre_forcef1_x + t728 * Real(1.14)));
-  const Real aef1_y = t369 * auh1 + (t724 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * auw1));
-  const Real aef1_z = t370 * auh1 + (Real(6.08) * auw1 + (tyre_forcef1_z + t724 * Real(1.14)));
-  const Real aen1_x = t370 * aSu1_y + (t369 * aSu1_z - (t724 * Real(2.607) + (Real(0.12) * tyre_forcef1_y +
+  const Real auw1 = t351 * au1_z + (t349 * au1_x + t350 * au1_y);
+  const Real aef1_x = t349 * auh1 - (t700 * Real(6.08) + (tyre_forcef1_x + t702 * Real(1.14)));
+  const Real aef1_y = t350 * auh1 + (t698 * Real(6.08) - (tyre_forcef1_y + Real(1.14) * auw1));
+  const Real aef1_z = t351 * auh1 + (Real(6.08) * auw1 - (tyre_forcef1_z - t698 * Real(1.14)));
+  const Real aen1_x = t351 * aSu1_y + (t350 * aSu1_z - (t698 * Real(2.607) - (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real aen1_y = t370 * aSu1_x - (t368 * aSu1_z - (t728 * Real(0.1824) + (t726 * Real(2.8728) +
+  const Real aen1_y = t351 * aSu1_x - (t349 * aSu1_z + (t702 * Real(0.1824) + (t700 * Real(2.8728) +
       (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real aen1_z = t369 * aSu1_x + (t368 * aSu1_y - (t726 * Real(0.1824) + (t728 * Real(1.0342) -
+  const Real aen1_z = t350 * aSu1_x + (t349 * aSu1_y + (t700 * Real(0.1824) + (t702 * Real(1.0342) -
       (Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
   const Real af1p_x = q1r1_z * aef1_z + (q1r1_x * aef1_x + q1r1_y * aef1_y);
   const Real af1p_y = q1r2_z * aef1_z - (q1r2_x * aef1_x - q1r2_y * aef1_y);
@@ -1493,7 +1584,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       - (aal1_y * Real(2.8728) + (Real(0.01) * spring_damperfb1_z - Real(0.2) * spring_damperfb1_x))))));
   const Real tau_1_2 = aen1_z + (w1p_y * aK1_x - (w1p_x * aK1_y - (Real(0.1824) * aal1_y - (Real(1.14) * aa1_x
       + (aal1_z * Real(1.0342) + (Real(0.01) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_x))))));
-  tau[0] = -(t348 * tau_1_2 - (t356 * tau_1_1 + (t351 * tau_1_0 + (Real(0.34) * af1p_y - (Real(0.02) * af1p_x
+  tau[0] = -(t329 * tau_1_2 - (t337 * tau_1_1 + (t332 * tau_1_0 + (Real(0.34) * af1p_y - (Real(0.02) * af1p_x
       + (q1r0_z * aen1_z + (q1r0_y * aen1_y + (q1r0_x * aen1_x - (adn0_z - (aQp0 + (strutax1_x *
       spring_damperf_z - strutax1_y * spring_damperf_y)))))))))));
 }
@@ -1529,8 +1620,8 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
   const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
-  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x - Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -1553,80 +1644,75 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
+  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
+  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
   const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
       (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
+  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
   const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
       (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
   const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
       - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
   const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
       (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t313 = Real(1.0) / struts0am_y;
-  const Real t314 = struts1am_y * t313;
-  const Real t326 = struts0am_z_2 * t314 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t294 = Real(1.0) / struts0am_y;
+  const Real t295 = struts1am_y * t294;
+  const Real t307 = struts0am_z_2 * t295 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t327 = tie_rods0bm_y * t313;
-  const Real t332 = Real(1.0) / (struts0am_x * t314 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t308 = tie_rods0bm_y * t294;
+  const Real t313 = Real(1.0) / (struts0am_x * t295 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t333 = (struts0am_x * t327 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t332;
-  const Real t338 = Real(1.0) / (t326 * t333 - (struts0am_z_2 * t327 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t314 = (struts0am_x * t308 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t313;
+  const Real t319 = Real(1.0) / (t307 * t314 - (struts0am_z_2 * t308 - (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t342 = struts0am_z * t314 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t323 = struts0am_z * t295 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t348 = t338 * (t333 * t342 - (struts0am_z * t327 - (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y
+  const Real t329 = t319 * (t314 * t323 - (struts0am_z * t308 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t351 = t332 * (t342 - t326 * t348);
-  const Real t361 = tie_rods0at * t338;
-  const Real t363 = t332 * (t326 * t361);
-  const Real t368 = t351 * state.z[0] - t363;
-  const Real t369 = t313 * (struts0am_z_2 * t348 - (struts0am_z - struts0am_x * t351)) * state.z[0] - t313 *
-      (struts0am_x * t363 - struts0am_z_2 * t361);
-  const Real t370 = t348 * state.z[0] + t361;
+  const Real t332 = t313 * (t323 - t307 * t329);
+  const Real t342 = tie_rods0at * t319;
+  const Real t344 = t313 * (t307 * t342);
+  const Real t349 = t332 * state.z[0] + t344;
+  const Real t350 = t294 * (struts0am_z_2 * t329 - (struts0am_z - struts0am_x * t332)) * state.z[0] + t294 *
+      (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t329 * state.z[0] - t342;
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
   const Real S1at1r0_z = q1r1_z * Real(2.2228) - q1r1_y * Real(0.1824);
   const Real S1at1r1_y = q1r2_z * Real(0.1824) - q1r2_y * Real(0.3842000000000001);
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
-  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (h1at1_y * Real(0.04) -
-      (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y * S1at1r0_y - q1r1_z *
-      S1at1r0_z)))) - Real(0.0202) - Real(4.592300000000001));
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (q1r1_y * S1at1r0_y -
+      (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y * S1at1r1_y - (q1r2_z * S1at1r1_z - h1at1_y *
+      Real(0.04))))) - Real(4.612500000000001));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -1636,12 +1722,12 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
   const Real v1_y = q1r1_y * v1o_x - q1r2_y * v1o_y;
   const Real v1_z = q1r1_z * v1o_x - q1r2_z * v1o_y;
-  const Real v1P_x = t370 * Real(1.14) + t369 * Real(6.08);
-  const Real v1L_x = t368 * Real(2.607);
-  const Real v1L_y = t369 * Real(2.8728) + t370 * Real(0.1824);
-  const Real v1L_z = t370 * Real(1.0342) + t369 * Real(0.1824);
-  const Real T2 = (derivative * derivative * Real(3.0) + (state.z[0] * v0L_z + (t370 * v1L_z + (t368 * v1L_x +
-      t369 * v1L_y)))) * Real(0.5) + (Real(1.14) * (t368 * v1_z) + (Real(6.08) * (t368 * v1_y) - (v1_x * v1P_x
+  const Real v1P_x = t351 * Real(1.14) + t350 * Real(6.08);
+  const Real v1L_x = t349 * Real(2.607);
+  const Real v1L_y = t350 * Real(2.8728) + t351 * Real(0.1824);
+  const Real v1L_z = t351 * Real(1.0342) + t350 * Real(0.1824);
+  const Real T2 = (derivative * derivative * Real(3.0) + (state.z[0] * v0L_z + (t351 * v1L_z + (t349 * v1L_x +
+      t350 * v1L_y)))) * Real(0.5) + (Real(1.14) * (t349 * v1_z) + (Real(6.08) * (t349 * v1_y) - (v1_x * v1P_x
       - (w1p_z * v1L_z - (w1p_x * v1L_x + w1p_y * v1L_y)))));
   return T2;
 }
@@ -1749,108 +1835,83 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real t1, t2;
   detail::sine_cosine(state.y[0], t1, t2);
-  const Real t6 = t2 * Real(0.03);
-  const Real t8 = t2 * Real(0.01);
-  const Real t11 = t1 * Real(0.03);
-  const Real t12 = t1 * Real(0.01);
-  const Real t17 = t1 * Real(0.02) + (t2 * Real(0.34) + Real(0.36));
-  const Real t20 = t1 * Real(0.34) - (t2 * Real(0.02) - Real(0.21));
-  const Real t22 = t17 - Real(0.59);
-  const Real t24 = t20 - Real(0.79);
-  const Real t26 = t2 * Real(0.35112344158839165);
-  const Real t28 = t2 * Real(0.9363291775690445);
-  const Real t29 = t1 * Real(0.35112344158839165);
-  const Real t30 = t1 * Real(0.9363291775690445);
-  const Real t43 = t12 * t30 - (t11 * t29 + (t6 * t26 - t8 * t28));
-  const Real t45 = t22 * t30 - t24 * t28;
-  const Real t46 = t22 * t28 + t24 * t30;
-  const Real t48 = t2 * Real(0.2088879845220991);
-  const Real t50 = t2 * Real(0.9156733568092016);
-  const Real t52 = t2 * Real(0.3433775088034506);
-  const Real t53 = t1 * Real(0.2088879845220991);
-  const Real t54 = t1 * Real(0.9156733568092016);
-  const Real t55 = t1 * Real(0.3433775088034506);
-  const Real t74 = t12 * t55 + (t11 * t54 + (t8 * t52 + (t6 * t50 - (t1 * t53 + t2 * t48) * Real(0.2))));
-  const Real t81 = detail::cosine(detail::Angle<Real>(state.t) * model.rate);
-  const Real t87 = t17 - (Real(0.36) - (t81 - Real(1.0)) * model.c1);
-  const Real t89 = t20 - Real(0.27);
-  const Real t92 = (t22 * t29 - t24 * t26) / t45;
-  const Real t93 = (t22 * t55 - t24 * t52) / t45;
-  const Real t94 = (t22 * t54 - t24 * t50) / t45;
-  const Real t95 = (t22 * t53 - t24 * t48) / t45;
-  const Real t96 = t92 * t95;
-  const Real t98 = t94 + t92 * t93;
-  const Real t100 = t95 * t95;
-  const Real t103 = t100 + (t98 * t98 + t96 * t96);
-  const Real t124 = (t74 * (t92 * t98) + t43 * (t100 + t94 * t98)) / t103;
-  const Real t125 = (t74 * t98 - t43 * (t93 * t98 + t95 * t96)) / t103;
-  const Real t126 = (t74 * (t95 + t92 * t96) + t43 * (t94 * t96 - t93 * t95)) / t103;
-  const Real t131 = t46 * t46 + (t45 * t45 + Real(0.0014027397260273971));
-  const Real t139 = (t126 * t126 - (t131 - (t125 * t125 + t124 * t124))) / t103;
-  const Real t142 = detail::square_root(-t139);
-  const Real t146 = t124 + t96 * t142;
-  const Real t147 = t125 + t95 * t142;
-  const Real t148 = t126 - t98 * t142;
-  const Real t153 = t1 * t89 + t2 * t87;
-  const Real t154 = t2 * t89 - t1 * t87;
-  const Real t164 = t147 * t147 + (t148 * t148 + t146 * t146);
-  const Real t165 = Real(1.0) / t164;
-  const Real t173 = t165 * (Real(0.02) * t147 - (t148 * Real(0.07) - t146 * Real(0.14)));
-  const Real t178 = t46 * t153 - (t45 * t154 - Real(0.00524344339438665));
-  const Real t182 = Real(0.14) - t146 * t173;
-  const Real t183 = Real(0.02) - t147 * t173;
-  const Real t184 = Real(0.07) + t148 * t173;
-  const Real t185 = t165 * t178;
-  const Real t191 = t185 * Real(0.03745316710276178) - Real(0.14);
-  const Real t192 = t153 - t46 * t185;
-  const Real t193 = t154 + t45 * t185;
-  const Real t198 = t183 * t183 + (t184 * t184 + t182 * t182);
-  const Real t204 = Real(1.0) / (t192 * t192 + (t193 * t193 + t191 * t191));
-  const Real t206 = (t89 * t89 + (t87 * t87 - Real(0.058))) * Real(0.5) - t173 * t178;
-  const Real t207 = t204 * t206;
-  const Real t222 = t165 * (t204 * (t198 - t206 * t207));
-  const Real t226 = Real(1.0) / detail::square_root(t164);
-  const Real t228 = Real(1.0) / detail::square_root(t198);
-  const Real t229 = Real(0.03745316710276178) * t226;
-  const Real t230 = t46 * t226;
-  const Real t231 = t45 * t226;
-  const Real t232 = detail::square_root(t222) * t228;
-  const Real t236 = t207 * t228;
-  const Real t240 = (t45 * t192 + t46 * t193) * t232 - t191 * t236;
-  const Real t241 = (Real(0.03745316710276178) * t193 - t45 * t191) * t232 - t192 * t236;
-  const Real t242 = (t46 * t191 + Real(0.03745316710276178) * t192) * t232 + t193 * t236;
-  const Real t243 = t146 * t226;
-  const Real t244 = t147 * t226;
-  const Real t245 = t148 * t226;
-  const Real t246 = t182 * t228;
-  const Real t247 = t183 * t228;
-  const Real t248 = t184 * t228;
-  const Real t265 = detail::square_root(t244 * t246 + (Real(1.0) - (t243 * t247 - (t243 - t247))));
-  const Real t267 = Real(0.5) * (Real(1.0) / t265);
-  const Real t270 = t267 * (t245 * t247 - (t245 - t244 * t248));
-  const Real t273 = t267 * (t243 * t248 + (t248 + t245 * t246));
-  const Real t275 = t267 * (t244 + t246);
-  const Real t276 = Real(0.5) * t265;
-  const Real t281 = detail::square_root(t230 * t240 + (Real(1.0) + (t229 * t241 + (t229 + t241))));
-  const Real t283 = Real(0.5) * (Real(1.0) / t281);
-  const Real t286 = t283 * (t231 * t241 + (t231 - t230 * t242));
-  const Real t289 = t283 * (t229 * t242 + (t242 + t231 * t240));
-  const Real t291 = t283 * (t230 + t240);
-  const Real t292 = Real(0.5) * t281;
-  const Real t307 = t273 * t292 + (t276 * t289 - (t270 * t291 - t275 * t286));
-  const Real t310 = t275 * t289 + (t273 * t291 + (t270 * t292 - t276 * t286));
-  const Real t313 = t276 * t291 - (t275 * t292 - (t270 * t289 + t273 * t286));
-  const Real t320 = t276 * t292 - (t273 * t289 - (t275 * t291 + t270 * t286));
-  const Real t322 = t320 - state.y[1];
-  const Real t325 = t307 + state.y[2];
-  const Real t328 = t310 + state.y[3];
-  const Real t331 = t313 - state.y[4];
-  closed.y[1] = t320;
-  closed.y[2] = -t307;
-  closed.y[3] = -t310;
-  closed.y[4] = t313;
-  closed.regularity = -(t139 / (t131 / t103) * (t222 / (t165 * (t198 * t204))));
-  closed.opening = t325 * t325 + (t322 * t322 + (t328 * t328 + t331 * t331));
+  const Real t9 = t2 * Real(0.34) + t1 * Real(0.02);
+  const Real t12 = t2 * Real(0.02) - t1 * Real(0.34) - Real(0.21);
+  const Real t14 = t9 - Real(0.22999999999999998);
+  const Real t16 = t12 + Real(0.79);
+  const Real t18 = t2 * Real(0.9363291775690445);
+  const Real t19 = t1 * Real(0.9363291775690445);
+  const Real t24 = t14 * t19 + t16 * t18;
+  const Real t25 = t14 * t18 - t16 * t19;
+  const Real t29 = detail::cosine(detail::Angle<Real>(state.t) * model.rate);
+  const Real t34 = t9 + (t29 - Real(1.0)) * model.c1;
+  const Real t36 = t12 + Real(0.27);
+  const Real t45 = (t24 * t24 + t25 * t25 + Real(0.0014027397260273971)) * Real(0.7686245074122725);
+  const Real t47 = t45 - Real(8.059767042819092e-05);
+  const Real t49 = detail::square_root(t47);
+  const Real t57 = t49 * Real(0.08365967447384275) - Real(0.0045221397219114634);
+  const Real t59 = t49 * Real(0.22309246526358067) - Real(0.008937941999867091);
+  const Real t61 = t49 * Real(1.1154623263179033) + Real(0.002126748879116778);
+  const Real t66 = t1 * t36 - t2 * t34;
+  const Real t67 = t2 * t36 + t1 * t34;
+  const Real t77 = t57 * t57 + (t61 * t61 + t59 * t59);
+  const Real t78 = Real(1.0) / t77;
+  const Real t83 = t78 * (t49 * Real(0.09425656657386285) - Real(0.0006629859795267724));
+  const Real t88 = t24 * t67 - t25 * t66 + Real(0.00524344339438665);
+  const Real t93 = t57 * t83 - Real(0.14);
+  const Real t94 = Real(0.02) - t59 * t83;
+  const Real t96 = t61 * t83 - Real(0.07);
+  const Real t97 = t78 * t88;
+  const Real t103 = t97 * Real(0.03745316710276178) - Real(0.14);
+  const Real t104 = t66 + t25 * t97;
+  const Real t105 = t67 - t24 * t97;
+  const Real t110 = t93 * t93 + (t96 * t96 + t94 * t94);
+  const Real t116 = Real(1.0) / (t103 * t103 + (t105 * t105 + t104 * t104));
+  const Real t118 = (t34 * t34 + t36 * t36 - Real(0.058)) * Real(0.5) - t83 * t88;
+  const Real t119 = t116 * t118;
+  const Real t134 = t78 * (t116 * (t110 - t118 * t119));
+  const Real t138 = Real(1.0) / detail::square_root(t77);
+  const Real t140 = Real(1.0) / detail::square_root(t110);
+  const Real t141 = Real(0.03745316710276178) * t138;
+  const Real t142 = t25 * t138;
+  const Real t143 = t24 * t138;
+  const Real t144 = detail::square_root(t134) * t140;
+  const Real t148 = t119 * t140;
+  const Real t152 = (t24 * t104 + t25 * t105) * t144 + t103 * t148;
+  const Real t153 = (Real(0.03745316710276178) * t105 + t24 * t103) * t144 - t104 * t148;
+  const Real t154 = (t25 * t103 - Real(0.03745316710276178) * t104) * t144 - t105 * t148;
+  const Real t155 = t57 * t138;
+  const Real t156 = t59 * t138;
+  const Real t157 = t61 * t138;
+  const Real t158 = t93 * t140;
+  const Real t159 = t94 * t140;
+  const Real t160 = t96 * t140;
+  const Real t178 = detail::square_root(-(t159 - (t155 - (t155 * t159 - (Real(1.0) - t156 * t158)))));
+  const Real t180 = Real(0.5) * (Real(1.0) / t178);
+  const Real t183 = t180 * (t156 * t160 - (t157 - t157 * t159));
+  const Real t186 = t180 * (t157 * t158 - (t160 + t155 * t160));
+  const Real t188 = t180 * (t156 - t158);
+  const Real t189 = Real(0.5) * t178;
+  const Real t195 = detail::square_root(-(t153 - (t141 - (t141 * t153 - (Real(1.0) - t142 * t152)))));
+  const Real t197 = Real(0.5) * (Real(1.0) / t195);
+  const Real t200 = t197 * (t142 * t154 - (t143 - t143 * t153));
+  const Real t203 = t197 * (t143 * t152 - (t154 + t141 * t154));
+  const Real t205 = t197 * (t142 - t152);
+  const Real t206 = Real(0.5) * t195;
+  const Real t221 = t188 * t200 - (t183 * t205 - (t189 * t203 - t186 * t206));
+  const Real t224 = t189 * t200 - (t183 * t206 - (t186 * t205 - t188 * t203));
+  const Real t227 = t186 * t200 - (t183 * t203 - (t188 * t206 - t189 * t205));
+  const Real t234 = t183 * t200 + (t188 * t205 + (t186 * t203 + t189 * t206));
+  const Real t236 = t234 - state.y[1];
+  const Real t239 = t221 - state.y[2];
+  const Real t242 = t224 + state.y[3];
+  const Real t245 = t227 + state.y[4];
+  closed.y[1] = t234;
+  closed.y[2] = t221;
+  closed.y[3] = -t224;
+  closed.y[4] = -t227;
+  closed.regularity = t47 / t45 * (t134 / (t78 * (t110 * t116)));
+  closed.opening = t245 * t245 + (t242 * t242 + (t236 * t236 + t239 * t239));
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
@@ -1887,8 +1948,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
   const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
-  const Real strutd_y = strutax1_x + Real(0.59) - Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x + Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -1913,39 +1974,34 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_x * Real(0.14) + (Real(0.01) + (q1r0_z * Real(0.07) - (q1r0_y * Real(0.02) -
-      Real(0.13))));
-  const Real tie_rodd_y = expression_3 + (Real(0.36) - (Real(0.36) - tie_rodbx1_x));
+  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
+  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real tie_rodll = tie_rodd_y * tie_rodd_y + (tie_rodd_x * tie_rodd_x + tie_rodd_z * tie_rodd_z);
   const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
   const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r1_y * struts0af1p_x + (q1r0_y * strutad1p_z + q1r2_y * struts0af1p_y);
-  const Real struts0af1_z = q1r1_z * struts0af1p_x - (q1r0_z * strutad1p_z - q1r2_z * struts0af1p_y);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
   const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
       (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
-  const Real struts0af1_x = q1r1_x * struts0af1p_x + (q1r0_x * strutad1p_z - q1r2_x * struts0af1p_y);
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
   const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
       (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
   const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
       (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r1_y * struts1af1p_x - (q1r0_y * strutad1p_z_2 - q1r2_y * struts1af1p_y);
-  const Real struts1af1_z = q1r1_z * struts1af1p_x + (q1r0_z * strutad1p_z_2 + q1r2_z * struts1af1p_y);
+  const Real struts1af1_y = q1r1_y * strutad1p_x_2 - (q1r0_y * strutad1p_z_2 - q1r2_y * strutad1p_y_2);
+  const Real struts1af1_z = q1r1_z * strutad1p_x_2 + (q1r0_z * strutad1p_z_2 + q1r2_z * strutad1p_y_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r1_x * struts1af1p_x - (q1r0_x * strutad1p_z_2 + q1r2_x * struts1af1p_y);
+  const Real struts1af1_x = q1r1_x * strutad1p_x_2 - (q1r0_x * strutad1p_z_2 + q1r2_x * strutad1p_y_2);
   const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
       (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
@@ -1953,36 +2009,34 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x + (q1r0_y * tie_rods0bf0_z - q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x - (q1r0_z * tie_rods0bf0_z + q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x + (q1r0_x * tie_rods0bf0_z + q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
-  const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t332 = Real(1.0) / struts0am_y;
-  const Real t333 = struts1am_y * t332;
-  const Real t345 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
-      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t333))));
-  const Real t346 = tie_rods0bm_y * t332;
-  const Real t351 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
-      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t333)))));
-  const Real t352 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t346)) * t351;
-  const Real t357 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
-      t346 + t345 * t352)));
-  const Real t361 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
-      t333));
-  const Real t367 = t357 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
-      t346 + t352 * t361)));
-  const Real t370 = t351 * (t361 + t345 * t367);
-  const Real t380 = tie_rods0at * t357;
-  const Real t382 = t351 * (t345 * t380);
-  const Real t387 = t370 * state.z[0] - t382;
-  const Real t388 = t332 * (struts0am_x * t370 - (struts0am_z + struts0am_z_2 * t367)) * state.z[0] - t332 *
-      (struts0am_x * t382 - struts0am_z_2 * t380);
-  const Real t389 = t367 * state.z[0] - t380;
-  const Real strutam1t_x = Real(0.2) * t388 - Real(0.03) * t389;
-  const Real strutam1t_y = Real(0.01) * t389 - Real(0.2) * t387;
-  const Real strutam1t_z = Real(0.01) * t388 - Real(0.03) * t387;
+  const Real t311 = Real(1.0) / struts0am_y;
+  const Real t312 = struts1am_y * t311;
+  const Real t324 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
+      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t312))));
+  const Real t325 = tie_rods0bm_y * t311;
+  const Real t330 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
+      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t312)))));
+  const Real t331 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t325)) * t330;
+  const Real t336 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
+      t325 + t324 * t331)));
+  const Real t340 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
+      t312));
+  const Real t346 = t336 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
+      t325 + t331 * t340)));
+  const Real t349 = t330 * (t340 + t324 * t346);
+  const Real t361 = tie_rods0bf0_x * s * t336 * model.c2;
+  const Real t363 = t330 * (t324 * t361);
+  const Real t368 = t349 * state.z[0] - t363;
+  const Real t369 = t311 * (struts0am_x * t349 - (struts0am_z + struts0am_z_2 * t346)) * state.z[0] - t311 *
+      (struts0am_x * t363 - struts0am_z_2 * t361);
+  const Real t370 = t346 * state.z[0] - t361;
+  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
+  const Real strutam1t_y = Real(0.01) * t370 - Real(0.2) * t368;
+  const Real strutam1t_z = Real(0.01) * t369 - Real(0.03) * t368;
   const Real strutam1vpp_x = q1r1_y * strutam1t_y - (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
   const Real strutam1vpp_y = q1r2_y * strutam1t_y + (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
   const Real strutam1vpp_z = q1r0_y * strutam1t_y - (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
@@ -1990,9 +2044,9 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = s0 * strutam1vpp_y + (c0 * strutam1vpp_x - strutam0t_x);
   const Real strutam0v_y = s0 * strutam1vpp_x - (c0 * strutam1vpp_y - strutam0t_y);
-  const Real strutad1t_x = Real(0.35112344158839165) * t389;
-  const Real strutad1t_y = Real(0.9363291775690445) * t389;
-  const Real strutad1t_z = Real(0.35112344158839165) * t387 + Real(0.9363291775690445) * t388;
+  const Real strutad1t_x = Real(0.35112344158839165) * t370;
+  const Real strutad1t_y = Real(0.9363291775690445) * t370;
+  const Real strutad1t_z = Real(0.35112344158839165) * t368 + Real(0.9363291775690445) * t369;
   const Real strutad1vpp_x = q1r1_y * strutad1t_y - (q1r1_x * strutad1t_x + q1r1_z * strutad1t_z);
   const Real strutad1vpp_y = q1r2_y * strutad1t_y + (q1r2_x * strutad1t_x - q1r2_z * strutad1t_z);
   const Real strutad1vpp_z = q1r0_y * strutad1t_y - (q1r0_x * strutad1t_x - q1r0_z * strutad1t_z);
@@ -2002,9 +2056,9 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real strutad0v_y = s0 * strutad1vpp_x - (c0 * strutad1vpp_y - strutad0t_y);
   const Real rate_strut = strutad1_x * strutam0v_x + (strutad1p_z * strutam1vpp_z - (strutad1_y * strutam0v_y
       - (strutd_x * strutad1vpp_z + (strutd_y * strutad0v_x + strutd_z * strutad0v_y))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t388 + Real(0.9156733568092016) * t389;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t389 + Real(0.2088879845220991) * t387;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t388 - Real(0.9156733568092016) * t387;
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 + Real(0.2088879845220991) * t368;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 - Real(0.9156733568092016) * t368;
   const Real strutad1vpp_x_2 = q1r1_y * strutad1t_y_2 + (q1r1_x * strutad1t_x_2 - q1r1_z * strutad1t_z_2);
   const Real strutad1vpp_y_2 = q1r2_y * strutad1t_y_2 - (q1r2_x * strutad1t_x_2 + q1r2_z * strutad1t_z_2);
   const Real strutad1vpp_z_2 = q1r0_y * strutad1t_y_2 + (q1r0_x * strutad1t_x_2 + q1r0_z * strutad1t_z_2);
@@ -2014,24 +2068,12 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real strutad0v_y_2 = s0 * strutad1vpp_x_2 - (c0 * strutad1vpp_y_2 - strutad0t_y_2);
   const Real rate_strut_2 = strutad1_x_2 * strutam0v_x - (strutad1p_z_2 * strutam1vpp_z + (strutad1_y_2 *
       strutam0v_y - (strutd_x * strutad1vpp_z_2 + (strutd_y * strutad0v_x_2 + strutd_z * strutad0v_y_2))));
-  const Real tie_rodbm1t_x = Real(0.07) * t388 - Real(0.02) * t389;
-  const Real tie_rodbm1t_y = Real(0.14) * t389 - Real(0.07) * t387;
-  const Real tie_rodbm1t_z = Real(0.14) * t388 - Real(0.02) * t387;
-  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
-  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
-  const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = s0 * tie_rodbm1vpp_x - (c0 * tie_rodbm1vpp_y - tie_rodbm0t_y);
-  const Real tie_roddv_y = c0 * tie_rodbm1vpp_x + (derivative + (s0 * tie_rodbm1vpp_y - tie_rodbm0t_x));
-  const Real tie_rodlv = Real(3.123475237772121) * (tie_rodd_z * tie_rodbm0v_y + (tie_rodd_x * tie_rodbm1vpp_z
-      + tie_rodd_y * tie_roddv_y));
   g[0] = g_strut;
   g[1] = g_strut_2;
   g[2] = g_tie_rod;
   g_rate[0] = rate_strut;
   g_rate[1] = rate_strut_2;
-  g_rate[2] = tie_rodlv;
+  g_rate[2] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -2068,8 +2110,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
   const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
-  const Real strutd_y = strutax1_x - Real(0.59) + Real(0.36);
-  const Real strutd_z = strutax1_y + Real(0.79) - Real(0.21);
+  const Real strutd_y = strutax1_x - Real(0.22999999999999998);
+  const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
@@ -2092,74 +2134,69 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_z * Real(0.07) + (Real(0.01) + q1r0_x * Real(0.14))) -
-      Real(0.13);
-  const Real tie_rodd_y = tie_rodbx1_x + (Real(0.36) - (Real(0.36) + expression_3));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
   const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1p_x = c0 * strutad1_x - s0 * strutad1_y;
-  const Real struts0af1p_y = c0 * strutad1_y + s0 * strutad1_x;
-  const Real struts0af1_y = q1r2_y * struts0af1p_y + (q1r0_y * strutad1p_z + q1r1_y * struts0af1p_x);
-  const Real struts0af1_z = q1r2_z * struts0af1p_y - (q1r0_z * strutad1p_z - q1r1_z * struts0af1p_x);
+  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
+  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
   const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
   const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
       (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * struts0af1p_y - (q1r0_x * strutad1p_z + q1r1_x * struts0af1p_x);
+  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
   const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
       (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
   const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
       - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1p_x = c0 * strutad1_x_2 - s0 * strutad1_y_2;
-  const Real struts1af1p_y = c0 * strutad1_y_2 + s0 * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * struts1af1p_y + (q1r0_y * strutad1p_z_2 + q1r1_y * struts1af1p_x);
-  const Real struts1af1_z = q1r2_z * struts1af1p_y - (q1r0_z * strutad1p_z_2 - q1r1_z * struts1af1p_x);
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
   const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
   const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
   const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * struts1af1p_y - (q1r0_x * strutad1p_z_2 + q1r1_x * struts1af1p_x);
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
   const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
       (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x - s0 * tie_rods0bf0_y;
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y + s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y + (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y - (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
-  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y - (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
   const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t313 = Real(1.0) / struts0am_y;
-  const Real t314 = struts1am_y * t313;
-  const Real t326 = struts0am_z_2 * t314 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
+  const Real t294 = Real(1.0) / struts0am_y;
+  const Real t295 = struts1am_y * t294;
+  const Real t307 = struts0am_z_2 * t295 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
       struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t327 = tie_rods0bm_y * t313;
-  const Real t332 = Real(1.0) / (struts0am_x * t314 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
+  const Real t308 = tie_rods0bm_y * t294;
+  const Real t313 = Real(1.0) / (struts0am_x * t295 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
       (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t333 = (struts0am_x * t327 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t332;
-  const Real t338 = Real(1.0) / (t326 * t333 - (struts0am_z_2 * t327 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t314 = (struts0am_x * t308 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t313;
+  const Real t319 = Real(1.0) / (t307 * t314 - (struts0am_z_2 * t308 - (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t342 = struts0am_z * t314 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
+  const Real t323 = struts0am_z * t295 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
       strutad1_y_2));
-  const Real t348 = t338 * (t333 * t342 - (struts0am_z * t327 - (tie_rodbx1_x * tie_rods0bf0_y - tie_rodbx1_y
+  const Real t329 = t319 * (t314 * t323 - (struts0am_z * t308 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t351 = t332 * (t342 - t326 * t348);
-  const Real t356 = t313 * (struts0am_z_2 * t348 - (struts0am_z - struts0am_x * t351));
-  const Real t361 = tie_rods0at * t338;
-  const Real t363 = t332 * (t326 * t361);
-  const Real t368 = t351 * state.z[0] - t363;
-  const Real t369 = t356 * state.z[0] - t313 * (struts0am_x * t363 - struts0am_z_2 * t361);
-  const Real t370 = t348 * state.z[0] + t361;
-  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
-  const Real strutam1t_y = Real(0.01) * t370 + Real(0.2) * t368;
-  const Real strutam1t_z = Real(0.01) * t369 + Real(0.03) * t368;
+  const Real t332 = t313 * (t323 - t307 * t329);
+  const Real t337 = t294 * (struts0am_z_2 * t329 - (struts0am_z - struts0am_x * t332));
+  const Real t342 = tie_rods0at * t319;
+  const Real t344 = t313 * (t307 * t342);
+  const Real t349 = t332 * state.z[0] + t344;
+  const Real t350 = t337 * state.z[0] + t294 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t329 * state.z[0] - t342;
+  const Real strutam1t_x = Real(0.2) * t350 - Real(0.03) * t351;
+  const Real strutam1t_y = Real(0.01) * t351 + Real(0.2) * t349;
+  const Real strutam1t_z = Real(0.01) * t350 + Real(0.03) * t349;
   const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
   const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
   const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
@@ -2169,9 +2206,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = strutam1vp_x - strutam0t_x;
   const Real strutam0v_y = strutam1vp_y + strutam0t_y;
-  const Real strutad1t_x = Real(0.35112344158839165) * t370;
-  const Real strutad1t_y = Real(0.9363291775690445) * t370;
-  const Real strutad1t_z = Real(0.35112344158839165) * t368 - Real(0.9363291775690445) * t369;
+  const Real strutad1t_x = Real(0.35112344158839165) * t351;
+  const Real strutad1t_y = Real(0.9363291775690445) * t351;
+  const Real strutad1t_z = Real(0.35112344158839165) * t349 - Real(0.9363291775690445) * t350;
   const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
   const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
   const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
@@ -2181,33 +2218,33 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutad0t_y = strutad1_x * state.z[0];
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
-  const Real strutam1a_x = t369 * strutam1t_z + t370 * strutam1t_y;
-  const Real strutam1a_y = t368 * strutam1t_z - t370 * strutam1t_x;
-  const Real strutam1a_z = t368 * strutam1t_y + t369 * strutam1t_x;
+  const Real strutam1a_x = t350 * strutam1t_z + t351 * strutam1t_y;
+  const Real strutam1a_y = t349 * strutam1t_z - t351 * strutam1t_x;
+  const Real strutam1a_z = t349 * strutam1t_y + t350 * strutam1t_x;
   const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
   const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
   const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
-  const Real strutam0b_x = strutam0t_x - Real(2.0) * strutam1vp_x;
-  const Real strutam0b_y = strutam0t_y + Real(2.0) * strutam1vp_y;
+  const Real strutam0b_x = strutam1vp_x + strutam0v_x;
+  const Real strutam0b_y = strutam1vp_y + strutam0v_y;
   const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
-  const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
-  const Real strutad1a_x = t369 * strutad1t_z - t370 * strutad1t_y;
-  const Real strutad1a_y = t368 * strutad1t_z + t370 * strutad1t_x;
-  const Real strutad1a_z = t368 * strutad1t_y + t369 * strutad1t_x;
+  const Real strutam0a_y = state.z[0] * strutam0b_x - (c0 * strutam1app_y - s0 * strutam1app_x);
+  const Real strutad1a_x = t350 * strutad1t_z - t351 * strutad1t_y;
+  const Real strutad1a_y = t349 * strutad1t_z + t351 * strutad1t_x;
+  const Real strutad1a_z = t349 * strutad1t_y + t350 * strutad1t_x;
   const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
   const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
   const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
-  const Real strutad0b_x = strutad0t_x - Real(2.0) * strutad1vp_x;
-  const Real strutad0b_y = strutad0t_y + Real(2.0) * strutad1vp_y;
+  const Real strutad0b_x = strutad1vp_x + strutad0v_x;
+  const Real strutad0b_y = strutad1vp_y + strutad0v_y;
   const Real strutad0a_x = state.z[0] * strutad0b_y - (c0 * strutad1app_x + s0 * strutad1app_y);
-  const Real strutad0a_y = state.z[0] * strutad0b_x - (c0 * strutad1app_y - s0 * strutad1app_x);
+  const Real strutad0a_y = state.z[0] * strutad0b_x + (c0 * strutad1app_y - s0 * strutad1app_x);
   const Real bias_strut = Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z * strutad1vpp_z +
-      strutam0v_x * strutad0v_x)) - (strutd_z * strutad0a_y + (strutd_y * strutad0a_x + (strutd_x *
-      strutad1app_z + (strutad1_y * strutam0a_y - (strutad1p_z * strutam1app_z - strutad1_x *
+      strutam0v_x * strutad0v_x)) + (strutd_z * strutad0a_y - (strutd_y * strutad0a_x + (strutd_x *
+      strutad1app_z - (strutad1_y * strutam0a_y + (strutad1p_z * strutam1app_z - strutad1_x *
       strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 - Real(0.2088879845220991) * t368;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 + Real(0.9156733568092016) * t368;
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 + Real(0.9156733568092016) * t351;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 - Real(0.2088879845220991) * t349;
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 + Real(0.9156733568092016) * t349;
   const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
   const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
   const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
@@ -2217,19 +2254,19 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
   const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
-  const Real strutad1a_x_2 = t369 * strutad1t_z_2 + t370 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t368 * strutad1t_z_2 + t370 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t368 * strutad1t_y_2 - t369 * strutad1t_x_2;
+  const Real strutad1a_x_2 = t350 * strutad1t_z_2 + t351 * strutad1t_y_2;
+  const Real strutad1a_y_2 = t349 * strutad1t_z_2 + t351 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t349 * strutad1t_y_2 - t350 * strutad1t_x_2;
   const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
   const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
   const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
-  const Real strutad0b_x_2 = strutad0t_x_2 - Real(2.0) * strutad1vp_x_2;
-  const Real strutad0b_y_2 = strutad0t_y_2 + Real(2.0) * strutad1vp_y_2;
+  const Real strutad0b_x_2 = strutad1vp_x_2 + strutad0v_x_2;
+  const Real strutad0b_y_2 = strutad1vp_y_2 + strutad0v_y_2;
   const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
-  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t369 - Real(0.02) * t370;
-  const Real tie_rodbm1t_y = Real(0.14) * t370 + Real(0.07) * t368;
-  const Real tie_rodbm1t_z = Real(0.14) * t369 + Real(0.02) * t368;
+  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 - (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
+  const Real tie_rodbm1t_x = Real(0.07) * t350 - Real(0.02) * t351;
+  const Real tie_rodbm1t_y = Real(0.14) * t351 + Real(0.07) * t349;
+  const Real tie_rodbm1t_z = Real(0.14) * t350 + Real(0.02) * t349;
   const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
   const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
@@ -2240,26 +2277,26 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
   const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
   const Real derivative_2 = c * model.c3;
-  const Real tie_rodbm1a_x = t369 * tie_rodbm1t_z + t370 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t368 * tie_rodbm1t_z - t370 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t368 * tie_rodbm1t_y + t369 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_x = t350 * tie_rodbm1t_z + t351 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z - t351 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y + t350 * tie_rodbm1t_x;
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
-  const Real tie_rodbm0b_y = tie_rodbm0t_y + Real(2.0) * tie_rodbm1vp_y;
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
   const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
       tie_rodbm1app_x));
-  const Real t702 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t314 * bias_strut + (strutd_z * strutad0a_y_2 + (strutd_y * strutad0a_x_2 -
-      (strutd_x * strutad1app_z_2 - (strutad1_y_2 * strutam0a_y - (strutad1p_z_2 * strutam1app_z -
+  const Real t676 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
+      * strutad0v_x_2)) - (t295 * bias_strut - (strutd_z * strutad0a_y_2 - (strutd_y * strutad0a_x_2 -
+      (strutd_x * strutad1app_z_2 + (strutad1_y_2 * strutam0a_y + (strutad1p_z_2 * strutam1app_z -
       strutad1_x_2 * strutam0a_x))))));
-  const Real t713 = t338 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y
-      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) - (t327 * bias_strut + t333 * t702));
-  const Real t716 = t332 * (t702 + t326 * t713);
-  const Real t721 = t313 * (struts0am_z_2 * t713 - (bias_strut + struts0am_x * t716));
+  const Real t687 = t319 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
+      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
+      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t308 * bias_strut + t314 * t676));
+  const Real t690 = t313 * (t676 - t307 * t687);
+  const Real t695 = t294 * (struts0am_z_2 * t687 + (bias_strut + struts0am_x * t690));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -2269,10 +2306,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
   const Real p_1_1f_y = q1r2_z * Real(1.14) + q1r2_y * Real(6.08);
   const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + (q1r1_x * Real(0.1216) + q1r2_x *
-      Real(2.0672)));
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - (q1r1_x * Real(0.0228) + q1r2_x *
-      Real(0.3876)));
+  const Real t748 = q1r1_x * Real(0.1216) + q1r2_x * Real(2.0672);
+  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + t748);
+  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - t748 * Real(0.1875));
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
@@ -2303,8 +2339,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real push1_2 = Real(0.01) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_x;
   const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
   const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (Real(0.21) - input.u[0])) +
-      Real(0.3275);
+  const Real expression_4 = c0 * wheel_centerx1p_y - (input.u[0] + s0 * wheel_centerx1p_x) -
+      Real(0.11750000000000002);
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -2326,64 +2362,64 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.6499999999999999) * w1p_x;
   const Real rK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real rK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
-  const Real t954 = w1p_y * rK1_z;
-  const Real t955 = w1p_z * rK1_y;
-  const Real t957 = w1p_x * rK1_z;
-  const Real t958 = w1p_z * rK1_x;
-  const Real t960 = w1p_x * rK1_y;
-  const Real t961 = w1p_y * rK1_x;
-  const Real ru1_x = t368 - Real(2.0) * w1p_x;
-  const Real ru1_y = t369 - Real(2.0) * w1p_y;
-  const Real ru1_z = t370 + Real(2.0) * w1p_z;
+  const Real t921 = w1p_y * rK1_z;
+  const Real t922 = w1p_z * rK1_y;
+  const Real t924 = w1p_x * rK1_z;
+  const Real t925 = w1p_z * rK1_x;
+  const Real t927 = w1p_x * rK1_y;
+  const Real t928 = w1p_y * rK1_x;
+  const Real ru1_x = t349 - Real(2.0) * w1p_x;
+  const Real ru1_y = t350 - Real(2.0) * w1p_y;
+  const Real ru1_z = t351 + Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.6499999999999999) * ru1_x;
   const Real rSu1_y = Real(0.1824) * ru1_z - Real(0.3842000000000001) * ru1_y;
   const Real rSu1_z = Real(2.2228) * ru1_z - Real(0.1824) * ru1_y;
   const Real ruh1 = Real(1.14) * ru1_y - Real(6.08) * ru1_z;
-  const Real ruw1 = t370 * ru1_z + (t368 * ru1_x + t369 * ru1_y);
-  const Real t993 = t369 * rSu1_z;
-  const Real t994 = t370 * rSu1_y;
-  const Real t997 = t368 * rSu1_z;
-  const Real t998 = t370 * rSu1_x;
-  const Real t1001 = t368 * rSu1_y;
-  const Real t1002 = t369 * rSu1_x;
-  const Real ref1_x = t368 * ruh1 + (t721 * Real(6.08) + (tyre_forcef1_x + t713 * Real(1.14)));
-  const Real ref1_y = t369 * ruh1 + (t716 * Real(6.08) + (tyre_forcef1_y - Real(1.14) * ruw1));
-  const Real ref1_z = t370 * ruh1 + (Real(6.08) * ruw1 + (tyre_forcef1_z + t716 * Real(1.14)));
-  const Real ren1_x = t994 + (t993 - (tyre_forcem_x + t716 * Real(2.607)));
-  const Real ren1_y = t998 - (t997 - (t713 * Real(0.1824) + (tyre_forcem_y + t721 * Real(2.8728))));
-  const Real ren1_z = t1002 + (t1001 - (t721 * Real(0.1824) - (tyre_forcem_z - t713 * Real(1.0342))));
+  const Real ruw1 = t351 * ru1_z + (t349 * ru1_x + t350 * ru1_y);
+  const Real t960 = t350 * rSu1_z;
+  const Real t961 = t351 * rSu1_y;
+  const Real t964 = t349 * rSu1_z;
+  const Real t965 = t351 * rSu1_x;
+  const Real t968 = t349 * rSu1_y;
+  const Real t969 = t350 * rSu1_x;
+  const Real ref1_x = t349 * ruh1 - (t695 * Real(6.08) + (tyre_forcef1_x + t687 * Real(1.14)));
+  const Real ref1_y = t350 * ruh1 + (t690 * Real(6.08) - (tyre_forcef1_y + Real(1.14) * ruw1));
+  const Real ref1_z = t351 * ruh1 + (Real(6.08) * ruw1 - (tyre_forcef1_z - t690 * Real(1.14)));
+  const Real ren1_x = t961 + (t960 + (tyre_forcem_x - t690 * Real(2.607)));
+  const Real ren1_y = t965 - (t964 + (t687 * Real(0.1824) + (tyre_forcem_y + t695 * Real(2.8728))));
+  const Real ren1_z = t969 + (t968 + (t695 * Real(0.1824) - (tyre_forcem_z - t687 * Real(1.0342))));
   const Real rf1p_x = q1r1_z * ref1_z + (q1r1_x * ref1_x + q1r1_y * ref1_y);
   const Real rf1p_y = q1r2_z * ref1_z - (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real tau_1_0 = ren1_x + (t955 - (t954 - (Real(6.08) * ra1_y + (push1_0 + Real(1.14) * ra1_z))));
-  const Real tau_1_1 = ren1_y - (t958 - (t957 - (push1_1 + Real(6.08) * ra1_x)));
-  const Real tau_1_2 = ren1_z + (t961 - (t960 + (push1_2 - Real(1.14) * ra1_x)));
-  const Real t1064 = Real(1.0) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (t351 *
-      (p_1_1n_z + (p_1_1n_z - t351 * Real(2.607))) - (t348 * (t348 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z -
-      t356 * Real(0.1824)))) + (t356 * (t348 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t356 * Real(2.8728)))) -
-      (h1at1_y * Real(0.04) - (q1r2_z * S1at1r1_z - (q1r2_y * S1at1r1_y + (h1at1_x * Real(0.68) + (q1r1_y *
-      S1at1r0_y - q1r1_z * S1at1r0_z))))))) - Real(0.0202) - Real(4.592300000000001))) * (t348 * tau_1_2 -
-      (t356 * tau_1_1 + (t351 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x + (q1r0_z * ren1_z +
-      (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x * spring_damperf_z - strutax1_y *
-      spring_damperf_y))))))))));
-  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t1064;
-  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t1064;
+  const Real tau_1_0 = ren1_x + (t922 - (t921 - (Real(6.08) * ra1_y + (push1_0 + Real(1.14) * ra1_z))));
+  const Real tau_1_1 = ren1_y - (t925 - (t924 - (push1_1 + Real(6.08) * ra1_x)));
+  const Real tau_1_2 = ren1_z + (t928 - (t927 + (push1_2 - Real(1.14) * ra1_x)));
+  const Real t1031 = (t329 * tau_1_2 - (t337 * tau_1_1 + (t332 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02)
+      * rf1p_x + (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x *
+      spring_damperf_z - strutax1_y * spring_damperf_y)))))))))) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) *
+      Real(0.6499999999999999) - (q1r1_y * S1at1r0_y - (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y *
+      S1at1r1_y - (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t337 * (t329 * Real(0.1824) + (p_2_1n_z +
+      (p_2_1n_z + t337 * Real(2.8728)))) + (t329 * (t329 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t337 *
+      Real(0.1824)))) - t332 * (p_1_1n_z + (p_1_1n_z - t332 * Real(2.607)))))))))) -
+      Real(4.612500000000001)));
+  const Real ra1o_x_2 = ra1o_x + Real(0.02) * t1031;
+  const Real ra1o_y_2 = ra1o_y + Real(0.34) * t1031;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real t1084 = t713 + t1064 * (q1r0_z + t348);
-  const Real t1088 = t721 - t1064 * (q1r0_y - t356);
-  const Real tau_1_1_2 = Real(2.8728) * t1088 + (Real(0.1824) * t1084 - (t997 - (t998 + (tyre_forcem_y -
-      (Real(6.08) * ra1_x_2 - (t957 - (push1_1 + t958)))))));
-  const Real t1098 = t313 * tau_1_1_2;
-  const Real t1113 = t332 * (Real(2.607) * (t716 + t1064 * (q1r0_x - t351)) - (struts0am_x * t1098 + (t993 +
-      (t994 - (tyre_forcem_x - (Real(6.08) * ra1_y_2 + (Real(1.14) * ra1_z_2 - (t954 - (push1_0 +
-      t955)))))))));
-  const Real t1128 = t338 * (Real(1.0342) * t1084 + (Real(0.1824) * t1088 + (t326 * t1113 + (struts0am_z_2 *
-      t1098 - (t1001 + (t1002 + (tyre_forcem_z + (Real(1.14) * ra1_x_2 - (t960 + (push1_2 - t961))))))))));
-  const Real t1130 = t1113 - t333 * t1128;
-  lambda[0] = t327 * t1128 + (t1098 + t314 * t1130);
-  lambda[1] = t1130;
-  lambda[2] = -t1128;
+  const Real t1051 = t687 - t1031 * (q1r0_z + t329);
+  const Real t1055 = t695 + t1031 * (q1r0_y - t337);
+  const Real tau_1_1_2 = Real(2.8728) * t1055 + (Real(0.1824) * t1051 + (t964 - (t965 - (tyre_forcem_y +
+      (Real(6.08) * ra1_x_2 - (t924 - (push1_1 + t925)))))));
+  const Real t1065 = t294 * tau_1_1_2;
+  const Real t1080 = t313 * (Real(2.607) * (t690 + t1031 * (q1r0_x - t332)) + (struts0am_x * t1065 - (t960 +
+      (t961 + (tyre_forcem_x + (Real(6.08) * ra1_y_2 + (Real(1.14) * ra1_z_2 - (t921 - (push1_0 +
+      t922)))))))));
+  const Real t1095 = t319 * (Real(1.0342) * t1051 + (Real(0.1824) * t1055 - (t307 * t1080 - (struts0am_z_2 *
+      t1065 + (t968 + (t969 - (tyre_forcem_z - (Real(1.14) * ra1_x_2 - (t927 + (push1_2 - t928))))))))));
+  const Real t1097 = t1080 + t314 * t1095;
+  lambda[0] = -(t308 * t1095 + (t1065 - t295 * t1097));
+  lambda[1] = t1097;
+  lambda[2] = t1095;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -142,7 +142,7 @@ template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 26 operations (14 mul, 12 add and sub, 0 div), 8 sin and cos.
+/// 6 operations (2 mul, 4 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[5][5]) noexcept;
 
@@ -160,7 +160,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.
-/// 361 operations (212 mul, 143 add and sub, 6 div), 10 sin and cos.
+/// 352 operations (205 mul, 141 add and sub, 6 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[5]) noexcept;
@@ -168,13 +168,13 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// The loops' forces -G^T lambda count as missing.
-/// 99 operations (56 mul, 43 add and sub, 0 div), 9 sin and cos.
+/// 89 operations (52 mul, 37 add and sub, 0 div), 9 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[5], Real
     (&tau)[5]) noexcept;
 
 /// Kinetic energy, J.
-/// 62 operations (41 mul, 21 add and sub, 0 div), 8 sin and cos.
+/// 49 operations (33 mul, 16 add and sub, 0 div), 8 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -191,27 +191,27 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Moves positions and velocities to the nearest ones that the loops allow, to first order.
 /// Call it after changing a state, several times where that was far; steps end with it.
-/// 346 operations (198 mul, 141 add and sub, 7 div), 24 sin and cos.
+/// 337 operations (194 mul, 136 add and sub, 7 div), 24 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void project(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 43 operations (20 mul, 23 add and sub, 0 div), 10 sin and cos.
+/// 42 operations (20 mul, 22 add and sub, 0 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 327 operations (192 mul, 129 add and sub, 6 div), 10 sin and cos.
+/// 318 operations (185 mul, 127 add and sub, 6 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 1912 operations.
+/// 1867 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

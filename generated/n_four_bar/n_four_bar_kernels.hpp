@@ -9,12 +9,135 @@ namespace n_four_bar {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[5]) noexcept {
@@ -70,24 +254,12 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[5][5]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
-  const Real s3 = c2 * t16 + s2 * t17;
-  const Real c3 = s2 * t16 - c2 * t17;
-  const Real D3 = (c2 * s3 + s2 * c3) * Real(0.5);
-  const Real E3 = D3 + Real(0.3333333333333333);
-  const Real J2 = D3 + E3 + Real(1.3333333333333333);
-  const Real D1 = Real(0.5) * (c0 * s1 + s0 * c1);
-  const Real E1 = Real(0.3333333333333333) + D1;
-  const Real J0 = E1 + (Real(1.3333333333333333) + D1);
+  const Real t1 = detail::sine(state.y[1]);
+  const Real t3 = detail::sine(state.y[3]);
+  const Real E3 = t3 * Real(0.5) + Real(0.3333333333333333);
+  const Real J2 = t3 + Real(1.6666666666666667);
+  const Real E1 = Real(0.3333333333333333) + t1 * Real(0.5);
+  const Real J0 = t1 + Real(1.6666666666666667);
   M[0][0] = J0;
   M[0][1] = M[1][0] = E1;
   M[0][2] = M[2][0] = Real(0.0);
@@ -107,16 +279,10 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[5][5]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[5]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, t16, t17;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 + s2 * t17;
   const Real c3 = s2 * t16 - c2 * t17;
   const Real h3b_x = c3 * Real(0.5);
@@ -150,15 +316,9 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[5]) noexcept 
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&q)[5]) noexcept {
-  Real s0, t3;
-  detail::sine_cosine(state.y[0], s0, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, t3, t4, t5, s2, t12, t13, t14;
+  detail::sine_cosine4(state.y[0], s0, t3, state.y[1], t4, t5, state.y[2], s2, t12, state.y[3], t13, t14);
   const Real c1 = s0 * t4 - t3 * t5;
-  Real s2, t12;
-  detail::sine_cosine(state.y[2], s2, t12);
-  Real t13, t14;
-  detail::sine_cosine(state.y[3], t13, t14);
   const Real c3 = s2 * t13 - t12 * t14;
   const Real s4 = detail::sine(state.y[4]);
   const Real h3b_x = c3 * Real(0.5);
@@ -182,67 +342,61 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Rea
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[5])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, t16, t17;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 + s2 * t17;
   const Real c3 = s2 * t16 - c2 * t17;
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
-  const Real D3 = c2 * h3b_y + s2 * h3b_x;
+  const Real D3 = t16 * Real(0.5);
   const Real E3 = D3 + Real(0.3333333333333333);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_y + s0 * h1b_x;
+  const Real D1 = t4 * Real(0.5);
   const Real E1 = Real(0.3333333333333333) + D1;
-  const Real t47 = E3 * Real(3.0);
-  const Real t54 = Real(1.0) / (E3 + (D3 - E3 * t47) + Real(1.3333333333333333));
-  const Real t55 = E1 * Real(3.0);
-  const Real t60 = Real(1.0) / (Real(1.3333333333333333) + (D1 + (E1 - E1 * t55)));
-  const Real t63 = s1 + (c0 - s1 * t55);
-  const Real t66 = c1 + (s0 - c1 * t55);
-  const Real t69 = s3 + (c2 - s3 * t47);
-  const Real t72 = c3 + (s2 - c3 * t47);
-  const Real t79 = t60 * t66;
-  const Real t80 = c1 * Real(3.0);
-  const Real t81 = s2 * t54;
-  const Real t86 = s1 * t80 + (t63 * t79 + c2 * t81);
-  const Real t90 = t54 * t69;
-  const Real t91 = c2 * t90;
-  const Real t96 = t54 * t72;
-  const Real t97 = c3 * Real(3.0);
-  const Real t98 = s4 * Real(3.0);
-  const Real t99 = c2 * t96;
-  const Real t111 = Real(1.0) / (t63 * (t60 * t63) + (Real(3.0) * (s1 * s1) + c2 * (c2 * t54)) +
+  const Real t43 = E3 * Real(3.0);
+  const Real t50 = Real(1.0) / (E3 + (D3 - E3 * t43) + Real(1.3333333333333333));
+  const Real t51 = E1 * Real(3.0);
+  const Real t56 = Real(1.0) / (Real(1.3333333333333333) + (D1 + (E1 - E1 * t51)));
+  const Real t59 = s1 + (c0 - s1 * t51);
+  const Real t62 = c1 + (s0 - c1 * t51);
+  const Real t65 = s3 + (c2 - s3 * t43);
+  const Real t68 = c3 + (s2 - c3 * t43);
+  const Real t75 = t56 * t62;
+  const Real t76 = c1 * Real(3.0);
+  const Real t77 = s2 * t50;
+  const Real t82 = s1 * t76 + (t59 * t75 + c2 * t77);
+  const Real t86 = t50 * t65;
+  const Real t87 = c2 * t86;
+  const Real t92 = t50 * t68;
+  const Real t93 = c3 * Real(3.0);
+  const Real t94 = s4 * Real(3.0);
+  const Real t95 = c2 * t92;
+  const Real t107 = Real(1.0) / (t59 * (t56 * t59) + (Real(3.0) * (s1 * s1) + c2 * (c2 * t50)) +
       Real(3.75e-07));
-  const Real t112 = t86 * t111;
-  const Real t118 = t91 * t111;
-  const Real t120 = s2 * t90 - t86 * t118;
-  const Real t122 = t99 * t111;
-  const Real t124 = s2 * t96 - t86 * t122;
-  const Real t127 = Real(1.0) / (Real(3.75e-07) + (t66 * t79 + (c1 * t80 + (s2 * t81 - t86 * t112))));
-  const Real t128 = t120 * t127;
-  const Real t136 = t124 * t127;
-  const Real t141 = s3 * t97 + (t69 * t96 + (c4 * t98 - (t91 * t122 + t120 * t136)));
-  const Real t143 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) + (Real(3.75e-07) + (t69 * t90 - (t91 * t118
-      + t120 * t128))));
-  const Real t144 = t141 * t143;
-  const Real t152 = Real(1.0) / (Real(3.75e-07) + (t72 * t96 + (c3 * t97 + (s4 * t98 - (t99 * t122 + (t124 *
-      t136 + t141 * t144))))));
+  const Real t108 = t82 * t107;
+  const Real t114 = t87 * t107;
+  const Real t116 = s2 * t86 - t82 * t114;
+  const Real t118 = t95 * t107;
+  const Real t120 = s2 * t92 - t82 * t118;
+  const Real t123 = Real(1.0) / (Real(3.75e-07) + (t62 * t75 + (c1 * t76 + (s2 * t77 - t82 * t108))));
+  const Real t124 = t116 * t123;
+  const Real t132 = t120 * t123;
+  const Real t137 = s3 * t93 + (t65 * t92 + (c4 * t94 - (t87 * t118 + t116 * t132)));
+  const Real t139 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) + (Real(3.75e-07) + (t65 * t86 - (t87 * t114
+      + t116 * t124))));
+  const Real t140 = t137 * t139;
+  const Real t148 = Real(1.0) / (Real(3.75e-07) + (t68 * t92 + (c3 * t93 + (s4 * t94 - (t95 * t118 + (t120 *
+      t132 + t137 * t140))))));
   const Real w1_z = state.z[0] + state.z[1];
-  const Real t160 = s1 * w1_z;
-  const Real t164 = state.z[2] * (c2 * state.z[2]);
+  const Real t155 = s1 * w1_z;
+  const Real t159 = state.z[2] * (c2 * state.z[2]);
   const Real w3_z = state.z[2] + state.z[3];
-  const Real t170 = state.z[2] * (s2 * state.z[2]);
+  const Real t165 = state.z[2] * (s2 * state.z[2]);
   const Real h2b_x = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h0b_x = s0 * Real(1.5);
@@ -256,90 +410,75 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real rdf1_x = h1b_x * zw_1;
   const Real rdf1_y = h1b_y * zw_1;
   const Real rQp2 = h2_x * Real(9.81);
-  const Real rW2w22 = state.z[2] * state.z[2];
-  const Real ra3o_x = s2 * rW2w22;
-  const Real ra3o_y = Real(9.81) - c2 * rW2w22;
-  const Real rQp3 = h3b_x * ra3o_y + h3b_y * ra3o_x;
+  const Real ra3o_y = t159 - Real(9.81);
+  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t165;
   const Real zw_3 = state.z[3] * (state.z[2] + w3_z);
   const Real rdf3_x = h3b_x * zw_3;
   const Real rdf3_y = h3b_y * zw_3;
   const Real rQp4 = s4 * Real(4.905);
-  const Real t213 = c2 * rdf3_x + (rQp2 - (s2 * rdf3_y + t47 * rQp3));
-  const Real t217 = c0 * rdf1_x + (rQp0 - (s0 * rdf1_y + t55 * rQp1));
-  const Real t218 = t60 * t217;
-  const Real t219 = Real(3.0) * rQp1;
-  const Real t220 = t54 * t213;
-  const Real t221 = Real(3.0) * rQp3;
-  const Real t222 = Real(3.0) * rQp4;
-  const Real t239 = w1_z * (c1 * w1_z) - (t170 - (state.z[0] * (s0 * state.z[0]) - (t63 * t218 + (s1 * t219 -
-      c2 * t220))));
-  const Real t246 = t164 - (state.z[1] * t160 + (state.z[0] * (c0 * state.z[0] + t160) + (t66 * t218 + (c1 *
-      t219 - (s2 * t220 - t112 * t239)))));
-  const Real t257 = t170 - (state.z[4] * (s4 * state.z[4]) + (t69 * t220 + (s3 * t221 - (c4 * t222 + (t118 *
-      t239 + (t128 * t246 + w3_z * (c3 * w3_z)))))));
-  const Real t272 = t152 * (state.z[4] * (c4 * state.z[4]) - (t164 + (t72 * t220 + (c3 * t221 - (s4 * t222 +
-      (t122 * t239 + (t136 * t246 - (t144 * t257 + w3_z * (s3 * w3_z)))))))));
-  const Real t274 = t143 * t257 - t144 * t272;
-  const Real t278 = t128 * t274 + (t127 * t246 + t136 * t272);
-  const Real t284 = t112 * t278 - (t111 * t239 + (t118 * t274 + t122 * t272));
-  const Real t285 = Real(3.75e-07) * t284;
-  const Real t290 = Real(3.75e-07) * t278 + t112 * t285;
-  const Real t295 = t118 * t285 - (Real(3.75e-07) * t274 + t128 * t290);
-  const Real t304 = t152 * (t122 * t285 - (Real(3.75e-07) * t272 + (t136 * t290 + t144 * t295)));
-  const Real t306 = t143 * t295 - t144 * t304;
-  const Real t310 = t128 * t306 - (t127 * t290 - t136 * t304);
-  const Real t316 = t112 * t310 - (t111 * t285 + (t118 * t306 + t122 * t304));
-  const Real t317 = Real(3.75e-07) * t316;
-  const Real t322 = Real(3.75e-07) * t310 + t112 * t317;
-  const Real t327 = t118 * t317 - (Real(3.75e-07) * t306 + t128 * t322);
-  const Real t336 = t152 * (t122 * t317 - (Real(3.75e-07) * t304 + (t136 * t322 + t144 * t327)));
-  const Real t338 = t143 * t327 - t144 * t336;
-  const Real t342 = t128 * t338 - (t127 * t322 - t136 * t336);
-  const Real t350 = t316 - (t284 - (t111 * t317 - (t112 * t342 - (t118 * t338 + t122 * t336))));
-  const Real t352 = t310 - (t278 + t342);
-  const Real t354 = t306 - (t274 + t338);
-  const Real t356 = t304 - (t272 + t336);
-  const Real t381 = t60 * (t63 * t350 + (t217 - t66 * t352));
-  const Real t385 = t54 * (c2 * t350 - (t213 + (s2 * t352 - (t69 * t354 + t72 * t356))));
-  zdot[0] = t381;
-  zdot[1] = Real(3.0) * (s1 * t350 + (rQp1 - c1 * t352)) - t55 * t381;
-  zdot[2] = -t385;
-  zdot[3] = -(Real(3.0) * (s3 * t354 - (rQp3 - c3 * t356)) - t47 * t385);
-  zdot[4] = Real(3.0) * (c4 * t354 + (rQp4 + s4 * t356));
+  const Real t204 = c2 * rdf3_x + (rQp2 - (s2 * rdf3_y - t43 * rQp3));
+  const Real t208 = c0 * rdf1_x + (rQp0 - (s0 * rdf1_y + t51 * rQp1));
+  const Real t209 = t56 * t208;
+  const Real t210 = Real(3.0) * rQp1;
+  const Real t211 = t50 * t204;
+  const Real t212 = Real(3.0) * rQp3;
+  const Real t213 = Real(3.0) * rQp4;
+  const Real t230 = w1_z * (c1 * w1_z) - (t165 - (ra1o_x - (t59 * t209 + (s1 * t210 - c2 * t211))));
+  const Real t237 = t159 - (state.z[1] * t155 + (state.z[0] * (c0 * state.z[0] + t155) + (t62 * t209 + (c1 *
+      t210 - (s2 * t211 - t108 * t230)))));
+  const Real t248 = t165 - (state.z[4] * (s4 * state.z[4]) + (t65 * t211 - (s3 * t212 + (c4 * t213 + (t114 *
+      t230 + (t124 * t237 + w3_z * (c3 * w3_z)))))));
+  const Real t263 = t148 * (state.z[4] * (c4 * state.z[4]) - (t159 + (t68 * t211 - (c3 * t212 + (s4 * t213 +
+      (t118 * t230 + (t132 * t237 - (t140 * t248 + w3_z * (s3 * w3_z)))))))));
+  const Real t265 = t139 * t248 - t140 * t263;
+  const Real t269 = t124 * t265 + (t123 * t237 + t132 * t263);
+  const Real t275 = t108 * t269 - (t107 * t230 + (t114 * t265 + t118 * t263));
+  const Real t276 = Real(3.75e-07) * t275;
+  const Real t281 = Real(3.75e-07) * t269 + t108 * t276;
+  const Real t286 = t114 * t276 - (Real(3.75e-07) * t265 + t124 * t281);
+  const Real t295 = t148 * (t118 * t276 - (Real(3.75e-07) * t263 + (t132 * t281 + t140 * t286)));
+  const Real t297 = t139 * t286 - t140 * t295;
+  const Real t301 = t124 * t297 - (t123 * t281 - t132 * t295);
+  const Real t307 = t108 * t301 - (t107 * t276 + (t114 * t297 + t118 * t295));
+  const Real t308 = Real(3.75e-07) * t307;
+  const Real t313 = Real(3.75e-07) * t301 + t108 * t308;
+  const Real t318 = t114 * t308 - (Real(3.75e-07) * t297 + t124 * t313);
+  const Real t327 = t148 * (t118 * t308 - (Real(3.75e-07) * t295 + (t132 * t313 + t140 * t318)));
+  const Real t329 = t139 * t318 - t140 * t327;
+  const Real t333 = t124 * t329 - (t123 * t313 - t132 * t327);
+  const Real t341 = t307 - (t275 - (t107 * t308 - (t108 * t333 - (t114 * t329 + t118 * t327))));
+  const Real t343 = t301 - (t269 + t333);
+  const Real t345 = t297 - (t265 + t329);
+  const Real t347 = t295 - (t263 + t327);
+  const Real t372 = t56 * (t59 * t341 + (t208 - t62 * t343));
+  const Real t376 = t50 * (c2 * t341 - (t204 + (s2 * t343 - (t65 * t345 + t68 * t347))));
+  zdot[0] = t372;
+  zdot[1] = Real(3.0) * (s1 * t341 + (rQp1 - c1 * t343)) - t51 * t372;
+  zdot[2] = -t376;
+  zdot[3] = -(Real(3.0) * (s3 * t345 + (rQp3 + c3 * t347)) - t43 * t376);
+  zdot[4] = Real(3.0) * (c4 * t345 + (rQp4 + s4 * t347));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[5], Real (&tau)[5])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, t16, t17;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 + s2 * t17;
   const Real c3 = s2 * t16 - c2 * t17;
   const Real s4 = detail::sine(state.y[4]);
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
-  const Real D3 = c2 * h3b_y + s2 * h3b_x;
-  const Real E3 = D3 + Real(0.3333333333333333);
-  const Real Jc3 = D3 + E3;
   const Real h2b_x = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
-  const Real J2 = Jc3 + Real(1.3333333333333333);
+  const Real J2 = t16 + Real(1.6666666666666667);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_y + s0 * h1b_x;
-  const Real E1 = Real(0.3333333333333333) + D1;
-  const Real Jc1 = D1 + E1;
   const Real h0b_x = s0 * Real(1.5);
   const Real h0_x = h1b_x + h0b_x;
-  const Real J0 = Real(1.3333333333333333) + Jc1;
+  const Real J0 = t4 + Real(1.6666666666666667);
   const Real w1_z = state.z[0] + state.z[1];
   const Real w3_z = state.z[2] + state.z[3];
   const Real aQp0 = h0_x * Real(9.81);
@@ -380,55 +519,34 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, t16, t17;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 + s2 * t17;
   const Real c3 = s2 * t16 - c2 * t17;
-  const Real h3b_x = c3 * Real(0.5);
-  const Real h3b_y = s3 * Real(0.5);
-  const Real D3 = c2 * h3b_y + s2 * h3b_x;
-  const Real J2 = D3 + (D3 + Real(1.6666666666666667));
-  const Real h1b_x = c1 * Real(0.5);
-  const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_y + s0 * h1b_x;
-  const Real J0 = D1 + (D1 + Real(0.3333333333333333) + Real(1.3333333333333333));
+  const Real J2 = t16 + Real(1.6666666666666667);
+  const Real J0 = t4 + Real(1.6666666666666667);
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = c0 * state.z[0];
   const Real v1o_y = s0 * state.z[0];
-  const Real v1P_x = state.z[1] * h1b_y;
-  const Real v1P_y = state.z[1] * h1b_x;
   const Real v1L_z = state.z[1] * Real(0.3333333333333333);
   const Real v2L_z = state.z[2] * J2;
   const Real v3o_x = c2 * state.z[2];
   const Real v3o_y = s2 * state.z[2];
-  const Real v3P_x = state.z[3] * h3b_y;
-  const Real v3P_y = state.z[3] * h3b_x;
   const Real v3L_z = state.z[3] * Real(0.3333333333333333);
-  const Real T4 = v1o_x * v1P_x + (state.z[0] * v1L_z + (v1o_y * v1P_y + (state.z[2] * v3L_z + (v3o_x * v3P_x
-      + (v3o_y * v3P_y + Real(0.5) * (state.z[3] * v3L_z + (state.z[1] * v1L_z + (state.z[0] * v0L_z +
-      (state.z[2] * v2L_z + Real(0.3333333333333333) * (state.z[4] * state.z[4]))))))))));
+  const Real T4 = (Real(0.3333333333333333) * (state.z[4] * state.z[4]) + (state.z[2] * v2L_z + (state.z[0] *
+      v0L_z + (state.z[1] * v1L_z + state.z[3] * v3L_z))) + (v3o_y * (c3 * state.z[3]) + (v3o_x * (s3 *
+      state.z[3]) + (v1o_x * (s1 * state.z[1]) + v1o_y * (c1 * state.z[1]))))) * Real(0.5) + (state.z[0] *
+      v1L_z + state.z[2] * v3L_z);
   return T4;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real t4, c0;
-  detail::sine_cosine(state.y[0], t4, c0);
-  Real t5, t6;
-  detail::sine_cosine(state.y[1], t5, t6);
+  Real t4, c0, t5, t6, t13, c2, t14, t15;
+  detail::sine_cosine4(state.y[0], t4, c0, state.y[1], t5, t6, state.y[2], t13, c2, state.y[3], t14, t15);
   const Real s1 = c0 * t5 + t4 * t6;
-  Real t13, c2;
-  detail::sine_cosine(state.y[2], t13, c2);
-  Real t14, t15;
-  detail::sine_cosine(state.y[3], t14, t15);
   const Real s3 = c2 * t14 + t13 * t15;
   const Real c4 = detail::cosine(state.y[4]);
   const Real hg4_y = (s1 + (s3 + c4)) * Real(0.5) + (c0 + c2) * Real(1.5);
@@ -478,152 +596,142 @@ void project(const Model<Real>&, State<Real>& state) noexcept {
   detail::sine_cosine(state.y[4], s4, c4);
   const Real pin2bx3_x = s2 + c3;
   const Real pin2bx3_y = c2 + s3;
-  const Real D3 = (c2 * s3 + s2 * c3) * Real(0.5);
-  const Real E3 = D3 + Real(0.3333333333333333);
-  const Real D1 = Real(0.5) * (c0 * s1 + s0 * c1);
-  const Real E1 = Real(0.3333333333333333) + D1;
-  const Real t47 = E3 * Real(3.0);
-  const Real t53 = Real(1.0) / (E3 * t47 - (D3 + E3 + Real(1.3333333333333333)));
-  const Real t54 = E1 * Real(3.0);
-  const Real t59 = Real(1.0) / (E1 * t54 - (E1 + (D1 + Real(1.3333333333333333))));
-  const Real t61 = pin1bx1_y - s1 * t54;
-  const Real t63 = pin1bx1_x - c1 * t54;
-  const Real t65 = pin2bx3_y - s3 * t47;
-  const Real t67 = pin2bx3_x - c3 * t47;
-  const Real t74 = t59 * t63;
-  const Real t75 = c1 * Real(3.0);
-  const Real t76 = s2 * t53;
-  const Real t81 = c2 * t76 + (t61 * t74 - s1 * t75);
-  const Real t85 = t53 * t65;
-  const Real t86 = c2 * t85;
-  const Real t91 = t53 * t67;
-  const Real t92 = c3 * Real(3.0);
-  const Real t93 = s4 * Real(3.0);
-  const Real t94 = c2 * t91;
-  const Real t106 = Real(1.0) / (c2 * (c2 * t53) + (t61 * (t59 * t61) - Real(3.0) * (s1 * s1)) -
+  const Real E3 = t21 * Real(0.5) + Real(0.3333333333333333);
+  const Real E1 = Real(0.3333333333333333) + t4 * Real(0.5);
+  const Real t41 = E3 * Real(3.0);
+  const Real t46 = Real(1.0) / (E3 * t41 - (t21 + Real(1.6666666666666667)));
+  const Real t47 = E1 * Real(3.0);
+  const Real t51 = Real(1.0) / (E1 * t47 - (t4 + Real(1.6666666666666667)));
+  const Real t53 = pin1bx1_y - s1 * t47;
+  const Real t55 = pin1bx1_x - c1 * t47;
+  const Real t57 = pin2bx3_y - s3 * t41;
+  const Real t59 = pin2bx3_x - c3 * t41;
+  const Real t66 = t51 * t55;
+  const Real t67 = c1 * Real(3.0);
+  const Real t68 = s2 * t46;
+  const Real t73 = c2 * t68 + (t53 * t66 - s1 * t67);
+  const Real t77 = t46 * t57;
+  const Real t78 = c2 * t77;
+  const Real t83 = t46 * t59;
+  const Real t84 = c3 * Real(3.0);
+  const Real t85 = s4 * Real(3.0);
+  const Real t86 = c2 * t83;
+  const Real t98 = Real(1.0) / (c2 * (c2 * t46) + (t53 * (t51 * t53) - Real(3.0) * (s1 * s1)) -
       Real(3.75e-10));
-  const Real t107 = t81 * t106;
-  const Real t113 = t86 * t106;
-  const Real t115 = s2 * t85 - t81 * t113;
-  const Real t117 = t94 * t106;
-  const Real t119 = s2 * t91 - t81 * t117;
-  const Real t122 = Real(1.0) / (t81 * t107 + (Real(3.75e-10) - (s2 * t76 + (t63 * t74 - c1 * t75))));
-  const Real t123 = t115 * t122;
-  const Real t131 = t119 * t122;
-  const Real t136 = t115 * t131 - (t86 * t117 + (c4 * t93 - (t65 * t91 - s3 * t92)));
-  const Real t138 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) - (t115 * t123 - (t86 * t113 - (t65 * t85 -
+  const Real t99 = t73 * t98;
+  const Real t105 = t78 * t98;
+  const Real t107 = s2 * t77 - t73 * t105;
+  const Real t109 = t86 * t98;
+  const Real t111 = s2 * t83 - t73 * t109;
+  const Real t114 = Real(1.0) / (t73 * t99 + (Real(3.75e-10) - (s2 * t68 + (t55 * t66 - c1 * t67))));
+  const Real t115 = t107 * t114;
+  const Real t123 = t111 * t114;
+  const Real t128 = t107 * t123 - (t78 * t109 + (c4 * t85 - (t57 * t83 - s3 * t84)));
+  const Real t130 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) - (t107 * t115 - (t78 * t105 - (t57 * t77 -
       Real(3.75e-10)))));
-  const Real t139 = t136 * t138;
-  const Real t147 = Real(1.0) / (t136 * t139 + (t119 * t131 - (t94 * t117 + (Real(3.75e-10) + (s4 * t93 - (t67
-      * t91 - c3 * t92))))));
-  const Real t150 = pin1d_x * t107 - (c2 - pin1bx1_y);
-  const Real t159 = t123 * t150 + (pin1d_x * t113 + (pin2bx3_x - (Real(1.0) + (s4 - Real(2.0)))));
-  const Real t169 = t147 * (t139 * t159 + (t131 * t150 + (pin1d_x * t117 + (c4 - pin2bx3_y))));
-  const Real t171 = t138 * t159 - t139 * t169;
-  const Real t175 = t131 * t169 - (t122 * t150 + t123 * t171);
-  const Real t181 = t117 * t169 - (t113 * t171 - (pin1d_x * t106 + t107 * t175));
-  const Real t201 = t59 * (t61 * t181 - t63 * t175);
-  const Real t202 = Real(3.0) * (s1 * t181 - c1 * t175);
-  const Real t203 = t54 * t201;
-  const Real t204 = t202 + t203;
-  const Real t205 = t53 * (t67 * t169 - (t65 * t171 + (c2 * t181 - s2 * t175)));
-  const Real t206 = Real(3.0) * (s3 * t171 - c3 * t169);
-  const Real t207 = t47 * t205;
-  const Real t208 = t206 - t207;
-  const Real t209 = Real(3.0) * (c4 * t171 - s4 * t169);
+  const Real t131 = t128 * t130;
+  const Real t139 = Real(1.0) / (t128 * t131 + (t111 * t123 - (t86 * t109 + (Real(3.75e-10) + (s4 * t85 - (t59
+      * t83 - c3 * t84))))));
+  const Real t142 = pin1d_x * t99 - (c2 - pin1bx1_y);
+  const Real t149 = t115 * t142 + (pin1d_x * t105 + (pin2bx3_x + (Real(1.0) - s4)));
+  const Real t159 = t139 * (t131 * t149 + (t123 * t142 + (pin1d_x * t109 + (c4 - pin2bx3_y))));
+  const Real t161 = t130 * t149 - t131 * t159;
+  const Real t165 = t123 * t159 - (t114 * t142 + t115 * t161);
+  const Real t171 = t109 * t159 - (t105 * t161 - (pin1d_x * t98 + t99 * t165));
+  const Real t191 = t51 * (t53 * t171 - t55 * t165);
+  const Real t192 = Real(3.0) * (s1 * t171 - c1 * t165);
+  const Real t193 = t47 * t191;
+  const Real t194 = t192 + t193;
+  const Real t195 = t46 * (t59 * t159 - (t57 * t161 + (c2 * t171 - s2 * t165)));
+  const Real t196 = Real(3.0) * (s3 * t161 - c3 * t159);
+  const Real t197 = t41 * t195;
+  const Real t198 = t196 - t197;
+  const Real t199 = Real(3.0) * (c4 * t161 - s4 * t159);
+  Real t205, t206;
+  detail::sine_cosine(t191, t205, t206);
+  const Real s0_2 = c0 * t205 - s0 * t206;
+  const Real c0_2 = s0 * t205 + c0 * t206;
+  Real t213, t214;
+  detail::sine_cosine(t192, t213, t214);
   Real t215, t216;
-  detail::sine_cosine(t201, t215, t216);
-  const Real s0_2 = c0 * t215 - s0 * t216;
-  const Real c0_2 = s0 * t215 + c0 * t216;
-  Real t223, t224;
-  detail::sine_cosine(t202, t223, t224);
-  Real t225, t226;
-  detail::sine_cosine(t203, t225, t226);
-  const Real t229 = t224 * t225 + t223 * t226;
-  const Real t232 = t223 * t225 - t224 * t226;
-  const Real t235 = t5 * t229 - t4 * t232;
-  const Real t238 = t4 * t229 + t5 * t232;
-  const Real s1_2 = c0_2 * t235 + s0_2 * t238;
-  const Real c1_2 = s0_2 * t235 - c0_2 * t238;
-  Real t245, t246;
-  detail::sine_cosine(t205, t245, t246);
-  const Real s2_2 = c2 * t245 - s2 * t246;
-  const Real c2_2 = s2 * t245 + c2 * t246;
+  detail::sine_cosine(t193, t215, t216);
+  const Real t219 = t214 * t215 + t213 * t216;
+  const Real t222 = t213 * t215 - t214 * t216;
+  const Real t225 = t5 * t219 - t4 * t222;
+  const Real t228 = t4 * t219 + t5 * t222;
+  const Real s1_2 = c0_2 * t225 + s0_2 * t228;
+  const Real c1_2 = s0_2 * t225 - c0_2 * t228;
+  Real t235, t236;
+  detail::sine_cosine(t195, t235, t236);
+  const Real s2_2 = c2 * t235 - s2 * t236;
+  const Real c2_2 = s2 * t235 + c2 * t236;
   const Real pin1bx1_x_2 = s0_2 + c1_2;
   const Real pin1bx1_y_2 = c0_2 + s1_2;
-  Real t255, t256;
-  detail::sine_cosine(t206, t255, t256);
-  Real t257, t258;
-  detail::sine_cosine(t207, t257, t258);
-  const Real t261 = t256 * t257 - t255 * t258;
-  const Real t264 = t255 * t257 + t256 * t258;
-  const Real t267 = t22 * t261 + t21 * t264;
-  const Real t270 = t21 * t261 - t22 * t264;
-  const Real s3_2 = c2_2 * t267 + s2_2 * t270;
-  const Real c3_2 = s2_2 * t267 - c2_2 * t270;
-  Real t277, t278;
-  detail::sine_cosine(t209, t277, t278);
-  const Real s4_2 = c4 * t277 + s4 * t278;
-  const Real c4_2 = s4 * t277 - c4 * t278;
+  Real t245, t246;
+  detail::sine_cosine(t196, t245, t246);
+  Real t247, t248;
+  detail::sine_cosine(t197, t247, t248);
+  const Real t251 = t246 * t247 - t245 * t248;
+  const Real t254 = t245 * t247 + t246 * t248;
+  const Real t257 = t22 * t251 + t21 * t254;
+  const Real t260 = t21 * t251 - t22 * t254;
+  const Real s3_2 = c2_2 * t257 + s2_2 * t260;
+  const Real c3_2 = s2_2 * t257 - c2_2 * t260;
+  Real t267, t268;
+  detail::sine_cosine(t199, t267, t268);
+  const Real s4_2 = c4 * t267 + s4 * t268;
+  const Real c4_2 = s4 * t267 - c4 * t268;
   const Real pin2bx3_x_2 = s2_2 + c3_2;
   const Real pin2bx3_y_2 = c2_2 + s3_2;
-  const Real t294 = c2_2 * state.z[2] - (pin1bx1_y_2 * state.z[0] + s1_2 * state.z[1]);
-  const Real t309 = t107 * t294 + (s2_2 * state.z[2] - (pin1bx1_x_2 * state.z[0] + c1_2 * state.z[1]));
-  const Real t316 = t123 * t309 + (t113 * t294 - (c4_2 * state.z[4] + (pin2bx3_y_2 * state.z[2] + s3_2 *
+  const Real t284 = c2_2 * state.z[2] - (pin1bx1_y_2 * state.z[0] + s1_2 * state.z[1]);
+  const Real t299 = t99 * t284 + (s2_2 * state.z[2] - (pin1bx1_x_2 * state.z[0] + c1_2 * state.z[1]));
+  const Real t306 = t115 * t299 + (t105 * t284 - (c4_2 * state.z[4] + (pin2bx3_y_2 * state.z[2] + s3_2 *
       state.z[3])));
-  const Real t327 = t147 * (t139 * t316 + (t131 * t309 + (t117 * t294 + (s4_2 * state.z[4] + (pin2bx3_x_2 *
+  const Real t317 = t139 * (t131 * t306 + (t123 * t299 + (t109 * t284 + (s4_2 * state.z[4] + (pin2bx3_x_2 *
       state.z[2] + c3_2 * state.z[3])))));
-  const Real t329 = t138 * t316 - t139 * t327;
-  const Real t333 = t131 * t327 - (t122 * t309 + t123 * t329);
-  const Real t339 = t117 * t327 - (t113 * t329 - (t106 * t294 + t107 * t333));
-  const Real t359 = t59 * (t61 * t339 - t63 * t333);
-  const Real t362 = t53 * (t67 * t327 - (t65 * t329 + (c2 * t339 - s2 * t333)));
-  closed.y[0] = state.y[0] - t201;
-  closed.y[1] = state.y[1] + t204;
-  closed.y[2] = state.y[2] - t205;
-  closed.y[3] = state.y[3] - t208;
-  closed.y[4] = state.y[4] + t209;
-  closed.z[0] = state.z[0] + t359;
-  closed.z[1] = -(t54 * t359 - (state.z[1] - Real(3.0) * (s1 * t339 - c1 * t333)));
-  closed.z[2] = state.z[2] + t362;
-  closed.z[3] = -(t47 * t362 - (state.z[3] + Real(3.0) * (s3 * t329 - c3 * t327)));
-  closed.z[4] = state.z[4] - Real(3.0) * (c4 * t329 - s4 * t327);
-  closed.regularity = Real(1.0) / (t147 * (t138 * (t106 * t122))) * Real(0.02194787379972565);
-  closed.opening = t209 * t209 + (t208 * t208 + (t205 * t205 + (t201 * t201 + t204 * t204)));
+  const Real t319 = t130 * t306 - t131 * t317;
+  const Real t323 = t123 * t317 - (t114 * t299 + t115 * t319);
+  const Real t329 = t109 * t317 - (t105 * t319 - (t98 * t284 + t99 * t323));
+  const Real t349 = t51 * (t53 * t329 - t55 * t323);
+  const Real t352 = t46 * (t59 * t317 - (t57 * t319 + (c2 * t329 - s2 * t323)));
+  closed.y[0] = state.y[0] - t191;
+  closed.y[1] = state.y[1] + t194;
+  closed.y[2] = state.y[2] - t195;
+  closed.y[3] = state.y[3] - t198;
+  closed.y[4] = state.y[4] + t199;
+  closed.z[0] = state.z[0] + t349;
+  closed.z[1] = -(t47 * t349 - (state.z[1] - Real(3.0) * (s1 * t329 - c1 * t323)));
+  closed.z[2] = state.z[2] + t352;
+  closed.z[3] = -(t41 * t352 - (state.z[3] + Real(3.0) * (s3 * t319 - c3 * t317)));
+  closed.z[4] = state.z[4] - Real(3.0) * (c4 * t319 - s4 * t317);
+  closed.regularity = Real(1.0) / (t139 * (t130 * (t98 * t114))) * Real(0.02194787379972565);
+  closed.opening = t199 * t199 + (t198 * t198 + (t195 * t195 + (t191 * t191 + t194 * t194)));
   state = closed;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, t22, t23;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t22, t23);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pin1ax2_x = s2 - Real(1.0);
   const Real pin1bx1_x = s0 + c1;
   const Real pin1d_x = pin1ax2_x - pin1bx1_x;
   const Real pin1bx1_y = c0 + s1;
   const Real pin1d_y = c2 - pin1bx1_y;
-  Real t22, t23;
-  detail::sine_cosine(state.y[3], t22, t23);
   const Real s3 = c2 * t22 + s2 * t23;
   const Real c3 = s2 * t22 - c2 * t23;
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
-  const Real pin2ax4_x = s4 - Real(2.0);
   const Real pin2bx3_x = s2 + c3;
-  const Real pin2bx2_x = Real(1.0) - pin2bx3_x;
-  const Real pin2d_x = pin2ax4_x + pin2bx2_x;
+  const Real pin2d_x = Real(1.0) - (s4 - pin2bx3_x);
   const Real pin2bx3_y = c2 + s3;
   const Real pin2d_y = c4 - pin2bx3_y;
   g[0] = pin1d_x;
   g[1] = -pin1d_y;
-  g[2] = pin2d_x;
+  g[2] = -pin2d_x;
   g[3] = -pin2d_y;
   g_rate[0] = -(pin1bx1_y * state.z[0] + s1 * state.z[1] - c2 * state.z[2]);
   g_rate[1] = -(pin1bx1_x * state.z[0] + c1 * state.z[1] - s2 * state.z[2]);
@@ -634,67 +742,61 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&lambda)[4])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, t16, t17;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 + s2 * t17;
   const Real c3 = s2 * t16 - c2 * t17;
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
-  const Real D3 = c2 * h3b_y + s2 * h3b_x;
+  const Real D3 = t16 * Real(0.5);
   const Real E3 = D3 + Real(0.3333333333333333);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_y + s0 * h1b_x;
+  const Real D1 = t4 * Real(0.5);
   const Real E1 = Real(0.3333333333333333) + D1;
-  const Real t47 = E3 * Real(3.0);
-  const Real t54 = Real(1.0) / (E3 + (D3 - E3 * t47) + Real(1.3333333333333333));
-  const Real t55 = E1 * Real(3.0);
-  const Real t60 = Real(1.0) / (Real(1.3333333333333333) + (D1 + (E1 - E1 * t55)));
-  const Real t63 = s1 + (c0 - s1 * t55);
-  const Real t66 = c1 + (s0 - c1 * t55);
-  const Real t69 = s3 + (c2 - s3 * t47);
-  const Real t72 = c3 + (s2 - c3 * t47);
-  const Real t79 = t60 * t66;
-  const Real t80 = c1 * Real(3.0);
-  const Real t81 = s2 * t54;
-  const Real t86 = s1 * t80 + (t63 * t79 + c2 * t81);
-  const Real t90 = t54 * t69;
-  const Real t91 = c2 * t90;
-  const Real t96 = t54 * t72;
-  const Real t97 = c3 * Real(3.0);
-  const Real t98 = s4 * Real(3.0);
-  const Real t99 = c2 * t96;
-  const Real t111 = Real(1.0) / (t63 * (t60 * t63) + (Real(3.0) * (s1 * s1) + c2 * (c2 * t54)) +
+  const Real t43 = E3 * Real(3.0);
+  const Real t50 = Real(1.0) / (E3 + (D3 - E3 * t43) + Real(1.3333333333333333));
+  const Real t51 = E1 * Real(3.0);
+  const Real t56 = Real(1.0) / (Real(1.3333333333333333) + (D1 + (E1 - E1 * t51)));
+  const Real t59 = s1 + (c0 - s1 * t51);
+  const Real t62 = c1 + (s0 - c1 * t51);
+  const Real t65 = s3 + (c2 - s3 * t43);
+  const Real t68 = c3 + (s2 - c3 * t43);
+  const Real t75 = t56 * t62;
+  const Real t76 = c1 * Real(3.0);
+  const Real t77 = s2 * t50;
+  const Real t82 = s1 * t76 + (t59 * t75 + c2 * t77);
+  const Real t86 = t50 * t65;
+  const Real t87 = c2 * t86;
+  const Real t92 = t50 * t68;
+  const Real t93 = c3 * Real(3.0);
+  const Real t94 = s4 * Real(3.0);
+  const Real t95 = c2 * t92;
+  const Real t107 = Real(1.0) / (t59 * (t56 * t59) + (Real(3.0) * (s1 * s1) + c2 * (c2 * t50)) +
       Real(3.75e-07));
-  const Real t112 = t86 * t111;
-  const Real t118 = t91 * t111;
-  const Real t120 = s2 * t90 - t86 * t118;
-  const Real t122 = t99 * t111;
-  const Real t124 = s2 * t96 - t86 * t122;
-  const Real t127 = Real(1.0) / (Real(3.75e-07) + (t66 * t79 + (c1 * t80 + (s2 * t81 - t86 * t112))));
-  const Real t128 = t120 * t127;
-  const Real t136 = t124 * t127;
-  const Real t141 = s3 * t97 + (t69 * t96 + (c4 * t98 - (t91 * t122 + t120 * t136)));
-  const Real t143 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) + (Real(3.75e-07) + (t69 * t90 - (t91 * t118
-      + t120 * t128))));
-  const Real t144 = t141 * t143;
-  const Real t152 = Real(1.0) / (Real(3.75e-07) + (t72 * t96 + (c3 * t97 + (s4 * t98 - (t99 * t122 + (t124 *
-      t136 + t141 * t144))))));
+  const Real t108 = t82 * t107;
+  const Real t114 = t87 * t107;
+  const Real t116 = s2 * t86 - t82 * t114;
+  const Real t118 = t95 * t107;
+  const Real t120 = s2 * t92 - t82 * t118;
+  const Real t123 = Real(1.0) / (Real(3.75e-07) + (t62 * t75 + (c1 * t76 + (s2 * t77 - t82 * t108))));
+  const Real t124 = t116 * t123;
+  const Real t132 = t120 * t123;
+  const Real t137 = s3 * t93 + (t65 * t92 + (c4 * t94 - (t87 * t118 + t116 * t132)));
+  const Real t139 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) + (Real(3.75e-07) + (t65 * t86 - (t87 * t114
+      + t116 * t124))));
+  const Real t140 = t137 * t139;
+  const Real t148 = Real(1.0) / (Real(3.75e-07) + (t68 * t92 + (c3 * t93 + (s4 * t94 - (t95 * t118 + (t120 *
+      t132 + t137 * t140))))));
   const Real w1_z = state.z[0] + state.z[1];
-  const Real t160 = s1 * w1_z;
-  const Real t164 = state.z[2] * (c2 * state.z[2]);
+  const Real t155 = s1 * w1_z;
+  const Real t159 = state.z[2] * (c2 * state.z[2]);
   const Real w3_z = state.z[2] + state.z[3];
-  const Real t170 = state.z[2] * (s2 * state.z[2]);
+  const Real t165 = state.z[2] * (s2 * state.z[2]);
   const Real h2b_x = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h0b_x = s0 * Real(1.5);
@@ -708,46 +810,43 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real rdf1_x = h1b_x * zw_1;
   const Real rdf1_y = h1b_y * zw_1;
   const Real rQp2 = h2_x * Real(9.81);
-  const Real rW2w22 = state.z[2] * state.z[2];
-  const Real ra3o_x = s2 * rW2w22;
-  const Real ra3o_y = Real(9.81) - c2 * rW2w22;
-  const Real rQp3 = h3b_x * ra3o_y + h3b_y * ra3o_x;
+  const Real ra3o_y = t159 - Real(9.81);
+  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t165;
   const Real zw_3 = state.z[3] * (state.z[2] + w3_z);
   const Real rdf3_x = h3b_x * zw_3;
   const Real rdf3_y = h3b_y * zw_3;
-  const Real t216 = t60 * (c0 * rdf1_x + (rQp0 - (s0 * rdf1_y + t55 * rQp1)));
-  const Real t217 = Real(3.0) * rQp1;
-  const Real t218 = t54 * (c2 * rdf3_x + (rQp2 - (s2 * rdf3_y + t47 * rQp3)));
-  const Real t219 = Real(3.0) * rQp3;
-  const Real t221 = s4 * Real(14.715000000000002);
-  const Real t238 = w1_z * (c1 * w1_z) - (t170 - (state.z[0] * (s0 * state.z[0]) - (t63 * t216 + (s1 * t217 -
-      c2 * t218))));
-  const Real t245 = t164 - (state.z[1] * t160 + (state.z[0] * (c0 * state.z[0] + t160) + (t66 * t216 + (c1 *
-      t217 - (s2 * t218 - t112 * t238)))));
-  const Real t256 = t170 - (state.z[4] * (s4 * state.z[4]) + (t69 * t218 + (s3 * t219 - (c4 * t221 + (t118 *
-      t238 + (t128 * t245 + w3_z * (c3 * w3_z)))))));
-  const Real t271 = t152 * (state.z[4] * (c4 * state.z[4]) - (t164 + (t72 * t218 + (c3 * t219 - (s4 * t221 +
-      (t122 * t238 + (t136 * t245 - (t144 * t256 + w3_z * (s3 * w3_z)))))))));
-  const Real t273 = t143 * t256 - t144 * t271;
-  const Real t277 = t128 * t273 + (t127 * t245 + t136 * t271);
-  const Real t283 = t112 * t277 - (t111 * t238 + (t118 * t273 + t122 * t271));
-  const Real t284 = Real(3.75e-07) * t283;
-  const Real t289 = Real(3.75e-07) * t277 + t112 * t284;
-  const Real t294 = t118 * t284 - (Real(3.75e-07) * t273 + t128 * t289);
-  const Real t303 = t152 * (t122 * t284 - (Real(3.75e-07) * t271 + (t136 * t289 + t144 * t294)));
-  const Real t305 = t143 * t294 - t144 * t303;
-  const Real t309 = t128 * t305 - (t127 * t289 - t136 * t303);
-  const Real t315 = t112 * t309 - (t111 * t284 + (t118 * t305 + t122 * t303));
-  const Real t316 = Real(3.75e-07) * t315;
-  const Real t321 = Real(3.75e-07) * t309 + t112 * t316;
-  const Real t326 = t118 * t316 - (Real(3.75e-07) * t305 + t128 * t321);
-  const Real t335 = t152 * (t122 * t316 - (Real(3.75e-07) * t303 + (t136 * t321 + t144 * t326)));
-  const Real t337 = t143 * t326 - t144 * t335;
-  const Real t341 = t128 * t337 - (t127 * t321 - t136 * t335);
-  lambda[0] = t315 - (t283 - (t111 * t316 - (t112 * t341 - (t118 * t337 + t122 * t335))));
-  lambda[1] = -(t309 - (t277 + t341));
-  lambda[2] = -(t305 - (t273 + t337));
-  lambda[3] = -(t303 - (t271 + t335));
+  const Real t207 = t56 * (c0 * rdf1_x + (rQp0 - (s0 * rdf1_y + t51 * rQp1)));
+  const Real t208 = Real(3.0) * rQp1;
+  const Real t209 = t50 * (c2 * rdf3_x + (rQp2 - (s2 * rdf3_y - t43 * rQp3)));
+  const Real t210 = Real(3.0) * rQp3;
+  const Real t212 = s4 * Real(14.715000000000002);
+  const Real t229 = w1_z * (c1 * w1_z) - (t165 - (ra1o_x - (t59 * t207 + (s1 * t208 - c2 * t209))));
+  const Real t236 = t159 - (state.z[1] * t155 + (state.z[0] * (c0 * state.z[0] + t155) + (t62 * t207 + (c1 *
+      t208 - (s2 * t209 - t108 * t229)))));
+  const Real t247 = t165 - (state.z[4] * (s4 * state.z[4]) + (t65 * t209 - (s3 * t210 + (c4 * t212 + (t114 *
+      t229 + (t124 * t236 + w3_z * (c3 * w3_z)))))));
+  const Real t262 = t148 * (state.z[4] * (c4 * state.z[4]) - (t159 + (t68 * t209 - (c3 * t210 + (s4 * t212 +
+      (t118 * t229 + (t132 * t236 - (t140 * t247 + w3_z * (s3 * w3_z)))))))));
+  const Real t264 = t139 * t247 - t140 * t262;
+  const Real t268 = t124 * t264 + (t123 * t236 + t132 * t262);
+  const Real t274 = t108 * t268 - (t107 * t229 + (t114 * t264 + t118 * t262));
+  const Real t275 = Real(3.75e-07) * t274;
+  const Real t280 = Real(3.75e-07) * t268 + t108 * t275;
+  const Real t285 = t114 * t275 - (Real(3.75e-07) * t264 + t124 * t280);
+  const Real t294 = t148 * (t118 * t275 - (Real(3.75e-07) * t262 + (t132 * t280 + t140 * t285)));
+  const Real t296 = t139 * t285 - t140 * t294;
+  const Real t300 = t124 * t296 - (t123 * t280 - t132 * t294);
+  const Real t306 = t108 * t300 - (t107 * t275 + (t114 * t296 + t118 * t294));
+  const Real t307 = Real(3.75e-07) * t306;
+  const Real t312 = Real(3.75e-07) * t300 + t108 * t307;
+  const Real t317 = t114 * t307 - (Real(3.75e-07) * t296 + t124 * t312);
+  const Real t326 = t148 * (t118 * t307 - (Real(3.75e-07) * t294 + (t132 * t312 + t140 * t317)));
+  const Real t328 = t139 * t317 - t140 * t326;
+  const Real t332 = t124 * t328 - (t123 * t312 - t132 * t326);
+  lambda[0] = t306 - (t274 - (t107 * t307 - (t108 * t332 - (t114 * t328 + t118 * t326))));
+  lambda[1] = -(t300 - (t268 + t332));
+  lambda[2] = -(t296 - (t264 + t328));
+  lambda[3] = -(t294 - (t262 + t326));
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -9,12 +9,135 @@ namespace panda {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
@@ -85,31 +269,21 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
-  Real s6, c6;
-  detail::sine_cosine(state.y[6], s6, c6);
+  Real s1, c1, s2, c2, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], s2, c2, state.y[3], s3, c3, state.y[4], s4, c4);
+  Real s5, c5, s6, c6;
+  detail::sine_cosine2(state.y[5], s5, c5, state.y[6], s6, c6);
   const Real S6b_t = s6 * Real(0.0024209437785212297) + c6 * Real(0.000782782563368496);
   const Real S6b_xx = s6 * S6b_t + Real(0.002131604094419858);
-  const Real S6b_xy = c6 * S6b_t - Real(0.000391391281684248);
   const Real S6b_xz = s6 * Real(0.0012555365982728983) - c6 * Real(0.0009653051699191118);
   const Real S6b_yz = c6 * Real(0.0012555365982728983) + s6 * Real(0.0009653051699191118);
-  const Real S6b_yy = S6b_xx - Real(0.006684151967360946);
   const Real h6b_x = s6 * Real(0.002034439958661797) - c6 * Real(0.0025736053713382033);
   const Real h6b_y = c6 * Real(0.002034439958661797) + s6 * Real(0.0025736053713382033);
   const Real h6c_y = h6b_x - Real(0.231847552695);
   const Real S6c_xy = S6b_xz - Real(0.014748570382675314);
   const Real S6c_xz = S6b_yz + Real(9.3569097314605e-05);
   const Real S6c_yy = S6b_xx - (h6b_x * Real(0.176) - Real(0.021522255370587554));
-  const Real S6c_yz = S6b_xy - (h6b_y * Real(0.088) + Real(0.0001037589172186849));
+  const Real S6c_yz = c6 * S6b_t - h6b_y * Real(0.088) - Real(0.0004951501989029329);
   const Real S5b_zz = S6c_yy + Real(0.02893442254565989);
   const Real S5b_d = S6c_yy - Real(0.02893442254565989);
   const Real S5b_t = c5 * S6c_xy * Real(2.0) + s5 * S5b_d;
@@ -125,7 +299,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S5c_xx = S5b_yy + Real(0.001451156065026715);
   const Real S5c_xy = S5b_yz + Real(0.00151524447332703);
   const Real S5c_xz = S5b_xy - (h5b_y * Real(0.384) - Real(0.0010267877770288943));
-  const Real S5c_yy = S6b_yy - Real(0.010045187828321242);
+  const Real S5c_yy = S6b_xx - Real(0.01672933979568219);
   const Real S5c_yz = S5b_xz - (h6b_y * Real(0.384) - Real(0.02389827041510187));
   const Real S5c_zz = S5b_xx - h5b_x * Real(0.768);
   const Real S4b_zz = S5c_xx - S5c_yy;
@@ -144,8 +318,8 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S4c_xy = S4b_xz - (h5b_x * Real(0.0825) - Real(0.16284087268546085));
   const Real S4c_xz = S4b_yz - Real(0.0016444875773692703);
   const Real S4c_yy = S4b_xx - (h4b_x * Real(0.165) - Real(0.051020136156815506));
-  const Real t152 = h4b_y * Real(0.0825);
-  const Real S4c_yz = S4b_xy - (t152 + Real(0.0039053550262761));
+  const Real t148 = h4b_y * Real(0.0825);
+  const Real S4c_yz = S4b_xy - (t148 + Real(0.0039053550262761));
   const Real S3b_zz = S4c_xx + S4c_yy;
   const Real S3b_d = S4c_xx - S4c_yy;
   const Real S3b_t = Real(2.0) * (c3 * S4c_xy) + s3 * S3b_d;
@@ -157,10 +331,11 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real h3b_x = c3 * h4c_x - s3 * h4c_y;
   const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
   const Real S3c_xx = S3b_yy + (Real(0.165) * h3b_y + Real(0.0616024210265277));
-  const Real S3c_xy = S3b_yz + (t152 - Real(0.00012191242095074341));
+  const Real S3c_xy = S3b_yz + (t148 - Real(0.00012191242095074341));
   const Real S3c_xz = S3b_xy + (h3b_y * Real(0.316) - Real(0.0825) * h3b_x + Real(0.24149476342611426));
   const Real S3c_yy = S4b_yy + Real(0.022178148964878235);
-  const Real S3c_yz = S3b_xz - (h4b_y * Real(0.316) - Real(0.013297019103287584));
+  const Real t191 = h4b_y * Real(0.316);
+  const Real S3c_yz = S3b_xz - (t191 - Real(0.013297019103287584));
   const Real S3c_zz = S3b_xx - h3b_x * Real(0.632);
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_d = S3c_xx - S3c_yy;
@@ -169,7 +344,6 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
-  const Real S2b_yy = S2b_zz - S2b_xx;
   const Real S2c_xx = S3c_zz + Real(1.032162061231881);
   const Real S2c_xy = S2b_xz - Real(0.00398335888393552);
   const Real S2c_xz = S2b_yz + Real(0.0007689361029464);
@@ -178,12 +352,8 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S1b_zz = S2c_xx + S2c_yy;
   const Real S1b_d = S2c_xx - S2c_yy;
   const Real S1b_t = Real(2.0) * (c1 * S2c_xy) + s1 * S1b_d;
-  const Real S1b_xx = S2c_xx - s1 * S1b_t;
   const Real S1b_xz = c1 * S2c_xz - s1 * S2c_yz;
-  const Real S1b_yy = S1b_zz - S1b_xx;
-  const Real S1c_xx = S1b_yy + Real(0.0062531379269374545);
-  const Real S1c_yy = S2b_yy + Real(0.008006428067536918);
-  const Real S0b_zz = S1c_xx + S1c_yy;
+  const Real S0b_zz = S2b_xx - (S2b_zz + (S2c_yy + s1 * S1b_t)) - Real(0.014259565994474374);
   const Real p_2_2N_x = c1 * S2b_zz + s1 * S2b_xz;
   const Real p_3_3l_y = h3b_x * Real(0.316) - Real(0.0825) * h3b_y;
   const Real p_3_3n_y = S3b_zz - p_3_3l_y;
@@ -192,12 +362,10 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real p_3_2N_x = c1 * S3b_xz + s1 * p_3_3N_x;
   const Real p_4_4l_x = h4b_x * Real(0.0825);
   const Real p_4_4n_x = S4b_zz - p_4_4l_x;
-  const Real p_4_4F_x = s3 * h4b_y;
-  const Real p_4_4F_y = c3 * h4b_y;
   const Real p_4_4N_x = c3 * p_4_4n_x + s3 * S4b_xz;
   const Real p_4_4N_y = c3 * S4b_xz - s3 * p_4_4n_x;
   const Real p_4_3l_x = h4b_x * Real(0.316);
-  const Real p_4_3l_y = Real(0.316) * p_4_4F_y - Real(0.0825) * p_4_4F_x;
+  const Real p_4_3l_y = c3 * t191 - s3 * t148;
   const Real p_4_3n_x = p_4_4N_y - p_4_3l_x;
   const Real p_4_3n_y = S4b_yz - p_4_3l_y;
   const Real p_4_3n_z = p_4_4l_x + p_4_4N_x;
@@ -227,11 +395,11 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real p_5_3N_y = c2 * p_5_3n_y - s2 * p_5_3n_x;
   const Real p_5_2N_x = c1 * p_5_3n_z - s1 * p_5_3N_x;
   const Real p_6_6l_x = h6b_x * Real(0.088);
-  const Real p_6_6n_x = Real(0.006684151967360946) - p_6_6l_x;
+  const Real p_6_6n_x = p_6_6l_x - Real(0.006684151967360946);
   const Real p_6_6F_x = s5 * h6b_y;
   const Real p_6_6F_y = c5 * h6b_y;
-  const Real p_6_6N_x = c5 * p_6_6n_x - s5 * S6b_xz;
-  const Real p_6_6N_y = c5 * S6b_xz + s5 * p_6_6n_x;
+  const Real p_6_6N_x = c5 * p_6_6n_x + s5 * S6b_xz;
+  const Real p_6_6N_y = c5 * S6b_xz - s5 * p_6_6n_x;
   const Real p_6_5l_x = h6b_x * Real(0.384);
   const Real p_6_5l_y = Real(0.384) * p_6_6F_y;
   const Real p_6_5n_x = p_6_6N_y - p_6_5l_x;
@@ -242,21 +410,21 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real p_6_5N_y = c4 * p_6_5n_y + s4 * p_6_5n_x;
   const Real p_6_4l_x = Real(0.0825) * p_6_5F_y;
   const Real p_6_4l_z = Real(0.0825) * p_6_6F_x;
-  const Real p_6_4n_x = p_6_6N_x + p_6_4l_x;
+  const Real p_6_4n_x = p_6_6N_x - p_6_4l_x;
   const Real p_6_4n_z = p_6_5N_y - p_6_4l_z;
   const Real p_6_4F_x = c3 * p_6_6F_x + s3 * p_6_5F_x;
   const Real p_6_4F_y = c3 * p_6_5F_x - s3 * p_6_6F_x;
-  const Real p_6_4N_x = c3 * p_6_4n_x - s3 * p_6_5N_x;
-  const Real p_6_4N_y = c3 * p_6_5N_x + s3 * p_6_4n_x;
+  const Real p_6_4N_x = c3 * p_6_4n_x + s3 * p_6_5N_x;
+  const Real p_6_4N_y = c3 * p_6_5N_x - s3 * p_6_4n_x;
   const Real p_6_3l_x = Real(0.316) * p_6_5F_y;
   const Real p_6_3l_y = Real(0.316) * p_6_4F_y - Real(0.0825) * p_6_4F_x;
   const Real p_6_3n_x = p_6_4N_y - p_6_3l_x;
   const Real p_6_3n_y = p_6_4n_z - p_6_3l_y;
-  const Real p_6_3n_z = p_6_4l_x - p_6_4N_x;
+  const Real p_6_3n_z = p_6_4l_x + p_6_4N_x;
   const Real p_6_3N_x = c2 * p_6_3n_x - s2 * p_6_3n_y;
   const Real p_6_3N_y = c2 * p_6_3n_y + s2 * p_6_3n_x;
   const Real p_6_2N_x = c1 * p_6_3n_z - s1 * p_6_3N_x;
-  M[0][0] = S0b_zz;
+  M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = -S1b_xz;
   M[0][2] = M[2][0] = p_2_2N_x;
   M[0][3] = M[3][0] = p_3_2N_x;
@@ -280,7 +448,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   M[3][6] = M[6][3] = -p_6_4n_z;
   M[4][4] = S4b_zz;
   M[4][5] = M[5][4] = S5b_xz;
-  M[4][6] = M[6][4] = -p_6_6N_x;
+  M[4][6] = M[6][4] = p_6_6N_x;
   M[5][5] = S5b_zz;
   M[5][6] = M[6][5] = -S6b_yz;
   M[6][6] = Real(0.006684151967360946);
@@ -288,18 +456,10 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
-  Real s6, c6;
-  detail::sine_cosine(state.y[6], s6, c6);
+  Real s1, c1, s2, c2, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], s2, c2, state.y[3], s3, c3, state.y[4], s4, c4);
+  Real s5, c5, s6, c6;
+  detail::sine_cosine2(state.y[5], s5, c5, state.y[6], s6, c6);
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
@@ -389,20 +549,14 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kla6A_y = kla5al_y + w6pp_y * state.z[6];
   const Real kL1w00 = w2pp_x * w2pp_x;
   const Real kL1w01 = w2pp_x * w2pp_y;
-  const Real kL1w02 = w2pp_x * state.z[1];
-  const Real kL1w11 = w2pp_y * w2pp_y;
-  const Real kL1w12 = w2pp_y * state.z[1];
   const Real kL1w22 = state.z[1] * state.z[1];
-  const Real kL1U0_x = kL1w11 + kL1w22;
-  const Real kL1U0_z = kla2np_y - kL1w02;
   const Real kL1U1_y = kL1w00 + kL1w22;
-  const Real kL1U1_z = kla2np_x - kL1w12;
-  const Real kL1U2_x = kla2np_y + kL1w02;
-  const Real kL1U2_y = kla2np_x + kL1w12;
-  const Real kL1U2_z = kL1w00 + kL1w11;
+  const Real kL1U2_x = kla2np_y * Real(2.0);
+  const Real kL1U2_y = kla2np_x * Real(2.0);
+  const Real kL1U2_z = state.z[0] * state.z[0];
   const Real kL1n_x = (kL1U1_y - kL1U2_z) * Real(0.01026110182100817) - (kL1w01 * Real(0.0007689361029464) -
       (kL1U2_x * Real(0.00398335888393552) + kL1U2_y * Real(0.023077882494931805)));
-  const Real kL1n_y = Real(0.0007689361029464) * (kL1U0_x - kL1U2_z) - (kL1w01 * Real(0.01026110182100817) -
+  const Real kL1n_y = Real(0.0007689361029464) * (kla3U2_z - kL1U2_z) - (kL1w01 * Real(0.01026110182100817) -
       (kL1U2_y * Real(0.00398335888393552) + kL1U2_x * Real(1.032162061231881)));
   const Real kL2U0_y = kla2np_x + kla3w01;
   const Real kL2U1_y = kla3w00 + kla3w22;
@@ -414,21 +568,18 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
       Real(0.00012191242095074341) + (kL2U0_y * Real(0.013297019103287584) + kla3U2_x *
       Real(0.0616024210265277)));
   const Real kL3w02 = w3_z * w4pp_x;
-  const Real kL3w11 = w4pp_y * w4pp_y;
-  const Real kL3U0_x = kla4w22 + kL3w11;
   const Real kL3U0_z = kla4np_y - kL3w02;
   const Real kL3U1_x = kla3al_y + kla4w01;
   const Real kL3U1_z = kla4al_x + kla4w12;
   const Real kL3U2_x = kla4np_y + kL3w02;
-  const Real kL3U2_z = kla4w00 + kL3w11;
-  const Real kL3f_x = kL3U0_x * Real(2.012523553603) - kla4U0_y * Real(0.55278027465);
+  const Real kL3f_x = kla5U2_z * Real(2.012523553603) - kla4U0_y * Real(0.55278027465);
   const Real kL3f_y = kL3U1_x * Real(2.012523553603) + kla4U1_y * Real(0.55278027465);
-  const Real kL3n_x = (kla4U1_y - kL3U2_z) * Real(0.0039053550262761) + (kL3U1_x * Real(0.0016444875773692703)
+  const Real kL3n_x = (kla4U1_y - kL2U1_y) * Real(0.0039053550262761) + (kL3U1_x * Real(0.0016444875773692703)
       - (kla4U2_y * Real(0.051020136156815506) + (kla3o_y * Real(0.55278027465) + kL3U2_x *
       Real(0.16284087268546085))));
-  const Real kL3n_y = Real(0.0016444875773692703) * (kL3U0_x - kL3U2_z) - (kla4U0_y * Real(0.0039053550262761)
-      + (kL3U2_x * Real(0.6972920750309718) + (kla3o_y * Real(2.012523553603) + kla4U2_y *
-      Real(0.16284087268546085))));
+  const Real kL3n_y = Real(0.0016444875773692703) * (kla5U2_z - kL2U1_y) - (kla4U0_y *
+      Real(0.0039053550262761) + (kL3U2_x * Real(0.6972920750309718) + (kla3o_y * Real(2.012523553603) +
+      kla4U2_y * Real(0.16284087268546085))));
   const Real kL4w01 = w5pp_x * w5pp_y;
   const Real kL4w22 = w4_z * w4_z;
   const Real kL4U0_x = kla5w11 + kL4w22;
@@ -452,13 +603,12 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL5U1_x = kla5al_y + kla6w01;
   const Real kL5U1_z = kla6al_x + kla6w12;
   const Real kL5U2_x = kla6np_y + kL5w02;
-  const Real kL5U2_z = kla6w00 + kL5w11;
   const Real kL5f_x = kL5U0_x * Real(0.173804705569) - kla6U0_y * Real(0.231847552695);
   const Real kL5f_y = kL5U1_x * Real(0.173804705569) + kla6U1_y * Real(0.231847552695);
-  const Real kL5n_x = (kla6U1_y - kL5U2_z) * Real(0.0001037589172186849) + (kL5U2_x *
+  const Real kL5n_x = (kla6U1_y - kL4U1_y) * Real(0.0001037589172186849) + (kL5U2_x *
       Real(0.014748570382675314) - (kla5o_y * Real(0.231847552695) - (kla6U2_y * Real(0.021522255370587554) +
       kL5U1_x * Real(9.3569097314605e-05))));
-  const Real kL5n_y = Real(9.3569097314605e-05) * (kL5U0_x - kL5U2_z) + (kla6U2_y * Real(0.014748570382675314)
+  const Real kL5n_y = Real(9.3569097314605e-05) * (kL4U1_y - kL5U0_x) - (kla6U2_y * Real(0.014748570382675314)
       + (kL5U2_x * Real(0.02893442254565989) - (kla5o_y * Real(0.173804705569) + kla6U0_y *
       Real(0.0001037589172186849))));
   const Real kL6w_x = c6 * w6pp_y - s6 * w5_z;
@@ -481,14 +631,13 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL6U1_z = kL6al_x + kL6w12;
   const Real kL6U2_x = kL6al_y - kL6w02;
   const Real kL6U2_y = kL6al_x - kL6w12;
-  const Real kL6U2_z = kL6w00 + kL6w11;
   const Real kL6f_x = kL6U0_y * Real(0.002034439958661797) + kL6U0_x * Real(0.0025736053713382033);
   const Real kL6f_y = kL6U1_y * Real(0.002034439958661797) - kL6U1_x * Real(0.0025736053713382033);
   const Real kL6f_z = kL6U2_y * Real(0.002034439958661797) - kL6U2_x * Real(0.0025736053713382033);
-  const Real kL6n_x = (kL6U1_y - kL6U2_z) * Real(0.0012555365982728983) - (kL6U1_x *
+  const Real kL6n_x = (kL5U0_x - kL6U1_y) * Real(0.0012555365982728983) + (kL6U1_x *
       Real(0.0009653051699191118) + (kL6U2_x * Real(0.000391391281684248) - (kla6o_x *
       Real(0.002034439958661797) - kL6U2_y * Real(0.004552547872941088))));
-  const Real kL6n_y = Real(0.0009653051699191118) * (kL6U0_x - kL6U2_z) + (kL6U2_y *
+  const Real kL6n_y = Real(0.0009653051699191118) * (kL5U0_x - kL6U0_x) - (kL6U2_y *
       Real(0.000391391281684248) + (kla6o_x * Real(0.0025736053713382033) + (kL6U2_x *
       Real(0.002131604094419858) + kL6U0_y * Real(0.0012555365982728983))));
   const Real kL6n_z = Real(0.000391391281684248) * (kL6U0_x - kL6U1_y) - (kL6U1_z *
@@ -499,54 +648,54 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL6F_y = c6 * kL6f_y + s6 * kL6f_x;
   const Real kL6N_x = c6 * kL6n_x + s6 * kL6n_y;
   const Real kn6c_x = kL6n_z + Real(0.088) * kL6F_y;
-  const Real t494 = kL5f_y + kL6F_x;
-  const Real t496 = kL5f_x + kL6f_z;
-  const Real kf5_y = c5 * t494 + s5 * t496;
+  const Real t482 = kL5f_y + kL6F_x;
+  const Real t484 = kL5f_x + kL6f_z;
+  const Real kf5_y = c5 * t482 + s5 * t484;
   const Real kf5_z = kL6F_y - (kL5U2_x * Real(0.173804705569) + kla6U2_y * Real(0.231847552695));
-  const Real kn5_z = Real(0.014748570382675314) * (kla6U1_y - kL5U0_x) - (Real(0.088) * kL6f_z + (s6 * kL6n_x
-      - (c6 * kL6n_y + (kla6p_x * Real(0.231847552695) + (kL5U1_x * Real(0.02893442254565989) - (kL5U0_z *
+  const Real kn5_z = Real(0.014748570382675314) * (kla6U1_y - kL5U0_x) - (Real(0.088) * kL6f_z - (s6 * kL6n_x
+      - (c6 * kL6n_y - (kla6p_x * Real(0.231847552695) + (kL5U1_x * Real(0.02893442254565989) - (kL5U0_z *
       Real(0.0001037589172186849) - (kL5U1_z * Real(9.3569097314605e-05) + (kla6U0_y *
       Real(0.021522255370587554) - kla6p_y * Real(0.173804705569)))))))));
-  const Real t513 = kL5n_y - kL6N_x;
-  const Real t515 = kL5n_x - kn6c_x;
-  const Real kn5c_x = c5 * t513 + (Real(0.384) * kf5_z - s5 * t515);
+  const Real t501 = kL5n_y - kL6N_x;
+  const Real t503 = kL5n_x - kn6c_x;
+  const Real kn5c_x = c5 * t501 - (Real(0.384) * kf5_z - s5 * t503);
   const Real kn5c_y = kn5_z - Real(0.384) * kf5_y;
-  const Real t521 = kL4f_x - kf5_y;
-  const Real t523 = kL4f_y - kf5_z;
-  const Real kf4_x = c4 * t521 + s4 * t523;
-  const Real kf4_y = c4 * t523 - s4 * t521;
-  const Real kf4_z = c5 * t496 - (s5 * t494 + (kL4U2_y * Real(0.067870631425) - kL4U2_x *
+  const Real t509 = kL4f_x - kf5_y;
+  const Real t511 = kL4f_y - kf5_z;
+  const Real kf4_x = c4 * t509 + s4 * t511;
+  const Real kf4_y = c4 * t511 - s4 * t509;
+  const Real kf4_z = c5 * t484 - (s5 * t482 + (kL4U2_y * Real(0.067870631425) - kL4U2_x *
       Real(0.014653732538)));
-  const Real t534 = kL4n_x + kn5c_x;
-  const Real t536 = kL4n_y - kn5c_y;
-  const Real kn4_x = c4 * t534 - s4 * t536;
-  const Real kn4_z = c5 * t515 + (s5 * t513 - (Real(0.00151524447332703) * (kL4U0_x - kL4U1_y) - (kla5p_y *
+  const Real t522 = kL4n_x - kn5c_x;
+  const Real t524 = kL4n_y - kn5c_y;
+  const Real kn4_x = c4 * t522 - s4 * t524;
+  const Real kn4_z = c5 * t503 - (s5 * t501 + (Real(0.00151524447332703) * (kL4U0_x - kL4U1_y) - (kla5p_y *
       Real(0.014653732538) + (kla5U0_z * Real(0.02389827041510187) + (kL4U1_x * Real(0.001451156065026715) +
       (kL4U0_y * Real(0.010045187828321242) + (kla5U1_z * Real(0.0010267877770288943) + kla5p_x *
       Real(0.067870631425))))))));
   const Real kn4c_x = kn4_z - Real(0.0825) * kf4_y;
-  const Real t554 = kL3f_x - kf4_z;
-  const Real t556 = kL3f_y + kf4_x;
-  const Real kf3_x = c3 * t554 - s3 * t556;
-  const Real kf3_y = c3 * t556 + s3 * t554;
+  const Real t542 = kL3f_x - kf4_z;
+  const Real t544 = kL3f_y + kf4_x;
+  const Real kf3_x = c3 * t542 - s3 * t544;
+  const Real kf3_y = c3 * t544 + s3 * t542;
   const Real kf3_z = kf4_y - (kL3U2_x * Real(2.012523553603) + kla4U2_y * Real(0.55278027465));
-  const Real kn3_z = c4 * t536 + (s4 * t534 - (Real(0.16284087268546085) * (kla4U1_y - kL3U0_x) +
+  const Real kn3_z = c4 * t524 + (s4 * t522 - (Real(0.16284087268546085) * (kla4U1_y - kla5U2_z) +
       (Real(0.0825) * kf4_z + (kL3U0_z * Real(0.0039053550262761) - (kL3U1_z * Real(0.0016444875773692703) -
       (kla4U0_y * Real(0.051020136156815506) + (kL3U1_x * Real(0.6972920750309718) + (kla4p_y *
       Real(2.012523553603) - kla4p_x * Real(0.55278027465)))))))));
-  const Real t578 = kL3n_y - kn4_x;
-  const Real t580 = kL3n_x - kn4c_x;
-  const Real kn3c_x = c3 * t578 + (Real(0.316) * kf3_z - s3 * t580);
+  const Real t566 = kL3n_y - kn4_x;
+  const Real t568 = kL3n_x - kn4c_x;
+  const Real kn3c_x = c3 * t566 + (Real(0.316) * kf3_z - s3 * t568);
   const Real kn3c_y = Real(0.0825) * kf3_x - (kn3_z - Real(0.316) * kf3_y);
-  const Real t589 = kL2n_x - kn3c_x;
-  const Real t591 = kL2n_y - kn3c_y;
-  const Real kn2_x = c2 * t589 - s2 * t591;
-  const Real kn2_z = c3 * t580 + (s3 * t578 + (Real(0.00012191242095074341) * (kla3U0_x - kL2U1_y) -
+  const Real t577 = kL2n_x - kn3c_x;
+  const Real t579 = kL2n_y - kn3c_y;
+  const Real kn2_x = c2 * t577 - s2 * t579;
+  const Real kn2_z = c3 * t568 + (s3 * t566 + (Real(0.00012191242095074341) * (kla3U0_x - kL2U1_y) -
       (Real(0.0825) * kf3_z + (kla3U1_x * Real(0.0616024210265277) - (kla3U1_z * Real(0.24149476342611426) -
       (kL2U0_y * Real(0.022178148964878235) + kla3U0_z * Real(0.013297019103287584)))))));
   const Real kn1_x = c1 * (kL1n_x - kn2_z) - s1 * (kL1n_y + kn2_x);
-  const Real kn1_z = c2 * t591 + (s2 * t589 + (Real(0.00398335888393552) * (kL1U0_x - kL1U1_y) - (kL1U1_z *
-      Real(0.0007689361029464) - (kL1w01 * Real(1.0090841787369491) + kL1U0_z * Real(0.01026110182100817)))));
+  const Real kn1_z = c2 * t579 + (s2 * t577 + (kL1w01 * Real(1.0090841787369491) + Real(0.00398335888393552) *
+      (kla3U2_z - kL1U1_y)));
   k[0] = kn1_x;
   k[1] = kn1_z;
   k[2] = -kn2_z;
@@ -558,18 +707,10 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&q)[7]) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
-  Real s6, c6;
-  detail::sine_cosine(state.y[6], s6, c6);
+  Real s1, c1, s2, c2, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], s2, c2, state.y[3], s3, c3, state.y[4], s4, c4);
+  Real s5, c5, s6, c6;
+  detail::sine_cosine2(state.y[5], s5, c5, state.y[6], s6, c6);
   const Real h6b_x = s6 * Real(0.002034439958661797) - c6 * Real(0.0025736053713382033);
   const Real h6b_y = c6 * Real(0.002034439958661797) + s6 * Real(0.0025736053713382033);
   const Real h6c_y = h6b_x - Real(0.231847552695);
@@ -617,18 +758,10 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&zdot)[7])
     noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
-  Real s6, c6;
-  detail::sine_cosine(state.y[6], s6, c6);
+  Real s1, c1, s2, c2, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], s2, c2, state.y[3], s3, c3, state.y[4], s4, c4);
+  Real s5, c5, s6, c6;
+  detail::sine_cosine2(state.y[5], s5, c5, state.y[6], s6, c6);
   const Real S6b_t = s6 * Real(0.0024209437785212297) + c6 * Real(0.000782782563368496);
   const Real S6b_xx = s6 * S6b_t + Real(0.002131604094419858);
   const Real S6b_xy = c6 * S6b_t - Real(0.000391391281684248);
@@ -693,7 +826,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S3c_xy = t152 + S3b_yz - Real(0.00012191242095074341);
   const Real S3c_xz = Real(0.0825) * h3b_x + (S3b_xy - h3b_y * Real(0.316)) - Real(0.24149476342611426);
   const Real S3c_yy = S4b_yy - Real(0.022178148964878235);
-  const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
+  const Real t199 = h4b_y * Real(0.316);
+  const Real S3c_yz = S3b_xz + t199 - Real(0.013297019103287584);
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
   const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
@@ -861,11 +995,9 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real p3_3N_x = c2 * S3b_yz - s2 * p3_3n_y;
   const Real p4_4l_x = h4b_x * Real(0.0825);
   const Real p4_4n_x = S4b_zz + p4_4l_x;
-  const Real p4_4F_x = s3 * h4b_y;
-  const Real p4_4F_y = c3 * h4b_y;
   const Real p4_3l_x = h4b_x * Real(0.316);
   const Real p4_3n_x = p4_3l_x + (c3 * S4b_xz - s3 * p4_4n_x);
-  const Real p4_3n_y = Real(0.0825) * p4_4F_x - (S4b_yz + Real(0.316) * p4_4F_y);
+  const Real p4_3n_y = s3 * t152 - (S4b_yz + c3 * t199);
   const Real p4_3n_z = s3 * S4b_xz - (p4_4l_x - c3 * p4_4n_x);
   const Real p4_3N_x = c2 * p4_3n_x - s2 * p4_3n_y;
   const Real p5_5l_y = h5b_x * Real(0.384);
@@ -975,14 +1107,12 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real U1_0u = u3_2 * GD2n_z - (u4_3 * GD3n_z - (u5_4 * GD4n_z - (u6_5 * GD5n_z - (f1_6n_z - (input.u[1]
       + (s2 * bn3c_x - (c2 * bn3c_y + (bKx2 * z2_2 + (S2b_xz * zz_2 - (h1b_y * Real(9.81) + state.z[0] *
       bKy1))))))))));
-  const Real I0sJ_zz = I1rJ_xz * U1_0sn_x - (G3_2n_x * GD2n_x - (G4_3n_x * GD3n_x - (G5_4n_x * GD4n_x -
-      (G6_5n_x * GD5n_x - (I1_6J_xx + (s1 * S1b_t + (S2c_xx - (S2b_yy + S1b_zz)))))))) +
-      Real(0.014259565994474374);
-  const Real U0_0i = Real(1.0) / I0sJ_zz;
+  const Real I0sJ_zz = S2b_zz - (s1 * S1b_t + (I1_6J_xx - (G6_5n_x * GD5n_x - (G5_4n_x * GD4n_x - (G4_3n_x *
+      GD3n_x - (G3_2n_x * GD2n_x - I1rJ_xz * U1_0sn_x)))))) + Real(0.03733744848940618);
   const Real U0_0u = U1_0sn_x * U1_0u - (u3_2 * GD2n_x - (u4_3 * GD3n_x - (u5_4 * GD4n_x - (u6_5 * GD5n_x -
       (f1_6n_x + (input.u[0] - (s1 * bn2_x + (c1 * bn3c_z + (S1b_yz * zz_1 + Real(2.0) * (state.z[1] *
       bKy1))))))))));
-  const Real acc0u = U0_0i * U0_0u;
+  const Real acc0u = U0_0u / I0sJ_zz;
   const Real acc1u = U1_0i * U1_0u;
   const Real zdot_1 = acc1u - U1_0sn_x * acc0u;
   const Real y_2 = u3_2 * invD_2;
@@ -1009,18 +1139,10 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[7], Real (&tau)[7])
     noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
-  Real s6, c6;
-  detail::sine_cosine(state.y[6], s6, c6);
+  Real s1, c1, s2, c2, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], s2, c2, state.y[3], s3, c3, state.y[4], s4, c4);
+  Real s5, c5, s6, c6;
+  detail::sine_cosine2(state.y[5], s5, c5, state.y[6], s6, c6);
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
@@ -1039,8 +1161,12 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala1A_y = state.z[0] * state.z[1];
   const Real ala2p_x = c1 * Real(9.81);
   const Real ala2p_y = s1 * Real(9.81);
-  const Real ala2np_x = c1 * zdot[0] - s1 * ala1A_y;
-  const Real ala2np_y = s1 * zdot[0] + c1 * ala1A_y;
+  const Real t61 = c1 * zdot[0];
+  const Real t62 = s1 * ala1A_y;
+  const Real ala2np_x = t61 - t62;
+  const Real t64 = s1 * zdot[0];
+  const Real t65 = c1 * ala1A_y;
+  const Real ala2np_y = t64 + t65;
   const Real ala2A_x = ala2np_y - state.z[2] * state.z[1];
   const Real ala2A_y = w2pp_y * state.z[2] + zdot[1];
   const Real ala2A_z = ala2np_x + zdot[2];
@@ -1120,23 +1246,17 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL0n_z = zdot[0] * Real(0.014259565994474374);
   const Real aL1w00 = w2pp_x * w2pp_x;
   const Real aL1w01 = w2pp_x * w2pp_y;
-  const Real aL1w02 = w2pp_x * state.z[1];
-  const Real aL1w11 = w2pp_y * w2pp_y;
-  const Real aL1w12 = w2pp_y * state.z[1];
   const Real aL1w22 = state.z[1] * state.z[1];
-  const Real aL1U0_x = aL1w11 + aL1w22;
   const Real aL1U0_y = zdot[1] + aL1w01;
-  const Real aL1U0_z = ala2np_y - aL1w02;
   const Real aL1U1_x = zdot[1] - aL1w01;
   const Real aL1U1_y = aL1w00 + aL1w22;
-  const Real aL1U1_z = ala2np_x + aL1w12;
-  const Real aL1U2_x = ala2np_y + aL1w02;
-  const Real aL1U2_y = ala2np_x - aL1w12;
-  const Real aL1U2_z = aL1w00 + aL1w11;
+  const Real aL1U2_x = t65 + ala2np_y;
+  const Real aL1U2_y = t62 - ala2np_x;
+  const Real aL1U2_z = state.z[0] * state.z[0];
   const Real aL1n_x = (aL1U1_y - aL1U2_z) * Real(0.01026110182100817) + (aL1U1_x * Real(0.0007689361029464) +
-      (aL1U2_x * Real(0.00398335888393552) - aL1U2_y * Real(0.023077882494931805)));
-  const Real aL1n_y = Real(0.0007689361029464) * (aL1U0_x - aL1U2_z) - (aL1U0_y * Real(0.01026110182100817) +
-      (aL1U2_y * Real(0.00398335888393552) - aL1U2_x * Real(1.032162061231881)));
+      (aL1U2_x * Real(0.00398335888393552) + aL1U2_y * Real(0.023077882494931805)));
+  const Real aL1n_y = Real(0.0007689361029464) * (ala3U2_z - aL1U2_z) - (aL1U0_y * Real(0.01026110182100817) -
+      (aL1U2_y * Real(0.00398335888393552) + aL1U2_x * Real(1.032162061231881)));
   const Real aL2U0_y = ala2A_z - ala3w01;
   const Real aL2U1_y = ala3w00 + ala3w22;
   const Real aL2U2_y = ala3al_x - ala3w12;
@@ -1147,21 +1267,18 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
       Real(0.00012191242095074341) + (ala3U2_x * Real(0.0616024210265277) - (ala2p_x * Real(0.746857959872) +
       aL2U0_y * Real(0.013297019103287584))));
   const Real aL3w02 = w3_z * w4pp_x;
-  const Real aL3w11 = w4pp_y * w4pp_y;
-  const Real aL3U0_x = ala4w22 + aL3w11;
   const Real aL3U0_z = ala4np_y - aL3w02;
   const Real aL3U1_x = ala3A_z + ala4w01;
   const Real aL3U1_z = ala4al_x - ala4w12;
   const Real aL3U2_x = ala4np_y + aL3w02;
-  const Real aL3U2_z = ala4w00 + aL3w11;
-  const Real aL3f_x = aL3U0_x * Real(2.012523553603) - ala4U0_y * Real(0.55278027465);
+  const Real aL3f_x = ala5U2_z * Real(2.012523553603) - ala4U0_y * Real(0.55278027465);
   const Real aL3f_y = aL3U1_x * Real(2.012523553603) + ala4U1_y * Real(0.55278027465);
-  const Real aL3n_x = (ala4U1_y - aL3U2_z) * Real(0.0039053550262761) + (aL3U1_x * Real(0.0016444875773692703)
+  const Real aL3n_x = (ala4U1_y - aL2U1_y) * Real(0.0039053550262761) + (aL3U1_x * Real(0.0016444875773692703)
       + (ala4U2_y * Real(0.051020136156815506) - (ala3o_y * Real(0.55278027465) + aL3U2_x *
       Real(0.16284087268546085))));
-  const Real aL3n_y = Real(0.0016444875773692703) * (aL3U0_x - aL3U2_z) - (ala4U0_y * Real(0.0039053550262761)
-      + (aL3U2_x * Real(0.6972920750309718) + (ala3o_y * Real(2.012523553603) - ala4U2_y *
-      Real(0.16284087268546085))));
+  const Real aL3n_y = Real(0.0016444875773692703) * (ala5U2_z - aL2U1_y) - (ala4U0_y *
+      Real(0.0039053550262761) + (aL3U2_x * Real(0.6972920750309718) + (ala3o_y * Real(2.012523553603) -
+      ala4U2_y * Real(0.16284087268546085))));
   const Real aL4w01 = w5pp_x * w5pp_y;
   const Real aL4w22 = w4_z * w4_z;
   const Real aL4U0_x = ala5w11 + aL4w22;
@@ -1185,13 +1302,12 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL5U1_x = ala5A_z + ala6w01;
   const Real aL5U1_z = ala6al_x - ala6w12;
   const Real aL5U2_x = ala6np_y + aL5w02;
-  const Real aL5U2_z = ala6w00 + aL5w11;
   const Real aL5f_x = aL5U0_x * Real(0.173804705569) - ala6U0_y * Real(0.231847552695);
   const Real aL5f_y = aL5U1_x * Real(0.173804705569) + ala6U1_y * Real(0.231847552695);
-  const Real aL5n_x = (ala6U1_y - aL5U2_z) * Real(0.0001037589172186849) + (aL5U2_x *
+  const Real aL5n_x = (ala6U1_y - aL4U1_y) * Real(0.0001037589172186849) + (aL5U2_x *
       Real(0.014748570382675314) - (ala5o_y * Real(0.231847552695) + (ala6U2_y * Real(0.021522255370587554) -
       aL5U1_x * Real(9.3569097314605e-05))));
-  const Real aL5n_y = Real(9.3569097314605e-05) * (aL5U0_x - aL5U2_z) - (ala6U2_y * Real(0.014748570382675314)
+  const Real aL5n_y = Real(9.3569097314605e-05) * (aL4U1_y - aL5U0_x) + (ala6U2_y * Real(0.014748570382675314)
       - (aL5U2_x * Real(0.02893442254565989) - (ala5o_y * Real(0.173804705569) + ala6U0_y *
       Real(0.0001037589172186849))));
   const Real aL6w_x = c6 * w6pp_y - s6 * w5_z;
@@ -1214,14 +1330,13 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL6U1_z = aL6al_x + aL6w12;
   const Real aL6U2_x = aL6al_y - aL6w02;
   const Real aL6U2_y = aL6al_x - aL6w12;
-  const Real aL6U2_z = aL6w00 + aL6w11;
   const Real aL6f_x = aL6U0_y * Real(0.002034439958661797) - aL6U0_x * Real(0.0025736053713382033);
   const Real aL6f_y = aL6U1_y * Real(0.002034439958661797) + aL6U1_x * Real(0.0025736053713382033);
   const Real aL6f_z = aL6U2_y * Real(0.002034439958661797) - aL6U2_x * Real(0.0025736053713382033);
-  const Real aL6n_x = (aL6U1_y - aL6U2_z) * Real(0.0012555365982728983) + (aL6U1_x *
+  const Real aL6n_x = (aL5U0_x - aL6U1_y) * Real(0.0012555365982728983) - (aL6U1_x *
       Real(0.0009653051699191118) - (aL6U2_x * Real(0.000391391281684248) - (ala6o_x *
       Real(0.002034439958661797) - aL6U2_y * Real(0.004552547872941088))));
-  const Real aL6n_y = Real(0.0009653051699191118) * (aL6U0_x - aL6U2_z) + (aL6U2_y *
+  const Real aL6n_y = Real(0.0009653051699191118) * (aL5U0_x - aL6U0_x) - (aL6U2_y *
       Real(0.000391391281684248) + (ala6o_x * Real(0.0025736053713382033) + (aL6U2_x *
       Real(0.002131604094419858) - aL6U0_y * Real(0.0012555365982728983))));
   const Real aL6n_z = Real(0.000391391281684248) * (aL6U0_x - aL6U1_y) - (aL6U1_z *
@@ -1232,56 +1347,55 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL6F_y = c6 * aL6f_y - s6 * aL6f_x;
   const Real aL6N_x = c6 * aL6n_x + s6 * aL6n_y;
   const Real an6c_x = aL6n_z + Real(0.088) * aL6F_y;
-  const Real t535 = aL5f_y - aL6F_x;
-  const Real t537 = aL5f_x + aL6f_z;
-  const Real af5_y = c5 * t535 + s5 * t537;
+  const Real t524 = aL5f_y - aL6F_x;
+  const Real t526 = aL5f_x + aL6f_z;
+  const Real af5_y = c5 * t524 + s5 * t526;
   const Real af5_z = aL6F_y - (aL5U2_x * Real(0.173804705569) - ala6U2_y * Real(0.231847552695));
-  const Real an5_z = Real(0.014748570382675314) * (ala6U1_y - aL5U0_x) - (Real(0.088) * aL6f_z + (s6 * aL6n_x
-      - (c6 * aL6n_y + (ala6p_x * Real(0.231847552695) + (aL5U1_x * Real(0.02893442254565989) - (aL5U0_z *
+  const Real an5_z = Real(0.014748570382675314) * (ala6U1_y - aL5U0_x) - (Real(0.088) * aL6f_z - (s6 * aL6n_x
+      - (c6 * aL6n_y - (ala6p_x * Real(0.231847552695) + (aL5U1_x * Real(0.02893442254565989) - (aL5U0_z *
       Real(0.0001037589172186849) + (aL5U1_z * Real(9.3569097314605e-05) - (ala6U0_y *
       Real(0.021522255370587554) + ala6p_y * Real(0.173804705569)))))))));
-  const Real t554 = aL5n_y - aL6N_x;
-  const Real t556 = aL5n_x - an6c_x;
-  const Real an5c_x = c5 * t554 + (Real(0.384) * af5_z - s5 * t556);
+  const Real t543 = aL5n_y - aL6N_x;
+  const Real t545 = aL5n_x - an6c_x;
+  const Real an5c_x = c5 * t543 - (Real(0.384) * af5_z - s5 * t545);
   const Real an5c_y = an5_z - Real(0.384) * af5_y;
-  const Real t562 = aL4f_x + af5_y;
-  const Real t564 = aL4f_y - af5_z;
-  const Real af4_x = c4 * t562 - s4 * t564;
-  const Real af4_y = c4 * t564 + s4 * t562;
-  const Real af4_z = c5 * t537 - (s5 * t535 + (aL4U2_y * Real(0.067870631425) - aL4U2_x *
+  const Real t551 = aL4f_x + af5_y;
+  const Real t553 = aL4f_y - af5_z;
+  const Real af4_x = c4 * t551 - s4 * t553;
+  const Real af4_y = c4 * t553 + s4 * t551;
+  const Real af4_z = c5 * t526 - (s5 * t524 + (aL4U2_y * Real(0.067870631425) - aL4U2_x *
       Real(0.014653732538)));
-  const Real t575 = aL4n_x + an5c_x;
-  const Real t577 = aL4n_y - an5c_y;
-  const Real an4_x = c4 * t575 - s4 * t577;
-  const Real an4_z = c5 * t556 + (s5 * t554 - (Real(0.00151524447332703) * (aL4U0_x - aL4U1_y) - (ala5p_y *
+  const Real t564 = aL4n_x - an5c_x;
+  const Real t566 = aL4n_y - an5c_y;
+  const Real an4_x = c4 * t564 - s4 * t566;
+  const Real an4_z = c5 * t545 - (s5 * t543 + (Real(0.00151524447332703) * (aL4U0_x - aL4U1_y) - (ala5p_y *
       Real(0.014653732538) + (ala5U0_z * Real(0.02389827041510187) - (aL4U1_x * Real(0.001451156065026715) +
       (aL4U0_y * Real(0.010045187828321242) - (ala5U1_z * Real(0.0010267877770288943) - ala5p_x *
       Real(0.067870631425))))))));
   const Real an4c_x = an4_z - Real(0.0825) * af4_y;
-  const Real t595 = aL3f_x - af4_z;
-  const Real t597 = aL3f_y - af4_x;
-  const Real af3_x = c3 * t595 - s3 * t597;
-  const Real af3_y = c3 * t597 + s3 * t595;
+  const Real t584 = aL3f_x - af4_z;
+  const Real t586 = aL3f_y - af4_x;
+  const Real af3_x = c3 * t584 - s3 * t586;
+  const Real af3_y = c3 * t586 + s3 * t584;
   const Real af3_z = af4_y - (aL3U2_x * Real(2.012523553603) - ala4U2_y * Real(0.55278027465));
-  const Real an3_z = c4 * t577 + (s4 * t575 - (Real(0.16284087268546085) * (ala4U1_y - aL3U0_x) +
+  const Real an3_z = c4 * t566 + (s4 * t564 - (Real(0.16284087268546085) * (ala4U1_y - ala5U2_z) +
       (Real(0.0825) * af4_z + (aL3U0_z * Real(0.0039053550262761) + (aL3U1_z * Real(0.0016444875773692703) +
       (ala4U0_y * Real(0.051020136156815506) + (aL3U1_x * Real(0.6972920750309718) - (ala4p_y *
       Real(2.012523553603) + ala4p_x * Real(0.55278027465)))))))));
-  const Real t619 = aL3n_y - an4_x;
-  const Real t621 = aL3n_x - an4c_x;
-  const Real an3c_x = c3 * t619 + (Real(0.316) * af3_z - s3 * t621);
+  const Real t608 = aL3n_y - an4_x;
+  const Real t610 = aL3n_x - an4c_x;
+  const Real an3c_x = c3 * t608 + (Real(0.316) * af3_z - s3 * t610);
   const Real an3c_y = Real(0.0825) * af3_x - (an3_z - Real(0.316) * af3_y);
-  const Real t630 = aL2n_x - an3c_x;
-  const Real t632 = aL2n_y - an3c_y;
-  const Real an2_x = c2 * t630 - s2 * t632;
-  const Real an2_z = c3 * t621 + (s3 * t619 + (Real(0.00012191242095074341) * (ala3U0_x - aL2U1_y) -
+  const Real t619 = aL2n_x - an3c_x;
+  const Real t621 = aL2n_y - an3c_y;
+  const Real an2_x = c2 * t619 - s2 * t621;
+  const Real an2_z = c3 * t610 + (s3 * t608 + (Real(0.00012191242095074341) * (ala3U0_x - aL2U1_y) -
       (Real(0.0825) * af3_z - (ala3U1_x * Real(0.0616024210265277) + (ala3U1_z * Real(0.24149476342611426) +
       (ala3p_x * Real(0.028227094878) - (ala3U0_z * Real(0.013297019103287584) - (aL2U0_y *
       Real(0.022178148964878235) + ala3p_y * Real(0.746857959872)))))))));
-  const Real an1_z = c2 * t632 + (s2 * t630 + (Real(0.00398335888393552) * (aL1U0_x - aL1U1_y) + (ala2p_y *
-      Real(3.344500043512) + (aL1U1_z * Real(0.0007689361029464) - (aL1U0_y * Real(0.023077882494931805) -
-      (aL1U0_z * Real(0.01026110182100817) - (aL1U1_x * Real(1.032162061231881) + ala2p_x *
-      Real(0.002031994566))))))));
+  const Real an1_z = c2 * t621 + (s2 * t619 + (Real(0.00398335888393552) * (ala3U2_z - aL1U1_y) + (ala2p_y *
+      Real(3.344500043512) + (t61 * Real(0.0007689361029464) - (aL1U0_y * Real(0.023077882494931805) - (t64 *
+      Real(0.01026110182100817) - (aL1U1_x * Real(1.032162061231881) + ala2p_x * Real(0.002031994566))))))));
   const Real an0_z = c1 * (aL1n_x - an2_z) - (aL0n_z + s1 * (aL1n_y + an2_x));
   tau[0] = -an0_z;
   tau[1] = -an1_z;
@@ -1294,18 +1408,10 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
-  Real s6, c6;
-  detail::sine_cosine(state.y[6], s6, c6);
+  Real s1, c1, s2, c2, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], s2, c2, state.y[3], s3, c3, state.y[4], s4, c4);
+  Real s5, c5, s6, c6;
+  detail::sine_cosine2(state.y[5], s5, c5, state.y[6], s6, c6);
   const Real S6b_t = s6 * Real(0.0024209437785212297) + c6 * Real(0.000782782563368496);
   const Real S6b_xx = s6 * S6b_t + Real(0.002131604094419858);
   const Real S6b_xz = s6 * Real(0.0012555365982728983) - c6 * Real(0.0009653051699191118);
@@ -1316,27 +1422,26 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S6c_xy = S6b_xz - Real(0.014748570382675314);
   const Real S6c_xz = S6b_yz + Real(9.3569097314605e-05);
   const Real S6c_yy = h6b_x * Real(0.176) - (S6b_xx + Real(0.021522255370587554));
-  const Real S6c_yz = h6b_y * Real(0.088) - (c6 * S6b_t - Real(0.000391391281684248)) +
-      Real(0.0001037589172186849);
+  const Real S6c_yz = c6 * S6b_t - h6b_y * Real(0.088) - Real(0.0004951501989029329);
   const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
   const Real S5b_d = S6c_yy + Real(0.02893442254565989);
   const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
-  const Real S5b_xz = c5 * S6c_xz - s5 * S6c_yz;
-  const Real S5b_yz = c5 * S6c_yz + s5 * S6c_xz;
+  const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
+  const Real S5b_yz = c5 * S6c_yz - s5 * S6c_xz;
   const Real h5b_x = c5 * Real(0.173804705569) + s5 * h6c_y;
   const Real h5b_y = s5 * Real(0.173804705569) - c5 * h6c_y;
   const Real h5c_x = h5b_y - Real(0.014653732538);
   const Real h5c_y = h6b_y - Real(0.067870631425);
   const Real S5c_xx = S5b_zz + S5b_xx - Real(0.001451156065026715);
-  const Real S5c_xy = S5b_yz - Real(0.00151524447332703);
+  const Real S5c_xy = S5b_yz + Real(0.00151524447332703);
   const Real S5c_xz = h5b_y * Real(0.384) - (S6c_xy - c5 * S5b_t + Real(0.0010267877770288943));
-  const Real S5c_yy = S6b_xx - Real(0.006684151967360946) - Real(0.010045187828321242);
+  const Real S5c_yy = S6b_xx - Real(0.01672933979568219);
   const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
   const Real S4b_zz = S5c_xx + S5c_yy;
   const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) + s4 * S4b_d;
-  const Real S4b_xx = S5c_xx - s4 * S4b_t;
+  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) - s4 * S4b_d;
+  const Real S4b_xx = S5c_xx + s4 * S4b_t;
   const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
   const Real S4b_yz = c4 * S5c_yz - s4 * S5c_xz;
   const Real h4b_x = c4 * h5c_x + s4 * h5c_y;
@@ -1347,8 +1452,8 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S4c_xy = h5b_x * Real(0.0825) + (S4b_xz - Real(0.16284087268546085));
   const Real S4c_xz = S4b_yz + Real(0.0016444875773692703);
   const Real S4c_yy = S4b_xx + h4b_x * Real(0.165) - Real(0.051020136156815506);
-  const Real t150 = h4b_y * Real(0.0825);
-  const Real S4c_yz = t150 + (S5c_xy - c4 * S4b_t) + Real(0.0039053550262761);
+  const Real t146 = h4b_y * Real(0.0825);
+  const Real S4c_yz = t146 - (S5c_xy - c4 * S4b_t) + Real(0.0039053550262761);
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
   const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
@@ -1358,7 +1463,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h3b_x = c3 * h4c_x - s3 * h4c_y;
   const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
   const Real S3c_xx = Real(0.165) * h3b_y + (S3b_zz - S3b_xx) + Real(0.0616024210265277);
-  const Real S3c_xy = t150 - S3b_yz - Real(0.00012191242095074341);
+  const Real S3c_xy = t146 - S3b_yz - Real(0.00012191242095074341);
   const Real S3c_xz = Real(0.0825) * h3b_x - (h3b_y * Real(0.316) - (S4c_xy - c3 * S3b_t)) -
       Real(0.24149476342611426);
   const Real S3c_yy = S4b_zz - S4b_xx - Real(0.022178148964878235);
@@ -1378,8 +1483,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S1b_d = S2c_xx - S2c_yy;
   const Real S1b_t = Real(2.0) * (c1 * S2c_xy) - s1 * S1b_d;
   const Real S1b_xz = c1 * S2c_xz + s1 * S2c_yz;
-  const Real S0b_zz = S2b_xx - (S2b_zz - (s1 * S1b_t + (S2c_xx - S1b_zz) - Real(0.0062531379269374545))) -
-      Real(0.008006428067536918);
+  const Real S0b_zz = S2c_yy - (s1 * S1b_t - (S2b_zz - S2b_xx)) + Real(0.014259565994474374);
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
@@ -1427,31 +1531,23 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v6P_y = h6b_x * state.z[6];
   const Real v6L_x = S6b_xz * state.z[6];
   const Real v6L_y = S6b_yz * state.z[6];
-  const Real v6L_z = Real(0.006684151967360946) * state.z[6];
-  const Real T6 = (state.z[0] * v0L_z - (state.z[1] * v1L_z + (state.z[2] * v2L_z + (state.z[3] * v3L_z -
-      (state.z[4] * v4L_z + (state.z[5] * v5L_z - state.z[6] * v6L_z)))))) * Real(0.5) - (v6o_z * v6P_y -
+  const Real v6L_z = state.z[6] * Real(0.006684151967360946);
+  const Real T6 = (state.z[0] * v0L_z + (state.z[1] * v1L_z + (state.z[2] * v2L_z + (state.z[3] * v3L_z -
+      (state.z[4] * v4L_z + (state.z[5] * v5L_z - state.z[6] * v6L_z)))))) * Real(0.5) + (v6o_z * v6P_y -
       (v6p_y * v6P_x - (w6pp_y * v6L_x - (w6pp_x * v6L_z - (w5_z * v6L_y + (v5o_x * v5P_y + (v4o_x * v5P_x +
-      (w5pp_y * v5L_z - (w5pp_x * v5L_y - (w4_z * v5L_x - (v4o_z * v4P_y - (v4p_y * v4P_x - (w4pp_y * v4L_x +
+      (w5pp_y * v5L_z + (w5pp_x * v5L_y + (w4_z * v5L_x - (v4o_z * v4P_y - (v4p_y * v4P_x - (w4pp_y * v4L_x +
       (w4pp_x * v4L_z - (w3_z * v4L_y - (v3o_z * v3P_x - (v3o_x * v3P_y - (w3pp_y * v3L_z - (w3pp_x * v3L_y -
       (w2_z * v3L_x + (w2pp_y * v2L_x - (w2pp_x * v2L_z + (state.z[0] * v1L_x + state.z[1] *
       v2L_y)))))))))))))))))))))));
-  return -T6;
+  return T6;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
-  Real s6, c6;
-  detail::sine_cosine(state.y[6], s6, c6);
+  Real s1, c1, s2, c2, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], s2, c2, state.y[3], s3, c3, state.y[4], s4, c4);
+  Real s5, c5, s6, c6;
+  detail::sine_cosine2(state.y[5], s5, c5, state.y[6], s6, c6);
   const Real h6b_x = s6 * Real(0.002034439958661797) - c6 * Real(0.0025736053713382033);
   const Real h6b_y = c6 * Real(0.002034439958661797) + s6 * Real(0.0025736053713382033);
   const Real h6c_y = h6b_x - Real(0.231847552695);

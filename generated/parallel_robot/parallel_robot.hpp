@@ -27,8 +27,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 6.1e-16 of the
-//   sum of absolute terms, other errors are 1.5e-15 of their scale; cond(M) up to 2.0e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 4.9e-16 of the
+//   sum of absolute terms, other errors are 1.1e-15 of their scale; cond(M) up to 2.0e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -156,9 +156,10 @@ struct Model {
   Real platform_h_x;
   Real platform_h_y;
   Real c5;
-  Real S_yy;
-  Real S_xx;
+  Real c6;
+  Real c7;
   Real c8;
+  Real c9;
 };
 
 // Names in order, closed by a null pointer.
@@ -196,17 +197,17 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 404 operations (232 mul, 168 add and sub, 4 div), 14 sin and cos.
+/// 398 operations (228 mul, 166 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[7]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 522 operations (288 mul, 230 add and sub, 4 div), 14 sin and cos.
+/// 507 operations (282 mul, 221 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3][3]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 706 operations (408 mul, 294 add and sub, 4 div), 14 sin and cos.
+/// 694 operations (399 mul, 291 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept;
 
@@ -218,20 +219,20 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 851 operations (478 mul, 366 add and sub, 7 div), 14 sin and cos.
+/// 833 operations (468 mul, 358 add and sub, 7 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[3]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 772 operations (435 mul, 333 add and sub, 4 div), 14 sin and cos.
+/// 754 operations (426 mul, 324 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[3], Real
     (&tau)[3]) noexcept;
 
 /// Kinetic energy, J.
-/// 520 operations (301 mul, 215 add and sub, 4 div), 14 sin and cos.
+/// 508 operations (295 mul, 209 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -241,34 +242,34 @@ template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
-/// 418 operations (236 mul, 178 add and sub, 4 div), 14 sin and cos.
+/// 412 operations (232 mul, 176 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 612 operations (334 mul, 269 add and sub, 9 div), 34 sin and cos.
+/// 595 operations (325 mul, 261 add and sub, 9 div), 34 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 452 operations (252 mul, 196 add and sub, 4 div), 14 sin and cos.
+/// 68 operations (34 mul, 34 add and sub, 0 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 971 operations (541 mul, 423 add and sub, 7 div), 14 sin and cos.
+/// 953 operations (531 mul, 415 add and sub, 7 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5775 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
+/// 5662 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

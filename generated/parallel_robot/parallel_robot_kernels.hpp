@@ -9,12 +9,135 @@ namespace parallel_robot {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
@@ -65,25 +249,28 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression_2 = expression * Real(0.5);
   const Real platform_body_S_xx = Real(0.5) * expression_2;
   const Real mr_x = parameters.payload * Real(0.08);
-  const Real S_xx_2 = platform_body_S_xx + Real(0.08) * mr_x;
+  const Real S_xx = platform_body_S_xx + Real(0.08) * mr_x;
   h_x = mr_x * Real(0.8660254037844387);
   h_y = mr_x * Real(0.49999999999999994);
   const Real mr_x_2 = Real(0.19485571585149872) * parameters.payload;
   const Real mr_y = Real(0.11249999999999999) * parameters.payload;
-  const Real S_xx_3 = Real(0.19485571585149872) * mr_x_2;
-  const Real S_yy_2 = Real(0.11249999999999999) * mr_y;
+  const Real S_xx_2 = Real(0.19485571585149872) * mr_x_2;
+  const Real S_yy = Real(0.11249999999999999) * mr_y;
   const Real platform_m = parameters.payload + Real(0.3);
   platform_h_x = mr_x_2 + Real(0.029228357377724806);
   platform_h_y = mr_y + Real(0.016874999999999998);
   const Real mr_x_3 = Real(0.19485571585149872) * platform_m;
   const Real mr_y_2 = Real(0.11249999999999999) * platform_m;
-  S_xx = Real(0.19485571585149872) * mr_x_3;
-  S_yy = Real(0.11249999999999999) * mr_y_2;
-  const Real t34 = platform_body_S_xx + S_xx_2;
-  S2b_zz = Real(0.8660254037844387) * (Real(0.8660254037844387) * t34) + Real(0.49999999999999994) *
-      (Real(0.49999999999999994) * t34);
-  c5 = S_xx_3 + (Real(0.0037968750000000003) + (S_yy_2 + Real(0.0012656249999999998)));
-  c8 = S_xx + (Real(0.005062500000000001) + (S_yy + Real(0.0016875)));
+  const Real S_xx_3 = Real(0.19485571585149872) * mr_x_3;
+  const Real S_yy_2 = Real(0.11249999999999999) * mr_y_2;
+  const Real t32 = platform_body_S_xx + S_xx;
+  S2b_zz = Real(0.8660254037844387) * (Real(0.8660254037844387) * t32) + Real(0.49999999999999994) *
+      (Real(0.49999999999999994) * t32);
+  c5 = S_xx_2 + (Real(0.0037968750000000003) + (S_yy + Real(0.0012656249999999998)));
+  c6 = Real(0.00875) + (S_xx_3 + S_yy_2);
+  c7 = S2b_zz + c5;
+  c9 = S_xx_3 + (Real(0.005062500000000001) + (S_yy_2 + Real(0.0016875)));
+  c8 = Real(0.002) + c9;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -105,28 +292,20 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t17, t18, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t17, t18, state.y[3], s3, c3);
+  Real t31, t32, s5, c5;
+  detail::sine_cosine2(state.y[4], t31, t32, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  Real t17, t18;
-  detail::sine_cosine(state.y[2], t17, t18);
   const Real s2 = c1 * t17 - s1 * t18;
   const Real c2 = s1 * t17 + c1 * t18;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t31, t32;
-  detail::sine_cosine(state.y[4], t31, t32);
   const Real s4 = c3 * t31 + s3 * t32;
   const Real c4 = s3 * t31 - c3 * t32;
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t67, t68;
   detail::sine_cosine(state.y[6], t67, t68);
   const Real s6 = c5 * t67 + s5 * t68;
@@ -154,113 +333,107 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real t104 = t98 - t100;
   const Real t105 = t99 - t102;
   const Real t114 = Real(1.0) / (t99 * t99 + (t98 * t98 + (t95 * t95 + t97 * t97)));
-  const Real t122 = t114 * (pin3ax_x * t99 + (pin3ax_y * t98 + (pin2ax_y * t95 + pin2ax_x * t97)));
-  const Real t124 = pin2ax_y - t95 * t122;
-  const Real t126 = pin2ax_x - t97 * t122;
-  const Real t128 = pin3ax_y - t98 * t122;
-  const Real t130 = pin3ax_x - t99 * t122;
-  const Real t138 = Real(1.0) / (t130 * t130 + (t128 * t128 + (t124 * t124 + t126 * t126)));
-  const Real t142 = t114 * (pin2bx_y * t95 - pin2bx_x * t97);
-  const Real t144 = pin2bx_y - t95 * t142;
-  const Real t146 = pin2bx_x + t97 * t142;
-  const Real t147 = t98 * t142;
-  const Real t148 = t99 * t142;
-  const Real t156 = t138 * (t130 * t148 + (t128 * t147 - (t124 * t144 - t126 * t146)));
-  const Real t158 = t144 + t124 * t156;
-  const Real t160 = t146 - t126 * t156;
-  const Real t162 = t147 - t128 * t156;
-  const Real t164 = t148 - t130 * t156;
-  const Real t172 = Real(1.0) / (t164 * t164 + (t162 * t162 + (t158 * t158 + t160 * t160)));
-  const Real t176 = t114 * (pin3bx_y * t98 + pin3bx_x * t99);
-  const Real t177 = t95 * t176;
-  const Real t178 = t97 * t176;
-  const Real t180 = pin3bx_y - t98 * t176;
-  const Real t182 = pin3bx_x - t99 * t176;
-  const Real t190 = t138 * (t130 * t182 + (t128 * t180 - (t124 * t177 + t126 * t178)));
-  const Real t192 = t177 + t124 * t190;
-  const Real t194 = t178 + t126 * t190;
-  const Real t196 = t180 - t128 * t190;
-  const Real t198 = t182 - t130 * t190;
-  const Real t206 = t172 * (t164 * t198 + (t162 * t196 + (t158 * t192 - t160 * t194)));
-  const Real t208 = t192 - t158 * t206;
-  const Real t210 = t194 + t160 * t206;
-  const Real t212 = t196 - t162 * t206;
-  const Real t214 = t198 - t164 * t206;
-  const Real t222 = Real(1.0) / (t214 * t214 + (t212 * t212 + (t208 * t208 + t210 * t210)));
-  const Real t230 = t114 * (t99 * t105 + (t98 * t104 + (t95 * t101 + t97 * t103)));
-  const Real t232 = t101 - t95 * t230;
-  const Real t234 = t103 - t97 * t230;
-  const Real t236 = t104 - t98 * t230;
-  const Real t238 = t105 - t99 * t230;
-  const Real t246 = t138 * (t130 * t238 + (t128 * t236 + (t124 * t232 + t126 * t234)));
-  const Real t248 = t232 - t124 * t246;
-  const Real t250 = t234 - t126 * t246;
-  const Real t252 = t236 - t128 * t246;
-  const Real t254 = t238 - t130 * t246;
-  const Real t262 = t172 * (t164 * t254 + (t162 * t252 - (t158 * t248 - t160 * t250)));
-  const Real t278 = t222 * (t214 * (t254 - t164 * t262) + (t212 * (t252 - t162 * t262) - (t208 * (t248 + t158
-      * t262) + t210 * (t250 - t160 * t262))));
-  const Real t282 = t262 - t206 * t278;
-  const Real t286 = t156 * t282 - (t246 - t190 * t278);
-  const Real t299 = t114 * (t91 * t95 - t93 * t97);
-  const Real t301 = t91 - t95 * t299;
-  const Real t303 = t93 + t97 * t299;
-  const Real t304 = t98 * t299;
-  const Real t305 = t99 * t299;
-  const Real t313 = t138 * (t130 * t305 + (t128 * t304 - (t124 * t301 - t126 * t303)));
-  const Real t315 = t301 + t124 * t313;
-  const Real t317 = t303 - t126 * t313;
-  const Real t319 = t304 - t128 * t313;
-  const Real t321 = t305 - t130 * t313;
-  const Real t329 = t172 * (t164 * t321 + (t162 * t319 + (t158 * t315 + t160 * t317)));
-  const Real t345 = t222 * (t214 * (t321 - t164 * t329) + (t212 * (t319 - t162 * t329) + (t208 * (t315 - t158
-      * t329) - t210 * (t317 - t160 * t329))));
-  const Real t349 = t329 - t206 * t345;
-  const Real t353 = t156 * t349 - (t313 - t190 * t345);
-  const Real t366 = t114 * (pin3bx6_y * t98 - pin3bx6_x * t99);
-  const Real t367 = t95 * t366;
-  const Real t368 = t97 * t366;
-  const Real t370 = pin3bx6_y - t98 * t366;
-  const Real t372 = pin3bx6_x + t99 * t366;
-  const Real t380 = t138 * (t130 * t372 - (t128 * t370 - (t124 * t367 + t126 * t368)));
-  const Real t382 = t367 - t124 * t380;
-  const Real t384 = t368 - t126 * t380;
-  const Real t386 = t370 + t128 * t380;
-  const Real t388 = t372 - t130 * t380;
-  const Real t396 = t172 * (t164 * t388 - (t162 * t386 + (t158 * t382 - t160 * t384)));
-  const Real t412 = t222 * (t214 * (t388 - t164 * t396) - (t212 * (t386 + t162 * t396) + (t208 * (t382 + t158
-      * t396) + t210 * (t384 - t160 * t396))));
-  const Real t416 = t396 - t206 * t412;
-  const Real t420 = t156 * t416 - (t380 - t190 * t412);
+  const Real t118 = t114 * Real(0.031425) - Real(0.5);
+  const Real t120 = pin2ax_y + t95 * t118;
+  const Real t122 = pin2ax_x + t97 * t118;
+  const Real t124 = pin3ax_y + t98 * t118;
+  const Real t126 = pin3ax_x + t99 * t118;
+  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t138 = t114 * (pin2bx_y * t95 - pin2bx_x * t97);
+  const Real t140 = pin2bx_y - t95 * t138;
+  const Real t142 = pin2bx_x + t97 * t138;
+  const Real t143 = t98 * t138;
+  const Real t144 = t99 * t138;
+  const Real t152 = t134 * (t126 * t144 + (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t154 = t140 + t120 * t152;
+  const Real t156 = t142 - t122 * t152;
+  const Real t158 = t143 - t124 * t152;
+  const Real t160 = t144 - t126 * t152;
+  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t172 = t114 * (pin3bx_y * t98 + pin3bx_x * t99);
+  const Real t173 = t95 * t172;
+  const Real t174 = t97 * t172;
+  const Real t176 = pin3bx_y - t98 * t172;
+  const Real t178 = pin3bx_x - t99 * t172;
+  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 + t122 * t174)));
+  const Real t188 = t173 + t120 * t186;
+  const Real t190 = t174 + t122 * t186;
+  const Real t192 = t176 - t124 * t186;
+  const Real t194 = t178 - t126 * t186;
+  const Real t202 = t168 * (t160 * t194 + (t158 * t192 + (t154 * t188 - t156 * t190)));
+  const Real t204 = t188 - t154 * t202;
+  const Real t206 = t190 + t156 * t202;
+  const Real t208 = t192 - t158 * t202;
+  const Real t210 = t194 - t160 * t202;
+  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
+  const Real t226 = t114 * (t99 * t105 + (t98 * t104 + (t95 * t101 + t97 * t103)));
+  const Real t228 = t101 - t95 * t226;
+  const Real t230 = t103 - t97 * t226;
+  const Real t232 = t104 - t98 * t226;
+  const Real t234 = t105 - t99 * t226;
+  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t244 = t228 - t120 * t242;
+  const Real t246 = t230 - t122 * t242;
+  const Real t248 = t232 - t124 * t242;
+  const Real t250 = t234 - t126 * t242;
+  const Real t258 = t168 * (t160 * t250 + (t158 * t248 - (t154 * t244 - t156 * t246)));
+  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 - t158 * t258) - (t204 * (t244 + t154
+      * t258) + t206 * (t246 - t156 * t258))));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t295 = t114 * (t91 * t95 - t93 * t97);
+  const Real t297 = t91 - t95 * t295;
+  const Real t299 = t93 + t97 * t295;
+  const Real t300 = t98 * t295;
+  const Real t301 = t99 * t295;
+  const Real t309 = t134 * (t126 * t301 + (t124 * t300 - (t120 * t297 - t122 * t299)));
+  const Real t311 = t297 + t120 * t309;
+  const Real t313 = t299 - t122 * t309;
+  const Real t315 = t300 - t124 * t309;
+  const Real t317 = t301 - t126 * t309;
+  const Real t325 = t168 * (t160 * t317 + (t158 * t315 + (t154 * t311 + t156 * t313)));
+  const Real t341 = t218 * (t210 * (t317 - t160 * t325) + (t208 * (t315 - t158 * t325) + (t204 * (t311 - t154
+      * t325) - t206 * (t313 - t156 * t325))));
+  const Real t345 = t325 - t202 * t341;
+  const Real t349 = t152 * t345 - (t309 - t186 * t341);
+  const Real t362 = t114 * (pin3bx6_y * t98 - pin3bx6_x * t99);
+  const Real t363 = t95 * t362;
+  const Real t364 = t97 * t362;
+  const Real t366 = pin3bx6_y - t98 * t362;
+  const Real t368 = pin3bx6_x + t99 * t362;
+  const Real t376 = t134 * (t126 * t368 - (t124 * t366 - (t120 * t363 + t122 * t364)));
+  const Real t378 = t363 - t120 * t376;
+  const Real t380 = t364 - t122 * t376;
+  const Real t382 = t366 + t124 * t376;
+  const Real t384 = t368 - t126 * t376;
+  const Real t392 = t168 * (t160 * t384 - (t158 * t382 + (t154 * t378 - t156 * t380)));
+  const Real t408 = t218 * (t210 * (t384 - t160 * t392) - (t208 * (t382 + t158 * t392) + (t204 * (t378 + t154
+      * t392) + t206 * (t380 - t156 * t392))));
+  const Real t412 = t392 - t202 * t408;
+  const Real t416 = t152 * t412 - (t376 - t186 * t408);
   ydot[0] = state.z[0];
-  ydot[1] = -((t122 * t420 + (t142 * t416 - (t366 + t176 * t412))) * state.z[2] + ((t122 * t286 + (t142 * t282
-      + (t230 - t176 * t278))) * state.z[0] + (t122 * t353 + (t142 * t349 - (t299 + t176 * t345))) *
-      state.z[1]));
-  ydot[2] = t420 * state.z[2] + (t286 * state.z[0] + t353 * state.z[1]);
+  ydot[1] = (t118 * t416 - (t138 * t412 - (t362 + t172 * t408))) * state.z[2] + ((t118 * t282 - (t138 * t278 +
+      (t226 - t172 * t274))) * state.z[0] + (t118 * t349 - (t138 * t345 - (t295 + t172 * t341))) *
+      state.z[1]);
+  ydot[2] = t416 * state.z[2] + (t282 * state.z[0] + t349 * state.z[1]);
   ydot[3] = state.z[1];
-  ydot[4] = -(t416 * state.z[2] + (t282 * state.z[0] + t349 * state.z[1]));
+  ydot[4] = -(t412 * state.z[2] + (t278 * state.z[0] + t345 * state.z[1]));
   ydot[5] = state.z[2];
-  ydot[6] = -(t412 * state.z[2] + (t278 * state.z[0] + t345 * state.z[1]));
+  ydot[6] = -(t408 * state.z[2] + (t274 * state.z[0] + t341 * state.z[1]));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3][3]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t18, t19, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
+  Real t33, t34, s5, c5;
+  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
-  Real t18, t19;
-  detail::sine_cosine(state.y[2], t18, t19);
   const Real s2 = c1 * t18 - s1 * t19;
   const Real c2 = s1 * t18 + c1 * t19;
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t33, t34;
-  detail::sine_cosine(state.y[4], t33, t34);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
@@ -271,8 +444,6 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t73, t74;
   detail::sine_cosine(state.y[6], t73, t74);
   const Real s6 = c5 * t73 + s5 * t74;
@@ -296,88 +467,88 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real t104 = r1_y + t100;
   const Real t105 = r1_x - t101;
   const Real t114 = Real(1.0) / (t101 * t101 + (t100 * t100 + (t98 * t98 + t99 * t99)));
-  const Real t122 = t114 * (pin3ax_x * t101 - (pin3ax_y * t100 + (pin2ax_y * t98 - pin2ax_x * t99)));
-  const Real t124 = pin2ax_y + t98 * t122;
-  const Real t126 = pin2ax_x - t99 * t122;
-  const Real t128 = pin3ax_y + t100 * t122;
-  const Real t130 = pin3ax_x - t101 * t122;
-  const Real t138 = Real(1.0) / (t130 * t130 + (t128 * t128 + (t124 * t124 + t126 * t126)));
-  const Real t142 = t114 * (pin2bx_y * t98 + pin2bx_x * t99);
-  const Real t144 = pin2bx_y - t98 * t142;
-  const Real t146 = pin2bx_x - t99 * t142;
-  const Real t147 = t100 * t142;
-  const Real t148 = t101 * t142;
-  const Real t156 = t138 * (t130 * t148 - (t128 * t147 - (t124 * t144 - t126 * t146)));
-  const Real t158 = t144 - t124 * t156;
-  const Real t160 = t146 + t126 * t156;
-  const Real t162 = t147 + t128 * t156;
-  const Real t164 = t148 - t130 * t156;
-  const Real t172 = Real(1.0) / (t164 * t164 + (t162 * t162 + (t158 * t158 + t160 * t160)));
-  const Real t176 = t114 * (pin3bx_y * t100 - pin3bx_x * t101);
-  const Real t177 = t98 * t176;
-  const Real t178 = t99 * t176;
-  const Real t180 = pin3bx_y - t100 * t176;
-  const Real t182 = pin3bx_x + t101 * t176;
-  const Real t190 = t138 * (t130 * t182 + (t128 * t180 - (t124 * t177 - t126 * t178)));
-  const Real t192 = t177 + t124 * t190;
-  const Real t194 = t178 - t126 * t190;
-  const Real t196 = t180 - t128 * t190;
-  const Real t198 = t182 - t130 * t190;
-  const Real t206 = t172 * (t164 * t198 - (t162 * t196 + (t158 * t192 + t160 * t194)));
-  const Real t208 = t192 + t158 * t206;
-  const Real t210 = t194 + t160 * t206;
-  const Real t212 = t196 + t162 * t206;
-  const Real t214 = t198 - t164 * t206;
-  const Real t222 = Real(1.0) / (t214 * t214 + (t212 * t212 + (t208 * t208 + t210 * t210)));
-  const Real t230 = t114 * (t101 * t105 - (t100 * t104 + (t98 * t102 - t99 * t103)));
-  const Real t232 = t102 + t98 * t230;
-  const Real t234 = t103 - t99 * t230;
-  const Real t236 = t104 + t100 * t230;
-  const Real t238 = t105 - t101 * t230;
-  const Real t246 = t138 * (t130 * t238 + (t128 * t236 + (t124 * t232 + t126 * t234)));
-  const Real t248 = t232 - t124 * t246;
-  const Real t250 = t234 - t126 * t246;
-  const Real t252 = t236 - t128 * t246;
-  const Real t254 = t238 - t130 * t246;
-  const Real t262 = t172 * (t164 * t254 - (t162 * t252 - (t158 * t248 - t160 * t250)));
-  const Real t278 = t222 * (t214 * (t254 - t164 * t262) + (t212 * (t252 + t162 * t262) - (t208 * (t248 - t158
-      * t262) - t210 * (t250 + t160 * t262))));
-  const Real t282 = t262 - t206 * t278;
-  const Real t286 = t156 * t282 - (t246 - t190 * t278);
-  const Real t290 = t122 * t286 + (t142 * t282 + (t230 + t176 * t278));
-  const Real t294 = t114 * (t96 * t98 - t97 * t99);
-  const Real t296 = t96 - t98 * t294;
-  const Real t298 = t97 + t99 * t294;
-  const Real t299 = t100 * t294;
-  const Real t300 = t101 * t294;
-  const Real t308 = t138 * (t130 * t300 - (t128 * t299 - (t124 * t296 + t126 * t298)));
-  const Real t310 = t296 - t124 * t308;
-  const Real t312 = t298 - t126 * t308;
-  const Real t314 = t299 + t128 * t308;
-  const Real t316 = t300 - t130 * t308;
-  const Real t324 = t172 * (t164 * t316 + (t162 * t314 + (t158 * t310 - t160 * t312)));
-  const Real t340 = t222 * (t214 * (t316 - t164 * t324) - (t212 * (t314 - t162 * t324) + (t208 * (t310 - t158
-      * t324) - t210 * (t312 + t160 * t324))));
-  const Real t344 = t324 - t206 * t340;
-  const Real t348 = t156 * t344 - (t308 - t190 * t340);
-  const Real t352 = t122 * t348 + (t142 * t344 - (t294 - t176 * t340));
-  const Real t356 = t114 * (pin3bx6_y * t100 + pin3bx6_x * t101);
-  const Real t357 = t98 * t356;
-  const Real t358 = t99 * t356;
-  const Real t360 = pin3bx6_y - t100 * t356;
-  const Real t362 = pin3bx6_x - t101 * t356;
-  const Real t370 = t138 * (t130 * t362 - (t128 * t360 - (t124 * t357 - t126 * t358)));
-  const Real t372 = t357 - t124 * t370;
-  const Real t374 = t358 + t126 * t370;
-  const Real t376 = t360 + t128 * t370;
-  const Real t378 = t362 - t130 * t370;
-  const Real t386 = t172 * (t164 * t378 + (t162 * t376 + (t158 * t372 + t160 * t374)));
-  const Real t402 = t222 * (t214 * (t378 - t164 * t386) - (t212 * (t376 - t162 * t386) + (t208 * (t372 - t158
-      * t386) + t210 * (t374 - t160 * t386))));
-  const Real t406 = t386 - t206 * t402;
-  const Real t410 = t156 * t406 - (t370 - t190 * t402);
-  const Real t414 = t122 * t410 + (t142 * t406 + (t356 + t176 * t402));
-  const Real D6 = (s6 * r6_x - c6 * r6_y) * Real(0.03375);
+  const Real t118 = t114 * Real(0.031425) - Real(0.5);
+  const Real t120 = pin2ax_y - t98 * t118;
+  const Real t122 = pin2ax_x + t99 * t118;
+  const Real t124 = pin3ax_y - t100 * t118;
+  const Real t126 = pin3ax_x + t101 * t118;
+  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t138 = t114 * (pin2bx_y * t98 + pin2bx_x * t99);
+  const Real t140 = pin2bx_y - t98 * t138;
+  const Real t142 = pin2bx_x - t99 * t138;
+  const Real t143 = t100 * t138;
+  const Real t144 = t101 * t138;
+  const Real t152 = t134 * (t126 * t144 - (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t154 = t140 - t120 * t152;
+  const Real t156 = t142 + t122 * t152;
+  const Real t158 = t143 + t124 * t152;
+  const Real t160 = t144 - t126 * t152;
+  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t172 = t114 * (pin3bx_y * t100 - pin3bx_x * t101);
+  const Real t173 = t98 * t172;
+  const Real t174 = t99 * t172;
+  const Real t176 = pin3bx_y - t100 * t172;
+  const Real t178 = pin3bx_x + t101 * t172;
+  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 - t122 * t174)));
+  const Real t188 = t173 + t120 * t186;
+  const Real t190 = t174 - t122 * t186;
+  const Real t192 = t176 - t124 * t186;
+  const Real t194 = t178 - t126 * t186;
+  const Real t202 = t168 * (t160 * t194 - (t158 * t192 + (t154 * t188 + t156 * t190)));
+  const Real t204 = t188 + t154 * t202;
+  const Real t206 = t190 + t156 * t202;
+  const Real t208 = t192 + t158 * t202;
+  const Real t210 = t194 - t160 * t202;
+  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
+  const Real t226 = t114 * (t101 * t105 - (t100 * t104 + (t98 * t102 - t99 * t103)));
+  const Real t228 = t102 + t98 * t226;
+  const Real t230 = t103 - t99 * t226;
+  const Real t232 = t104 + t100 * t226;
+  const Real t234 = t105 - t101 * t226;
+  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t244 = t228 - t120 * t242;
+  const Real t246 = t230 - t122 * t242;
+  const Real t248 = t232 - t124 * t242;
+  const Real t250 = t234 - t126 * t242;
+  const Real t258 = t168 * (t160 * t250 - (t158 * t248 - (t154 * t244 - t156 * t246)));
+  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 + t158 * t258) - (t204 * (t244 - t154
+      * t258) - t206 * (t246 + t156 * t258))));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
+  const Real t290 = t114 * (t96 * t98 - t97 * t99);
+  const Real t292 = t96 - t98 * t290;
+  const Real t294 = t97 + t99 * t290;
+  const Real t295 = t100 * t290;
+  const Real t296 = t101 * t290;
+  const Real t304 = t134 * (t126 * t296 - (t124 * t295 - (t120 * t292 + t122 * t294)));
+  const Real t306 = t292 - t120 * t304;
+  const Real t308 = t294 - t122 * t304;
+  const Real t310 = t295 + t124 * t304;
+  const Real t312 = t296 - t126 * t304;
+  const Real t320 = t168 * (t160 * t312 + (t158 * t310 + (t154 * t306 - t156 * t308)));
+  const Real t336 = t218 * (t210 * (t312 - t160 * t320) - (t208 * (t310 - t158 * t320) + (t204 * (t306 - t154
+      * t320) - t206 * (t308 + t156 * t320))));
+  const Real t340 = t320 - t202 * t336;
+  const Real t344 = t152 * t340 - (t304 - t186 * t336);
+  const Real t348 = t118 * t344 - (t138 * t340 - (t290 - t172 * t336));
+  const Real t352 = t114 * (pin3bx6_y * t100 + pin3bx6_x * t101);
+  const Real t353 = t98 * t352;
+  const Real t354 = t99 * t352;
+  const Real t356 = pin3bx6_y - t100 * t352;
+  const Real t358 = pin3bx6_x - t101 * t352;
+  const Real t366 = t134 * (t126 * t358 - (t124 * t356 - (t120 * t353 - t122 * t354)));
+  const Real t368 = t353 - t120 * t366;
+  const Real t370 = t354 + t122 * t366;
+  const Real t372 = t356 + t124 * t366;
+  const Real t374 = t358 - t126 * t366;
+  const Real t382 = t168 * (t160 * t374 + (t158 * t372 + (t154 * t368 + t156 * t370)));
+  const Real t398 = t218 * (t210 * (t374 - t160 * t382) - (t208 * (t372 - t158 * t382) + (t204 * (t368 - t154
+      * t382) + t206 * (t370 - t156 * t382))));
+  const Real t402 = t382 - t202 * t398;
+  const Real t406 = t152 * t402 - (t366 - t186 * t398);
+  const Real t410 = t118 * t406 - (t138 * t402 + (t352 + t172 * t398));
+  const Real D6 = t74 * Real(0.00759375);
   const Real E6 = D6 + Real(0.0050625);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
@@ -393,44 +564,36 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
   const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t471 = t286 * E2 - (E1 + t290 * J1);
-  const Real t475 = t286 * model.S2b_zz + (p_2_1n_z - t290 * E2);
-  const Real t477 = t282 * Real(0.0050625);
-  const Real t479 = t278 * Real(0.0050625);
-  const Real t519 = t352 * J1 - t348 * E2;
-  const Real t522 = t352 * E2 - t348 * model.S2b_zz;
-  const Real t524 = E4 - t344 * Real(0.0050625);
-  const Real t526 = t340 * Real(0.0050625);
-  M[0][0] = t290 * (E1 - t471) + (t286 * (p_2_1n_z + t475) + (t278 * t479 + (t282 * t477 - (D1 - E1)))) +
-      Real(0.002) + Real(0.0016875) + model.S_yy + Real(0.005062500000000001) + model.S_xx;
-  M[0][1] = M[1][0] = t340 * t479 + (t344 * t477 + (t348 * t475 - (t282 * E4 + t352 * t471)));
-  M[0][2] = M[2][0] = -(t402 * t479 + (t406 * t477 + (t410 * t475 - (t278 * E6 + t414 * t471))));
-  M[1][1] = -(t344 * (E4 + t524) - (t340 * t526 - (t348 * t522 - (t352 * t519 + (Real(0.002) + (D4 + E4))))) -
-      Real(0.021937500000000002));
-  M[1][2] = M[2][1] = -(t402 * t526 - (t406 * t524 + (t410 * t522 + (t340 * E6 - t414 * t519))));
-  M[2][2] = -(t402 * (E6 + (E6 - t402 * Real(0.0050625))) - (Real(0.0050625) * (t406 * t406) - (t410 * (t414 *
-      E2 - t410 * model.S2b_zz) - (t414 * (t414 * J1 - t410 * E2) + (Real(0.002) + (Real(0.021937500000000002)
-      + (D6 + E6)))))));
+  const Real t464 = t282 * E2 - (E1 - t286 * J1);
+  const Real t468 = t282 * model.S2b_zz + (p_2_1n_z + t286 * E2);
+  const Real t470 = t278 * Real(0.0050625);
+  const Real t472 = t274 * Real(0.0050625);
+  const Real t504 = t348 * J1 + t344 * E2;
+  const Real t507 = t348 * E2 + t344 * model.S2b_zz;
+  const Real t509 = E4 - t340 * Real(0.0050625);
+  const Real t511 = t336 * Real(0.0050625);
+  M[0][0] = E1 - (D1 - (t278 * t470 + (t274 * t472 + (t282 * (p_2_1n_z + t468) - t286 * (E1 - t464))))) +
+      model.c6;
+  M[0][1] = M[1][0] = t336 * t472 + (t340 * t470 + (t344 * t468 - (t278 * E4 - t348 * t464)));
+  M[0][2] = M[2][0] = -(t398 * t472 + (t402 * t470 + (t406 * t468 - (t274 * E6 - t410 * t464))));
+  M[1][1] = E4 + (D4 + (t348 * t504 + (t344 * t507 + (t336 * t511 - t340 * (E4 + t509))))) + Real(0.0239375);
+  M[1][2] = M[2][1] = -(t398 * t511 - (t402 * t509 - (t406 * t507 - (t336 * E6 - t410 * t504))));
+  M[2][2] = E6 + (D6 + (t410 * (t410 * J1 + t406 * E2) + (t406 * (t410 * E2 + t406 * model.S2b_zz) +
+      (Real(0.0050625) * (t402 * t402) + (Real(0.0239375) - t398 * (E6 + (E6 - t398 * Real(0.0050625))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t18, t19, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
+  Real t33, t34, s5, c5;
+  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
-  Real t18, t19;
-  detail::sine_cosine(state.y[2], t18, t19);
   const Real s2 = c1 * t18 - s1 * t19;
   const Real c2 = s1 * t18 + c1 * t19;
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t33, t34;
-  detail::sine_cosine(state.y[4], t33, t34);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
@@ -447,8 +610,6 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t79, t80;
   detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
@@ -467,162 +628,157 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin3bx6_y = r6_y - pin3bx_y;
   const Real t114 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
       pin3ax2_x * pin3ax2_x)));
-  const Real t122 = t114 * (pin2ax_x * pin2ax2_x - (pin2ax_y * pin2ax2_y + (pin3ax_y * pin3ax2_y - pin3ax_x *
-      pin3ax2_x)));
-  const Real t124 = pin2ax_y + pin2ax2_y * t122;
-  const Real t126 = pin2ax_x - pin2ax2_x * t122;
-  const Real t128 = pin3ax_y + pin3ax2_y * t122;
-  const Real t130 = pin3ax_x - pin3ax2_x * t122;
-  const Real t138 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t128 * t128 + t130 * t130)));
-  const Real t142 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
-  const Real t144 = pin2bx_y - pin2ax2_y * t142;
-  const Real t146 = pin2bx_x - pin2ax2_x * t142;
-  const Real t147 = pin3ax2_y * t142;
-  const Real t148 = pin3ax2_x * t142;
-  const Real t156 = t138 * (t126 * t146 - (t124 * t144 - (t128 * t147 - t130 * t148)));
-  const Real t158 = t144 + t124 * t156;
-  const Real t160 = t146 - t126 * t156;
-  const Real t162 = t147 - t128 * t156;
-  const Real t164 = t148 + t130 * t156;
-  const Real t172 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t162 * t162 + t164 * t164)));
-  const Real t176 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
-  const Real t177 = pin2ax2_y * t176;
-  const Real t178 = pin2ax2_x * t176;
-  const Real t180 = pin3bx_y - pin3ax2_y * t176;
-  const Real t182 = pin3bx_x + pin3ax2_x * t176;
-  const Real t190 = t138 * (t126 * t178 - (t124 * t177 - (t128 * t180 + t130 * t182)));
-  const Real t192 = t177 + t124 * t190;
-  const Real t194 = t178 - t126 * t190;
-  const Real t196 = t180 - t128 * t190;
-  const Real t198 = t182 - t130 * t190;
-  const Real t206 = t172 * (t160 * t194 + (t158 * t192 + (t162 * t196 - t164 * t198)));
-  const Real t208 = t192 - t158 * t206;
-  const Real t210 = t194 - t160 * t206;
-  const Real t212 = t196 - t162 * t206;
-  const Real t214 = t198 + t164 * t206;
-  const Real t222 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t212 * t212 + t214 * t214)));
-  const Real t230 = t114 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
+  const Real t118 = t114 * Real(0.031425) - Real(0.5);
+  const Real t120 = pin2ax_y - pin2ax2_y * t118;
+  const Real t122 = pin2ax_x + pin2ax2_x * t118;
+  const Real t124 = pin3ax_y - pin3ax2_y * t118;
+  const Real t126 = pin3ax_x + pin3ax2_x * t118;
+  const Real t134 = Real(1.0) / (t122 * t122 + (t120 * t120 + (t124 * t124 + t126 * t126)));
+  const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t140 = pin2bx_y - pin2ax2_y * t138;
+  const Real t142 = pin2bx_x - pin2ax2_x * t138;
+  const Real t143 = pin3ax2_y * t138;
+  const Real t144 = pin3ax2_x * t138;
+  const Real t152 = t134 * (t122 * t142 - (t120 * t140 - (t124 * t143 - t126 * t144)));
+  const Real t154 = t140 + t120 * t152;
+  const Real t156 = t142 - t122 * t152;
+  const Real t158 = t143 - t124 * t152;
+  const Real t160 = t144 + t126 * t152;
+  const Real t168 = Real(1.0) / (t156 * t156 + (t154 * t154 + (t158 * t158 + t160 * t160)));
+  const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t173 = pin2ax2_y * t172;
+  const Real t174 = pin2ax2_x * t172;
+  const Real t176 = pin3bx_y - pin3ax2_y * t172;
+  const Real t178 = pin3bx_x + pin3ax2_x * t172;
+  const Real t186 = t134 * (t122 * t174 - (t120 * t173 - (t124 * t176 + t126 * t178)));
+  const Real t188 = t173 + t120 * t186;
+  const Real t190 = t174 - t122 * t186;
+  const Real t192 = t176 - t124 * t186;
+  const Real t194 = t178 - t126 * t186;
+  const Real t202 = t168 * (t156 * t190 + (t154 * t188 + (t158 * t192 - t160 * t194)));
+  const Real t204 = t188 - t154 * t202;
+  const Real t206 = t190 - t156 * t202;
+  const Real t208 = t192 - t158 * t202;
+  const Real t210 = t194 + t160 * t202;
+  const Real t218 = Real(1.0) / (t206 * t206 + (t204 * t204 + (t208 * t208 + t210 * t210)));
+  const Real t226 = t114 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
       pin3ax2_x * pin3ax1_x)));
-  const Real t232 = pin2ax1_y + pin2ax2_y * t230;
-  const Real t234 = pin2ax1_x - pin2ax2_x * t230;
-  const Real t236 = pin3ax1_y + pin3ax2_y * t230;
-  const Real t238 = pin3ax1_x - pin3ax2_x * t230;
-  const Real t246 = t138 * (t126 * t234 + (t124 * t232 + (t128 * t236 + t130 * t238)));
-  const Real t248 = t232 - t124 * t246;
-  const Real t250 = t234 - t126 * t246;
-  const Real t252 = t236 - t128 * t246;
-  const Real t254 = t238 - t130 * t246;
-  const Real t262 = t172 * (t160 * t250 - (t158 * t248 - (t162 * t252 - t164 * t254)));
-  const Real t278 = t222 * (t210 * (t250 - t160 * t262) - (t208 * (t248 + t158 * t262) - (t212 * (t252 - t162
-      * t262) + t214 * (t254 + t164 * t262))));
-  const Real t282 = t262 - t206 * t278;
-  const Real t286 = t190 * t278 - (t246 - t156 * t282);
-  const Real t290 = t176 * t278 + (t230 - (t142 * t282 - t122 * t286));
-  const Real t299 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
-  const Real t301 = pin2bx4_y - pin2ax2_y * t299;
-  const Real t303 = pin2bx4_x + pin2ax2_x * t299;
-  const Real t304 = pin3ax2_y * t299;
-  const Real t305 = pin3ax2_x * t299;
-  const Real t313 = t138 * (t126 * t303 + (t124 * t301 - (t128 * t304 - t130 * t305)));
-  const Real t315 = t301 - t124 * t313;
-  const Real t317 = t303 - t126 * t313;
-  const Real t319 = t304 + t128 * t313;
-  const Real t321 = t305 - t130 * t313;
-  const Real t329 = t172 * (t160 * t317 - (t158 * t315 + (t162 * t319 + t164 * t321)));
-  const Real t345 = t222 * (t210 * (t317 - t160 * t329) - (t208 * (t315 + t158 * t329) + (t212 * (t319 + t162
-      * t329) - t214 * (t321 + t164 * t329))));
-  const Real t349 = t329 - t206 * t345;
-  const Real t353 = t190 * t345 - (t313 - t156 * t349);
-  const Real t357 = t176 * t345 - (t299 + (t142 * t349 - t122 * t353));
-  const Real t366 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
-  const Real t367 = pin2ax2_y * t366;
-  const Real t368 = pin2ax2_x * t366;
-  const Real t370 = pin3bx6_y - pin3ax2_y * t366;
-  const Real t372 = pin3bx6_x - pin3ax2_x * t366;
-  const Real t380 = t138 * (t126 * t368 - (t124 * t367 - (t128 * t370 - t130 * t372)));
-  const Real t382 = t367 + t124 * t380;
-  const Real t384 = t368 - t126 * t380;
-  const Real t386 = t370 - t128 * t380;
-  const Real t388 = t372 + t130 * t380;
-  const Real t396 = t172 * (t160 * t384 + (t158 * t382 + (t162 * t386 + t164 * t388)));
-  const Real t412 = t222 * (t210 * (t384 - t160 * t396) + (t208 * (t382 - t158 * t396) + (t212 * (t386 - t162
-      * t396) - t214 * (t388 - t164 * t396))));
-  const Real t416 = t396 - t206 * t412;
-  const Real t420 = t190 * t412 - (t380 - t156 * t416);
-  const Real t424 = t176 * t412 - (t366 + (t142 * t416 - t122 * t420));
-  const Real t428 = t357 * state.z[1] + (t290 * state.z[0] + t424 * state.z[2]);
-  const Real t431 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
-  const Real t434 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
-  const Real t437 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
-  const Real pin2am2t_x = pin2ax_y * t431;
-  const Real pin2am1t_x = pin2ax2_y * t428;
-  const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
+  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
+  const Real t242 = t134 * (t122 * t230 + (t120 * t228 + (t124 * t232 + t126 * t234)));
+  const Real t244 = t228 - t120 * t242;
+  const Real t246 = t230 - t122 * t242;
+  const Real t248 = t232 - t124 * t242;
+  const Real t250 = t234 - t126 * t242;
+  const Real t258 = t168 * (t156 * t246 - (t154 * t244 - (t158 * t248 - t160 * t250)));
+  const Real t274 = t218 * (t206 * (t246 - t156 * t258) - (t204 * (t244 + t154 * t258) - (t208 * (t248 - t158
+      * t258) + t210 * (t250 + t160 * t258))));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t186 * t274 - (t242 - t152 * t278);
+  const Real t286 = t172 * t274 + (t226 - (t138 * t278 + t118 * t282));
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
+  const Real t300 = pin3ax2_y * t295;
+  const Real t301 = pin3ax2_x * t295;
+  const Real t309 = t134 * (t122 * t299 + (t120 * t297 - (t124 * t300 - t126 * t301)));
+  const Real t311 = t297 - t120 * t309;
+  const Real t313 = t299 - t122 * t309;
+  const Real t315 = t300 + t124 * t309;
+  const Real t317 = t301 - t126 * t309;
+  const Real t325 = t168 * (t156 * t313 - (t154 * t311 + (t158 * t315 + t160 * t317)));
+  const Real t341 = t218 * (t206 * (t313 - t156 * t325) - (t204 * (t311 + t154 * t325) + (t208 * (t315 + t158
+      * t325) - t210 * (t317 + t160 * t325))));
+  const Real t345 = t325 - t202 * t341;
+  const Real t349 = t186 * t341 - (t309 - t152 * t345);
+  const Real t353 = t172 * t341 - (t295 + (t138 * t345 + t118 * t349));
+  const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t363 = pin2ax2_y * t362;
+  const Real t364 = pin2ax2_x * t362;
+  const Real t366 = pin3bx6_y - pin3ax2_y * t362;
+  const Real t368 = pin3bx6_x - pin3ax2_x * t362;
+  const Real t376 = t134 * (t122 * t364 - (t120 * t363 - (t124 * t366 - t126 * t368)));
+  const Real t378 = t363 + t120 * t376;
+  const Real t380 = t364 - t122 * t376;
+  const Real t382 = t366 - t124 * t376;
+  const Real t384 = t368 + t126 * t376;
+  const Real t392 = t168 * (t156 * t380 + (t154 * t378 + (t158 * t382 + t160 * t384)));
+  const Real t408 = t218 * (t206 * (t380 - t156 * t392) + (t204 * (t378 - t154 * t392) + (t208 * (t382 - t158
+      * t392) - t210 * (t384 - t160 * t392))));
+  const Real t412 = t392 - t202 * t408;
+  const Real t416 = t186 * t408 - (t376 - t152 * t412);
+  const Real t420 = t172 * t408 - (t362 + (t138 * t412 + t118 * t416));
+  const Real t424 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
+  const Real t427 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
+  const Real t430 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
+  const Real t433 = t341 * state.z[1] + (t274 * state.z[0] + t408 * state.z[2]);
+  const Real pin2am2t_x = pin2ax_y * t427;
+  const Real pin2am1t_x = pin2ax2_y * t424;
   const Real pin2am0t_x = pin2ax1_y * state.z[0];
-  const Real pin2bm4t_x = pin2bx_y * t434;
+  const Real pin2bm4t_x = pin2bx_y * t430;
   const Real pin2bm3t_x = pin2bx4_y * state.z[1];
-  const Real pin2am2t_y = pin2ax_x * t431;
-  const Real pin2am2a_x = t431 * pin2am2t_y;
-  const Real pin2am1t_y = pin2ax2_x * t428;
+  const Real pin2am2t_y = pin2ax_x * t427;
+  const Real pin2am2a_x = t427 * pin2am2t_y;
+  const Real pin2am1t_y = pin2ax2_x * t424;
   const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
-  const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
   const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2am0b_y = pin2am0t_y + Real(2.0) * pin2am1v_y;
-  const Real pin2bm4t_y = pin2bx_x * t434;
-  const Real pin2bm4a_x = t434 * pin2bm4t_y;
+  const Real pin2am0b_y = pin2am0t_y - (pin2am1t_y + pin2am1b_y);
+  const Real pin2bm4t_y = pin2bx_x * t430;
+  const Real pin2bm4a_x = t430 * pin2bm4t_y;
   const Real pin2bm3t_y = pin2bx4_x * state.z[1];
   const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
-  const Real pin2da_x = t428 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
+  const Real pin2da_x = t424 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
       * pin2bm3b_y)));
-  const Real pin2am2a_y = t431 * pin2am2t_x;
+  const Real pin2am2a_y = t427 * pin2am2t_x;
   const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
-  const Real pin2am0b_x = pin2am0t_x + pin2am1v_x * Real(2.0);
-  const Real pin2bm4a_y = t434 * pin2bm4t_x;
+  const Real pin2am0b_x = pin2am0t_x + (pin2am1t_x + pin2am1b_x);
+  const Real pin2bm4a_y = t430 * pin2bm4t_x;
   const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
-  const Real pin2da_y = t428 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
+  const Real pin2da_y = t424 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
       * pin2bm3b_x)));
-  const Real pin3am2t_x = pin3ax_y * t431;
-  const Real pin3am1t_x = pin3ax2_y * t428;
-  const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
+  const Real pin3am2t_x = pin3ax_y * t427;
+  const Real pin3am1t_x = pin3ax2_y * t424;
   const Real pin3am0t_x = pin3ax1_y * state.z[0];
-  const Real pin3bm6t_x = pin3bx_y * t437;
+  const Real pin3bm6t_x = pin3bx_y * t433;
   const Real pin3bm5t_x = pin3bx6_y * state.z[2];
-  const Real pin3am2t_y = pin3ax_x * t431;
-  const Real pin3am2a_x = t431 * pin3am2t_y;
-  const Real pin3am1t_y = pin3ax2_x * t428;
+  const Real pin3am2t_y = pin3ax_x * t427;
+  const Real pin3am2a_x = t427 * pin3am2t_y;
+  const Real pin3am1t_y = pin3ax2_x * t424;
   const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
-  const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
   const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3am0b_y = pin3am0t_y + Real(2.0) * pin3am1v_y;
-  const Real pin3bm6t_y = pin3bx_x * t437;
-  const Real pin3bm6a_x = t437 * pin3bm6t_y;
+  const Real pin3am0b_y = pin3am0t_y - (pin3am1t_y + pin3am1b_y);
+  const Real pin3bm6t_y = pin3bx_x * t433;
+  const Real pin3bm6a_x = t433 * pin3bm6t_y;
   const Real pin3bm5t_y = pin3bx6_x * state.z[2];
   const Real pin3bm5b_y = pin3bm5t_y + Real(2.0) * pin3bm6t_y;
-  const Real pin3da_x = t428 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
+  const Real pin3da_x = t424 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
       * pin3bm5b_y)));
-  const Real pin3am2a_y = t431 * pin3am2t_x;
+  const Real pin3am2a_y = t427 * pin3am2t_x;
   const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
-  const Real pin3am0b_x = pin3am0t_x + Real(2.0) * pin3am1v_x;
-  const Real pin3bm6a_y = t437 * pin3bm6t_x;
+  const Real pin3am0b_x = pin3am0t_x + (pin3am1t_x + pin3am1b_x);
+  const Real pin3bm6a_y = t433 * pin3bm6t_x;
   const Real pin3bm5b_x = pin3bm5t_x - Real(2.0) * pin3bm6t_x;
-  const Real pin3da_y = t428 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
+  const Real pin3da_y = t424 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
       * pin3bm5b_x)));
-  const Real t530 = t114 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
+  const Real t522 = t114 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
       pin3da_y)));
-  const Real t532 = pin2da_x + pin2ax2_y * t530;
-  const Real t534 = pin2da_y - pin2ax2_x * t530;
-  const Real t536 = pin3da_x + pin3ax2_y * t530;
-  const Real t538 = pin3da_y - pin3ax2_x * t530;
-  const Real t546 = t138 * (t126 * t534 + (t124 * t532 + (t128 * t536 + t130 * t538)));
-  const Real t548 = t532 - t124 * t546;
-  const Real t550 = t534 - t126 * t546;
-  const Real t552 = t536 - t128 * t546;
-  const Real t554 = t538 - t130 * t546;
-  const Real t562 = t172 * (t160 * t550 - (t158 * t548 - (t162 * t552 - t164 * t554)));
-  const Real t578 = t222 * (t210 * (t550 - t160 * t562) - (t208 * (t548 + t158 * t562) - (t212 * (t552 - t162
-      * t562) + t214 * (t554 + t164 * t562))));
-  const Real t582 = t562 - t206 * t578;
-  const Real t586 = t190 * t578 - (t546 - t156 * t582);
-  const Real t590 = t176 * t578 + (t530 - (t142 * t582 - t122 * t586));
+  const Real t524 = pin2da_x + pin2ax2_y * t522;
+  const Real t526 = pin2da_y - pin2ax2_x * t522;
+  const Real t528 = pin3da_x + pin3ax2_y * t522;
+  const Real t530 = pin3da_y - pin3ax2_x * t522;
+  const Real t538 = t134 * (t122 * t526 + (t120 * t524 + (t124 * t528 + t126 * t530)));
+  const Real t540 = t524 - t120 * t538;
+  const Real t542 = t526 - t122 * t538;
+  const Real t544 = t528 - t124 * t538;
+  const Real t546 = t530 - t126 * t538;
+  const Real t554 = t168 * (t156 * t542 - (t154 * t540 - (t158 * t544 - t160 * t546)));
+  const Real t570 = t218 * (t206 * (t542 - t156 * t554) - (t204 * (t540 + t154 * t554) - (t208 * (t544 - t158
+      * t554) + t210 * (t546 + t160 * t554))));
+  const Real t574 = t554 - t202 * t570;
+  const Real t578 = t186 * t570 - (t538 - t152 * t574);
+  const Real t582 = t172 * t570 + (t522 - (t138 * t574 + t118 * t578));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
@@ -631,51 +787,51 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
   const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
-  const Real w1_z = state.z[0] + t428;
+  const Real w1_z = state.z[0] + t424;
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
-  const Real zw_1 = t428 * (state.z[0] + w1_z);
+  const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real kdf1_x = h1_x * zw_1;
   const Real kdf1_y = h1_y * zw_1;
   const Real kW1w22 = w1_z * w1_z;
   const Real ka2o_x = ka1o_x - r2_x * kW1w22;
   const Real ka2o_y = ka1o_y + r2_y * kW1w22;
-  const Real zw_2 = t431 * (w1_z - (t431 - w1_z));
+  const Real zw_2 = t427 * (w1_z - (t427 - w1_z));
   const Real kdf2_x = h2b_x * zw_2;
   const Real kdf2_y = h2b_y * zw_2;
   const Real kW3w22 = state.z[1] * state.z[1];
   const Real ka4o_x = r4_x * kW3w22;
   const Real ka4o_y = r4_y * kW3w22;
-  const Real zw_4 = t434 * (state.z[1] + (state.z[1] + t434));
+  const Real zw_4 = t430 * (state.z[1] + (state.z[1] + t430));
   const Real kdf4_x = h4b_x * zw_4;
   const Real kdf4_y = h4b_y * zw_4;
   const Real kW5w22 = state.z[2] * state.z[2];
   const Real ka6o_x = r6_x * kW5w22;
   const Real ka6o_y = r6_y * kW5w22;
-  const Real zw_6 = t437 * (state.z[2] + (state.z[2] + t437));
+  const Real zw_6 = t433 * (state.z[2] + (state.z[2] + t433));
   const Real kdf6_x = h6b_x * zw_6;
   const Real kdf6_y = h6b_y * zw_6;
   const Real kf2c_x = kdf1_x - kdf2_x;
   const Real kf2c_y = kdf1_y + kdf2_y;
   const Real kn2c_z = r2_x * kdf2_y + r2_y * kdf2_x;
-  const Real E6 = r6_y * h6b_y - (r6_x * h6b_x + Real(0.0050625));
+  const Real E6 = t80 * Real(0.00759375) + Real(0.0050625);
   const Real E4 = r4_x * h4b_x + (Real(0.0050625) + r4_y * h4b_y);
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
   const Real J1 = E2 + (D2 + model.c5);
   const Real E1 = r1_x * h1_x - (J1 + r1_y * h1_y);
   const Real p_2_1n_z = r1_x * h2b_x - (E2 - r1_y * h2b_y);
-  const Real t711 = h1_y * ka1o_x + (h1_x * ka1o_y + (kn2c_z - (t590 * J1 - t586 * E2)));
-  const Real t714 = h2b_y * ka2o_x - (h2b_x * ka2o_y - (t590 * E2 - t586 * model.S2b_zz));
-  const Real t716 = h4b_y * ka4o_x - (h4b_x * ka4o_y + t582 * Real(0.0050625));
-  const Real t718 = h6b_y * ka6o_x + (h6b_x * ka6o_y - t578 * Real(0.0050625));
-  k[0] = r1_x * kf2c_y - (kn2c_z - (r1_y * kf2c_x - (t590 * E1 - (t586 * p_2_1n_z - (t290 * t711 + (t286 *
-      t714 + (t282 * t716 + t278 * t718)))))));
-  k[1] = -(r4_y * kdf4_x - (r4_x * kdf4_y + (t582 * E4 - (t357 * t711 + (t353 * t714 + (t349 * t716 + t345 *
-      t718))))));
-  k[2] = r6_y * kdf6_x + (r6_x * kdf6_y - (t578 * E6 + (t424 * t711 + (t420 * t714 + (t416 * t716 + t412 *
-      t718)))));
+  const Real t702 = h1_y * ka1o_x + (h1_x * ka1o_y + (kn2c_z - (t582 * J1 - t578 * E2)));
+  const Real t705 = h2b_y * ka2o_x - (h2b_x * ka2o_y - (t582 * E2 - t578 * model.S2b_zz));
+  const Real t707 = h4b_y * ka4o_x - (h4b_x * ka4o_y + t574 * Real(0.0050625));
+  const Real t709 = h6b_y * ka6o_x + (h6b_x * ka6o_y - t570 * Real(0.0050625));
+  k[0] = r1_x * kf2c_y - (kn2c_z - (r1_y * kf2c_x - (t582 * E1 - (t578 * p_2_1n_z - (t286 * t702 + (t282 *
+      t705 + (t278 * t707 + t274 * t709)))))));
+  k[1] = -(r4_y * kdf4_x - (r4_x * kdf4_y + (t574 * E4 - (t353 * t702 + (t349 * t705 + (t345 * t707 + t341 *
+      t709))))));
+  k[2] = r6_y * kdf6_x + (r6_x * kdf6_y + (t570 * E6 - (t420 * t702 + (t416 * t705 + (t412 * t707 + t408 *
+      t709)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -691,22 +847,16 @@ void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>& input, Rea
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[3]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t18, t19, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
+  Real t33, t34, s5, c5;
+  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
-  Real t18, t19;
-  detail::sine_cosine(state.y[2], t18, t19);
   const Real s2 = c1 * t18 - s1 * t19;
   const Real c2 = s1 * t18 + c1 * t19;
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t33, t34;
-  detail::sine_cosine(state.y[4], t33, t34);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
@@ -723,8 +873,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t79, t80;
   detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
@@ -741,167 +889,162 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
-      pin3ax2_x * pin3ax2_x)));
-  const Real t122 = t114 * (pin2ax_x * pin2ax2_x - (pin2ax_y * pin2ax2_y + (pin3ax_y * pin3ax2_y - pin3ax_x *
-      pin3ax2_x)));
-  const Real t124 = pin2ax_y + pin2ax2_y * t122;
-  const Real t126 = pin2ax_x - pin2ax2_x * t122;
-  const Real t128 = pin3ax_y + pin3ax2_y * t122;
-  const Real t130 = pin3ax_x - pin3ax2_x * t122;
-  const Real t138 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t128 * t128 + t130 * t130)));
-  const Real t142 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
-  const Real t144 = pin2bx_y - pin2ax2_y * t142;
-  const Real t146 = pin2bx_x - pin2ax2_x * t142;
-  const Real t147 = pin3ax2_y * t142;
-  const Real t148 = pin3ax2_x * t142;
-  const Real t156 = t138 * (t126 * t146 - (t124 * t144 - (t128 * t147 - t130 * t148)));
-  const Real t158 = t144 + t124 * t156;
-  const Real t160 = t146 - t126 * t156;
-  const Real t162 = t147 - t128 * t156;
-  const Real t164 = t148 + t130 * t156;
-  const Real t172 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t162 * t162 + t164 * t164)));
-  const Real t176 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
-  const Real t177 = pin2ax2_y * t176;
-  const Real t178 = pin2ax2_x * t176;
-  const Real t180 = pin3bx_y - pin3ax2_y * t176;
-  const Real t182 = pin3bx_x + pin3ax2_x * t176;
-  const Real t190 = t138 * (t126 * t178 - (t124 * t177 - (t128 * t180 + t130 * t182)));
-  const Real t192 = t177 + t124 * t190;
-  const Real t194 = t178 - t126 * t190;
-  const Real t196 = t180 - t128 * t190;
-  const Real t198 = t182 - t130 * t190;
-  const Real t206 = t172 * (t160 * t194 + (t158 * t192 + (t162 * t196 - t164 * t198)));
-  const Real t208 = t192 - t158 * t206;
-  const Real t210 = t194 - t160 * t206;
-  const Real t212 = t196 - t162 * t206;
-  const Real t214 = t198 + t164 * t206;
-  const Real t222 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t212 * t212 + t214 * t214)));
-  const Real t230 = t114 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
-      pin3ax2_x * pin3ax1_x)));
-  const Real t232 = pin2ax1_y + pin2ax2_y * t230;
-  const Real t234 = pin2ax1_x - pin2ax2_x * t230;
-  const Real t236 = pin3ax1_y + pin3ax2_y * t230;
-  const Real t238 = pin3ax1_x - pin3ax2_x * t230;
-  const Real t246 = t138 * (t126 * t234 + (t124 * t232 + (t128 * t236 + t130 * t238)));
-  const Real t248 = t232 - t124 * t246;
-  const Real t250 = t234 - t126 * t246;
-  const Real t252 = t236 - t128 * t246;
-  const Real t254 = t238 - t130 * t246;
-  const Real t262 = t172 * (t160 * t250 - (t158 * t248 - (t162 * t252 - t164 * t254)));
-  const Real t278 = t222 * (t210 * (t250 - t160 * t262) - (t208 * (t248 + t158 * t262) - (t212 * (t252 - t162
-      * t262) + t214 * (t254 + t164 * t262))));
-  const Real t282 = t262 - t206 * t278;
-  const Real t286 = t190 * t278 - (t246 - t156 * t282);
-  const Real t290 = t176 * t278 + (t230 - (t142 * t282 - t122 * t286));
-  const Real t299 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
-  const Real t301 = pin2bx4_y - pin2ax2_y * t299;
-  const Real t303 = pin2bx4_x + pin2ax2_x * t299;
-  const Real t304 = pin3ax2_y * t299;
-  const Real t305 = pin3ax2_x * t299;
-  const Real t313 = t138 * (t126 * t303 + (t124 * t301 - (t128 * t304 - t130 * t305)));
-  const Real t315 = t301 - t124 * t313;
-  const Real t317 = t303 - t126 * t313;
-  const Real t319 = t304 + t128 * t313;
-  const Real t321 = t305 - t130 * t313;
-  const Real t329 = t172 * (t160 * t317 - (t158 * t315 + (t162 * t319 + t164 * t321)));
-  const Real t345 = t222 * (t210 * (t317 - t160 * t329) - (t208 * (t315 + t158 * t329) + (t212 * (t319 + t162
-      * t329) - t214 * (t321 + t164 * t329))));
-  const Real t349 = t329 - t206 * t345;
-  const Real t353 = t190 * t345 - (t313 - t156 * t349);
-  const Real t357 = t176 * t345 - (t299 + (t142 * t349 - t122 * t353));
-  const Real t366 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
-  const Real t367 = pin2ax2_y * t366;
-  const Real t368 = pin2ax2_x * t366;
-  const Real t370 = pin3bx6_y - pin3ax2_y * t366;
-  const Real t372 = pin3bx6_x - pin3ax2_x * t366;
-  const Real t380 = t138 * (t126 * t368 - (t124 * t367 - (t128 * t370 - t130 * t372)));
-  const Real t382 = t367 + t124 * t380;
-  const Real t384 = t368 - t126 * t380;
-  const Real t386 = t370 - t128 * t380;
-  const Real t388 = t372 + t130 * t380;
-  const Real t396 = t172 * (t160 * t384 + (t158 * t382 + (t162 * t386 + t164 * t388)));
-  const Real t412 = t222 * (t210 * (t384 - t160 * t396) + (t208 * (t382 - t158 * t396) + (t212 * (t386 - t162
-      * t396) - t214 * (t388 - t164 * t396))));
-  const Real t416 = t396 - t206 * t412;
-  const Real t420 = t190 * t412 - (t380 - t156 * t416);
-  const Real t424 = t176 * t412 - (t366 + (t142 * t416 - t122 * t420));
-  const Real t428 = t357 * state.z[1] + (t290 * state.z[0] + t424 * state.z[2]);
-  const Real t431 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
-  const Real t434 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
-  const Real t437 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
-  const Real pin2am2t_x = pin2ax_y * t431;
-  const Real pin2am1t_x = pin2ax2_y * t428;
-  const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
+  const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
+      pin2ax2_x * pin2ax2_x)));
+  const Real t118 = t114 * Real(0.031425) - Real(0.5);
+  const Real t120 = pin2ax_y - pin2ax2_y * t118;
+  const Real t122 = pin2ax_x + pin2ax2_x * t118;
+  const Real t124 = pin3ax_y - pin3ax2_y * t118;
+  const Real t126 = pin3ax_x + pin3ax2_x * t118;
+  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t140 = pin2bx_y - pin2ax2_y * t138;
+  const Real t142 = pin2bx_x - pin2ax2_x * t138;
+  const Real t143 = pin3ax2_y * t138;
+  const Real t144 = pin3ax2_x * t138;
+  const Real t152 = t134 * (t126 * t144 - (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t154 = t140 - t120 * t152;
+  const Real t156 = t142 + t122 * t152;
+  const Real t158 = t143 + t124 * t152;
+  const Real t160 = t144 - t126 * t152;
+  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t173 = pin2ax2_y * t172;
+  const Real t174 = pin2ax2_x * t172;
+  const Real t176 = pin3bx_y - pin3ax2_y * t172;
+  const Real t178 = pin3bx_x + pin3ax2_x * t172;
+  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 - t122 * t174)));
+  const Real t188 = t173 + t120 * t186;
+  const Real t190 = t174 - t122 * t186;
+  const Real t192 = t176 - t124 * t186;
+  const Real t194 = t178 - t126 * t186;
+  const Real t202 = t168 * (t160 * t194 - (t158 * t192 + (t154 * t188 + t156 * t190)));
+  const Real t204 = t188 + t154 * t202;
+  const Real t206 = t190 + t156 * t202;
+  const Real t208 = t192 + t158 * t202;
+  const Real t210 = t194 - t160 * t202;
+  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
+  const Real t226 = t114 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
+      pin2ax2_x * pin2ax1_x)));
+  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
+  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t244 = t228 - t120 * t242;
+  const Real t246 = t230 - t122 * t242;
+  const Real t248 = t232 - t124 * t242;
+  const Real t250 = t234 - t126 * t242;
+  const Real t258 = t168 * (t160 * t250 - (t158 * t248 - (t154 * t244 - t156 * t246)));
+  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 + t158 * t258) - (t204 * (t244 - t154
+      * t258) - t206 * (t246 + t156 * t258))));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
+  const Real t300 = pin3ax2_y * t295;
+  const Real t301 = pin3ax2_x * t295;
+  const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
+  const Real t311 = t297 - t120 * t309;
+  const Real t313 = t299 - t122 * t309;
+  const Real t315 = t300 + t124 * t309;
+  const Real t317 = t301 - t126 * t309;
+  const Real t325 = t168 * (t160 * t317 + (t158 * t315 + (t154 * t311 - t156 * t313)));
+  const Real t341 = t218 * (t210 * (t317 - t160 * t325) - (t208 * (t315 - t158 * t325) + (t204 * (t311 - t154
+      * t325) - t206 * (t313 + t156 * t325))));
+  const Real t345 = t325 - t202 * t341;
+  const Real t349 = t152 * t345 - (t309 - t186 * t341);
+  const Real t353 = t118 * t349 - (t138 * t345 - (t295 - t172 * t341));
+  const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t363 = pin2ax2_y * t362;
+  const Real t364 = pin2ax2_x * t362;
+  const Real t366 = pin3bx6_y - pin3ax2_y * t362;
+  const Real t368 = pin3bx6_x - pin3ax2_x * t362;
+  const Real t376 = t134 * (t126 * t368 - (t124 * t366 - (t120 * t363 - t122 * t364)));
+  const Real t378 = t363 - t120 * t376;
+  const Real t380 = t364 + t122 * t376;
+  const Real t382 = t366 + t124 * t376;
+  const Real t384 = t368 - t126 * t376;
+  const Real t392 = t168 * (t160 * t384 + (t158 * t382 + (t154 * t378 + t156 * t380)));
+  const Real t408 = t218 * (t210 * (t384 - t160 * t392) - (t208 * (t382 - t158 * t392) + (t204 * (t378 - t154
+      * t392) + t206 * (t380 - t156 * t392))));
+  const Real t412 = t392 - t202 * t408;
+  const Real t416 = t152 * t412 - (t376 - t186 * t408);
+  const Real t420 = t118 * t416 - (t138 * t412 + (t362 + t172 * t408));
+  const Real t424 = t420 * state.z[2] - (t286 * state.z[0] + t353 * state.z[1]);
+  const Real t427 = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
+  const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
+  const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
+  const Real pin2am2t_x = pin2ax_y * t427;
+  const Real pin2am1t_x = pin2ax2_y * t424;
   const Real pin2am0t_x = pin2ax1_y * state.z[0];
-  const Real pin2bm4t_x = pin2bx_y * t434;
+  const Real pin2bm4t_x = pin2bx_y * t430;
   const Real pin2bm3t_x = pin2bx4_y * state.z[1];
-  const Real pin2am2t_y = pin2ax_x * t431;
-  const Real pin2am2a_x = t431 * pin2am2t_y;
-  const Real pin2am1t_y = pin2ax2_x * t428;
-  const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
-  const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
+  const Real pin2am2t_y = pin2ax_x * t427;
+  const Real pin2am2a_x = t427 * pin2am2t_y;
+  const Real pin2am1t_y = pin2ax2_x * t424;
+  const Real pin2am1b_y = pin2am1t_y + pin2am2t_y * Real(2.0);
   const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2am0b_y = pin2am0t_y + Real(2.0) * pin2am1v_y;
-  const Real pin2bm4t_y = pin2bx_x * t434;
-  const Real pin2bm4a_x = t434 * pin2bm4t_y;
+  const Real pin2am0b_y = pin2am0t_y - (pin2am1t_y + pin2am1b_y);
+  const Real pin2bm4t_y = pin2bx_x * t430;
+  const Real pin2bm4a_x = t430 * pin2bm4t_y;
   const Real pin2bm3t_y = pin2bx4_x * state.z[1];
   const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
-  const Real pin2da_x = t428 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
-      * pin2bm3b_y)));
-  const Real pin2am2a_y = t431 * pin2am2t_x;
-  const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
-  const Real pin2am0b_x = pin2am0t_x + pin2am1v_x * Real(2.0);
-  const Real pin2bm4a_y = t434 * pin2bm4t_x;
+  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t424
+      * pin2am1b_y)));
+  const Real pin2am2a_y = t427 * pin2am2t_x;
+  const Real pin2am1b_x = pin2am1t_x - pin2am2t_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x + (pin2am1t_x + pin2am1b_x);
+  const Real pin2bm4a_y = t430 * pin2bm4t_x;
   const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
-  const Real pin2da_y = t428 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
-      * pin2bm3b_x)));
-  const Real pin3am2t_x = pin3ax_y * t431;
-  const Real pin3am1t_x = pin3ax2_y * t428;
-  const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
+  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t424
+      * pin2am1b_x)));
+  const Real pin3am2t_x = pin3ax_y * t427;
+  const Real pin3am1t_x = pin3ax2_y * t424;
   const Real pin3am0t_x = pin3ax1_y * state.z[0];
-  const Real pin3bm6t_x = pin3bx_y * t437;
+  const Real pin3bm6t_x = pin3bx_y * t433;
   const Real pin3bm5t_x = pin3bx6_y * state.z[2];
-  const Real pin3am2t_y = pin3ax_x * t431;
-  const Real pin3am2a_x = t431 * pin3am2t_y;
-  const Real pin3am1t_y = pin3ax2_x * t428;
-  const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
-  const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
+  const Real pin3am2t_y = pin3ax_x * t427;
+  const Real pin3am2a_x = t427 * pin3am2t_y;
+  const Real pin3am1t_y = pin3ax2_x * t424;
+  const Real pin3am1b_y = pin3am1t_y + Real(2.0) * pin3am2t_y;
   const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3am0b_y = pin3am0t_y + Real(2.0) * pin3am1v_y;
-  const Real pin3bm6t_y = pin3bx_x * t437;
-  const Real pin3bm6a_x = t437 * pin3bm6t_y;
+  const Real pin3am0b_y = pin3am0t_y - (pin3am1t_y + pin3am1b_y);
+  const Real pin3bm6t_y = pin3bx_x * t433;
+  const Real pin3bm6a_x = t433 * pin3bm6t_y;
   const Real pin3bm5t_y = pin3bx6_x * state.z[2];
-  const Real pin3bm5b_y = pin3bm5t_y + Real(2.0) * pin3bm6t_y;
-  const Real pin3da_x = t428 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
-      * pin3bm5b_y)));
-  const Real pin3am2a_y = t431 * pin3am2t_x;
-  const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
-  const Real pin3am0b_x = pin3am0t_x + Real(2.0) * pin3am1v_x;
-  const Real pin3bm6a_y = t437 * pin3bm6t_x;
-  const Real pin3bm5b_x = pin3bm5t_x - Real(2.0) * pin3bm6t_x;
-  const Real pin3da_y = t428 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
-      * pin3bm5b_x)));
-  const Real t530 = t114 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
-      pin3da_y)));
-  const Real t532 = pin2da_x + pin2ax2_y * t530;
-  const Real t534 = pin2da_y - pin2ax2_x * t530;
-  const Real t536 = pin3da_x + pin3ax2_y * t530;
-  const Real t538 = pin3da_y - pin3ax2_x * t530;
-  const Real t546 = t138 * (t126 * t534 + (t124 * t532 + (t128 * t536 + t130 * t538)));
-  const Real t548 = t532 - t124 * t546;
-  const Real t550 = t534 - t126 * t546;
-  const Real t552 = t536 - t128 * t546;
-  const Real t554 = t538 - t130 * t546;
-  const Real t562 = t172 * (t160 * t550 - (t158 * t548 - (t162 * t552 - t164 * t554)));
-  const Real t578 = t222 * (t210 * (t550 - t160 * t562) - (t208 * (t548 + t158 * t562) - (t212 * (t552 - t162
-      * t562) + t214 * (t554 + t164 * t562))));
-  const Real t582 = t562 - t206 * t578;
-  const Real t586 = t190 * t578 - (t546 - t156 * t582);
-  const Real ral1o_z = t176 * t578 + (t530 - (t142 * t582 - t122 * t586));
+  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t424
+      * pin3am1b_y)));
+  const Real pin3am2a_y = t427 * pin3am2t_x;
+  const Real pin3am1b_x = pin3am1t_x - Real(2.0) * pin3am2t_x;
+  const Real pin3am0b_x = pin3am0t_x + (pin3am1t_x + pin3am1b_x);
+  const Real pin3bm6a_y = t433 * pin3bm6t_x;
+  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t424
+      * pin3am1b_x)));
+  const Real t522 = t114 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
+      pin2da_y)));
+  const Real t524 = pin2da_x - pin2ax2_y * t522;
+  const Real t526 = pin2da_y - pin2ax2_x * t522;
+  const Real t528 = pin3da_x + pin3ax2_y * t522;
+  const Real t530 = pin3da_y - pin3ax2_x * t522;
+  const Real t538 = t134 * (t126 * t530 + (t124 * t528 - (t120 * t524 - t122 * t526)));
+  const Real t540 = t524 + t120 * t538;
+  const Real t542 = t526 - t122 * t538;
+  const Real t544 = t528 - t124 * t538;
+  const Real t546 = t530 - t126 * t538;
+  const Real t554 = t168 * (t160 * t546 - (t158 * t544 + (t154 * t540 + t156 * t542)));
+  const Real t570 = t218 * (t210 * (t546 - t160 * t554) + (t208 * (t544 + t158 * t554) + (t204 * (t540 + t154
+      * t554) + t206 * (t542 + t156 * t554))));
+  const Real t574 = t554 - t202 * t570;
+  const Real t578 = t152 * t574 - (t538 - t186 * t570);
+  const Real ral1o_z = t118 * t578 - (t138 * t574 + (t522 + t172 * t570));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
-  const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
+  const Real D6 = t80 * Real(0.00759375);
   const Real E6 = D6 + Real(0.0050625);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
@@ -911,103 +1054,96 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
-  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
-  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
-  const Real J1 = E2 + (D2 + model.c5);
-  const Real D1 = r1_x * h1_x - r1_y * h1_y;
+  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
+  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
+  const Real J1 = D2 + E2 + model.c5;
+  const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
-  const Real p_2_1n_z = r1_x * h2b_x - (E2 - r1_y * h2b_y);
-  const Real t655 = t357 * J1 - t353 * E2;
-  const Real t658 = t357 * E2 - t353 * model.S2b_zz;
-  const Real t660 = E4 + t349 * Real(0.0050625);
-  const Real t661 = t345 * Real(0.0050625);
-  const Real t673 = t424 * J1 - t420 * E2;
-  const Real t676 = t424 * E2 - t420 * model.S2b_zz;
-  const Real t678 = t416 * Real(0.0050625);
-  const Real t680 = E6 + t412 * Real(0.0050625);
-  const Real t689 = t420 * p_2_1n_z + (t424 * E1 + (t290 * t673 - (t286 * t676 - (t282 * t678 + t278 *
-      t680))));
-  const Real t697 = t357 * t673 + (t416 * E4 - (t353 * t676 - (t349 * t678 + t345 * t680)));
-  const Real t710 = Real(1.0) / (E6 + (D6 + (t424 * t673 - (t420 * t676 - (t416 * t678 + (t412 * (E6 + t680) +
-      Real(0.0239375)))))));
-  const Real t711 = t697 * t710;
-  const Real t731 = t353 * p_2_1n_z + (t357 * E1 + (t290 * t655 - (t286 * t658 - (t282 * t660 + (t278 * t661 -
-      t689 * t711)))));
-  const Real t732 = t689 * t710;
-  const Real t734 = Real(1.0) / (D4 + (E4 + (t357 * t655 - (t353 * t658 - (t345 * t661 - (t697 * t711 - t349 *
-      (E4 + t660)))) + Real(0.002))) + Real(0.021937500000000002));
-  const Real t735 = t731 * t734;
-  const Real w1_z = state.z[0] + t428;
+  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
+  const Real t646 = t353 * J1 + t349 * E2;
+  const Real t649 = t353 * E2 + t349 * model.S2b_zz;
+  const Real t651 = E4 - t345 * Real(0.0050625);
+  const Real t652 = t341 * Real(0.0050625);
+  const Real t664 = t420 * J1 + t416 * E2;
+  const Real t667 = t420 * E2 + t416 * model.S2b_zz;
+  const Real t669 = t412 * Real(0.0050625);
+  const Real t671 = E6 - t408 * Real(0.0050625);
+  const Real t680 = t274 * t671 - (t278 * t669 + (t282 * t667 + (t286 * t664 - (t420 * E1 - t416 *
+      p_2_1n_z))));
+  const Real t688 = t341 * t671 - (t345 * t669 + (t349 * t667 - (t412 * E4 - t353 * t664)));
+  const Real t701 = Real(1.0) / (E6 + (D6 + (t420 * t664 + (t416 * t667 + (t412 * t669 - t408 * (E6 +
+      t671))))) + Real(0.0239375));
+  const Real t702 = t688 * t701;
+  const Real t719 = t680 * t702 - (t274 * t652 - (t278 * t651 - (t282 * t649 + (t286 * t646 - (t353 * E1 -
+      t349 * p_2_1n_z)))));
+  const Real t720 = t680 * t701;
+  const Real t722 = Real(1.0) / (E4 + (D4 + (t353 * t646 + (t349 * t649 + (t341 * t652 - (t688 * t702 -
+      (Real(0.0239375) - t345 * (E4 + t651))))))));
+  const Real t723 = t719 * t722;
+  const Real w1_z = state.z[0] + t424;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = r1_y * rW0w22;
-  const Real zw_1 = t428 * (state.z[0] + w1_z);
+  const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
   const Real rW1w22 = w1_z * w1_z;
-  const Real ra2o_x = r2_x * rW1w22 - (ra1o_x - r2_y * ral1o_z);
-  const Real ra2o_y = r2_x * ral1o_z - (ra1o_y + r2_y * rW1w22);
-  const Real zw_2 = t431 * (w1_z - (t431 - w1_z));
-  const Real rdf2_x = t586 * h2b_y - h2b_x * zw_2;
-  const Real rdf2_y = t586 * h2b_x + h2b_y * zw_2;
-  const Real rdn2_z = t586 * model.S2b_zz;
+  const Real ra2o_x = r2_y * ral1o_z + (ra1o_x - r2_x * rW1w22);
+  const Real ra2o_y = r2_y * rW1w22 + (ra1o_y + r2_x * ral1o_z);
+  const Real zw_2 = t427 * (w1_z + (t427 + w1_z));
+  const Real rdf2_x = t578 * h2b_y + h2b_x * zw_2;
+  const Real rdf2_y = t578 * h2b_x - h2b_y * zw_2;
+  const Real rdn2_z = t578 * model.S2b_zz;
   const Real rW3w22 = state.z[1] * state.z[1];
   const Real ra4o_x = r4_x * rW3w22;
   const Real ra4o_y = r4_y * rW3w22;
-  const Real zw_4 = t434 * (state.z[1] + (state.z[1] + t434));
-  const Real rdf4_x = t582 * h4b_y - h4b_x * zw_4;
-  const Real rdf4_y = t582 * h4b_x + h4b_y * zw_4;
-  const Real rdn4_z = t582 * Real(0.0050625);
+  const Real zw_4 = t430 * (t430 + (state.z[1] + state.z[1]));
+  const Real rdf4_x = t574 * h4b_y + h4b_x * zw_4;
+  const Real rdf4_y = t574 * h4b_x - h4b_y * zw_4;
+  const Real rdn4_z = t574 * Real(0.0050625);
   const Real rW5w22 = state.z[2] * state.z[2];
   const Real ra6o_x = r6_x * rW5w22;
   const Real ra6o_y = r6_y * rW5w22;
-  const Real zw_6 = t437 * (state.z[2] + (state.z[2] + t437));
-  const Real rdf6_x = t578 * h6b_y - h6b_x * zw_6;
-  const Real rdf6_y = t578 * h6b_x + h6b_y * zw_6;
-  const Real rdn6_z = t578 * Real(0.0050625);
-  const Real rf2c_x = h1_x * zw_1 + (ral1o_z * h1_y + rdf2_x);
-  const Real rf2c_y = h1_y * zw_1 - (ral1o_z * h1_x - rdf2_y);
-  const Real rn2c_z = rdn2_z - (rdn1_z - (r2_x * rdf2_y - r2_y * rdf2_x));
-  const Real rQ1_0 = h1_y * ra1o_x + (h1_x * ra1o_y + rn2c_z);
-  const Real rQ2_0 = h2b_x * ra2o_y + (ral1o_z * model.S2b_zz - (h2b_y * ra2o_x + rdn2_z));
-  const Real rQ4_0 = h4b_y * ra4o_x - (h4b_x * ra4o_y + rdn4_z);
-  const Real rQ6_0 = h6b_y * ra6o_x + (h6b_x * ra6o_y - rdn6_z);
-  const Real t877 = rdn6_z + (push5_0 + (r6_x * rdf6_y - (r6_y * rdf6_x + (t424 * rQ1_0 + (t420 * rQ2_0 +
-      (t416 * rQ4_0 + t412 * rQ6_0))))));
-  const Real t886 = rdn4_z + (push3_0 + (r4_x * rdf4_y + (r4_y * rdf4_x - (t357 * rQ1_0 + (t353 * rQ2_0 +
-      (t349 * rQ4_0 + (t345 * rQ6_0 + t711 * t877)))))));
-  const Real t898 = Real(1.0) / (E1 - (D1 - (Real(0.002) - (t689 * t732 + (t731 * t735 + (t286 * (t290 * E2 -
-      (p_2_1n_z + (p_2_1n_z + t286 * model.S2b_zz))) - (t290 * (t290 * J1 + (E1 + (E1 - t286 * E2))) +
-      (Real(0.0050625) * (t282 * t282 + t278 * t278) + model.S_xx + Real(0.005062500000000001) + model.S_yy +
-      Real(0.0016875))))))))) * (rn2c_z - (push0_0 + (r1_x * rf2c_y + (r1_y * rf2c_x - (t290 * rQ1_0 + (t286 *
-      rQ2_0 + (t282 * rQ4_0 + (t278 * rQ6_0 + (t732 * t877 + t735 * t886)))))))));
-  const Real t901 = t734 * t886 + t735 * t898;
-  zdot[0] = -t898;
-  zdot[1] = t901;
-  zdot[2] = t732 * t898 + (t710 * t877 - t711 * t901);
+  const Real zw_6 = t433 * (t433 - (state.z[2] + state.z[2]));
+  const Real rdf6_x = t570 * h6b_y - h6b_x * zw_6;
+  const Real rdf6_y = t570 * h6b_x + h6b_y * zw_6;
+  const Real rdn6_z = t570 * Real(0.0050625);
+  const Real rf2c_x = rdf2_x + (ral1o_z * h1_y + h1_x * zw_1);
+  const Real rf2c_y = rdf2_y + (ral1o_z * h1_x - h1_y * zw_1);
+  const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y + (rdn1_z + rdn2_z));
+  const Real rQ1_0 = rn2c_z - (h1_x * ra1o_y - h1_y * ra1o_x);
+  const Real rQ2_0 = rdn2_z - (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz + h2b_x * ra2o_y));
+  const Real rQ4_0 = rdn4_z - (h4b_x * ra4o_y - h4b_y * ra4o_x);
+  const Real rQ6_0 = rdn6_z - (h6b_x * ra6o_y + h6b_y * ra6o_x);
+  const Real t857 = t408 * rQ6_0 + (t412 * rQ4_0 + (t416 * rQ2_0 - (t420 * rQ1_0 - (r6_y * rdf6_x - (r6_x *
+      rdf6_y + (push5_0 + rdn6_z))))));
+  const Real t866 = t702 * t857 + (t341 * rQ6_0 + (t345 * rQ4_0 + (t349 * rQ2_0 - (t353 * rQ1_0 + (r4_y *
+      rdf4_x + (r4_x * rdf4_y - (push3_0 - rdn4_z)))))));
+  const Real t878 = (t723 * t866 + (t720 * t857 + (t274 * rQ6_0 + (t278 * rQ4_0 + (t282 * rQ2_0 - (t286 *
+      rQ1_0 - (r1_y * rf2c_x + (r1_x * rf2c_y + (push0_0 + rn2c_z))))))))) / (Real(0.0050625) * (t278 * t278 +
+      t274 * t274) + (E1 - (D1 + (t680 * t720 + (t719 * t723 - (t282 * (t282 * model.S2b_zz + (p_2_1n_z +
+      (p_2_1n_z + t286 * E2))) + t286 * (t282 * E2 - (E1 + (E1 - t286 * J1))))))) + model.c6));
+  const Real t881 = t722 * t866 + t723 * t878;
+  zdot[0] = t878;
+  zdot[1] = t881;
+  zdot[2] = -(t702 * t881 + (t701 * t857 + t720 * t878));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[3], Real
     (&tau)[3]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t18, t19, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
+  Real t33, t34, s5, c5;
+  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
-  Real t18, t19;
-  detail::sine_cosine(state.y[2], t18, t19);
   const Real s2 = c1 * t18 - s1 * t19;
   const Real c2 = s1 * t18 + c1 * t19;
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t33, t34;
-  detail::sine_cosine(state.y[4], t33, t34);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
@@ -1024,8 +1160,6 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t79, t80;
   detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
@@ -1044,169 +1178,163 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3bx6_y = r6_y - pin3bx_y;
   const Real t114 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
       pin3ax2_x * pin3ax2_x)));
-  const Real t122 = t114 * (pin2ax_x * pin2ax2_x - (pin2ax_y * pin2ax2_y + (pin3ax_y * pin3ax2_y - pin3ax_x *
-      pin3ax2_x)));
-  const Real t124 = pin2ax_y + pin2ax2_y * t122;
-  const Real t126 = pin2ax_x - pin2ax2_x * t122;
-  const Real t128 = pin3ax_y + pin3ax2_y * t122;
-  const Real t130 = pin3ax_x - pin3ax2_x * t122;
-  const Real t138 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t128 * t128 + t130 * t130)));
-  const Real t142 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
-  const Real t144 = pin2bx_y - pin2ax2_y * t142;
-  const Real t146 = pin2bx_x - pin2ax2_x * t142;
-  const Real t147 = pin3ax2_y * t142;
-  const Real t148 = pin3ax2_x * t142;
-  const Real t156 = t138 * (t126 * t146 - (t124 * t144 - (t128 * t147 - t130 * t148)));
-  const Real t158 = t144 + t124 * t156;
-  const Real t160 = t146 - t126 * t156;
-  const Real t162 = t147 - t128 * t156;
-  const Real t164 = t148 + t130 * t156;
-  const Real t172 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t162 * t162 + t164 * t164)));
-  const Real t176 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
-  const Real t177 = pin2ax2_y * t176;
-  const Real t178 = pin2ax2_x * t176;
-  const Real t180 = pin3bx_y - pin3ax2_y * t176;
-  const Real t182 = pin3bx_x + pin3ax2_x * t176;
-  const Real t190 = t138 * (t126 * t178 - (t124 * t177 - (t128 * t180 + t130 * t182)));
-  const Real t192 = t177 + t124 * t190;
-  const Real t194 = t178 - t126 * t190;
-  const Real t196 = t180 - t128 * t190;
-  const Real t198 = t182 - t130 * t190;
-  const Real t206 = t172 * (t160 * t194 + (t158 * t192 + (t162 * t196 - t164 * t198)));
-  const Real t208 = t192 - t158 * t206;
-  const Real t210 = t194 - t160 * t206;
-  const Real t212 = t196 - t162 * t206;
-  const Real t214 = t198 + t164 * t206;
-  const Real t222 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t212 * t212 + t214 * t214)));
-  const Real t230 = t114 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
+  const Real t118 = t114 * Real(0.031425) - Real(0.5);
+  const Real t120 = pin2ax_y - pin2ax2_y * t118;
+  const Real t122 = pin2ax_x + pin2ax2_x * t118;
+  const Real t124 = pin3ax_y - pin3ax2_y * t118;
+  const Real t126 = pin3ax_x + pin3ax2_x * t118;
+  const Real t134 = Real(1.0) / (t122 * t122 + (t120 * t120 + (t124 * t124 + t126 * t126)));
+  const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t140 = pin2bx_y - pin2ax2_y * t138;
+  const Real t142 = pin2bx_x - pin2ax2_x * t138;
+  const Real t143 = pin3ax2_y * t138;
+  const Real t144 = pin3ax2_x * t138;
+  const Real t152 = t134 * (t122 * t142 - (t120 * t140 - (t124 * t143 - t126 * t144)));
+  const Real t154 = t140 + t120 * t152;
+  const Real t156 = t142 - t122 * t152;
+  const Real t158 = t143 - t124 * t152;
+  const Real t160 = t144 + t126 * t152;
+  const Real t168 = Real(1.0) / (t156 * t156 + (t154 * t154 + (t158 * t158 + t160 * t160)));
+  const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t173 = pin2ax2_y * t172;
+  const Real t174 = pin2ax2_x * t172;
+  const Real t176 = pin3bx_y - pin3ax2_y * t172;
+  const Real t178 = pin3bx_x + pin3ax2_x * t172;
+  const Real t186 = t134 * (t122 * t174 - (t120 * t173 - (t124 * t176 + t126 * t178)));
+  const Real t188 = t173 + t120 * t186;
+  const Real t190 = t174 - t122 * t186;
+  const Real t192 = t176 - t124 * t186;
+  const Real t194 = t178 - t126 * t186;
+  const Real t202 = t168 * (t156 * t190 + (t154 * t188 + (t158 * t192 - t160 * t194)));
+  const Real t204 = t188 - t154 * t202;
+  const Real t206 = t190 - t156 * t202;
+  const Real t208 = t192 - t158 * t202;
+  const Real t210 = t194 + t160 * t202;
+  const Real t218 = Real(1.0) / (t206 * t206 + (t204 * t204 + (t208 * t208 + t210 * t210)));
+  const Real t226 = t114 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
       pin3ax2_x * pin3ax1_x)));
-  const Real t232 = pin2ax1_y + pin2ax2_y * t230;
-  const Real t234 = pin2ax1_x - pin2ax2_x * t230;
-  const Real t236 = pin3ax1_y + pin3ax2_y * t230;
-  const Real t238 = pin3ax1_x - pin3ax2_x * t230;
-  const Real t246 = t138 * (t126 * t234 + (t124 * t232 + (t128 * t236 + t130 * t238)));
-  const Real t248 = t232 - t124 * t246;
-  const Real t250 = t234 - t126 * t246;
-  const Real t252 = t236 - t128 * t246;
-  const Real t254 = t238 - t130 * t246;
-  const Real t262 = t172 * (t160 * t250 - (t158 * t248 - (t162 * t252 - t164 * t254)));
-  const Real t278 = t222 * (t210 * (t250 - t160 * t262) - (t208 * (t248 + t158 * t262) - (t212 * (t252 - t162
-      * t262) + t214 * (t254 + t164 * t262))));
-  const Real t282 = t262 - t206 * t278;
-  const Real t286 = t190 * t278 - (t246 - t156 * t282);
-  const Real t290 = t176 * t278 + (t230 - (t142 * t282 - t122 * t286));
-  const Real t299 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
-  const Real t301 = pin2bx4_y - pin2ax2_y * t299;
-  const Real t303 = pin2bx4_x + pin2ax2_x * t299;
-  const Real t304 = pin3ax2_y * t299;
-  const Real t305 = pin3ax2_x * t299;
-  const Real t313 = t138 * (t126 * t303 + (t124 * t301 - (t128 * t304 - t130 * t305)));
-  const Real t315 = t301 - t124 * t313;
-  const Real t317 = t303 - t126 * t313;
-  const Real t319 = t304 + t128 * t313;
-  const Real t321 = t305 - t130 * t313;
-  const Real t329 = t172 * (t160 * t317 - (t158 * t315 + (t162 * t319 + t164 * t321)));
-  const Real t345 = t222 * (t210 * (t317 - t160 * t329) - (t208 * (t315 + t158 * t329) + (t212 * (t319 + t162
-      * t329) - t214 * (t321 + t164 * t329))));
-  const Real t349 = t329 - t206 * t345;
-  const Real t353 = t190 * t345 - (t313 - t156 * t349);
-  const Real t357 = t176 * t345 - (t299 + (t142 * t349 - t122 * t353));
-  const Real t366 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
-  const Real t367 = pin2ax2_y * t366;
-  const Real t368 = pin2ax2_x * t366;
-  const Real t370 = pin3bx6_y - pin3ax2_y * t366;
-  const Real t372 = pin3bx6_x - pin3ax2_x * t366;
-  const Real t380 = t138 * (t126 * t368 - (t124 * t367 - (t128 * t370 - t130 * t372)));
-  const Real t382 = t367 + t124 * t380;
-  const Real t384 = t368 - t126 * t380;
-  const Real t386 = t370 - t128 * t380;
-  const Real t388 = t372 + t130 * t380;
-  const Real t396 = t172 * (t160 * t384 + (t158 * t382 + (t162 * t386 + t164 * t388)));
-  const Real t412 = t222 * (t210 * (t384 - t160 * t396) + (t208 * (t382 - t158 * t396) + (t212 * (t386 - t162
-      * t396) - t214 * (t388 - t164 * t396))));
-  const Real t416 = t396 - t206 * t412;
-  const Real t420 = t190 * t412 - (t380 - t156 * t416);
-  const Real t424 = t176 * t412 - (t366 + (t142 * t416 - t122 * t420));
-  const Real t428 = t357 * state.z[1] + (t290 * state.z[0] + t424 * state.z[2]);
-  const Real t431 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
-  const Real t434 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
-  const Real t437 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
-  const Real pin2am2t_x = pin2ax_y * t431;
-  const Real pin2am1t_x = pin2ax2_y * t428;
-  const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
+  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
+  const Real t242 = t134 * (t122 * t230 + (t120 * t228 + (t124 * t232 + t126 * t234)));
+  const Real t244 = t228 - t120 * t242;
+  const Real t246 = t230 - t122 * t242;
+  const Real t248 = t232 - t124 * t242;
+  const Real t250 = t234 - t126 * t242;
+  const Real t258 = t168 * (t156 * t246 - (t154 * t244 - (t158 * t248 - t160 * t250)));
+  const Real t274 = t218 * (t206 * (t246 - t156 * t258) - (t204 * (t244 + t154 * t258) - (t208 * (t248 - t158
+      * t258) + t210 * (t250 + t160 * t258))));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t186 * t274 - (t242 - t152 * t278);
+  const Real t286 = t172 * t274 + (t226 - (t138 * t278 + t118 * t282));
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
+  const Real t300 = pin3ax2_y * t295;
+  const Real t301 = pin3ax2_x * t295;
+  const Real t309 = t134 * (t122 * t299 + (t120 * t297 - (t124 * t300 - t126 * t301)));
+  const Real t311 = t297 - t120 * t309;
+  const Real t313 = t299 - t122 * t309;
+  const Real t315 = t300 + t124 * t309;
+  const Real t317 = t301 - t126 * t309;
+  const Real t325 = t168 * (t156 * t313 - (t154 * t311 + (t158 * t315 + t160 * t317)));
+  const Real t341 = t218 * (t206 * (t313 - t156 * t325) - (t204 * (t311 + t154 * t325) + (t208 * (t315 + t158
+      * t325) - t210 * (t317 + t160 * t325))));
+  const Real t345 = t325 - t202 * t341;
+  const Real t349 = t186 * t341 - (t309 - t152 * t345);
+  const Real t353 = t172 * t341 - (t295 + (t138 * t345 + t118 * t349));
+  const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t363 = pin2ax2_y * t362;
+  const Real t364 = pin2ax2_x * t362;
+  const Real t366 = pin3bx6_y - pin3ax2_y * t362;
+  const Real t368 = pin3bx6_x - pin3ax2_x * t362;
+  const Real t376 = t134 * (t122 * t364 - (t120 * t363 - (t124 * t366 - t126 * t368)));
+  const Real t378 = t363 + t120 * t376;
+  const Real t380 = t364 - t122 * t376;
+  const Real t382 = t366 - t124 * t376;
+  const Real t384 = t368 + t126 * t376;
+  const Real t392 = t168 * (t156 * t380 + (t154 * t378 + (t158 * t382 + t160 * t384)));
+  const Real t408 = t218 * (t206 * (t380 - t156 * t392) + (t204 * (t378 - t154 * t392) + (t208 * (t382 - t158
+      * t392) - t210 * (t384 - t160 * t392))));
+  const Real t412 = t392 - t202 * t408;
+  const Real t416 = t186 * t408 - (t376 - t152 * t412);
+  const Real t420 = t172 * t408 - (t362 + (t138 * t412 + t118 * t416));
+  const Real t424 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
+  const Real t427 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
+  const Real t430 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
+  const Real t433 = t341 * state.z[1] + (t274 * state.z[0] + t408 * state.z[2]);
+  const Real pin2am2t_x = pin2ax_y * t427;
+  const Real pin2am1t_x = pin2ax2_y * t424;
   const Real pin2am0t_x = pin2ax1_y * state.z[0];
-  const Real pin2bm4t_x = pin2bx_y * t434;
+  const Real pin2bm4t_x = pin2bx_y * t430;
   const Real pin2bm3t_x = pin2bx4_y * state.z[1];
-  const Real pin2am2t_y = pin2ax_x * t431;
-  const Real pin2am2a_x = t431 * pin2am2t_y;
-  const Real pin2am1t_y = pin2ax2_x * t428;
+  const Real pin2am2t_y = pin2ax_x * t427;
+  const Real pin2am2a_x = t427 * pin2am2t_y;
+  const Real pin2am1t_y = pin2ax2_x * t424;
   const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
-  const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
   const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2am0b_y = pin2am0t_y + Real(2.0) * pin2am1v_y;
-  const Real pin2bm4t_y = pin2bx_x * t434;
-  const Real pin2bm4a_x = t434 * pin2bm4t_y;
+  const Real pin2am0b_y = pin2am0t_y - (pin2am1t_y + pin2am1b_y);
+  const Real pin2bm4t_y = pin2bx_x * t430;
+  const Real pin2bm4a_x = t430 * pin2bm4t_y;
   const Real pin2bm3t_y = pin2bx4_x * state.z[1];
   const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
-  const Real pin2da_x = t428 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
+  const Real pin2da_x = t424 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
       * pin2bm3b_y)));
-  const Real pin2am2a_y = t431 * pin2am2t_x;
+  const Real pin2am2a_y = t427 * pin2am2t_x;
   const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
-  const Real pin2am0b_x = pin2am0t_x + pin2am1v_x * Real(2.0);
-  const Real pin2bm4a_y = t434 * pin2bm4t_x;
+  const Real pin2am0b_x = pin2am0t_x + (pin2am1t_x + pin2am1b_x);
+  const Real pin2bm4a_y = t430 * pin2bm4t_x;
   const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
-  const Real pin2da_y = t428 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
+  const Real pin2da_y = t424 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
       * pin2bm3b_x)));
-  const Real pin3am2t_x = pin3ax_y * t431;
-  const Real pin3am1t_x = pin3ax2_y * t428;
-  const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
+  const Real pin3am2t_x = pin3ax_y * t427;
+  const Real pin3am1t_x = pin3ax2_y * t424;
   const Real pin3am0t_x = pin3ax1_y * state.z[0];
-  const Real pin3bm6t_x = pin3bx_y * t437;
+  const Real pin3bm6t_x = pin3bx_y * t433;
   const Real pin3bm5t_x = pin3bx6_y * state.z[2];
-  const Real pin3am2t_y = pin3ax_x * t431;
-  const Real pin3am2a_x = t431 * pin3am2t_y;
-  const Real pin3am1t_y = pin3ax2_x * t428;
+  const Real pin3am2t_y = pin3ax_x * t427;
+  const Real pin3am2a_x = t427 * pin3am2t_y;
+  const Real pin3am1t_y = pin3ax2_x * t424;
   const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
-  const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
   const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3am0b_y = pin3am0t_y + Real(2.0) * pin3am1v_y;
-  const Real pin3bm6t_y = pin3bx_x * t437;
-  const Real pin3bm6a_x = t437 * pin3bm6t_y;
+  const Real pin3am0b_y = pin3am0t_y - (pin3am1t_y + pin3am1b_y);
+  const Real pin3bm6t_y = pin3bx_x * t433;
+  const Real pin3bm6a_x = t433 * pin3bm6t_y;
   const Real pin3bm5t_y = pin3bx6_x * state.z[2];
   const Real pin3bm5b_y = pin3bm5t_y + Real(2.0) * pin3bm6t_y;
-  const Real pin3da_x = t428 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
+  const Real pin3da_x = t424 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
       * pin3bm5b_y)));
-  const Real pin3am2a_y = t431 * pin3am2t_x;
+  const Real pin3am2a_y = t427 * pin3am2t_x;
   const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
-  const Real pin3am0b_x = pin3am0t_x + Real(2.0) * pin3am1v_x;
-  const Real pin3bm6a_y = t437 * pin3bm6t_x;
+  const Real pin3am0b_x = pin3am0t_x + (pin3am1t_x + pin3am1b_x);
+  const Real pin3bm6a_y = t433 * pin3bm6t_x;
   const Real pin3bm5b_x = pin3bm5t_x - Real(2.0) * pin3bm6t_x;
-  const Real pin3da_y = t428 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
+  const Real pin3da_y = t424 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
       * pin3bm5b_x)));
-  const Real t530 = t114 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
+  const Real t522 = t114 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
       pin3da_y)));
-  const Real t532 = pin2da_x + pin2ax2_y * t530;
-  const Real t534 = pin2da_y - pin2ax2_x * t530;
-  const Real t536 = pin3da_x + pin3ax2_y * t530;
-  const Real t538 = pin3da_y - pin3ax2_x * t530;
-  const Real t546 = t138 * (t126 * t534 + (t124 * t532 + (t128 * t536 + t130 * t538)));
-  const Real t548 = t532 - t124 * t546;
-  const Real t550 = t534 - t126 * t546;
-  const Real t552 = t536 - t128 * t546;
-  const Real t554 = t538 - t130 * t546;
-  const Real t562 = t172 * (t160 * t550 - (t158 * t548 - (t162 * t552 - t164 * t554)));
-  const Real t578 = t222 * (t210 * (t550 - t160 * t562) - (t208 * (t548 + t158 * t562) - (t212 * (t552 - t162
-      * t562) + t214 * (t554 + t164 * t562))));
-  const Real t582 = t562 - t206 * t578;
-  const Real t586 = t190 * t578 - (t546 - t156 * t582);
-  const Real t605 = t176 * t578 + (t530 - (t142 * t582 - (t122 * t586 - (t290 * zdot[0] + (t357 * zdot[1] +
-      t424 * zdot[2])))));
-  const Real t609 = t286 * zdot[0] - (t586 - (t353 * zdot[1] + t420 * zdot[2]));
-  const Real t613 = t282 * zdot[0] - (t582 - (t349 * zdot[1] + t416 * zdot[2]));
-  const Real t617 = t278 * zdot[0] - (t578 - (t345 * zdot[1] + t412 * zdot[2]));
+  const Real t524 = pin2da_x + pin2ax2_y * t522;
+  const Real t526 = pin2da_y - pin2ax2_x * t522;
+  const Real t528 = pin3da_x + pin3ax2_y * t522;
+  const Real t530 = pin3da_y - pin3ax2_x * t522;
+  const Real t538 = t134 * (t122 * t526 + (t120 * t524 + (t124 * t528 + t126 * t530)));
+  const Real t540 = t524 - t120 * t538;
+  const Real t542 = t526 - t122 * t538;
+  const Real t544 = t528 - t124 * t538;
+  const Real t546 = t530 - t126 * t538;
+  const Real t554 = t168 * (t156 * t542 - (t154 * t540 - (t158 * t544 - t160 * t546)));
+  const Real t570 = t218 * (t206 * (t542 - t156 * t554) - (t204 * (t540 + t154 * t554) - (t208 * (t544 - t158
+      * t554) + t210 * (t546 + t160 * t554))));
+  const Real t574 = t554 - t202 * t570;
+  const Real t578 = t186 * t570 - (t538 - t152 * t574);
+  const Real t597 = t172 * t570 + (t522 - (t138 * t574 + (t118 * t578 + (t286 * zdot[0] + (t353 * zdot[1] +
+      t420 * zdot[2])))));
+  const Real t601 = t282 * zdot[0] - (t578 - (t349 * zdot[1] + t416 * zdot[2]));
+  const Real t605 = t278 * zdot[0] - (t574 - (t345 * zdot[1] + t412 * zdot[2]));
+  const Real t609 = t274 * zdot[0] - (t570 - (t341 * zdot[1] + t408 * zdot[2]));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
-  const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
@@ -1215,69 +1343,63 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
   const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
-  const Real J1 = D2 + (D2 + model.c5 + model.S2b_zz);
+  const Real J1 = D2 + D2 + model.c7;
   const Real D1 = r1_x * h1_x - r1_y * h1_y;
-  const Real w1_z = state.z[0] + t428;
+  const Real w1_z = state.z[0] + t424;
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_y * zdot[0] + r1_x * aW0w22;
   const Real aa1o_y = r1_x * zdot[0] - r1_y * aW0w22;
-  const Real zw_1 = t428 * (state.z[0] + w1_z);
-  const Real adn1_z = t605 * J1;
-  const Real aal1o_z = zdot[0] - t605;
+  const Real zw_1 = t424 * (state.z[0] + w1_z);
+  const Real adn1_z = t597 * J1;
+  const Real aal1o_z = zdot[0] - t597;
   const Real aW1w22 = w1_z * w1_z;
   const Real aa2o_x = r2_x * aW1w22 - (aa1o_x + r2_y * aal1o_z);
   const Real aa2o_y = r2_x * aal1o_z - (aa1o_y - r2_y * aW1w22);
-  const Real zw_2 = t431 * (w1_z - (t431 - w1_z));
-  const Real adf2_x = t609 * h2b_y + h2b_x * zw_2;
-  const Real adf2_y = t609 * h2b_x - h2b_y * zw_2;
-  const Real adn2_z = t609 * model.S2b_zz;
+  const Real zw_2 = t427 * (w1_z - (t427 - w1_z));
+  const Real adf2_x = t601 * h2b_y + h2b_x * zw_2;
+  const Real adf2_y = t601 * h2b_x - h2b_y * zw_2;
+  const Real adn2_z = t601 * model.S2b_zz;
   const Real aW3w22 = state.z[1] * state.z[1];
   const Real aa4o_x = r4_y * zdot[1] + r4_x * aW3w22;
   const Real aa4o_y = r4_x * zdot[1] - r4_y * aW3w22;
-  const Real zw_4 = t434 * (state.z[1] + (state.z[1] + t434));
-  const Real adf4_x = t613 * h4b_y + h4b_x * zw_4;
-  const Real adf4_y = t613 * h4b_x - h4b_y * zw_4;
-  const Real adn4_z = t613 * Real(0.0050625);
+  const Real zw_4 = t430 * (state.z[1] + (state.z[1] + t430));
+  const Real adf4_x = t605 * h4b_y + h4b_x * zw_4;
+  const Real adf4_y = t605 * h4b_x - h4b_y * zw_4;
+  const Real adn4_z = t605 * Real(0.0050625);
   const Real aW5w22 = state.z[2] * state.z[2];
   const Real aa6o_x = r6_y * zdot[2] - r6_x * aW5w22;
   const Real aa6o_y = r6_x * zdot[2] + r6_y * aW5w22;
-  const Real zw_6 = t437 * (state.z[2] + (state.z[2] + t437));
-  const Real adf6_x = t617 * h6b_y + h6b_x * zw_6;
-  const Real adf6_y = t617 * h6b_x - h6b_y * zw_6;
-  const Real adn6_z = t617 * Real(0.0050625);
-  const Real af2c_x = h1_x * zw_1 + (t605 * h1_y - adf2_x);
-  const Real af2c_y = h1_y * zw_1 - (t605 * h1_x + adf2_y);
+  const Real zw_6 = t433 * (state.z[2] + (state.z[2] + t433));
+  const Real adf6_x = t609 * h6b_y + h6b_x * zw_6;
+  const Real adf6_y = t609 * h6b_x - h6b_y * zw_6;
+  const Real adn6_z = t609 * Real(0.0050625);
+  const Real af2c_x = h1_x * zw_1 + (t597 * h1_y - adf2_x);
+  const Real af2c_y = h1_y * zw_1 - (t597 * h1_x + adf2_y);
   const Real an2c_z = adn2_z + (adn1_z + (r2_x * adf2_y - r2_y * adf2_x));
   const Real aQ1_0 = h1_x * aa1o_y - (zdot[0] * J1 + (h1_y * aa1o_x - an2c_z));
-  const Real aQ2_0 = h2b_x * aa2o_y + (model.S2b_zz * aal1o_z + (h2b_y * aa2o_x - adn2_z));
+  const Real aQ2_0 = h2b_x * aa2o_y + (aal1o_z * model.S2b_zz + (h2b_y * aa2o_x - adn2_z));
   const Real aQ4_0 = h4b_x * aa4o_y + (zdot[1] * Real(0.0050625) + (h4b_y * aa4o_x + adn4_z));
   const Real aQ6_0 = h6b_x * aa6o_y + (zdot[2] * Real(0.0050625) - (h6b_y * aa6o_x - adn6_z));
-  tau[0] = -(r1_x * af2c_y + (an2c_z + (r1_y * af2c_x + (t290 * aQ1_0 + (t286 * aQ2_0 - (t282 * aQ4_0 + (t278
-      * aQ6_0 - zdot[0] * (D1 - (J1 - (D1 - model.c8)) - Real(0.002)))))))));
-  tau[1] = r4_x * adf4_y + (adn4_z + (r4_y * adf4_x - (t357 * aQ1_0 + (t353 * aQ2_0 - (t349 * aQ4_0 + (t345 *
-      aQ6_0 + zdot[1] * (Real(0.002) + (D4 + (D4 + Real(0.0050625) + Real(0.021937500000000002))))))))));
-  tau[2] = r6_x * adf6_y + (adn6_z - (r6_y * adf6_x + (t424 * aQ1_0 + (t420 * aQ2_0 - (t416 * aQ4_0 + (t412 *
-      aQ6_0 + zdot[2] * (Real(0.002) + (D6 + (D6 + Real(0.027))))))))));
+  tau[0] = -(r1_x * af2c_y + (an2c_z + (r1_y * af2c_x + (t286 * aQ1_0 + (t282 * aQ2_0 - (t278 * aQ4_0 + (t274
+      * aQ6_0 - zdot[0] * (D1 - (J1 - D1) - model.c8))))))));
+  tau[1] = r4_x * adf4_y + (adn4_z + (r4_y * adf4_x - (t353 * aQ1_0 + (t349 * aQ2_0 - (t345 * aQ4_0 + (t341 *
+      aQ6_0 + zdot[1] * (D4 + D4 + Real(0.029))))))));
+  tau[2] = r6_x * adf6_y + (adn6_z - (r6_y * adf6_x + (t420 * aQ1_0 + (t416 * aQ2_0 - (t412 * aQ4_0 + (t408 *
+      aQ6_0 + zdot[2] * (Real(0.029) + t80 * Real(0.0151875))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t18, t19, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
+  Real t33, t34, s5, c5;
+  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
-  Real t18, t19;
-  detail::sine_cosine(state.y[2], t18, t19);
   const Real s2 = c1 * t18 - s1 * t19;
   const Real c2 = s1 * t18 + c1 * t19;
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t33, t34;
-  detail::sine_cosine(state.y[4], t33, t34);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
@@ -1288,8 +1410,6 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t73, t74;
   detail::sine_cosine(state.y[6], t73, t74);
   const Real s6 = c5 * t73 + s5 * t74;
@@ -1312,136 +1432,132 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t103 = r1_x - t99;
   const Real t104 = r1_y + t100;
   const Real t105 = r1_x - t101;
-  const Real t114 = Real(1.0) / (t99 * t99 + (t98 * t98 + (t100 * t100 + t101 * t101)));
-  const Real t122 = t114 * (pin2ax_x * t99 - (pin2ax_y * t98 + (pin3ax_y * t100 - pin3ax_x * t101)));
-  const Real t124 = pin2ax_y + t98 * t122;
-  const Real t126 = pin2ax_x - t99 * t122;
-  const Real t128 = pin3ax_y + t100 * t122;
-  const Real t130 = pin3ax_x - t101 * t122;
-  const Real t138 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t128 * t128 + t130 * t130)));
-  const Real t142 = t114 * (pin2bx_y * t98 + pin2bx_x * t99);
-  const Real t144 = pin2bx_y - t98 * t142;
-  const Real t146 = pin2bx_x - t99 * t142;
-  const Real t147 = t100 * t142;
-  const Real t148 = t101 * t142;
-  const Real t156 = t138 * (t126 * t146 - (t124 * t144 - (t128 * t147 - t130 * t148)));
-  const Real t158 = t144 + t124 * t156;
-  const Real t160 = t146 - t126 * t156;
-  const Real t162 = t147 - t128 * t156;
-  const Real t164 = t148 + t130 * t156;
-  const Real t172 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t162 * t162 + t164 * t164)));
-  const Real t176 = t114 * (pin3bx_y * t100 - pin3bx_x * t101);
-  const Real t177 = t98 * t176;
-  const Real t178 = t99 * t176;
-  const Real t180 = pin3bx_y - t100 * t176;
-  const Real t182 = pin3bx_x + t101 * t176;
-  const Real t190 = t138 * (t126 * t178 - (t124 * t177 - (t128 * t180 + t130 * t182)));
-  const Real t192 = t177 + t124 * t190;
-  const Real t194 = t178 - t126 * t190;
-  const Real t196 = t180 - t128 * t190;
-  const Real t198 = t182 - t130 * t190;
-  const Real t206 = t172 * (t160 * t194 + (t158 * t192 + (t162 * t196 - t164 * t198)));
-  const Real t208 = t192 - t158 * t206;
-  const Real t210 = t194 - t160 * t206;
-  const Real t212 = t196 - t162 * t206;
-  const Real t214 = t198 + t164 * t206;
-  const Real t222 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t212 * t212 + t214 * t214)));
-  const Real t230 = t114 * (t99 * t103 - (t98 * t102 + (t100 * t104 - t101 * t105)));
-  const Real t232 = t102 + t98 * t230;
-  const Real t234 = t103 - t99 * t230;
-  const Real t236 = t104 + t100 * t230;
-  const Real t238 = t105 - t101 * t230;
-  const Real t246 = t138 * (t126 * t234 + (t124 * t232 + (t128 * t236 + t130 * t238)));
-  const Real t248 = t232 - t124 * t246;
-  const Real t250 = t234 - t126 * t246;
-  const Real t252 = t236 - t128 * t246;
-  const Real t254 = t238 - t130 * t246;
-  const Real t262 = t172 * (t160 * t250 - (t158 * t248 - (t162 * t252 - t164 * t254)));
-  const Real t278 = t222 * (t210 * (t250 - t160 * t262) - (t208 * (t248 + t158 * t262) - (t212 * (t252 - t162
-      * t262) + t214 * (t254 + t164 * t262))));
-  const Real t282 = t262 - t206 * t278;
-  const Real t286 = t190 * t278 - (t246 - t156 * t282);
-  const Real t299 = t114 * (t96 * t98 - t97 * t99);
-  const Real t301 = t96 - t98 * t299;
-  const Real t303 = t97 + t99 * t299;
-  const Real t304 = t100 * t299;
-  const Real t305 = t101 * t299;
-  const Real t313 = t138 * (t126 * t303 + (t124 * t301 - (t128 * t304 - t130 * t305)));
-  const Real t315 = t301 - t124 * t313;
-  const Real t317 = t303 - t126 * t313;
-  const Real t319 = t304 + t128 * t313;
-  const Real t321 = t305 - t130 * t313;
-  const Real t329 = t172 * (t160 * t317 - (t158 * t315 + (t162 * t319 + t164 * t321)));
-  const Real t345 = t222 * (t210 * (t317 - t160 * t329) - (t208 * (t315 + t158 * t329) + (t212 * (t319 + t162
-      * t329) - t214 * (t321 + t164 * t329))));
-  const Real t349 = t329 - t206 * t345;
-  const Real t353 = t190 * t345 - (t313 - t156 * t349);
-  const Real t366 = t114 * (pin3bx6_y * t100 + pin3bx6_x * t101);
-  const Real t367 = t98 * t366;
-  const Real t368 = t99 * t366;
-  const Real t370 = pin3bx6_y - t100 * t366;
-  const Real t372 = pin3bx6_x - t101 * t366;
-  const Real t380 = t138 * (t126 * t368 - (t124 * t367 - (t128 * t370 - t130 * t372)));
-  const Real t382 = t367 + t124 * t380;
-  const Real t384 = t368 - t126 * t380;
-  const Real t386 = t370 - t128 * t380;
-  const Real t388 = t372 + t130 * t380;
-  const Real t396 = t172 * (t160 * t384 + (t158 * t382 + (t162 * t386 + t164 * t388)));
-  const Real t412 = t222 * (t210 * (t384 - t160 * t396) + (t208 * (t382 - t158 * t396) + (t212 * (t386 - t162
-      * t396) - t214 * (t388 - t164 * t396))));
-  const Real t416 = t396 - t206 * t412;
-  const Real t420 = t190 * t412 - (t380 - t156 * t416);
-  const Real t428 = (t176 * t345 - (t299 + (t142 * t349 - t122 * t353))) * state.z[1] + ((t176 * t278 + (t230
-      - (t142 * t282 - t122 * t286))) * state.z[0] + (t176 * t412 - (t366 + (t142 * t416 - t122 * t420))) *
-      state.z[2]);
-  const Real t431 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
-  const Real t434 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
-  const Real t437 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
-  const Real h6b_x = s6 * Real(0.03375);
-  const Real h6b_y = c6 * Real(0.03375);
-  const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
-  const Real J5 = D6 + (D6 + Real(0.027));
+  const Real t114 = Real(1.0) / (t101 * t101 + (t100 * t100 + (t98 * t98 + t99 * t99)));
+  const Real t118 = t114 * Real(0.031425) - Real(0.5);
+  const Real t120 = pin2ax_y - t98 * t118;
+  const Real t122 = pin2ax_x + t99 * t118;
+  const Real t124 = pin3ax_y - t100 * t118;
+  const Real t126 = pin3ax_x + t101 * t118;
+  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t138 = t114 * (pin2bx_y * t98 + pin2bx_x * t99);
+  const Real t140 = pin2bx_y - t98 * t138;
+  const Real t142 = pin2bx_x - t99 * t138;
+  const Real t143 = t100 * t138;
+  const Real t144 = t101 * t138;
+  const Real t152 = t134 * (t126 * t144 - (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t154 = t140 - t120 * t152;
+  const Real t156 = t142 + t122 * t152;
+  const Real t158 = t143 + t124 * t152;
+  const Real t160 = t144 - t126 * t152;
+  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t172 = t114 * (pin3bx_y * t100 - pin3bx_x * t101);
+  const Real t173 = t98 * t172;
+  const Real t174 = t99 * t172;
+  const Real t176 = pin3bx_y - t100 * t172;
+  const Real t178 = pin3bx_x + t101 * t172;
+  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 - t122 * t174)));
+  const Real t188 = t173 + t120 * t186;
+  const Real t190 = t174 - t122 * t186;
+  const Real t192 = t176 - t124 * t186;
+  const Real t194 = t178 - t126 * t186;
+  const Real t202 = t168 * (t160 * t194 - (t158 * t192 + (t154 * t188 + t156 * t190)));
+  const Real t204 = t188 + t154 * t202;
+  const Real t206 = t190 + t156 * t202;
+  const Real t208 = t192 + t158 * t202;
+  const Real t210 = t194 - t160 * t202;
+  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
+  const Real t226 = t114 * (t101 * t105 - (t100 * t104 + (t98 * t102 - t99 * t103)));
+  const Real t228 = t102 + t98 * t226;
+  const Real t230 = t103 - t99 * t226;
+  const Real t232 = t104 + t100 * t226;
+  const Real t234 = t105 - t101 * t226;
+  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t244 = t228 - t120 * t242;
+  const Real t246 = t230 - t122 * t242;
+  const Real t248 = t232 - t124 * t242;
+  const Real t250 = t234 - t126 * t242;
+  const Real t258 = t168 * (t160 * t250 - (t158 * t248 - (t154 * t244 - t156 * t246)));
+  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 + t158 * t258) - (t204 * (t244 - t154
+      * t258) - t206 * (t246 + t156 * t258))));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t295 = t114 * (t96 * t98 - t97 * t99);
+  const Real t297 = t96 - t98 * t295;
+  const Real t299 = t97 + t99 * t295;
+  const Real t300 = t100 * t295;
+  const Real t301 = t101 * t295;
+  const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
+  const Real t311 = t297 - t120 * t309;
+  const Real t313 = t299 - t122 * t309;
+  const Real t315 = t300 + t124 * t309;
+  const Real t317 = t301 - t126 * t309;
+  const Real t325 = t168 * (t160 * t317 + (t158 * t315 + (t154 * t311 - t156 * t313)));
+  const Real t341 = t218 * (t210 * (t317 - t160 * t325) - (t208 * (t315 - t158 * t325) + (t204 * (t311 - t154
+      * t325) - t206 * (t313 + t156 * t325))));
+  const Real t345 = t325 - t202 * t341;
+  const Real t349 = t152 * t345 - (t309 - t186 * t341);
+  const Real t362 = t114 * (pin3bx6_y * t100 + pin3bx6_x * t101);
+  const Real t363 = t98 * t362;
+  const Real t364 = t99 * t362;
+  const Real t366 = pin3bx6_y - t100 * t362;
+  const Real t368 = pin3bx6_x - t101 * t362;
+  const Real t376 = t134 * (t126 * t368 - (t124 * t366 - (t120 * t363 - t122 * t364)));
+  const Real t378 = t363 - t120 * t376;
+  const Real t380 = t364 + t122 * t376;
+  const Real t382 = t366 + t124 * t376;
+  const Real t384 = t368 - t126 * t376;
+  const Real t392 = t168 * (t160 * t384 + (t158 * t382 + (t154 * t378 + t156 * t380)));
+  const Real t408 = t218 * (t210 * (t384 - t160 * t392) - (t208 * (t382 - t158 * t392) + (t204 * (t378 - t154
+      * t392) + t206 * (t380 - t156 * t392))));
+  const Real t412 = t392 - t202 * t408;
+  const Real t416 = t152 * t412 - (t376 - t186 * t408);
+  const Real t424 = (t118 * t416 - (t138 * t412 + (t362 + t172 * t408))) * state.z[2] - ((t118 * t282 - (t138
+      * t278 + (t226 + t172 * t274))) * state.z[0] + (t118 * t349 - (t138 * t345 - (t295 - t172 * t341))) *
+      state.z[1]);
+  const Real t427 = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
+  const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
+  const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
+  const Real J5 = t74 * Real(0.0151875) + Real(0.027);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (D4 + Real(0.0050625) + Real(0.021937500000000002));
+  const Real J3 = D4 + (Real(0.027) + D4);
   const Real h2b_x = c2 * model.h_x - s2 * model.h_y;
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
-  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
-  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
-  const Real J1 = D2 + (D2 + model.c5 + model.S2b_zz);
-  const Real D1 = r1_x * h1_x - r1_y * h1_y;
-  const Real J0 = D1 - (J1 - (D1 - model.c8));
-  const Real w1_z = state.z[0] + t428;
+  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
+  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
+  const Real J1 = D2 + D2 + model.c7;
+  const Real D1 = r1_x * h1_x + r1_y * h1_y;
+  const Real J0 = D1 - (J1 - D1) - model.c9;
+  const Real w1_z = state.z[0] + t424;
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
-  const Real v1P_x = t428 * h1_y;
-  const Real v1P_y = t428 * h1_x;
-  const Real v1L_z = t428 * J1;
+  const Real v1P_x = t424 * h1_y;
+  const Real v1P_y = t424 * h1_x;
+  const Real v1L_z = t424 * J1;
   const Real v2o_x = v1o_x + r2_y * w1_z;
   const Real v2o_y = v1o_y - r2_x * w1_z;
-  const Real v2P_x = t431 * h2b_y;
-  const Real v2P_y = t431 * h2b_x;
-  const Real v2L_z = t431 * model.S2b_zz;
+  const Real v2P_x = t427 * h2b_y;
+  const Real v2P_y = t427 * h2b_x;
+  const Real v2L_z = t427 * model.S2b_zz;
   const Real v3L_z = state.z[1] * J3;
   const Real v4o_x = r4_y * state.z[1];
   const Real v4o_y = r4_x * state.z[1];
-  const Real v4P_x = t434 * h4b_y;
-  const Real v4P_y = t434 * h4b_x;
-  const Real v4L_z = t434 * Real(0.0050625);
+  const Real v4P_x = t430 * h4b_y;
+  const Real v4P_y = t430 * h4b_x;
+  const Real v4L_z = t430 * Real(0.0050625);
   const Real v5L_z = state.z[2] * J5;
   const Real v6o_x = r6_y * state.z[2];
   const Real v6o_y = r6_x * state.z[2];
-  const Real v6P_x = t437 * h6b_y;
-  const Real v6P_y = t437 * h6b_x;
-  const Real v6L_z = t437 * Real(0.0050625);
-  const Real T_rotor = v1o_x * v1P_x + (state.z[0] * v1L_z - (v1o_y * v1P_y + (w1_z * v2L_z - (v2o_x * v2P_x +
-      (v2o_y * v2P_y + (state.z[1] * v4L_z + (v4o_x * v4P_x + (v4o_y * v4P_y + (state.z[2] * v6L_z - (v6o_x *
-      v6P_x - (v6o_y * v6P_y + ((t437 * v6L_z + (t434 * v4L_z + (t431 * v2L_z + (t428 * v1L_z - (state.z[0] *
-      v0L_z - (state.z[1] * v3L_z + state.z[2] * v5L_z)))))) * Real(0.5) + (state.z[1] * state.z[1] +
-      (state.z[0] * state.z[0] + state.z[2] * state.z[2])) * Real(0.001)))))))))))));
+  const Real v6L_z = t433 * Real(0.0050625);
+  const Real T_rotor = (v6o_x * (c6 * t433) - v6o_y * (s6 * t433)) * Real(0.03375) + ((state.z[2] * state.z[2]
+      + (state.z[0] * state.z[0] + state.z[1] * state.z[1])) * Real(0.001) + (Real(0.5) * (state.z[2] * v5L_z
+      + (state.z[1] * v3L_z - (state.z[0] * v0L_z - (t424 * v1L_z + (t427 * v2L_z + (t430 * v4L_z + t433 *
+      v6L_z)))))) - (state.z[2] * v6L_z - (v4o_y * v4P_y + (v4o_x * v4P_x + (state.z[1] * v4L_z - (v2o_y *
+      v2P_y + (v2o_x * v2P_x - (w1_z * v2L_z - (v1o_y * v1P_y - (state.z[0] * v1L_z - v1o_x *
+      v1P_x)))))))))));
   return T_rotor;
 }
 
@@ -1453,28 +1569,20 @@ Real potential_energy(const Model<Real>&, const State<Real>&) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t17, t18, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t17, t18, state.y[3], s3, c3);
+  Real t31, t32, s5, c5;
+  detail::sine_cosine2(state.y[4], t31, t32, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  Real t17, t18;
-  detail::sine_cosine(state.y[2], t17, t18);
   const Real s2 = c1 * t17 - s1 * t18;
   const Real c2 = s1 * t17 + c1 * t18;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t31, t32;
-  detail::sine_cosine(state.y[4], t31, t32);
   const Real s4 = c3 * t31 + s3 * t32;
   const Real c4 = s3 * t31 - c3 * t32;
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t67, t68;
   detail::sine_cosine(state.y[6], t67, t68);
   const Real s6 = c5 * t67 + s5 * t68;
@@ -1502,89 +1610,89 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real t104 = t98 - t100;
   const Real t105 = t99 - t102;
   const Real t114 = Real(1.0) / (t99 * t99 + (t98 * t98 + (t95 * t95 + t97 * t97)));
-  const Real t122 = t114 * (pin3ax_x * t99 + (pin3ax_y * t98 + (pin2ax_y * t95 + pin2ax_x * t97)));
-  const Real t124 = pin2ax_y - t95 * t122;
-  const Real t126 = pin2ax_x - t97 * t122;
-  const Real t128 = pin3ax_y - t98 * t122;
-  const Real t130 = pin3ax_x - t99 * t122;
-  const Real t138 = Real(1.0) / (t130 * t130 + (t128 * t128 + (t124 * t124 + t126 * t126)));
-  const Real t142 = t114 * (pin2bx_y * t95 - pin2bx_x * t97);
-  const Real t144 = pin2bx_y - t95 * t142;
-  const Real t146 = pin2bx_x + t97 * t142;
-  const Real t147 = t98 * t142;
-  const Real t148 = t99 * t142;
-  const Real t156 = t138 * (t130 * t148 + (t128 * t147 - (t124 * t144 - t126 * t146)));
-  const Real t158 = t144 + t124 * t156;
-  const Real t160 = t146 - t126 * t156;
-  const Real t162 = t147 - t128 * t156;
-  const Real t164 = t148 - t130 * t156;
-  const Real t172 = Real(1.0) / (t164 * t164 + (t162 * t162 + (t158 * t158 + t160 * t160)));
-  const Real t176 = t114 * (pin3bx_y * t98 + pin3bx_x * t99);
-  const Real t177 = t95 * t176;
-  const Real t178 = t97 * t176;
-  const Real t180 = pin3bx_y - t98 * t176;
-  const Real t182 = pin3bx_x - t99 * t176;
-  const Real t190 = t138 * (t130 * t182 + (t128 * t180 - (t124 * t177 + t126 * t178)));
-  const Real t192 = t177 + t124 * t190;
-  const Real t194 = t178 + t126 * t190;
-  const Real t196 = t180 - t128 * t190;
-  const Real t198 = t182 - t130 * t190;
-  const Real t206 = t172 * (t164 * t198 + (t162 * t196 + (t158 * t192 - t160 * t194)));
-  const Real t208 = t192 - t158 * t206;
-  const Real t210 = t194 + t160 * t206;
-  const Real t212 = t196 - t162 * t206;
-  const Real t214 = t198 - t164 * t206;
-  const Real t222 = Real(1.0) / (t214 * t214 + (t212 * t212 + (t208 * t208 + t210 * t210)));
-  const Real t230 = t114 * (t99 * t105 + (t98 * t104 + (t95 * t101 + t97 * t103)));
-  const Real t232 = t101 - t95 * t230;
-  const Real t234 = t103 - t97 * t230;
-  const Real t236 = t104 - t98 * t230;
-  const Real t238 = t105 - t99 * t230;
-  const Real t246 = t138 * (t130 * t238 + (t128 * t236 + (t124 * t232 + t126 * t234)));
-  const Real t248 = t232 - t124 * t246;
-  const Real t250 = t234 - t126 * t246;
-  const Real t252 = t236 - t128 * t246;
-  const Real t254 = t238 - t130 * t246;
-  const Real t262 = t172 * (t164 * t254 + (t162 * t252 - (t158 * t248 - t160 * t250)));
-  const Real t278 = t222 * (t214 * (t254 - t164 * t262) + (t212 * (t252 - t162 * t262) - (t208 * (t248 + t158
-      * t262) + t210 * (t250 - t160 * t262))));
-  const Real t282 = t262 - t206 * t278;
-  const Real t286 = t156 * t282 - (t246 - t190 * t278);
-  const Real t297 = t114 * (t91 * t95 - t93 * t97);
-  const Real t299 = t91 - t95 * t297;
-  const Real t301 = t93 + t97 * t297;
-  const Real t302 = t98 * t297;
-  const Real t303 = t99 * t297;
-  const Real t311 = t138 * (t130 * t303 + (t128 * t302 - (t124 * t299 - t126 * t301)));
-  const Real t313 = t299 + t124 * t311;
-  const Real t315 = t301 - t126 * t311;
-  const Real t317 = t302 - t128 * t311;
-  const Real t319 = t303 - t130 * t311;
-  const Real t327 = t172 * (t164 * t319 + (t162 * t317 + (t158 * t313 + t160 * t315)));
-  const Real t343 = t222 * (t214 * (t319 - t164 * t327) + (t212 * (t317 - t162 * t327) + (t208 * (t313 - t158
-      * t327) - t210 * (t315 - t160 * t327))));
-  const Real t347 = t327 - t206 * t343;
-  const Real t351 = t156 * t347 - (t311 - t190 * t343);
-  const Real t362 = t114 * (pin3bx6_y * t98 - pin3bx6_x * t99);
-  const Real t363 = t95 * t362;
-  const Real t364 = t97 * t362;
-  const Real t366 = pin3bx6_y - t98 * t362;
-  const Real t368 = pin3bx6_x + t99 * t362;
-  const Real t376 = t138 * (t130 * t368 - (t128 * t366 - (t124 * t363 + t126 * t364)));
-  const Real t378 = t363 - t124 * t376;
-  const Real t380 = t364 - t126 * t376;
-  const Real t382 = t366 + t128 * t376;
-  const Real t384 = t368 - t130 * t376;
-  const Real t392 = t172 * (t164 * t384 - (t162 * t382 + (t158 * t378 - t160 * t380)));
-  const Real t408 = t222 * (t214 * (t384 - t164 * t392) - (t212 * (t382 + t162 * t392) + (t208 * (t378 + t158
-      * t392) + t210 * (t380 - t160 * t392))));
-  const Real t412 = t392 - t206 * t408;
-  const Real t416 = t156 * t412 - (t376 - t190 * t408);
-  const Real t424 = (t122 * t416 + (t142 * t412 - (t362 + t176 * t408))) * state.z[2] + ((t122 * t286 + (t142
-      * t282 + (t230 - t176 * t278))) * state.z[0] + (t122 * t351 + (t142 * t347 - (t297 + t176 * t343))) *
+  const Real t118 = t114 * Real(0.031425) - Real(0.5);
+  const Real t120 = pin2ax_y + t95 * t118;
+  const Real t122 = pin2ax_x + t97 * t118;
+  const Real t124 = pin3ax_y + t98 * t118;
+  const Real t126 = pin3ax_x + t99 * t118;
+  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t138 = t114 * (pin2bx_y * t95 - pin2bx_x * t97);
+  const Real t140 = pin2bx_y - t95 * t138;
+  const Real t142 = pin2bx_x + t97 * t138;
+  const Real t143 = t98 * t138;
+  const Real t144 = t99 * t138;
+  const Real t152 = t134 * (t126 * t144 + (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t154 = t140 + t120 * t152;
+  const Real t156 = t142 - t122 * t152;
+  const Real t158 = t143 - t124 * t152;
+  const Real t160 = t144 - t126 * t152;
+  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t172 = t114 * (pin3bx_y * t98 + pin3bx_x * t99);
+  const Real t173 = t95 * t172;
+  const Real t174 = t97 * t172;
+  const Real t176 = pin3bx_y - t98 * t172;
+  const Real t178 = pin3bx_x - t99 * t172;
+  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 + t122 * t174)));
+  const Real t188 = t173 + t120 * t186;
+  const Real t190 = t174 + t122 * t186;
+  const Real t192 = t176 - t124 * t186;
+  const Real t194 = t178 - t126 * t186;
+  const Real t202 = t168 * (t160 * t194 + (t158 * t192 + (t154 * t188 - t156 * t190)));
+  const Real t204 = t188 - t154 * t202;
+  const Real t206 = t190 + t156 * t202;
+  const Real t208 = t192 - t158 * t202;
+  const Real t210 = t194 - t160 * t202;
+  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
+  const Real t226 = t114 * (t99 * t105 + (t98 * t104 + (t95 * t101 + t97 * t103)));
+  const Real t228 = t101 - t95 * t226;
+  const Real t230 = t103 - t97 * t226;
+  const Real t232 = t104 - t98 * t226;
+  const Real t234 = t105 - t99 * t226;
+  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t244 = t228 - t120 * t242;
+  const Real t246 = t230 - t122 * t242;
+  const Real t248 = t232 - t124 * t242;
+  const Real t250 = t234 - t126 * t242;
+  const Real t258 = t168 * (t160 * t250 + (t158 * t248 - (t154 * t244 - t156 * t246)));
+  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 - t158 * t258) - (t204 * (t244 + t154
+      * t258) + t206 * (t246 - t156 * t258))));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t293 = t114 * (t91 * t95 - t93 * t97);
+  const Real t295 = t91 - t95 * t293;
+  const Real t297 = t93 + t97 * t293;
+  const Real t298 = t98 * t293;
+  const Real t299 = t99 * t293;
+  const Real t307 = t134 * (t126 * t299 + (t124 * t298 - (t120 * t295 - t122 * t297)));
+  const Real t309 = t295 + t120 * t307;
+  const Real t311 = t297 - t122 * t307;
+  const Real t313 = t298 - t124 * t307;
+  const Real t315 = t299 - t126 * t307;
+  const Real t323 = t168 * (t160 * t315 + (t158 * t313 + (t154 * t309 + t156 * t311)));
+  const Real t339 = t218 * (t210 * (t315 - t160 * t323) + (t208 * (t313 - t158 * t323) + (t204 * (t309 - t154
+      * t323) - t206 * (t311 - t156 * t323))));
+  const Real t343 = t323 - t202 * t339;
+  const Real t347 = t152 * t343 - (t307 - t186 * t339);
+  const Real t358 = t114 * (pin3bx6_y * t98 - pin3bx6_x * t99);
+  const Real t359 = t95 * t358;
+  const Real t360 = t97 * t358;
+  const Real t362 = pin3bx6_y - t98 * t358;
+  const Real t364 = pin3bx6_x + t99 * t358;
+  const Real t372 = t134 * (t126 * t364 - (t124 * t362 - (t120 * t359 + t122 * t360)));
+  const Real t374 = t359 - t120 * t372;
+  const Real t376 = t360 - t122 * t372;
+  const Real t378 = t362 + t124 * t372;
+  const Real t380 = t364 - t126 * t372;
+  const Real t388 = t168 * (t160 * t380 - (t158 * t378 + (t154 * t374 - t156 * t376)));
+  const Real t404 = t218 * (t210 * (t380 - t160 * t388) - (t208 * (t378 + t158 * t388) + (t204 * (t374 + t154
+      * t388) + t206 * (t376 - t156 * t388))));
+  const Real t408 = t388 - t202 * t404;
+  const Real t412 = t152 * t408 - (t372 - t186 * t404);
+  const Real t420 = (t118 * t412 - (t138 * t408 - (t358 + t172 * t404))) * state.z[2] + ((t118 * t282 - (t138
+      * t278 + (t226 - t172 * t274))) * state.z[0] + (t118 * t347 - (t138 * t343 - (t293 + t172 * t339))) *
       state.z[1]);
-  const Real t427 = t416 * state.z[2] + (t286 * state.z[0] + t351 * state.z[1]);
-  const Real w2_z = t424 - (state.z[0] + t427);
+  const Real t423 = t412 * state.z[2] + (t282 * state.z[0] + t347 * state.z[1]);
+  const Real w2_z = t420 + (state.z[0] + t423);
   const Real centerx_x = c2 * Real(0.06928203230275509) - s2 * Real(0.039999999999999994);
   const Real centerx_y = s2 * Real(0.06928203230275509) + c2 * Real(0.039999999999999994);
   const Real centerx2_x = t96 + centerx_x;
@@ -1593,19 +1701,19 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real centerx1_y = t100 + centerx2_y;
   const Real centerx0_x = centerx1_x - Real(0.3031088913245535);
   const Real centerx0_y = centerx1_y - Real(0.17500000000000002);
-  const Real centerv2_x = t427 * centerx_y;
-  const Real centerv2_y = t427 * centerx_x;
-  const Real centerv0_x = state.z[0] * centerx1_y - (centerv2_x + t424 * centerx2_y);
-  const Real centerv0_y = state.z[0] * centerx1_x - (centerv2_y - t424 * centerx2_x);
-  const Real t457 = -c2;
+  const Real centerv2_x = t423 * centerx_y;
+  const Real centerv2_y = t423 * centerx_x;
+  const Real centerv0_x = state.z[0] * centerx1_y - (centerv2_x - t420 * centerx2_y);
+  const Real centerv0_y = state.z[0] * centerx1_x - (centerv2_y + t420 * centerx2_x);
+  const Real t453 = -c2;
   result.platform_pose.position[0] = centerx0_x;
   result.platform_pose.position[1] = centerx0_y;
   result.platform_pose.position[2] = Real(0.0);
-  result.platform_pose.rotation[0][0] = t457;
+  result.platform_pose.rotation[0][0] = t453;
   result.platform_pose.rotation[0][1] = s2;
   result.platform_pose.rotation[0][2] = Real(0.0);
   result.platform_pose.rotation[1][0] = -s2;
-  result.platform_pose.rotation[1][1] = t457;
+  result.platform_pose.rotation[1][1] = t453;
   result.platform_pose.rotation[1][2] = Real(0.0);
   result.platform_pose.rotation[2][0] = Real(0.0);
   result.platform_pose.rotation[2][1] = Real(0.0);
@@ -1615,7 +1723,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.platform_velocity.v[2] = Real(0.0);
   result.platform_velocity.omega[0] = Real(0.0);
   result.platform_velocity.omega[1] = Real(0.0);
-  result.platform_velocity.omega[2] = -w2_z;
+  result.platform_velocity.omega[2] = w2_z;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1642,414 +1750,264 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
   const Real pin2ax_x = c2 * Real(0.13856406460551018) - s2 * Real(1.0546217409559561e-17);
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
-  const Real pin2d_x = pin2bx_x - (r4_x - (pin2ax_x - (r1_x - r2_x) + Real(0.3031088913245535))) +
-      Real(0.30310889132455343);
+  const Real pin2d_x = r2_x - (r1_x - (pin2ax_x - (r4_x - pin2bx_x))) + Real(0.6062177826491069);
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) + c2 * Real(1.0546217409559561e-17);
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  const Real pin2d_y = pin2bx_y + (r4_y + (pin2ax_y + (r1_y + r2_y) - Real(0.17500000000000002))) +
-      Real(0.17500000000000016);
+  const Real pin2d_y = r2_y + (r1_y + (pin2ax_y + (r4_y + pin2bx_y))) + Real(1.3877787807814457e-16);
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
-  Real t89, t90;
-  detail::sine_cosine(state.y[6], t89, t90);
-  const Real s6 = c5 * t89 + s5 * t90;
-  const Real c6 = s5 * t89 - c5 * t90;
+  Real t85, t86;
+  detail::sine_cosine(state.y[6], t85, t86);
+  const Real s6 = c5 * t85 + s5 * t86;
+  const Real c6 = s5 * t85 - c5 * t86;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) + s2 * Real(0.12);
   const Real pin3bx_x = s6 * Real(0.225);
-  const Real t105 = r1_x - Real(0.3031088913245535);
-  const Real pin3d_x = pin3bx_x + (r6_x + (pin3ax_x + (r2_x - t105))) + Real(2.143131898507868e-17);
+  const Real t102 = r1_x - Real(0.3031088913245535);
+  const Real t103 = r2_x + pin3ax_x;
+  const Real pin3d_x = pin3bx_x + (r6_x - (t102 - t103)) + Real(2.143131898507868e-17);
   const Real r6_y = c5 * Real(0.225);
   const Real pin3ax_y = s2 * Real(0.06928203230275509) - c2 * Real(0.12);
   const Real pin3bx_y = c6 * Real(0.225);
-  const Real t117 = r1_y - Real(0.17500000000000002);
-  const Real pin3d_y = pin3bx_y - (r6_y + (pin3ax_y + (r2_y + t117))) + Real(0.35);
-  const Real t124 = r2_y + pin2ax_y;
-  const Real t125 = r2_x + pin2ax_x;
-  const Real t126 = r2_y + pin3ax_y;
-  const Real t127 = r2_x + pin3ax_x;
-  const Real t136 = Real(1.0) / (t127 * t127 + (t126 * t126 + (t124 * t124 + t125 * t125)));
-  const Real t144 = t136 * (pin3ax_x * t127 + (pin3ax_y * t126 + (pin2ax_y * t124 + pin2ax_x * t125)));
-  const Real t146 = pin2ax_y - t124 * t144;
-  const Real t148 = pin2ax_x - t125 * t144;
-  const Real t150 = pin3ax_y - t126 * t144;
-  const Real t152 = pin3ax_x - t127 * t144;
-  const Real t160 = Real(1.0) / (t152 * t152 + (t150 * t150 + (t146 * t146 + t148 * t148)));
-  const Real t164 = t136 * (pin2bx_y * t124 + pin2bx_x * t125);
-  const Real t166 = pin2bx_y - t124 * t164;
-  const Real t168 = pin2bx_x - t125 * t164;
-  const Real t169 = t126 * t164;
-  const Real t170 = t127 * t164;
-  const Real t178 = t160 * (t152 * t170 + (t150 * t169 - (t146 * t166 + t148 * t168)));
-  const Real t180 = t166 + t146 * t178;
-  const Real t182 = t168 + t148 * t178;
-  const Real t184 = t169 - t150 * t178;
-  const Real t186 = t170 - t152 * t178;
-  const Real t194 = Real(1.0) / (t186 * t186 + (t184 * t184 + (t180 * t180 + t182 * t182)));
-  const Real t198 = t136 * (pin3bx_y * t126 - pin3bx_x * t127);
-  const Real t199 = t124 * t198;
-  const Real t200 = t125 * t198;
-  const Real t202 = pin3bx_y - t126 * t198;
-  const Real t204 = pin3bx_x + t127 * t198;
-  const Real t212 = t160 * (t152 * t204 - (t150 * t202 - (t146 * t199 + t148 * t200)));
-  const Real t214 = t199 - t146 * t212;
-  const Real t216 = t200 - t148 * t212;
-  const Real t218 = t202 + t150 * t212;
-  const Real t220 = t204 - t152 * t212;
-  const Real t228 = t194 * (t186 * t220 - (t184 * t218 + (t180 * t214 + t182 * t216)));
-  const Real t230 = t214 + t180 * t228;
-  const Real t232 = t216 + t182 * t228;
-  const Real t234 = t218 + t184 * t228;
-  const Real t236 = t220 - t186 * t228;
-  const Real t252 = t136 * (pin3d_y * t127 + (pin3d_x * t126 + (pin2d_x * t124 - pin2d_y * t125)));
-  const Real t254 = pin2d_x - t124 * t252;
-  const Real t256 = pin2d_y + t125 * t252;
-  const Real t258 = pin3d_x - t126 * t252;
-  const Real t260 = pin3d_y - t127 * t252;
-  const Real t268 = t160 * (t152 * t260 + (t150 * t258 + (t146 * t254 - t148 * t256)));
-  const Real t270 = t254 - t146 * t268;
-  const Real t272 = t256 + t148 * t268;
-  const Real t274 = t258 - t150 * t268;
-  const Real t276 = t260 - t152 * t268;
-  const Real t284 = t194 * (t186 * t276 + (t184 * t274 - (t180 * t270 - t182 * t272)));
-  const Real t300 = Real(1.0) / (t236 * t236 + (t234 * t234 + (t230 * t230 + t232 * t232))) * (t236 * (t276 -
-      t186 * t284) - (t234 * (t274 - t184 * t284) - (t230 * (t270 + t180 * t284) - t232 * (t272 - t182 *
-      t284))));
-  const Real t301 = t198 * t300;
-  const Real t302 = t212 * t300;
-  const Real t303 = t228 * t300;
-  const Real t304 = t284 - t303;
-  const Real t305 = t164 * t304;
-  const Real t306 = t178 * t304;
-  const Real t308 = t306 - (t268 - t302);
-  const Real t309 = t144 * t308;
-  const Real t312 = t309 + (t305 + (t252 + t301));
-  Real t320, t321;
-  detail::sine_cosine(t252, t320, t321);
-  Real t322, t323;
-  detail::sine_cosine(t301, t322, t323);
-  const Real t326 = t321 * t322 + t320 * t323;
-  const Real t329 = t320 * t322 - t321 * t323;
-  Real t330, t331;
-  detail::sine_cosine(t305, t330, t331);
-  const Real t334 = t329 * t330 - t326 * t331;
-  const Real t337 = t326 * t330 + t329 * t331;
-  Real t338, t339;
-  detail::sine_cosine(t309, t338, t339);
-  const Real t342 = t337 * t338 + t334 * t339;
-  const Real t345 = t334 * t338 - t337 * t339;
-  const Real t348 = t10 * t342 + t9 * t345;
-  const Real t351 = t9 * t342 - t10 * t345;
-  const Real s1_2 = c0 * t348 - s0 * t351;
-  const Real c1_2 = s0 * t348 + c0 * t351;
-  Real t358, t359;
-  detail::sine_cosine(t268, t358, t359);
-  Real t360, t361;
-  detail::sine_cosine(t302, t360, t361);
-  const Real t364 = t359 * t360 - t358 * t361;
-  const Real t367 = t358 * t360 + t359 * t361;
-  Real t368, t369;
-  detail::sine_cosine(t306, t368, t369);
-  const Real t372 = t367 * t368 + t364 * t369;
-  const Real t375 = t364 * t368 - t367 * t369;
-  const Real t378 = t23 * t372 - t22 * t375;
-  const Real t381 = t22 * t372 + t23 * t375;
-  const Real s2_2 = s1_2 * t381 + c1_2 * t378;
-  const Real c2_2 = s1_2 * t378 - c1_2 * t381;
+  const Real t115 = r1_y - Real(0.17500000000000002);
+  const Real t116 = r2_y + pin3ax_y;
+  const Real pin3d_y = pin3bx_y - (r6_y + (t115 + t116)) + Real(0.35);
+  const Real t122 = r2_y + pin2ax_y;
+  const Real t123 = r2_x + pin2ax_x;
+  const Real t132 = Real(1.0) / (t103 * t103 + (t116 * t116 + (t122 * t122 + t123 * t123)));
+  const Real t136 = t132 * Real(0.031425) - Real(0.5);
+  const Real t138 = pin2ax_y + t122 * t136;
+  const Real t140 = pin2ax_x + t123 * t136;
+  const Real t142 = pin3ax_y + t116 * t136;
+  const Real t144 = pin3ax_x + t103 * t136;
+  const Real t152 = Real(1.0) / (t144 * t144 + (t142 * t142 + (t138 * t138 + t140 * t140)));
+  const Real t156 = t132 * (pin2bx_y * t122 + pin2bx_x * t123);
+  const Real t158 = pin2bx_y - t122 * t156;
+  const Real t160 = pin2bx_x - t123 * t156;
+  const Real t161 = t116 * t156;
+  const Real t162 = t103 * t156;
+  const Real t170 = t152 * (t144 * t162 + (t142 * t161 - (t138 * t158 + t140 * t160)));
+  const Real t172 = t158 + t138 * t170;
+  const Real t174 = t160 + t140 * t170;
+  const Real t176 = t161 - t142 * t170;
+  const Real t178 = t162 - t144 * t170;
+  const Real t186 = Real(1.0) / (t178 * t178 + (t176 * t176 + (t172 * t172 + t174 * t174)));
+  const Real t190 = t132 * (pin3bx_y * t116 - pin3bx_x * t103);
+  const Real t191 = t122 * t190;
+  const Real t192 = t123 * t190;
+  const Real t194 = pin3bx_y - t116 * t190;
+  const Real t196 = pin3bx_x + t103 * t190;
+  const Real t204 = t152 * (t144 * t196 - (t142 * t194 - (t138 * t191 + t140 * t192)));
+  const Real t206 = t191 - t138 * t204;
+  const Real t208 = t192 - t140 * t204;
+  const Real t210 = t194 + t142 * t204;
+  const Real t212 = t196 - t144 * t204;
+  const Real t220 = t186 * (t178 * t212 - (t176 * t210 + (t172 * t206 + t174 * t208)));
+  const Real t222 = t206 + t172 * t220;
+  const Real t224 = t208 + t174 * t220;
+  const Real t226 = t210 + t176 * t220;
+  const Real t228 = t212 - t178 * t220;
+  const Real t243 = t132 * (t103 * pin3d_y + (pin3d_x * t116 + (pin2d_x * t122 - pin2d_y * t123)));
+  const Real t245 = pin2d_x - t122 * t243;
+  const Real t247 = pin2d_y + t123 * t243;
+  const Real t249 = pin3d_x - t116 * t243;
+  const Real t251 = pin3d_y - t103 * t243;
+  const Real t259 = t152 * (t144 * t251 + (t142 * t249 + (t138 * t245 - t140 * t247)));
+  const Real t261 = t245 - t138 * t259;
+  const Real t263 = t247 + t140 * t259;
+  const Real t265 = t249 - t142 * t259;
+  const Real t267 = t251 - t144 * t259;
+  const Real t275 = t186 * (t178 * t267 + (t176 * t265 - (t172 * t261 - t174 * t263)));
+  const Real t291 = (t228 * (t267 - t178 * t275) - (t226 * (t265 - t176 * t275) - (t222 * (t261 + t172 * t275)
+      - t224 * (t263 - t174 * t275)))) / (t228 * t228 + (t226 * t226 + (t222 * t222 + t224 * t224)));
+  const Real t292 = t190 * t291;
+  const Real t293 = t204 * t291;
+  const Real t294 = t220 * t291;
+  const Real t295 = t275 - t294;
+  const Real t296 = t156 * t295;
+  const Real t297 = t170 * t295;
+  const Real t299 = t297 - (t259 - t293);
+  const Real t300 = t136 * t299;
+  const Real t303 = t300 - (t296 + (t243 + t292));
+  Real t311, t312;
+  detail::sine_cosine(t243, t311, t312);
+  Real t313, t314;
+  detail::sine_cosine(t292, t313, t314);
+  const Real t317 = t312 * t313 + t311 * t314;
+  const Real t320 = t311 * t313 - t312 * t314;
+  Real t321, t322;
+  detail::sine_cosine(t296, t321, t322);
+  const Real t325 = t320 * t321 - t317 * t322;
+  const Real t328 = t317 * t321 + t320 * t322;
+  Real t329, t330;
+  detail::sine_cosine(t300, t329, t330);
+  const Real t333 = t328 * t329 - t325 * t330;
+  const Real t336 = t325 * t329 + t328 * t330;
+  const Real t339 = t10 * t333 + t9 * t336;
+  const Real t342 = t9 * t333 - t10 * t336;
+  const Real s1_2 = c0 * t339 - s0 * t342;
+  const Real c1_2 = s0 * t339 + c0 * t342;
+  Real t349, t350;
+  detail::sine_cosine(t259, t349, t350);
+  Real t351, t352;
+  detail::sine_cosine(t293, t351, t352);
+  const Real t355 = t350 * t351 - t349 * t352;
+  const Real t358 = t349 * t351 + t350 * t352;
+  Real t359, t360;
+  detail::sine_cosine(t297, t359, t360);
+  const Real t363 = t358 * t359 + t355 * t360;
+  const Real t366 = t355 * t359 - t358 * t360;
+  const Real t369 = t23 * t363 - t22 * t366;
+  const Real t372 = t22 * t363 + t23 * t366;
+  const Real s2_2 = s1_2 * t372 + c1_2 * t369;
+  const Real c2_2 = s1_2 * t369 - c1_2 * t372;
   const Real r2_x_2 = Real(0.19485571585149872) * c1_2 + Real(0.11249999999999999) * s1_2;
-  Real t391, t392;
-  detail::sine_cosine(t284, t391, t392);
-  Real t393, t394;
-  detail::sine_cosine(t303, t393, t394);
-  const Real t397 = t392 * t393 - t391 * t394;
-  const Real t400 = t391 * t393 + t392 * t394;
-  const Real t403 = t36 * t397 - t35 * t400;
-  const Real t406 = t35 * t397 + t36 * t400;
-  const Real s4_2 = c3 * t403 - s3 * t406;
-  const Real c4_2 = s3 * t403 + c3 * t406;
+  Real t382, t383;
+  detail::sine_cosine(t275, t382, t383);
+  Real t384, t385;
+  detail::sine_cosine(t294, t384, t385);
+  const Real t388 = t383 * t384 - t382 * t385;
+  const Real t391 = t382 * t384 + t383 * t385;
+  const Real t394 = t36 * t388 - t35 * t391;
+  const Real t397 = t35 * t388 + t36 * t391;
+  const Real s4_2 = c3 * t394 - s3 * t397;
+  const Real c4_2 = s3 * t394 + c3 * t397;
   const Real pin2ax_x_2 = Real(0.13856406460551018) * c2_2 + Real(1.0546217409559561e-17) * s2_2;
   const Real pin2bx_x_2 = Real(0.19485571585149872) * c4_2 - Real(0.11249999999999999) * s4_2;
-  const Real t419 = t105 - r2_x_2;
-  const Real pin2d_x_2 = pin2bx_x_2 + (r4_x - (Real(0.30310889132455343) + (pin2ax_x_2 - t419)));
+  const Real t410 = t102 + r2_x_2;
+  const Real pin2d_x_2 = pin2bx_x_2 + (r4_x + (pin2ax_x_2 + t410 - Real(0.30310889132455343)));
   const Real r2_y_2 = Real(0.19485571585149872) * s1_2 - Real(0.11249999999999999) * c1_2;
   const Real pin2ax_y_2 = Real(0.13856406460551018) * s2_2 - Real(1.0546217409559561e-17) * c2_2;
   const Real pin2bx_y_2 = Real(0.19485571585149872) * s4_2 + Real(0.11249999999999999) * c4_2;
-  const Real t433 = t117 + r2_y_2;
-  const Real pin2d_y_2 = pin2bx_y_2 - (r4_y + (Real(0.17500000000000016) - (pin2ax_y_2 - t433)));
-  Real t438, t439;
-  detail::sine_cosine(t300, t438, t439);
-  const Real t442 = t90 * t438 - t89 * t439;
-  const Real t445 = t89 * t438 + t90 * t439;
-  const Real s6_2 = c5 * t442 - s5 * t445;
-  const Real c6_2 = s5 * t442 + c5 * t445;
+  const Real t425 = t115 - r2_y_2;
+  const Real pin2d_y_2 = pin2bx_y_2 - (r4_y + (pin2ax_y_2 + t425 + Real(0.17500000000000016)));
+  Real t431, t432;
+  detail::sine_cosine(t291, t431, t432);
+  const Real t435 = t86 * t431 - t85 * t432;
+  const Real t438 = t85 * t431 + t86 * t432;
+  const Real s6_2 = c5 * t435 - s5 * t438;
+  const Real c6_2 = s5 * t435 + c5 * t438;
   const Real pin3ax_x_2 = Real(0.06928203230275509) * c2_2 - Real(0.12) * s2_2;
   const Real pin3bx_x_2 = Real(0.225) * s6_2;
-  const Real pin3d_x_2 = pin3bx_x_2 - (r6_x + (Real(2.143131898507868e-17) - (t419 - pin3ax_x_2)));
+  const Real pin3d_x_2 = pin3bx_x_2 - (r6_x + (Real(2.143131898507868e-17) - (t410 + pin3ax_x_2)));
   const Real pin3ax_y_2 = Real(0.06928203230275509) * s2_2 + Real(0.12) * c2_2;
   const Real pin3bx_y_2 = Real(0.225) * c6_2;
-  const Real pin3d_y_2 = pin3bx_y_2 + (r6_y - (Real(0.35) - (t433 - pin3ax_y_2)));
-  const Real t468 = r2_y_2 - pin2ax_y_2;
-  const Real t469 = r2_x_2 + pin2ax_x_2;
-  const Real t470 = r2_y_2 - pin3ax_y_2;
-  const Real t471 = r2_x_2 + pin3ax_x_2;
-  const Real t479 = Real(1.0) / (t471 * t471 + (t470 * t470 + (t468 * t468 + t469 * t469)));
-  const Real t487 = t479 * (pin3ax_x_2 * t471 - (pin3ax_y_2 * t470 + (pin2ax_y_2 * t468 - pin2ax_x_2 *
-      t469)));
-  const Real t489 = pin2ax_y_2 + t468 * t487;
-  const Real t491 = pin2ax_x_2 - t469 * t487;
-  const Real t493 = pin3ax_y_2 + t470 * t487;
-  const Real t495 = pin3ax_x_2 - t471 * t487;
-  const Real t503 = Real(1.0) / (t495 * t495 + (t493 * t493 + (t489 * t489 + t491 * t491)));
-  const Real t507 = t479 * (pin2bx_y_2 * t468 + pin2bx_x_2 * t469);
-  const Real t509 = pin2bx_y_2 - t468 * t507;
-  const Real t511 = pin2bx_x_2 - t469 * t507;
-  const Real t512 = t470 * t507;
-  const Real t513 = t471 * t507;
-  const Real t521 = t503 * (t495 * t513 - (t493 * t512 - (t489 * t509 - t491 * t511)));
-  const Real t523 = t509 - t489 * t521;
-  const Real t525 = t511 + t491 * t521;
-  const Real t527 = t512 + t493 * t521;
-  const Real t529 = t513 - t495 * t521;
-  const Real t537 = Real(1.0) / (t529 * t529 + (t527 * t527 + (t523 * t523 + t525 * t525)));
-  const Real t541 = t479 * (pin3bx_y_2 * t470 - pin3bx_x_2 * t471);
-  const Real t542 = t468 * t541;
-  const Real t543 = t469 * t541;
-  const Real t545 = pin3bx_y_2 - t470 * t541;
-  const Real t547 = pin3bx_x_2 + t471 * t541;
-  const Real t555 = t503 * (t495 * t547 + (t493 * t545 - (t489 * t542 - t491 * t543)));
-  const Real t557 = t542 + t489 * t555;
-  const Real t559 = t543 - t491 * t555;
-  const Real t561 = t545 - t493 * t555;
-  const Real t563 = t547 - t495 * t555;
-  const Real t571 = t537 * (t529 * t563 - (t527 * t561 + (t523 * t557 + t525 * t559)));
-  const Real t573 = t557 + t523 * t571;
-  const Real t575 = t559 + t525 * t571;
-  const Real t577 = t561 + t527 * t571;
-  const Real t579 = t563 - t529 * t571;
-  const Real t587 = Real(1.0) / (t579 * t579 + (t577 * t577 + (t573 * t573 + t575 * t575)));
-  const Real t595 = t479 * (pin3d_y_2 * t471 + (pin3d_x_2 * t470 + (pin2d_x_2 * t468 - pin2d_y_2 * t469)));
-  const Real t597 = pin2d_x_2 - t468 * t595;
-  const Real t599 = pin2d_y_2 + t469 * t595;
-  const Real t601 = pin3d_x_2 - t470 * t595;
-  const Real t603 = pin3d_y_2 - t471 * t595;
-  const Real t611 = t503 * (t495 * t603 - (t493 * t601 + (t489 * t597 + t491 * t599)));
-  const Real t613 = t597 + t489 * t611;
-  const Real t615 = t599 + t491 * t611;
-  const Real t617 = t601 + t493 * t611;
-  const Real t619 = t603 - t495 * t611;
-  const Real t627 = t537 * (t529 * t619 + (t527 * t617 - (t523 * t613 - t525 * t615)));
-  const Real t643 = t587 * (t579 * (t619 - t529 * t627) - (t577 * (t617 - t527 * t627) - (t573 * (t613 + t523
-      * t627) - t575 * (t615 - t525 * t627))));
-  const Real t647 = t627 - t571 * t643;
-  const Real t651 = t521 * t647 - (t611 - t555 * t643);
-  closed.regularity = Real(1.0) / (t587 * (t537 * (t479 * t503))) * Real(206898.60562145393);
-  closed.opening = t300 * t300 + (t304 * t304 + (t312 * t312 + t308 * t308));
-  closed.y[1] = t487 * t651 + (t507 * t647 + (t541 * t643 + (t595 + (state.y[1] - t312))));
-  closed.y[2] = -(t651 - (state.y[2] + t308));
-  closed.y[4] = t647 + (state.y[4] + t304);
-  closed.y[6] = -(t643 - (state.y[6] - t300));
+  const Real pin3d_y_2 = pin3bx_y_2 + (r6_y - (Real(0.35) - (t425 + pin3ax_y_2)));
+  const Real t461 = r2_y_2 - pin2ax_y_2;
+  const Real t462 = r2_x_2 + pin2ax_x_2;
+  const Real t463 = r2_y_2 - pin3ax_y_2;
+  const Real t464 = r2_x_2 + pin3ax_x_2;
+  const Real t472 = Real(1.0) / (t464 * t464 + (t463 * t463 + (t461 * t461 + t462 * t462)));
+  const Real t474 = Real(0.5) - Real(0.031425) * t472;
+  const Real t476 = pin2ax_y_2 + t461 * t474;
+  const Real t478 = pin2ax_x_2 - t462 * t474;
+  const Real t480 = pin3ax_y_2 + t463 * t474;
+  const Real t482 = pin3ax_x_2 - t464 * t474;
+  const Real t490 = Real(1.0) / (t482 * t482 + (t480 * t480 + (t476 * t476 + t478 * t478)));
+  const Real t494 = t472 * (pin2bx_y_2 * t461 + pin2bx_x_2 * t462);
+  const Real t496 = pin2bx_y_2 - t461 * t494;
+  const Real t498 = pin2bx_x_2 - t462 * t494;
+  const Real t499 = t463 * t494;
+  const Real t500 = t464 * t494;
+  const Real t508 = t490 * (t482 * t500 - (t480 * t499 - (t476 * t496 - t478 * t498)));
+  const Real t510 = t496 - t476 * t508;
+  const Real t512 = t498 + t478 * t508;
+  const Real t514 = t499 + t480 * t508;
+  const Real t516 = t500 - t482 * t508;
+  const Real t524 = Real(1.0) / (t516 * t516 + (t514 * t514 + (t510 * t510 + t512 * t512)));
+  const Real t528 = t472 * (pin3bx_y_2 * t463 - pin3bx_x_2 * t464);
+  const Real t529 = t461 * t528;
+  const Real t530 = t462 * t528;
+  const Real t532 = pin3bx_y_2 - t463 * t528;
+  const Real t534 = pin3bx_x_2 + t464 * t528;
+  const Real t542 = t490 * (t482 * t534 + (t480 * t532 - (t476 * t529 - t478 * t530)));
+  const Real t544 = t529 + t476 * t542;
+  const Real t546 = t530 - t478 * t542;
+  const Real t548 = t532 - t480 * t542;
+  const Real t550 = t534 - t482 * t542;
+  const Real t558 = t524 * (t516 * t550 - (t514 * t548 + (t510 * t544 + t512 * t546)));
+  const Real t560 = t544 + t510 * t558;
+  const Real t562 = t546 + t512 * t558;
+  const Real t564 = t548 + t514 * t558;
+  const Real t566 = t550 - t516 * t558;
+  const Real t574 = Real(1.0) / (t566 * t566 + (t564 * t564 + (t560 * t560 + t562 * t562)));
+  const Real t582 = t472 * (pin3d_y_2 * t464 + (pin3d_x_2 * t463 + (pin2d_x_2 * t461 - pin2d_y_2 * t462)));
+  const Real t584 = pin2d_x_2 - t461 * t582;
+  const Real t586 = pin2d_y_2 + t462 * t582;
+  const Real t588 = pin3d_x_2 - t463 * t582;
+  const Real t590 = pin3d_y_2 - t464 * t582;
+  const Real t598 = t490 * (t482 * t590 - (t480 * t588 + (t476 * t584 + t478 * t586)));
+  const Real t600 = t584 + t476 * t598;
+  const Real t602 = t586 + t478 * t598;
+  const Real t604 = t588 + t480 * t598;
+  const Real t606 = t590 - t482 * t598;
+  const Real t614 = t524 * (t516 * t606 + (t514 * t604 - (t510 * t600 - t512 * t602)));
+  const Real t630 = t574 * (t566 * (t606 - t516 * t614) - (t564 * (t604 - t514 * t614) - (t560 * (t600 + t510
+      * t614) - t562 * (t602 - t512 * t614))));
+  const Real t634 = t614 - t558 * t630;
+  const Real t638 = t508 * t634 - (t598 - t542 * t630);
+  closed.regularity = Real(1.0) / (t574 * (t524 * (t472 * t490))) * Real(206898.60562145393);
+  closed.opening = t291 * t291 + (t295 * t295 + (t303 * t303 + t299 * t299));
+  closed.y[1] = -(t474 * t638 + (t494 * t634 + (t528 * t630 + (t582 - (state.y[1] + t303)))));
+  closed.y[2] = t638 + (state.y[2] + t299);
+  closed.y[4] = t634 + (state.y[4] + t295);
+  closed.y[6] = -(t630 - (state.y[6] - t291));
   state = closed;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[4], Real (&g_rate)[4])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t13, t14, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t13, t14, state.y[3], s3, c3);
+  Real t25, t26, s5, c5;
+  detail::sine_cosine2(state.y[4], t25, t26, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
-  Real t18, t19;
-  detail::sine_cosine(state.y[2], t18, t19);
-  const Real s2 = c1 * t18 - s1 * t19;
-  const Real c2 = s1 * t18 + c1 * t19;
-  const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t33, t34;
-  detail::sine_cosine(state.y[4], t33, t34);
-  const Real s4 = c3 * t33 + s3 * t34;
-  const Real c4 = s3 * t33 - c3 * t34;
-  const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
-  const Real pin2ax2_x = r2_x + pin2ax_x;
-  const Real pin2ax1_x = r1_x - pin2ax2_x;
-  const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
-  const Real pin2bx4_x = pin2bx_x - (c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999));
-  const Real pin2d_x = pin2bx4_x - (pin2ax1_x - Real(0.3031088913245535)) + Real(0.30310889132455343);
-  const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
-  const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
-  const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
-  const Real pin2ax2_y = r2_y - pin2ax_y;
-  const Real pin2ax1_y = r1_y + pin2ax2_y;
-  const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  const Real pin2bx4_y = pin2bx_y + (s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999));
-  const Real pin2d_y = pin2bx4_y + (pin2ax1_y - Real(0.17500000000000002)) + Real(0.17500000000000016);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
-  Real t89, t90;
-  detail::sine_cosine(state.y[6], t89, t90);
-  const Real s6 = c5 * t89 + s5 * t90;
-  const Real c6 = s5 * t89 - c5 * t90;
-  const Real r6_x = s5 * Real(0.225);
-  const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
-  const Real pin3ax2_x = r2_x + pin3ax_x;
-  const Real pin3ax1_x = r1_x - pin3ax2_x;
-  const Real pin3bx_x = s6 * Real(0.225);
-  const Real pin3bx6_x = r6_x + pin3bx_x;
-  const Real pin3d_x = pin3bx6_x + (Real(0.3031088913245535) - pin3ax1_x) + Real(2.143131898507868e-17);
-  const Real r6_y = c5 * Real(0.225);
-  const Real pin3ax_y = s2 * Real(0.06928203230275509) + c2 * Real(0.12);
-  const Real pin3ax2_y = r2_y - pin3ax_y;
-  const Real pin3ax1_y = r1_y + pin3ax2_y;
-  const Real pin3bx_y = c6 * Real(0.225);
-  const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real pin3d_y = pin3bx6_y - (Real(0.17500000000000002) - pin3ax1_y) - Real(0.35);
-  const Real t132 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
-  const Real t140 = t132 * (pin3ax_x * pin3ax2_x - (pin3ax_y * pin3ax2_y + (pin2ax_y * pin2ax2_y - pin2ax_x *
-      pin2ax2_x)));
-  const Real t142 = pin2ax_y + pin2ax2_y * t140;
-  const Real t144 = pin2ax_x - pin2ax2_x * t140;
-  const Real t146 = pin3ax_y + pin3ax2_y * t140;
-  const Real t148 = pin3ax_x - pin3ax2_x * t140;
-  const Real t156 = Real(1.0) / (t148 * t148 + (t146 * t146 + (t142 * t142 + t144 * t144)));
-  const Real t160 = t132 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
-  const Real t162 = pin2bx_y - pin2ax2_y * t160;
-  const Real t164 = pin2bx_x - pin2ax2_x * t160;
-  const Real t165 = pin3ax2_y * t160;
-  const Real t166 = pin3ax2_x * t160;
-  const Real t174 = t156 * (t148 * t166 - (t146 * t165 - (t142 * t162 - t144 * t164)));
-  const Real t176 = t162 - t142 * t174;
-  const Real t178 = t164 + t144 * t174;
-  const Real t180 = t165 + t146 * t174;
-  const Real t182 = t166 - t148 * t174;
-  const Real t190 = Real(1.0) / (t182 * t182 + (t180 * t180 + (t176 * t176 + t178 * t178)));
-  const Real t194 = t132 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
-  const Real t195 = pin2ax2_y * t194;
-  const Real t196 = pin2ax2_x * t194;
-  const Real t198 = pin3bx_y - pin3ax2_y * t194;
-  const Real t200 = pin3bx_x + pin3ax2_x * t194;
-  const Real t208 = t156 * (t148 * t200 + (t146 * t198 - (t142 * t195 - t144 * t196)));
-  const Real t210 = t195 + t142 * t208;
-  const Real t212 = t196 - t144 * t208;
-  const Real t214 = t198 - t146 * t208;
-  const Real t216 = t200 - t148 * t208;
-  const Real t224 = t190 * (t182 * t216 - (t180 * t214 + (t176 * t210 + t178 * t212)));
-  const Real t226 = t210 + t176 * t224;
-  const Real t228 = t212 + t178 * t224;
-  const Real t230 = t214 + t180 * t224;
-  const Real t232 = t216 - t182 * t224;
-  const Real t240 = Real(1.0) / (t232 * t232 + (t230 * t230 + (t226 * t226 + t228 * t228)));
-  const Real t248 = t132 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
-  const Real t250 = pin2ax1_y + pin2ax2_y * t248;
-  const Real t252 = pin2ax1_x - pin2ax2_x * t248;
-  const Real t254 = pin3ax1_y + pin3ax2_y * t248;
-  const Real t256 = pin3ax1_x - pin3ax2_x * t248;
-  const Real t264 = t156 * (t148 * t256 + (t146 * t254 + (t142 * t250 + t144 * t252)));
-  const Real t266 = t250 - t142 * t264;
-  const Real t268 = t252 - t144 * t264;
-  const Real t270 = t254 - t146 * t264;
-  const Real t272 = t256 - t148 * t264;
-  const Real t280 = t190 * (t182 * t272 - (t180 * t270 - (t176 * t266 - t178 * t268)));
-  const Real t296 = t240 * (t232 * (t272 - t182 * t280) + (t230 * (t270 + t180 * t280) - (t226 * (t266 - t176
-      * t280) - t228 * (t268 + t178 * t280))));
-  const Real t300 = t280 - t224 * t296;
-  const Real t304 = t174 * t300 - (t264 - t208 * t296);
-  const Real t317 = t132 * (pin2ax2_y * pin2bx4_y + pin2ax2_x * pin2bx4_x);
-  const Real t319 = pin2bx4_y - pin2ax2_y * t317;
-  const Real t321 = pin2bx4_x - pin2ax2_x * t317;
-  const Real t322 = pin3ax2_y * t317;
-  const Real t323 = pin3ax2_x * t317;
-  const Real t331 = t156 * (t148 * t323 - (t146 * t322 - (t142 * t319 - t144 * t321)));
-  const Real t333 = t319 - t142 * t331;
-  const Real t335 = t321 + t144 * t331;
-  const Real t337 = t322 + t146 * t331;
-  const Real t339 = t323 - t148 * t331;
-  const Real t347 = t190 * (t182 * t339 + (t180 * t337 + (t176 * t333 + t178 * t335)));
-  const Real t363 = t240 * (t232 * (t339 - t182 * t347) - (t230 * (t337 - t180 * t347) + (t226 * (t333 - t176
-      * t347) + t228 * (t335 - t178 * t347))));
-  const Real t367 = t347 - t224 * t363;
-  const Real t371 = t174 * t367 - (t331 - t208 * t363);
-  const Real t384 = t132 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
-  const Real t385 = pin2ax2_y * t384;
-  const Real t386 = pin2ax2_x * t384;
-  const Real t388 = pin3bx6_y - pin3ax2_y * t384;
-  const Real t390 = pin3bx6_x - pin3ax2_x * t384;
-  const Real t398 = t156 * (t148 * t390 - (t146 * t388 - (t142 * t385 - t144 * t386)));
-  const Real t400 = t385 - t142 * t398;
-  const Real t402 = t386 + t144 * t398;
-  const Real t404 = t388 + t146 * t398;
-  const Real t406 = t390 - t148 * t398;
-  const Real t414 = t190 * (t182 * t406 + (t180 * t404 + (t176 * t400 + t178 * t402)));
-  const Real t430 = t240 * (t232 * (t406 - t182 * t414) - (t230 * (t404 - t180 * t414) + (t226 * (t400 - t176
-      * t414) + t228 * (t402 - t178 * t414))));
-  const Real t434 = t414 - t224 * t430;
-  const Real t438 = t174 * t434 - (t398 - t208 * t430);
-  const Real t446 = (t140 * t438 + (t160 * t434 + (t384 + t194 * t430))) * state.z[2] - ((t140 * t304 + (t160
-      * t300 + (t248 + t194 * t296))) * state.z[0] + (t140 * t371 + (t160 * t367 - (t317 - t194 * t363))) *
-      state.z[1]);
-  const Real t449 = t438 * state.z[2] - (t304 * state.z[0] + t371 * state.z[1]);
-  const Real t452 = t434 * state.z[2] - (t300 * state.z[0] + t367 * state.z[1]);
-  const Real t455 = t430 * state.z[2] - (t296 * state.z[0] + t363 * state.z[1]);
-  const Real pin2am2t_x = pin2ax_y * t449;
-  const Real pin2am1t_x = pin2ax2_y * t446;
-  const Real pin2am0t_x = pin2ax1_y * state.z[0];
-  const Real pin2bm4t_x = pin2bx_y * t452;
-  const Real pin2bm3t_x = pin2bx4_y * state.z[1];
-  const Real pin2dv_x = pin2bm3t_x + (pin2bm4t_x + (pin2am0t_x - (pin2am2t_x + pin2am1t_x)));
-  const Real pin2am2t_y = pin2ax_x * t449;
-  const Real pin2am1t_y = pin2ax2_x * t446;
-  const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2bm4t_y = pin2bx_x * t452;
-  const Real pin2bm3t_y = pin2bx4_x * state.z[1];
-  const Real pin2dv_y = pin2bm3t_y + (pin2bm4t_y - (pin2am0t_y - (pin2am2t_y - pin2am1t_y)));
-  const Real pin3am2t_x = pin3ax_y * t449;
-  const Real pin3am1t_x = pin3ax2_y * t446;
-  const Real pin3am0t_x = pin3ax1_y * state.z[0];
-  const Real pin3bm6t_x = pin3bx_y * t455;
-  const Real pin3bm5t_x = pin3bx6_y * state.z[2];
-  const Real pin3dv_x = pin3bm5t_x + (pin3bm6t_x + (pin3am0t_x - (pin3am2t_x + pin3am1t_x)));
-  const Real pin3am2t_y = pin3ax_x * t449;
-  const Real pin3am1t_y = pin3ax2_x * t446;
-  const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3bm6t_y = pin3bx_x * t455;
-  const Real pin3bm5t_y = pin3bx6_x * state.z[2];
-  const Real pin3dv_y = pin3bm5t_y - (pin3bm6t_y + (pin3am0t_y - (pin3am2t_y - pin3am1t_y)));
-  g[0] = pin2d_x;
+  const Real s2 = c1 * t13 - s1 * t14;
+  const Real c2 = s1 * t13 + c1 * t14;
+  const Real t36 = c3 * t26 + (c3 - s3 * t25);
+  const Real t40 = s3 * t26 + (s3 + c3 * t25);
+  const Real t43 = c0 - c1;
+  const Real t46 = s0 + s1;
+  const Real t49 = t43 * Real(0.19485571585149872) - t46 * Real(0.11249999999999999);
+  const Real pin2d_x = t49 - (c2 * Real(0.13856406460551018) + (s2 * Real(1.0546217409559561e-17) - (t36 *
+      Real(0.19485571585149872) + t40 * Real(0.11249999999999999) - Real(0.6062177826491069))));
+  const Real t62 = Real(0.19485571585149872) * t46 + t43 * Real(0.11249999999999999);
+  const Real pin2d_y = t62 - (s2 * Real(0.13856406460551018) - (c2 * Real(1.0546217409559561e-17) +
+      (Real(0.19485571585149872) * t40 - t36 * Real(0.11249999999999999) + Real(1.3877787807814457e-16))));
+  Real t73, t74;
+  detail::sine_cosine(state.y[6], t73, t74);
+  const Real pin3d_x = c2 * Real(0.06928203230275509) - (t49 + (s2 * Real(0.12) - ((s5 * t74 + (s5 + c5 *
+      t73)) * Real(0.225) + Real(0.3031088913245535))));
+  const Real pin3d_y = s2 * Real(0.06928203230275509) - (t62 - (c2 * Real(0.12) - (Real(0.225) * (c5 * t74 +
+      (c5 - s5 * t73)) - Real(0.525))));
+  g[0] = -pin2d_x;
   g[1] = -pin2d_y;
   g[2] = pin3d_x;
-  g[3] = -pin3d_y;
-  g_rate[0] = pin2dv_x;
-  g_rate[1] = pin2dv_y;
-  g_rate[2] = pin3dv_x;
-  g_rate[3] = pin3dv_y;
+  g[3] = pin3d_y;
+  g_rate[0] = Real(0.0);
+  g_rate[1] = Real(0.0);
+  g_rate[2] = Real(0.0);
+  g_rate[3] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, t18, t19, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
+  Real t33, t34, s5, c5;
+  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
-  Real t18, t19;
-  detail::sine_cosine(state.y[2], t18, t19);
   const Real s2 = c1 * t18 - s1 * t19;
   const Real c2 = s1 * t18 + c1 * t19;
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t33, t34;
-  detail::sine_cosine(state.y[4], t33, t34);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
   const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
@@ -2066,8 +2024,6 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t79, t80;
   detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
@@ -2084,167 +2040,162 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
-      pin3ax2_x * pin3ax2_x)));
-  const Real t122 = t114 * (pin2ax_x * pin2ax2_x - (pin2ax_y * pin2ax2_y + (pin3ax_y * pin3ax2_y - pin3ax_x *
-      pin3ax2_x)));
-  const Real t124 = pin2ax_y + pin2ax2_y * t122;
-  const Real t126 = pin2ax_x - pin2ax2_x * t122;
-  const Real t128 = pin3ax_y + pin3ax2_y * t122;
-  const Real t130 = pin3ax_x - pin3ax2_x * t122;
-  const Real t138 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t128 * t128 + t130 * t130)));
-  const Real t142 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
-  const Real t144 = pin2bx_y - pin2ax2_y * t142;
-  const Real t146 = pin2bx_x - pin2ax2_x * t142;
-  const Real t147 = pin3ax2_y * t142;
-  const Real t148 = pin3ax2_x * t142;
-  const Real t156 = t138 * (t126 * t146 - (t124 * t144 - (t128 * t147 - t130 * t148)));
-  const Real t158 = t144 + t124 * t156;
-  const Real t160 = t146 - t126 * t156;
-  const Real t162 = t147 - t128 * t156;
-  const Real t164 = t148 + t130 * t156;
-  const Real t172 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t162 * t162 + t164 * t164)));
-  const Real t176 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
-  const Real t177 = pin2ax2_y * t176;
-  const Real t178 = pin2ax2_x * t176;
-  const Real t180 = pin3bx_y - pin3ax2_y * t176;
-  const Real t182 = pin3bx_x + pin3ax2_x * t176;
-  const Real t190 = t138 * (t126 * t178 - (t124 * t177 - (t128 * t180 + t130 * t182)));
-  const Real t192 = t177 + t124 * t190;
-  const Real t194 = t178 - t126 * t190;
-  const Real t196 = t180 - t128 * t190;
-  const Real t198 = t182 - t130 * t190;
-  const Real t206 = t172 * (t160 * t194 + (t158 * t192 + (t162 * t196 - t164 * t198)));
-  const Real t208 = t192 - t158 * t206;
-  const Real t210 = t194 - t160 * t206;
-  const Real t212 = t196 - t162 * t206;
-  const Real t214 = t198 + t164 * t206;
-  const Real t222 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t212 * t212 + t214 * t214)));
-  const Real t230 = t114 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
-      pin3ax2_x * pin3ax1_x)));
-  const Real t232 = pin2ax1_y + pin2ax2_y * t230;
-  const Real t234 = pin2ax1_x - pin2ax2_x * t230;
-  const Real t236 = pin3ax1_y + pin3ax2_y * t230;
-  const Real t238 = pin3ax1_x - pin3ax2_x * t230;
-  const Real t246 = t138 * (t126 * t234 + (t124 * t232 + (t128 * t236 + t130 * t238)));
-  const Real t248 = t232 - t124 * t246;
-  const Real t250 = t234 - t126 * t246;
-  const Real t252 = t236 - t128 * t246;
-  const Real t254 = t238 - t130 * t246;
-  const Real t262 = t172 * (t160 * t250 - (t158 * t248 - (t162 * t252 - t164 * t254)));
-  const Real t278 = t222 * (t210 * (t250 - t160 * t262) - (t208 * (t248 + t158 * t262) - (t212 * (t252 - t162
-      * t262) + t214 * (t254 + t164 * t262))));
-  const Real t282 = t262 - t206 * t278;
-  const Real t286 = t190 * t278 - (t246 - t156 * t282);
-  const Real t290 = t176 * t278 + (t230 - (t142 * t282 - t122 * t286));
-  const Real t299 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
-  const Real t301 = pin2bx4_y - pin2ax2_y * t299;
-  const Real t303 = pin2bx4_x + pin2ax2_x * t299;
-  const Real t304 = pin3ax2_y * t299;
-  const Real t305 = pin3ax2_x * t299;
-  const Real t313 = t138 * (t126 * t303 + (t124 * t301 - (t128 * t304 - t130 * t305)));
-  const Real t315 = t301 - t124 * t313;
-  const Real t317 = t303 - t126 * t313;
-  const Real t319 = t304 + t128 * t313;
-  const Real t321 = t305 - t130 * t313;
-  const Real t329 = t172 * (t160 * t317 - (t158 * t315 + (t162 * t319 + t164 * t321)));
-  const Real t345 = t222 * (t210 * (t317 - t160 * t329) - (t208 * (t315 + t158 * t329) + (t212 * (t319 + t162
-      * t329) - t214 * (t321 + t164 * t329))));
-  const Real t349 = t329 - t206 * t345;
-  const Real t353 = t190 * t345 - (t313 - t156 * t349);
-  const Real t357 = t176 * t345 - (t299 + (t142 * t349 - t122 * t353));
-  const Real t366 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
-  const Real t367 = pin2ax2_y * t366;
-  const Real t368 = pin2ax2_x * t366;
-  const Real t370 = pin3bx6_y - pin3ax2_y * t366;
-  const Real t372 = pin3bx6_x - pin3ax2_x * t366;
-  const Real t380 = t138 * (t126 * t368 - (t124 * t367 - (t128 * t370 - t130 * t372)));
-  const Real t382 = t367 + t124 * t380;
-  const Real t384 = t368 - t126 * t380;
-  const Real t386 = t370 - t128 * t380;
-  const Real t388 = t372 + t130 * t380;
-  const Real t396 = t172 * (t160 * t384 + (t158 * t382 + (t162 * t386 + t164 * t388)));
-  const Real t412 = t222 * (t210 * (t384 - t160 * t396) + (t208 * (t382 - t158 * t396) + (t212 * (t386 - t162
-      * t396) - t214 * (t388 - t164 * t396))));
-  const Real t416 = t396 - t206 * t412;
-  const Real t420 = t190 * t412 - (t380 - t156 * t416);
-  const Real t424 = t176 * t412 - (t366 + (t142 * t416 - t122 * t420));
-  const Real t428 = t357 * state.z[1] + (t290 * state.z[0] + t424 * state.z[2]);
-  const Real t431 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
-  const Real t434 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
-  const Real t437 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
-  const Real pin2am2t_x = pin2ax_y * t431;
-  const Real pin2am1t_x = pin2ax2_y * t428;
-  const Real pin2am1v_x = pin2am2t_x + pin2am1t_x;
+  const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
+      pin2ax2_x * pin2ax2_x)));
+  const Real t118 = t114 * Real(0.031425) - Real(0.5);
+  const Real t120 = pin2ax_y - pin2ax2_y * t118;
+  const Real t122 = pin2ax_x + pin2ax2_x * t118;
+  const Real t124 = pin3ax_y - pin3ax2_y * t118;
+  const Real t126 = pin3ax_x + pin3ax2_x * t118;
+  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
+  const Real t140 = pin2bx_y - pin2ax2_y * t138;
+  const Real t142 = pin2bx_x - pin2ax2_x * t138;
+  const Real t143 = pin3ax2_y * t138;
+  const Real t144 = pin3ax2_x * t138;
+  const Real t152 = t134 * (t126 * t144 - (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t154 = t140 - t120 * t152;
+  const Real t156 = t142 + t122 * t152;
+  const Real t158 = t143 + t124 * t152;
+  const Real t160 = t144 - t126 * t152;
+  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
+  const Real t173 = pin2ax2_y * t172;
+  const Real t174 = pin2ax2_x * t172;
+  const Real t176 = pin3bx_y - pin3ax2_y * t172;
+  const Real t178 = pin3bx_x + pin3ax2_x * t172;
+  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 - t122 * t174)));
+  const Real t188 = t173 + t120 * t186;
+  const Real t190 = t174 - t122 * t186;
+  const Real t192 = t176 - t124 * t186;
+  const Real t194 = t178 - t126 * t186;
+  const Real t202 = t168 * (t160 * t194 - (t158 * t192 + (t154 * t188 + t156 * t190)));
+  const Real t204 = t188 + t154 * t202;
+  const Real t206 = t190 + t156 * t202;
+  const Real t208 = t192 + t158 * t202;
+  const Real t210 = t194 - t160 * t202;
+  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
+  const Real t226 = t114 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
+      pin2ax2_x * pin2ax1_x)));
+  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
+  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t244 = t228 - t120 * t242;
+  const Real t246 = t230 - t122 * t242;
+  const Real t248 = t232 - t124 * t242;
+  const Real t250 = t234 - t126 * t242;
+  const Real t258 = t168 * (t160 * t250 - (t158 * t248 - (t154 * t244 - t156 * t246)));
+  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 + t158 * t258) - (t204 * (t244 - t154
+      * t258) - t206 * (t246 + t156 * t258))));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
+  const Real t300 = pin3ax2_y * t295;
+  const Real t301 = pin3ax2_x * t295;
+  const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
+  const Real t311 = t297 - t120 * t309;
+  const Real t313 = t299 - t122 * t309;
+  const Real t315 = t300 + t124 * t309;
+  const Real t317 = t301 - t126 * t309;
+  const Real t325 = t168 * (t160 * t317 + (t158 * t315 + (t154 * t311 - t156 * t313)));
+  const Real t341 = t218 * (t210 * (t317 - t160 * t325) - (t208 * (t315 - t158 * t325) + (t204 * (t311 - t154
+      * t325) - t206 * (t313 + t156 * t325))));
+  const Real t345 = t325 - t202 * t341;
+  const Real t349 = t152 * t345 - (t309 - t186 * t341);
+  const Real t353 = t118 * t349 - (t138 * t345 - (t295 - t172 * t341));
+  const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t363 = pin2ax2_y * t362;
+  const Real t364 = pin2ax2_x * t362;
+  const Real t366 = pin3bx6_y - pin3ax2_y * t362;
+  const Real t368 = pin3bx6_x - pin3ax2_x * t362;
+  const Real t376 = t134 * (t126 * t368 - (t124 * t366 - (t120 * t363 - t122 * t364)));
+  const Real t378 = t363 - t120 * t376;
+  const Real t380 = t364 + t122 * t376;
+  const Real t382 = t366 + t124 * t376;
+  const Real t384 = t368 - t126 * t376;
+  const Real t392 = t168 * (t160 * t384 + (t158 * t382 + (t154 * t378 + t156 * t380)));
+  const Real t408 = t218 * (t210 * (t384 - t160 * t392) - (t208 * (t382 - t158 * t392) + (t204 * (t378 - t154
+      * t392) + t206 * (t380 - t156 * t392))));
+  const Real t412 = t392 - t202 * t408;
+  const Real t416 = t152 * t412 - (t376 - t186 * t408);
+  const Real t420 = t118 * t416 - (t138 * t412 + (t362 + t172 * t408));
+  const Real t424 = t420 * state.z[2] - (t286 * state.z[0] + t353 * state.z[1]);
+  const Real t427 = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
+  const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
+  const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
+  const Real pin2am2t_x = pin2ax_y * t427;
+  const Real pin2am1t_x = pin2ax2_y * t424;
   const Real pin2am0t_x = pin2ax1_y * state.z[0];
-  const Real pin2bm4t_x = pin2bx_y * t434;
+  const Real pin2bm4t_x = pin2bx_y * t430;
   const Real pin2bm3t_x = pin2bx4_y * state.z[1];
-  const Real pin2am2t_y = pin2ax_x * t431;
-  const Real pin2am2a_x = t431 * pin2am2t_y;
-  const Real pin2am1t_y = pin2ax2_x * t428;
-  const Real pin2am1b_y = pin2am1t_y - pin2am2t_y * Real(2.0);
-  const Real pin2am1v_y = pin2am2t_y - pin2am1t_y;
+  const Real pin2am2t_y = pin2ax_x * t427;
+  const Real pin2am2a_x = t427 * pin2am2t_y;
+  const Real pin2am1t_y = pin2ax2_x * t424;
+  const Real pin2am1b_y = pin2am1t_y + pin2am2t_y * Real(2.0);
   const Real pin2am0t_y = pin2ax1_x * state.z[0];
-  const Real pin2am0b_y = pin2am0t_y + Real(2.0) * pin2am1v_y;
-  const Real pin2bm4t_y = pin2bx_x * t434;
-  const Real pin2bm4a_x = t434 * pin2bm4t_y;
+  const Real pin2am0b_y = pin2am0t_y - (pin2am1t_y + pin2am1b_y);
+  const Real pin2bm4t_y = pin2bx_x * t430;
+  const Real pin2bm4a_x = t430 * pin2bm4t_y;
   const Real pin2bm3t_y = pin2bx4_x * state.z[1];
   const Real pin2bm3b_y = pin2bm3t_y - Real(2.0) * pin2bm4t_y;
-  const Real pin2da_x = t428 * pin2am1b_y + (pin2am2a_x - (state.z[0] * pin2am0b_y - (pin2bm4a_x - state.z[1]
-      * pin2bm3b_y)));
-  const Real pin2am2a_y = t431 * pin2am2t_x;
-  const Real pin2am1b_x = pin2am1t_x + pin2am2t_x * Real(2.0);
-  const Real pin2am0b_x = pin2am0t_x + pin2am1v_x * Real(2.0);
-  const Real pin2bm4a_y = t434 * pin2bm4t_x;
+  const Real pin2da_x = state.z[1] * pin2bm3b_y - (pin2bm4a_x - (state.z[0] * pin2am0b_y - (pin2am2a_x + t424
+      * pin2am1b_y)));
+  const Real pin2am2a_y = t427 * pin2am2t_x;
+  const Real pin2am1b_x = pin2am1t_x - pin2am2t_x * Real(2.0);
+  const Real pin2am0b_x = pin2am0t_x + (pin2am1t_x + pin2am1b_x);
+  const Real pin2bm4a_y = t430 * pin2bm4t_x;
   const Real pin2bm3b_x = pin2bm3t_x + pin2bm4t_x * Real(2.0);
-  const Real pin2da_y = t428 * pin2am1b_x - (pin2am2a_y - (state.z[0] * pin2am0b_x + (pin2bm4a_y + state.z[1]
-      * pin2bm3b_x)));
-  const Real pin3am2t_x = pin3ax_y * t431;
-  const Real pin3am1t_x = pin3ax2_y * t428;
-  const Real pin3am1v_x = pin3am2t_x + pin3am1t_x;
+  const Real pin2da_y = state.z[1] * pin2bm3b_x + (pin2bm4a_y + (state.z[0] * pin2am0b_x - (pin2am2a_y - t424
+      * pin2am1b_x)));
+  const Real pin3am2t_x = pin3ax_y * t427;
+  const Real pin3am1t_x = pin3ax2_y * t424;
   const Real pin3am0t_x = pin3ax1_y * state.z[0];
-  const Real pin3bm6t_x = pin3bx_y * t437;
+  const Real pin3bm6t_x = pin3bx_y * t433;
   const Real pin3bm5t_x = pin3bx6_y * state.z[2];
-  const Real pin3am2t_y = pin3ax_x * t431;
-  const Real pin3am2a_x = t431 * pin3am2t_y;
-  const Real pin3am1t_y = pin3ax2_x * t428;
-  const Real pin3am1b_y = pin3am1t_y - Real(2.0) * pin3am2t_y;
-  const Real pin3am1v_y = pin3am2t_y - pin3am1t_y;
+  const Real pin3am2t_y = pin3ax_x * t427;
+  const Real pin3am2a_x = t427 * pin3am2t_y;
+  const Real pin3am1t_y = pin3ax2_x * t424;
+  const Real pin3am1b_y = pin3am1t_y + Real(2.0) * pin3am2t_y;
   const Real pin3am0t_y = pin3ax1_x * state.z[0];
-  const Real pin3am0b_y = pin3am0t_y + Real(2.0) * pin3am1v_y;
-  const Real pin3bm6t_y = pin3bx_x * t437;
-  const Real pin3bm6a_x = t437 * pin3bm6t_y;
+  const Real pin3am0b_y = pin3am0t_y - (pin3am1t_y + pin3am1b_y);
+  const Real pin3bm6t_y = pin3bx_x * t433;
+  const Real pin3bm6a_x = t433 * pin3bm6t_y;
   const Real pin3bm5t_y = pin3bx6_x * state.z[2];
-  const Real pin3bm5b_y = pin3bm5t_y + Real(2.0) * pin3bm6t_y;
-  const Real pin3da_x = t428 * pin3am1b_y + (pin3am2a_x - (state.z[0] * pin3am0b_y - (pin3bm6a_x + state.z[2]
-      * pin3bm5b_y)));
-  const Real pin3am2a_y = t431 * pin3am2t_x;
-  const Real pin3am1b_x = pin3am1t_x + Real(2.0) * pin3am2t_x;
-  const Real pin3am0b_x = pin3am0t_x + Real(2.0) * pin3am1v_x;
-  const Real pin3bm6a_y = t437 * pin3bm6t_x;
-  const Real pin3bm5b_x = pin3bm5t_x - Real(2.0) * pin3bm6t_x;
-  const Real pin3da_y = t428 * pin3am1b_x - (pin3am2a_y - (state.z[0] * pin3am0b_x - (pin3bm6a_y - state.z[2]
-      * pin3bm5b_x)));
-  const Real t530 = t114 * (pin2ax2_x * pin2da_y - (pin2ax2_y * pin2da_x + (pin3ax2_y * pin3da_x - pin3ax2_x *
-      pin3da_y)));
-  const Real t532 = pin2da_x + pin2ax2_y * t530;
-  const Real t534 = pin2da_y - pin2ax2_x * t530;
-  const Real t536 = pin3da_x + pin3ax2_y * t530;
-  const Real t538 = pin3da_y - pin3ax2_x * t530;
-  const Real t546 = t138 * (t126 * t534 + (t124 * t532 + (t128 * t536 + t130 * t538)));
-  const Real t548 = t532 - t124 * t546;
-  const Real t550 = t534 - t126 * t546;
-  const Real t552 = t536 - t128 * t546;
-  const Real t554 = t538 - t130 * t546;
-  const Real t562 = t172 * (t160 * t550 - (t158 * t548 - (t162 * t552 - t164 * t554)));
-  const Real t578 = t222 * (t210 * (t550 - t160 * t562) - (t208 * (t548 + t158 * t562) - (t212 * (t552 - t162
-      * t562) + t214 * (t554 + t164 * t562))));
-  const Real t582 = t562 - t206 * t578;
-  const Real t586 = t190 * t578 - (t546 - t156 * t582);
-  const Real ral1o_z = t176 * t578 + (t530 - (t142 * t582 - t122 * t586));
+  const Real pin3bm5b_y = pin3bm5t_y - Real(2.0) * pin3bm6t_y;
+  const Real pin3da_x = state.z[2] * pin3bm5b_y + (pin3bm6a_x - (state.z[0] * pin3am0b_y - (pin3am2a_x + t424
+      * pin3am1b_y)));
+  const Real pin3am2a_y = t427 * pin3am2t_x;
+  const Real pin3am1b_x = pin3am1t_x - Real(2.0) * pin3am2t_x;
+  const Real pin3am0b_x = pin3am0t_x + (pin3am1t_x + pin3am1b_x);
+  const Real pin3bm6a_y = t433 * pin3bm6t_x;
+  const Real pin3bm5b_x = pin3bm5t_x + Real(2.0) * pin3bm6t_x;
+  const Real pin3da_y = state.z[2] * pin3bm5b_x - (pin3bm6a_y - (state.z[0] * pin3am0b_x - (pin3am2a_y - t424
+      * pin3am1b_x)));
+  const Real t522 = t114 * (pin3ax2_x * pin3da_y - (pin3ax2_y * pin3da_x - (pin2ax2_y * pin2da_x + pin2ax2_x *
+      pin2da_y)));
+  const Real t524 = pin2da_x - pin2ax2_y * t522;
+  const Real t526 = pin2da_y - pin2ax2_x * t522;
+  const Real t528 = pin3da_x + pin3ax2_y * t522;
+  const Real t530 = pin3da_y - pin3ax2_x * t522;
+  const Real t538 = t134 * (t126 * t530 + (t124 * t528 - (t120 * t524 - t122 * t526)));
+  const Real t540 = t524 + t120 * t538;
+  const Real t542 = t526 - t122 * t538;
+  const Real t544 = t528 - t124 * t538;
+  const Real t546 = t530 - t126 * t538;
+  const Real t554 = t168 * (t160 * t546 - (t158 * t544 + (t154 * t540 + t156 * t542)));
+  const Real t570 = t218 * (t210 * (t546 - t160 * t554) + (t208 * (t544 + t158 * t554) + (t204 * (t540 + t154
+      * t554) + t206 * (t542 + t156 * t554))));
+  const Real t574 = t554 - t202 * t570;
+  const Real t578 = t152 * t574 - (t538 - t186 * t570);
+  const Real ral1o_z = t118 * t578 - (t138 * t574 + (t522 + t172 * t570));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
-  const Real D6 = r6_x * h6b_x - r6_y * h6b_y;
+  const Real D6 = t80 * Real(0.00759375);
   const Real E6 = D6 + Real(0.0050625);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
@@ -2254,112 +2205,111 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
-  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
-  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
-  const Real J1 = E2 + (D2 + model.c5);
-  const Real D1 = r1_x * h1_x - r1_y * h1_y;
+  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
+  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
+  const Real J1 = D2 + E2 + model.c5;
+  const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
-  const Real p_2_1n_z = r1_x * h2b_x - (E2 - r1_y * h2b_y);
-  const Real t655 = t357 * J1 - t353 * E2;
-  const Real t658 = t357 * E2 - t353 * model.S2b_zz;
-  const Real t660 = E4 + t349 * Real(0.0050625);
-  const Real t661 = t345 * Real(0.0050625);
-  const Real t673 = t424 * J1 - t420 * E2;
-  const Real t676 = t424 * E2 - t420 * model.S2b_zz;
-  const Real t678 = t416 * Real(0.0050625);
-  const Real t680 = E6 + t412 * Real(0.0050625);
-  const Real t689 = t420 * p_2_1n_z + (t424 * E1 + (t290 * t673 - (t286 * t676 - (t282 * t678 + t278 *
-      t680))));
-  const Real t697 = t357 * t673 + (t416 * E4 - (t353 * t676 - (t349 * t678 + t345 * t680)));
-  const Real t710 = Real(1.0) / (E6 + (D6 + (t424 * t673 - (t420 * t676 - (t416 * t678 + (t412 * (E6 + t680) +
-      Real(0.0239375)))))));
-  const Real t711 = t697 * t710;
-  const Real t731 = t353 * p_2_1n_z + (t357 * E1 + (t290 * t655 - (t286 * t658 - (t282 * t660 + (t278 * t661 -
-      t689 * t711)))));
-  const Real t732 = t689 * t710;
-  const Real t734 = Real(1.0) / (D4 + (E4 + (t357 * t655 - (t353 * t658 - (t345 * t661 - (t697 * t711 - t349 *
-      (E4 + t660)))) + Real(0.002))) + Real(0.021937500000000002));
-  const Real t735 = t731 * t734;
-  const Real w1_z = state.z[0] + t428;
+  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
+  const Real t646 = t353 * J1 + t349 * E2;
+  const Real t649 = t353 * E2 + t349 * model.S2b_zz;
+  const Real t651 = E4 - t345 * Real(0.0050625);
+  const Real t652 = t341 * Real(0.0050625);
+  const Real t664 = t420 * J1 + t416 * E2;
+  const Real t667 = t420 * E2 + t416 * model.S2b_zz;
+  const Real t669 = t412 * Real(0.0050625);
+  const Real t671 = E6 - t408 * Real(0.0050625);
+  const Real t680 = t274 * t671 - (t278 * t669 + (t282 * t667 + (t286 * t664 - (t420 * E1 - t416 *
+      p_2_1n_z))));
+  const Real t688 = t341 * t671 - (t345 * t669 + (t349 * t667 - (t412 * E4 - t353 * t664)));
+  const Real t701 = Real(1.0) / (E6 + (D6 + (t420 * t664 + (t416 * t667 + (t412 * t669 - t408 * (E6 +
+      t671))))) + Real(0.0239375));
+  const Real t702 = t688 * t701;
+  const Real t719 = t680 * t702 - (t274 * t652 - (t278 * t651 - (t282 * t649 + (t286 * t646 - (t353 * E1 -
+      t349 * p_2_1n_z)))));
+  const Real t720 = t680 * t701;
+  const Real t722 = Real(1.0) / (E4 + (D4 + (t353 * t646 + (t349 * t649 + (t341 * t652 - (t688 * t702 -
+      (Real(0.0239375) - t345 * (E4 + t651))))))));
+  const Real t723 = t719 * t722;
+  const Real w1_z = state.z[0] + t424;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = r1_y * rW0w22;
-  const Real zw_1 = t428 * (state.z[0] + w1_z);
+  const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
   const Real rW1w22 = w1_z * w1_z;
-  const Real t784 = r2_x * rW1w22;
-  const Real ra2o_x = t784 - (ra1o_x - r2_y * ral1o_z);
-  const Real t789 = r2_y * rW1w22;
-  const Real ra2o_y = r2_x * ral1o_z - (ra1o_y + t789);
-  const Real zw_2 = t431 * (w1_z - (t431 - w1_z));
-  const Real t799 = h2b_x * zw_2;
-  const Real rdf2_x = t586 * h2b_y - t799;
-  const Real t802 = h2b_y * zw_2;
-  const Real rdf2_y = t586 * h2b_x + t802;
-  const Real rdn2_z = t586 * model.S2b_zz;
+  const Real t764 = r2_x * rW1w22;
+  const Real ra2o_x = r2_y * ral1o_z + (ra1o_x - t764);
+  const Real t769 = r2_y * rW1w22;
+  const Real ra2o_y = t769 + (ra1o_y + r2_x * ral1o_z);
+  const Real zw_2 = t427 * (w1_z + (t427 + w1_z));
+  const Real t779 = h2b_x * zw_2;
+  const Real rdf2_x = t578 * h2b_y + t779;
+  const Real t782 = h2b_y * zw_2;
+  const Real rdf2_y = t578 * h2b_x - t782;
+  const Real rdn2_z = t578 * model.S2b_zz;
   const Real rW3w22 = state.z[1] * state.z[1];
   const Real ra4o_x = r4_x * rW3w22;
   const Real ra4o_y = r4_y * rW3w22;
-  const Real zw_4 = t434 * (state.z[1] + (state.z[1] + t434));
-  const Real rdf4_x = t582 * h4b_y - h4b_x * zw_4;
-  const Real rdf4_y = t582 * h4b_x + h4b_y * zw_4;
-  const Real rdn4_z = t582 * Real(0.0050625);
+  const Real zw_4 = t430 * (t430 + (state.z[1] + state.z[1]));
+  const Real rdf4_x = t574 * h4b_y + h4b_x * zw_4;
+  const Real rdf4_y = t574 * h4b_x - h4b_y * zw_4;
+  const Real rdn4_z = t574 * Real(0.0050625);
   const Real rW5w22 = state.z[2] * state.z[2];
   const Real ra6o_x = r6_x * rW5w22;
   const Real ra6o_y = r6_y * rW5w22;
-  const Real zw_6 = t437 * (state.z[2] + (state.z[2] + t437));
-  const Real rdf6_x = t578 * h6b_y - h6b_x * zw_6;
-  const Real rdf6_y = t578 * h6b_x + h6b_y * zw_6;
-  const Real rdn6_z = t578 * Real(0.0050625);
-  const Real rf2c_x = h1_x * zw_1 + (ral1o_z * h1_y + rdf2_x);
-  const Real rf2c_y = h1_y * zw_1 - (ral1o_z * h1_x - rdf2_y);
-  const Real rn2c_z = rdn2_z - (rdn1_z - (r2_x * rdf2_y - r2_y * rdf2_x));
-  const Real rQ1_0 = h1_y * ra1o_x + (h1_x * ra1o_y + rn2c_z);
-  const Real rQ2_0 = h2b_x * ra2o_y + (ral1o_z * model.S2b_zz - (h2b_y * ra2o_x + rdn2_z));
-  const Real rQ4_0 = h4b_y * ra4o_x - (h4b_x * ra4o_y + rdn4_z);
-  const Real rQ6_0 = h6b_y * ra6o_x + (h6b_x * ra6o_y - rdn6_z);
-  const Real t877 = rdn6_z + (push5_0 + (r6_x * rdf6_y - (r6_y * rdf6_x + (t424 * rQ1_0 + (t420 * rQ2_0 +
-      (t416 * rQ4_0 + t412 * rQ6_0))))));
-  const Real t886 = rdn4_z + (push3_0 + (r4_x * rdf4_y + (r4_y * rdf4_x - (t357 * rQ1_0 + (t353 * rQ2_0 +
-      (t349 * rQ4_0 + (t345 * rQ6_0 + t711 * t877)))))));
-  const Real t898 = Real(1.0) / (E1 - (D1 - (Real(0.002) - (t689 * t732 + (t731 * t735 + (t286 * (t290 * E2 -
-      (p_2_1n_z + (p_2_1n_z + t286 * model.S2b_zz))) - (t290 * (t290 * J1 + (E1 + (E1 - t286 * E2))) +
-      (Real(0.0050625) * (t282 * t282 + t278 * t278) + model.S_xx + Real(0.005062500000000001) + model.S_yy +
-      Real(0.0016875))))))))) * (rn2c_z - (push0_0 + (r1_x * rf2c_y + (r1_y * rf2c_x - (t290 * rQ1_0 + (t286 *
-      rQ2_0 + (t282 * rQ4_0 + (t278 * rQ6_0 + (t732 * t877 + t735 * t886)))))))));
-  const Real t901 = t734 * t886 + t735 * t898;
-  const Real t906 = t732 * t898 + (t710 * t877 - t711 * t901);
-  const Real t919 = t286 * t898 + (t586 - (t353 * t901 + t420 * t906));
-  const Real ra1o_x_2 = ra1o_x - r1_y * t898;
-  const Real ra1o_y_2 = ra1o_y + r1_x * t898;
-  const Real ral1o_z_2 = t290 * t898 + (ral1o_z - (t357 * t901 - (t898 - t424 * t906)));
-  const Real ra2o_x_2 = ra1o_x_2 - (t784 + r2_y * ral1o_z_2);
-  const Real ra2o_y_2 = ra1o_y_2 + (t789 - r2_x * ral1o_z_2);
-  const Real rdf2_x_2 = t799 - h2b_y * t919;
-  const Real rdf2_y_2 = t802 + h2b_x * t919;
-  const Real rdn2_z_2 = model.S2b_zz * t919;
-  const Real ra4o_x_2 = ra4o_x + r4_y * t901;
-  const Real ra4o_y_2 = ra4o_y - r4_x * t901;
-  const Real ra6o_x_2 = ra6o_x - r6_y * t906;
-  const Real ra6o_y_2 = ra6o_y + r6_x * t906;
-  const Real rQ1_0_2 = h1_y * ra1o_x_2 + (h1_x * ra1o_y_2 + (rdn2_z_2 + (r2_x * rdf2_y_2 + (r2_y * rdf2_x_2 -
-      J1 * ral1o_z_2))));
-  const Real t970 = h2b_x * ra2o_y_2 - (model.S2b_zz * ral1o_z_2 + (h2b_y * ra2o_x_2 - (rdn2_z_2 - t122 *
-      rQ1_0_2)));
-  const Real t981 = h4b_y * ra4o_x_2 - (h4b_x * ra4o_y_2 + (t142 * rQ1_0_2 + (t156 * t970 + Real(0.0050625) *
-      (t282 * t898 + (t582 - (t349 * t901 + (t901 + t416 * t906)))))));
-  const Real t995 = t114 * rQ1_0_2;
-  const Real t1000 = t138 * t970;
-  const Real t1005 = t172 * t981;
-  const Real t1010 = t222 * (h6b_y * ra6o_x_2 + (h6b_x * ra6o_y_2 + (t176 * rQ1_0_2 - (t190 * t970 + (t206 *
-      t981 + Real(0.0050625) * (t278 * t898 + (t578 - (t345 * t901 + (t906 + t412 * t906)))))))));
-  lambda[0] = t124 * t1000 - (pin2ax2_y * t995 + (t158 * t1005 + t208 * t1010));
-  lambda[1] = -(t126 * t1000 + (pin2ax2_x * t995 + (t160 * t1005 + t210 * t1010)));
-  lambda[2] = t128 * t1000 - (pin3ax2_y * t995 - (t162 * t1005 + t212 * t1010));
-  lambda[3] = -(t130 * t1000 + (pin3ax2_x * t995 - (t164 * t1005 - t214 * t1010)));
+  const Real zw_6 = t433 * (t433 - (state.z[2] + state.z[2]));
+  const Real rdf6_x = t570 * h6b_y - h6b_x * zw_6;
+  const Real rdf6_y = t570 * h6b_x + h6b_y * zw_6;
+  const Real rdn6_z = t570 * Real(0.0050625);
+  const Real rf2c_x = rdf2_x + (ral1o_z * h1_y + h1_x * zw_1);
+  const Real rf2c_y = rdf2_y + (ral1o_z * h1_x - h1_y * zw_1);
+  const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y + (rdn1_z + rdn2_z));
+  const Real rQ1_0 = rn2c_z - (h1_x * ra1o_y - h1_y * ra1o_x);
+  const Real rQ2_0 = rdn2_z - (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz + h2b_x * ra2o_y));
+  const Real rQ4_0 = rdn4_z - (h4b_x * ra4o_y - h4b_y * ra4o_x);
+  const Real rQ6_0 = rdn6_z - (h6b_x * ra6o_y + h6b_y * ra6o_x);
+  const Real t857 = t408 * rQ6_0 + (t412 * rQ4_0 + (t416 * rQ2_0 - (t420 * rQ1_0 - (r6_y * rdf6_x - (r6_x *
+      rdf6_y + (push5_0 + rdn6_z))))));
+  const Real t866 = t702 * t857 + (t341 * rQ6_0 + (t345 * rQ4_0 + (t349 * rQ2_0 - (t353 * rQ1_0 + (r4_y *
+      rdf4_x + (r4_x * rdf4_y - (push3_0 - rdn4_z)))))));
+  const Real t878 = (t723 * t866 + (t720 * t857 + (t274 * rQ6_0 + (t278 * rQ4_0 + (t282 * rQ2_0 - (t286 *
+      rQ1_0 - (r1_y * rf2c_x + (r1_x * rf2c_y + (push0_0 + rn2c_z))))))))) / (Real(0.0050625) * (t278 * t278 +
+      t274 * t274) + (E1 - (D1 + (t680 * t720 + (t719 * t723 - (t282 * (t282 * model.S2b_zz + (p_2_1n_z +
+      (p_2_1n_z + t286 * E2))) + t286 * (t282 * E2 - (E1 + (E1 - t286 * J1))))))) + model.c6));
+  const Real t881 = t722 * t866 + t723 * t878;
+  const Real t886 = t702 * t881 + (t701 * t857 + t720 * t878);
+  const Real t899 = t416 * t886 + (t349 * t881 - (t578 - t282 * t878));
+  const Real ra1o_x_2 = ra1o_x + r1_y * t878;
+  const Real ra1o_y_2 = ra1o_y - r1_x * t878;
+  const Real ral1o_z_2 = t420 * t886 - (t878 - (t353 * t881 - (ral1o_z - t286 * t878)));
+  const Real ra2o_x_2 = r2_y * ral1o_z_2 + (t764 - ra1o_x_2);
+  const Real ra2o_y_2 = r2_x * ral1o_z_2 - (t769 + ra1o_y_2);
+  const Real rdf2_x_2 = t779 - h2b_y * t899;
+  const Real rdf2_y_2 = t782 + h2b_x * t899;
+  const Real rdn2_z_2 = model.S2b_zz * t899;
+  const Real ra4o_x_2 = ra4o_x + r4_y * t881;
+  const Real ra4o_y_2 = ra4o_y - r4_x * t881;
+  const Real ra6o_x_2 = ra6o_x + r6_y * t886;
+  const Real ra6o_y_2 = ra6o_y - r6_x * t886;
+  const Real rQ1_0_2 = J1 * ral1o_z_2 + (r2_y * rdf2_x_2 + (r2_x * rdf2_y_2 + (rdn2_z_2 - (h1_x * ra1o_y_2 -
+      h1_y * ra1o_x_2))));
+  const Real t950 = t118 * rQ1_0_2 + (rdn2_z_2 - (h2b_y * ra2o_x_2 - (model.S2b_zz * ral1o_z_2 + h2b_x *
+      ra2o_y_2)));
+  const Real t961 = Real(0.0050625) * (t412 * t886 - (t881 - (t345 * t881 - (t574 - t278 * t878)))) + (t152 *
+      t950 - (t138 * rQ1_0_2 - (h4b_x * ra4o_y_2 - h4b_y * ra4o_x_2)));
+  const Real t975 = t114 * rQ1_0_2;
+  const Real t980 = t134 * t950;
+  const Real t985 = t168 * t961;
+  const Real t990 = t218 * (Real(0.0050625) * (t408 * t886 - (t886 - (t341 * t881 - (t570 - t274 * t878)))) -
+      (t202 * t961 - (t186 * t950 - (t172 * rQ1_0_2 - (h6b_x * ra6o_y_2 + h6b_y * ra6o_x_2)))));
+  lambda[0] = -(t204 * t990 - (t154 * t985 + (pin2ax2_y * t975 - t120 * t980)));
+  lambda[1] = -(t206 * t990 - (t156 * t985 + (pin2ax2_x * t975 + t122 * t980)));
+  lambda[2] = t208 * t990 - (t158 * t985 - (pin3ax2_y * t975 - t124 * t980));
+  lambda[3] = -(t210 * t990 + (t160 * t985 - (pin3ax2_x * t975 + t126 * t980)));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

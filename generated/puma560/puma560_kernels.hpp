@@ -9,12 +9,135 @@ namespace puma560 {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
@@ -83,25 +267,18 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], s3, c3, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   const Real S4b_t = s4 * Real(0.00020216);
   const Real S4b_xx = s4 * S4b_t - Real(0.00042216);
   const Real S4b_xy = c4 * S4b_t;
-  const Real S4b_yy = S4b_xx + Real(0.00064216);
   const Real h4b_x = c4 * Real(0.0028799999999999997);
   const Real h4b_y = s4 * Real(0.0028799999999999997);
-  const Real S4c_xx = S4b_yy + Real(0.00065);
+  const Real S4c_xx = S4b_xx + Real(0.00129216);
   const Real S4c_xz = S4b_xy + Real(0.4318) * h4b_y;
   const Real S4c_zz = S4b_xx - h4b_x * Real(0.8636);
   const Real S3b_zz = S4c_xx + Real(0.00077);
@@ -111,7 +288,6 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S3b_xy = c3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz;
   const Real S3b_yz = s3 * S4c_xz;
-  const Real S3b_yy = S3b_zz - S3b_xx;
   const Real h3b_x = c3 * h4b_y;
   const Real h3b_y = s3 * h4b_y;
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
@@ -121,41 +297,34 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S3c_xz = S3b_yz + (h4b_x * Real(0.15005) + Real(0.1384816665));
   const Real S3c_yy = S3b_xx - (h3b_x * Real(0.0406) - Real(0.0167651125));
   const Real S3c_yz = S3b_xy + (h3b_x * Real(0.15005) - h3b_y * Real(0.0203) - Real(0.0038075187499999994));
-  const Real S3c_zz = S3b_yy + h3b_y * Real(0.3001);
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
   const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
-  const Real S2b_xx = S3c_xx - s2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
-  const Real t99 = r2_x * h2b_x;
-  const Real D2 = t99 - r2_y * h2b_y;
+  const Real t94 = r2_x * h2b_x;
+  const Real D2 = t94 - r2_y * h2b_y;
   const Real E2 = S2b_zz + D2;
   const Real Jc2 = D2 + E2;
-  const Real S2c_xx = S2b_xx + Real(2.0) * t99;
-  const Real S2c_xz = S2b_xz - r2_x * h3b_y;
+  const Real t100 = r2_x * h3b_y;
+  const Real S2c_xz = S2b_xz - t100;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real S1b_xx = s1 * S1b_t + Real(0.07312639999999992);
   const Real S1b_xz = s1 * Real(0.6903913435) + c1 * Real(0.023751);
   const Real J1 = Jc2 - Real(1.748114002);
-  const Real S1_xx = S2c_xx - S1b_xx;
   const Real S1_xz = S2c_xz - S1b_xz;
-  const Real S1_yy = J1 - S1_xx;
-  const Real S1c_xx = S1_yy - Real(0.175);
-  const Real S1c_yy = S3c_zz + Real(1.2867895711250001);
-  const Real S0b_zz = S1c_xx - S1c_yy;
+  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t - (Real(2.0) * t94 - (s2 * S2b_t
+      - (S3c_xx - J1)))))) + Real(1.3886631711250002);
   const Real p_3_3l_x = h3b_y * Real(0.15005) - h3b_x * Real(0.0203);
   const Real p_3_3n_x = S3b_zz + p_3_3l_x;
   const Real p_3_3F_x = s2 * h3b_y;
-  const Real p_3_3F_y = c2 * h3b_y;
   const Real p_3_3N_x = c2 * p_3_3n_x - s2 * S3b_xz;
   const Real p_3_2l_x = r2_y * h3b_x;
-  const Real p_3_2l_z = r2_x * p_3_3F_y + r2_y * p_3_3F_x;
+  const Real p_3_2l_z = c2 * t100 + r2_y * p_3_3F_x;
   const Real p_3_2n_x = p_3_3N_x + p_3_2l_x;
   const Real p_3_2n_z = S3b_yz - p_3_2l_z;
   const Real p_4_4l_y = Real(0.4318) * h4b_x;
-  const Real p_4_4n_y = Real(0.00064216) + p_4_4l_y;
+  const Real p_4_4n_y = p_4_4l_y + Real(0.00064216);
   const Real p_4_4F_x = c3 * h4b_x;
   const Real p_4_4F_y = s3 * h4b_x;
   const Real p_4_4N_x = s3 * p_4_4n_y;
@@ -177,7 +346,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real p_5_4N_x = c3 * p_5_5N_y;
   const Real p_5_4N_y = s3 * p_5_5N_y;
   const Real p_5_3N_x = c2 * p_5_5N_x + s2 * p_5_4N_x;
-  M[0][0] = -S0b_zz;
+  M[0][0] = S0b_zz;
   M[0][1] = M[1][0] = S1_xz;
   M[0][2] = M[2][0] = S2b_xz;
   M[0][3] = M[3][0] = -p_3_2n_x;
@@ -202,18 +371,12 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], s3, c3, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   const Real S4b_t = s4 * Real(0.00020216);
   const Real S4b_xx = s4 * S4b_t - Real(0.00042216);
   const Real S4b_xy = c4 * S4b_t;
@@ -235,13 +398,11 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real h3b_y = s3 * h4b_y;
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
-  const Real S3c_xx = S4c_zz - Real(0.34123495800000003);
   const Real S3c_xy = S3b_xz - (h4b_x * Real(0.0203) + Real(0.011273199));
   const Real S3c_xz = S3b_yz + (h4b_x * Real(0.15005) + Real(0.1384816665));
-  const Real S3c_yy = S3b_xx - (h3b_x * Real(0.0406) - Real(0.0167651125));
   const Real S3c_yz = S3b_xy + (h3b_x * Real(0.15005) - h3b_y * Real(0.0203) - Real(0.0038075187499999994));
-  const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
+  const Real S2b_d = h3b_x * Real(0.0406) - (S4c_zz + S3b_xx) + Real(0.3244698455);
+  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
   const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
@@ -272,8 +433,9 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real ka2o_x = r2_x * zz_1;
   const Real ka2o_y = r2_y * kW1U1_y;
   const Real ka2o_z = r2_x * kW1U2_x;
-  const Real kKy2 = S2b_xy * state.z[0] + S2b_yz * state.z[1];
-  const Real kQp2 = state.z[0] * kKy2 - S2b_yz * kal1o_y - h2b_x * ka2o_y - h2b_y * ka2o_x;
+  const Real t147 = S2b_xy * state.z[0];
+  const Real kKy2 = t147 + S2b_yz * state.z[1];
+  const Real kQp2 = state.z[0] * t147 - h2b_x * ka2o_y - h2b_y * ka2o_x;
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -282,25 +444,18 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kdf2_y = h2b_y * zw_2;
   const Real kdf2_z = z2_2 * kax2;
   const Real kdn2_x = S2b_yz * zz_2 + kKy2 * z2_2;
-  const Real kal2o_y = kal1o_y + state.z[2] * state.z[0];
+  const Real kal2o_y = w2_z * state.z[0];
   const Real kal3p_x = s2 * kal2o_y;
   const Real kal3p_y = c2 * kal2o_y;
   const Real kL2a_x = c2 * ka2o_x + s2 * ka2o_y;
   const Real kL2a_y = c2 * ka2o_y - s2 * ka2o_x;
   const Real kL2w00 = w3pp_x * w3pp_x;
   const Real kL2w01 = w3pp_x * w3pp_y;
-  const Real kL2w02 = w2_z * w3pp_x;
-  const Real kL2w11 = w3pp_y * w3pp_y;
-  const Real kL2w12 = w2_z * w3pp_y;
   const Real kL2w22 = w2_z * w2_z;
-  const Real kL2U0_z = kal3p_y - kL2w02;
   const Real kL2U1_y = kL2w00 + kL2w22;
-  const Real kL2U1_z = kal3p_x - kL2w12;
-  const Real kL2U2_y = kal3p_x + kL2w12;
-  const Real kL2U2_z = kL2w00 + kL2w11;
-  const Real ka3o_x = kL2a_x + (Real(0.15005) * kL2U0_z - Real(0.0203) * kL2w01);
-  const Real ka3o_y = kL2a_y - (Real(0.15005) * kL2U1_z + Real(0.0203) * kL2U1_y);
-  const Real ka3o_z = ka2o_z - (Real(0.15005) * kL2U2_z - Real(0.0203) * kL2U2_y);
+  const Real ka3o_x = kL2a_x - Real(0.0203) * kL2w01;
+  const Real ka3o_y = kL2a_y - Real(0.0203) * kL2U1_y;
+  const Real ka3o_z = ka2o_z - (Real(0.15005) * kW1w00 - Real(0.0406) * kal3p_x);
   const Real kKx3 = S3b_xx * w3pp_y - S3b_xy * w2_z + S3b_xz * w3pp_x;
   const Real kKy3 = S3b_xy * w3pp_y + S3b_yz * w3pp_x - S3b_yy * w2_z;
   const Real kQp3 = S3b_zz * kal3p_x + S3b_xz * kal3p_y - h3b_x * ka3o_z - h3b_y * ka3o_y + w2_z * kKx3 +
@@ -308,7 +463,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_x + w3_z);
-  const Real kax3 = h3b_x * w3pp_y - h3b_y * w2_z;
+  const Real kax3 = h4b_y * w4pp_x;
   const Real kdf3_x = h3b_x * zw_3;
   const Real kdf3_y = h3b_y * zw_3;
   const Real kdf3_z = z2_3 * kax3;
@@ -332,7 +487,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
       kKx4;
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_y + w4_z);
-  const Real kax4 = h4b_x * w3_z + h4b_y * w4pp_x;
+  const Real kax4 = kax3 + h4b_x * w3_z;
   const Real kdf4_x = h4b_x * zw_4;
   const Real kdf4_y = h4b_y * zw_4;
   const Real kdf4_z = z2_4 * kax4;
@@ -341,12 +496,10 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kal4o_x = kal3p_x + w4pp_x * state.z[4];
   const Real kal4o_y = kal4p_x + w3_z * state.z[4];
   const Real kal5p_x = c4 * kal4o_x - s4 * kal4o_y;
-  const Real kKx5 = w5pp_y * Real(2e-05);
-  const Real kKy5 = w4_z * Real(2e-05);
-  const Real kQp5 = kal5p_x * Real(4e-05) + w4_z * kKx5 - w5pp_y * kKy5;
+  const Real kQp5 = kal5p_x * Real(4e-05);
   const Real z2_5 = Real(2.0) * state.z[5];
-  const Real kdn5_x = kKy5 * z2_5;
-  const Real kdn5_y = kKx5 * z2_5;
+  const Real kdn5_x = w4_z * z2_5 * Real(2e-05);
+  const Real kdn5_y = Real(2e-05) * (w5pp_y * z2_5);
   const Real kn4b_x = s4 * kdn5_x;
   const Real kn4b_y = c4 * kdn5_x;
   const Real kn4_x = kdn4_x + kn4b_x;
@@ -388,16 +541,10 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&q)[6]) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], s3, c3, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   const Real h4b_x = c4 * Real(0.0028799999999999997);
   const Real h4b_y = s4 * Real(0.0028799999999999997);
   const Real h3b_x = c3 * h4b_y;
@@ -424,18 +571,12 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&zdot)[6])
     noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], s3, c3, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   const Real S4b_t = s4 * Real(0.00020216);
   const Real S4b_xx = s4 * S4b_t - Real(0.00042216);
   const Real S4b_xy = c4 * S4b_t;
@@ -467,10 +608,11 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
   const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
+  const Real t97 = r2_y * h3b_y;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
   const Real h1_y = c1 * Real(3.79559) + (h2b_y - s1 * Real(0.10439999999999999));
   const Real S1_xy = c1 * S1b_t - (r2_y * h2b_x - (S2b_xy + r2_x * h2b_y) + Real(0.0070991999999999965));
-  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) - (S2b_yz - r2_y * h3b_y));
+  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) - (S2b_yz - t97));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
@@ -488,7 +630,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real ba2o_x = Real(9.81) - r2_x * zz_1;
   const Real ba2o_y = r2_y * bW1U1_y;
   const Real ba2o_z = r2_x * bW1U2_x;
-  const Real bKy2 = S2b_xy * state.z[0] - S2b_yz * state.z[1];
+  const Real t157 = S2b_xy * state.z[0];
+  const Real bKy2 = t157 - S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -496,28 +639,21 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bdf2_x = h2b_x * zw_2;
   const Real bdf2_y = h2b_y * zw_2;
   const Real bdf2_z = z2_2 * bax2;
-  const Real bal2o_y = bal1o_y + state.z[2] * state.z[0];
+  const Real bal2o_y = w2_z * state.z[0];
   const Real bal3p_x = s2 * bal2o_y;
   const Real bal3p_y = c2 * bal2o_y;
   const Real bL2w00 = w3pp_x * w3pp_x;
   const Real bL2w01 = w3pp_x * w3pp_y;
-  const Real bL2w02 = w2_z * w3pp_x;
-  const Real bL2w11 = w3pp_y * w3pp_y;
-  const Real bL2w12 = w2_z * w3pp_y;
   const Real bL2w22 = w2_z * w2_z;
-  const Real bL2U0_z = bal3p_y - bL2w02;
   const Real bL2U1_y = bL2w00 + bL2w22;
-  const Real bL2U1_z = bal3p_x - bL2w12;
-  const Real bL2U2_y = bal3p_x + bL2w12;
-  const Real bL2U2_z = bL2w00 + bL2w11;
-  const Real ba3o_y = Real(0.0203) * bL2U1_y + (Real(0.15005) * bL2U1_z - (c2 * ba2o_y + s2 * ba2o_x));
-  const Real ba3o_z = Real(0.0203) * bL2U2_y + (ba2o_z - Real(0.15005) * bL2U2_z);
+  const Real ba3o_y = Real(0.0203) * bL2U1_y - (c2 * ba2o_y + s2 * ba2o_x);
+  const Real ba3o_z = Real(0.0406) * bal3p_x + (ba2o_z - Real(0.15005) * bW1w00);
   const Real bKx3 = S3b_xz * w3pp_x + (S3b_xx * w3pp_y - S3b_xy * w2_z);
   const Real bKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y + S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_x + w3_z);
-  const Real bax3 = h3b_x * w3pp_y - h3b_y * w2_z;
+  const Real bax3 = h4b_y * w4pp_x;
   const Real bdf3_x = h3b_x * zw_3;
   const Real bdf3_y = h3b_y * zw_3;
   const Real bdf3_z = z2_3 * bax3;
@@ -530,13 +666,12 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL3U0_z = bal4p_y + bL3w02;
   const Real bL3U2_z = bL3w00 + bL3w11;
   const Real ba4o_x = Real(0.4318) * bL3U0_z + (c3 * ba3o_y + s3 * ba3o_z);
-  const Real ba4o_z = Real(0.4318) * bL3U2_z + (Real(0.0203) * bL2w01 - (Real(0.15005) * bL2U0_z - (c2 *
-      ba2o_x - s2 * ba2o_y)));
+  const Real ba4o_z = Real(0.4318) * bL3U2_z + (Real(0.0203) * bL2w01 + (c2 * ba2o_x - s2 * ba2o_y));
   const Real bKx4 = S4b_xx * w3_z - S4b_xy * w4pp_x;
   const Real bKy4 = S4b_xy * w3_z + S4b_yy * w4pp_x;
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_y + w4_z);
-  const Real bax4 = h4b_x * w3_z + h4b_y * w4pp_x;
+  const Real bax4 = bax3 + h4b_x * w3_z;
   const Real bdf4_x = h4b_x * zw_4;
   const Real bdf4_y = h4b_y * zw_4;
   const Real bdf4_z = z2_4 * bax4;
@@ -545,11 +680,9 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bal4o_x = bal3p_x + w4pp_x * state.z[4];
   const Real bal4o_y = w3_z * state.z[4] + (c3 * bal3o_x + s3 * bal3o_y);
   const Real bal5p_x = c4 * bal4o_x - s4 * bal4o_y;
-  const Real bKx5 = w5pp_y * Real(2e-05);
-  const Real bKy5 = w4_z * Real(2e-05);
   const Real z2_5 = Real(2.0) * state.z[5];
-  const Real bdn5_x = bKy5 * z2_5;
-  const Real bdn5_y = bKx5 * z2_5;
+  const Real bdn5_x = w4_z * z2_5 * Real(2e-05);
+  const Real bdn5_y = Real(2e-05) * (w5pp_y * z2_5);
   const Real bn4b_x = s4 * bdn5_x;
   const Real bn4b_y = c4 * bdn5_x;
   const Real bn4_x = bdn4_x + bn4b_x;
@@ -566,16 +699,15 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bf2_z = bdf2_z + bf3_y;
   const Real b_4 = input.u[4] - (bdn5_y - (w4pp_x * bKx4 + (w3_z * bKy4 - (h4b_y * ba4o_z + (Real(0.00064216)
       * bal4p_y + h4b_x * ba4o_x)))));
-  const Real b_5 = input.u[5] - (w5pp_y * bKy5 - (bal5p_x * Real(4e-05) + w4_z * bKx5));
+  const Real b_5 = bal5p_x * Real(4e-05) + input.u[5];
   const Real S2b_zz = S3c_xx + S3c_yy;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
-  const Real t369 = r2_x * h2b_x;
-  const Real D2 = t369 - r2_y * h2b_y;
+  const Real t348 = r2_x * h2b_x;
+  const Real D2 = t348 - r2_y * h2b_y;
   const Real E2 = S2b_zz + D2;
+  const Real t353 = r2_x * h3b_y;
   const Real J1 = D2 + E2 - Real(1.748114002);
   const Real p3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
-  const Real p3_3F_x = s2 * h3b_y;
-  const Real p3_3F_y = c2 * h3b_y;
   const Real p3_2l_x = r2_y * h3b_x;
   const Real p4_4l_y = Real(0.4318) * h4b_x;
   const Real p4_4n_y = Real(0.00064216) + p4_4l_y;
@@ -600,47 +732,46 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real p5_3N_x = c2 * p5_5N_x + s2 * p5_4N_x;
   const Real L_5_3 = p5_5N_x * Real(24999.999999999996);
   const Real H5_3_3 = S3b_zz - p5_5N_x * L_5_3;
-  const Real t431 = p5_4N_y * L_5_3;
-  const Real H5_3_2 = S3b_yz + t431;
-  const Real H5_3_1 = t431 - (r2_y * p3_3F_x - (S3b_yz - r2_x * p3_3F_y));
+  const Real t408 = p5_4N_y * L_5_3;
+  const Real H5_3_2 = S3b_yz + t408;
+  const Real H5_3_1 = t408 - (s2 * t97 - (S3b_yz - c2 * t353));
   const Real H5_3_0 = p5_3N_x * L_5_3 - (p3_2l_x - (c2 * p3_3n_x + s2 * S3b_xz));
   const Real L_5_2 = p5_4N_y * Real(24999.999999999996);
-  const Real t441 = p5_4N_y * L_5_2;
-  const Real t442 = p5_3N_x * L_5_2;
+  const Real t418 = p5_4N_y * L_5_2;
+  const Real t419 = p5_3N_x * L_5_2;
   const Real L_5_0 = p5_3N_x * Real(24999.999999999996);
   const Real u5_3 = b_5 * L_5_3 - (input.u[3] + (bn4_x - (w3pp_y * bKy3 - (w2_z * bKx3 + (h3b_y * ba3o_y -
       (h3b_x * ba3o_z - (S3b_zz * bal3p_x + S3b_xz * bal3p_y)))))));
-  const Real t454 = b_5 * L_5_2;
+  const Real t431 = b_5 * L_5_2;
   const Real L_4_2 = p4_3n_z * Real(1557.24430048586);
   const Real L_4_1 = p4_2n_z * Real(1557.24430048586);
   const Real L_4_0 = p4_2n_x * Real(1557.24430048586);
   const Real invD_3 = Real(1.0) / H5_3_3;
   const Real L_3_2 = H5_3_2 * invD_3;
-  const Real H3_2_2 = H5_3_2 * L_3_2 + (p4_3n_z * L_4_2 + (S2b_zz + t441));
-  const Real H3_2_1 = H5_3_1 * L_3_2 + (p4_2n_z * L_4_2 + (E2 + t441));
-  const Real H3_2_0 = H5_3_0 * L_3_2 + (p4_2n_x * L_4_2 + (S2b_xz + t442));
+  const Real H3_2_2 = H5_3_2 * L_3_2 + (p4_3n_z * L_4_2 + (S2b_zz + t418));
+  const Real H3_2_1 = H5_3_1 * L_3_2 + (p4_2n_z * L_4_2 + (E2 + t418));
+  const Real H3_2_0 = H5_3_0 * L_3_2 + (p4_2n_x * L_4_2 + (S2b_xz + t419));
   const Real L_3_1 = H5_3_1 * invD_3;
   const Real L_3_0 = H5_3_0 * invD_3;
-  const Real u3_2 = u5_3 * L_3_2 + (b_4 * L_4_2 + (t454 - (input.u[2] + (bn3c_z - (h2b_y * ba2o_x - (h2b_x *
-      ba2o_y - (state.z[0] * bKy2 + S2b_yz * bal1o_y)))))));
+  const Real u3_2 = u5_3 * L_3_2 + (b_4 * L_4_2 + (t431 - (input.u[2] + (bn3c_z - (h2b_y * ba2o_x - (h2b_x *
+      ba2o_y - state.z[0] * t157))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = H3_2_1 * L_2_1 - (H5_3_1 * L_3_1 + (p4_2n_z * L_4_1 + (J1 + t441)));
-  const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 + (p4_2n_x * L_4_1 + (t442 - (c1 * Real(0.023751) + (s1
-      * Real(0.6903913435) - (S2b_xz - r2_x * h3b_y))))));
+  const Real H2_1_1 = H3_2_1 * L_2_1 - (H5_3_1 * L_3_1 + (p4_2n_z * L_4_1 + (J1 + t418)));
+  const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 + (p4_2n_x * L_4_1 + (t419 - (c1 * Real(0.023751) + (s1
+      * Real(0.6903913435) - (S2b_xz - t353))))));
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real u2_1 = u3_2 * L_2_1 - (u5_3 * L_3_1 + (b_4 * L_4_1 + (t454 - (input.u[1] + (r2_y * bf2_x + (r2_x
+  const Real u2_1 = u3_2 * L_2_1 - (u5_3 * L_3_1 + (b_4 * L_4_1 + (t431 - (input.u[1] + (r2_y * bf2_x + (r2_x
       * bf2_y + (bn3c_z - (h1_y * Real(9.81) + state.z[0] * bKy1))))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H5_3_0 * L_3_0 + (p4_2n_x * L_4_0 + (p5_3N_x * L_5_0
-      - (h3b_y * Real(0.3001) + (S3b_yy - (s1 * S1b_t - (Real(2.0) * t369 - (s2 * S2b_t - (S3c_xx - J1)) -
-      Real(0.07312639999999992)) - Real(0.175))) + Real(1.2867895711250001))))));
+  const Real H1_0_0 = J1 - (S3c_xx - (s2 * S2b_t - (Real(2.0) * t348 - (s1 * S1b_t - (S3b_yy + (h3b_y *
+      Real(0.3001) - (p5_3N_x * L_5_0 + (p4_2n_x * L_4_0 + (H5_3_0 * L_3_0 - (H3_2_0 * L_2_0 - H2_1_0 *
+      L_1_0)))))))))) - Real(1.3886631711250002);
   const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u5_3 * L_3_0 + (b_4 * L_4_0 + (b_5 * L_5_0 + (input.u[0] -
       (r2_y * bf2_z - (Real(2.0) * (state.z[1] * bKy1) - (S1_yz * zz_1 + (s2 * bn3c_y - (c2 * bn3c_x - (S2b_yz
       * zz_2 - bKy2 * z2_2)))))))))));
-  const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = u1_0 * invD_0;
+  const Real y_0 = u1_0 / H1_0_0;
   const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
   const Real y_2 = u3_2 * invD_2;
@@ -662,18 +793,12 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[6], Real (&tau)[6])
     noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], s3, c3, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   const Real w2_z = state.z[1] + state.z[2];
@@ -693,27 +818,26 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala2U2_x = ala1A_y + ala1A_y;
   const Real ala2o_x = r2_x * ala2w22 - (r2_y * zdot[1] + Real(9.81));
   const Real ala2o_y = r2_x * zdot[1] + r2_y * ala2U1_y;
-  const Real ala2o_z = r2_y * zdot[0] - r2_x * ala2U2_x;
-  const Real ala2A_y = ala1A_y + state.z[2] * state.z[0];
+  const Real t63 = r2_y * zdot[0];
+  const Real ala2o_z = t63 - r2_x * ala2U2_x;
+  const Real ala2A_y = w2_z * state.z[0];
   const Real ala2A_z = zdot[1] + zdot[2];
-  const Real ala3al_x = c2 * zdot[0] + s2 * ala2A_y;
-  const Real ala3al_y = s2 * zdot[0] - c2 * ala2A_y;
+  const Real ala3U1_z = c2 * zdot[0];
+  const Real t70 = s2 * ala2A_y;
+  const Real ala3al_x = ala3U1_z + t70;
+  const Real ala3U0_z = s2 * zdot[0];
+  const Real t73 = c2 * ala2A_y;
+  const Real ala3al_y = ala3U0_z - t73;
   const Real ala3p_x = c2 * ala2o_x + s2 * ala2o_y;
   const Real ala3p_y = c2 * ala2o_y - s2 * ala2o_x;
   const Real ala3w00 = w3pp_x * w3pp_x;
   const Real ala3w01 = w3pp_x * w3pp_y;
-  const Real ala3w02 = w2_z * w3pp_x;
-  const Real ala3w11 = w3pp_y * w3pp_y;
-  const Real ala3w12 = w2_z * w3pp_y;
   const Real ala3w22 = w2_z * w2_z;
   const Real ala3U0_y = ala2A_z - ala3w01;
-  const Real ala3U0_z = ala3al_y + ala3w02;
   const Real ala3U1_y = ala3w00 + ala3w22;
-  const Real ala3U1_z = ala3al_x - ala3w12;
-  const Real ala3U2_y = ala3al_x + ala3w12;
-  const Real ala3U2_z = ala3w00 + ala3w11;
+  const Real ala3U2_y = t70 + ala3al_x;
   const Real ala3o_y = ala3U1_y * Real(0.0203) - (ala3p_y - ala3U1_z * Real(0.15005));
-  const Real ala3o_z = ala3U2_y * Real(0.0203) - (ala2o_z + ala3U2_z * Real(0.15005));
+  const Real ala3o_z = ala3U2_y * Real(0.0203) - (ala2o_z + ala2w00 * Real(0.15005));
   const Real ala3A_x = ala3al_y - w2_z * state.z[3];
   const Real ala3A_y = ala2A_z + w3pp_y * state.z[3];
   const Real ala3A_z = ala3al_x - zdot[3];
@@ -741,36 +865,31 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL0n_z = zdot[0] * Real(1.461789571125);
   const Real aL1w_x = c1 * state.z[0];
   const Real aL1w_y = s1 * state.z[0];
-  const Real aL1al_x = c1 * zdot[0] - s1 * ala1A_y;
-  const Real aL1al_y = s1 * zdot[0] + c1 * ala1A_y;
+  const Real t154 = s1 * zdot[0];
+  const Real t155 = c1 * ala1A_y;
+  const Real aL1al_y = t154 + t155;
   const Real aL1w00 = aL1w_x * aL1w_x;
   const Real aL1w01 = aL1w_x * aL1w_y;
-  const Real aL1w02 = state.z[1] * aL1w_x;
   const Real aL1w11 = aL1w_y * aL1w_y;
-  const Real aL1w12 = state.z[1] * aL1w_y;
   const Real aL1U0_x = ala2w22 + aL1w11;
   const Real aL1U0_y = zdot[1] + aL1w01;
-  const Real aL1U0_z = aL1al_y - aL1w02;
   const Real aL1U1_x = zdot[1] - aL1w01;
   const Real aL1U1_y = ala2w22 + aL1w00;
-  const Real aL1U1_z = aL1al_x + aL1w12;
-  const Real aL1U2_x = aL1al_y + aL1w02;
-  const Real aL1U2_y = aL1al_x - aL1w12;
-  const Real aL1U2_z = aL1w00 + aL1w11;
-  const Real aL1n_x = (aL1U1_y - aL1U2_z) * Real(0.6903913435) + (aL1U2_x * Real(0.0070991999999999965) +
+  const Real aL1U2_x = t155 + aL1al_y;
+  const Real aL1U2_y = ala2o_z * Real(2.3158869847151458);
+  const Real aL1n_x = (ala2w00 - aL1U1_y) * Real(0.6903913435) - (aL1U2_x * Real(0.0070991999999999965) +
       (aL1U1_x * Real(0.023751) - aL1U2_y * Real(1.6749876019999999)));
-  const Real aL1n_y = Real(0.023751) * (aL1U0_x - aL1U2_z) - (aL1U2_y * Real(0.0070991999999999965) - (aL1U2_x
+  const Real aL1n_y = Real(0.023751) * (ala2w00 - aL1U0_x) + (aL1U2_y * Real(0.0070991999999999965) - (aL1U2_x
       * Real(0.07312639999999992) - aL1U0_y * Real(0.6903913435)));
-  const Real aL2U0_x = ala3w11 + ala3w22;
   const Real aL2U1_x = ala2A_z + ala3w01;
-  const Real aL2U2_x = ala3al_y - ala3w02;
-  const Real aL2f_x = ala3U0_y * Real(0.025374999999999998) - aL2U0_x * Real(0.8913300000000001);
+  const Real aL2U2_x = t73 - ala3al_y;
+  const Real aL2f_x = ala3U0_y * Real(0.025374999999999998) - ala4U2_z * Real(0.8913300000000001);
   const Real aL2f_y = ala3U1_y * Real(0.025374999999999998) + aL2U1_x * Real(0.8913300000000001);
-  const Real aL2n_x = (ala3U1_y - ala3U2_z) * Real(0.0038075187499999994) - (ala2o_z *
-      Real(0.025374999999999998) - (aL2U2_x * Real(0.011273199) + (ala3U2_y * Real(0.0167651125) + aL2U1_x *
+  const Real aL2n_x = (ala2w00 - ala3U1_y) * Real(0.0038075187499999994) + (ala2o_z *
+      Real(0.025374999999999998) + (aL2U2_x * Real(0.011273199) - (ala3U2_y * Real(0.0167651125) + aL2U1_x *
       Real(0.1384816665))));
-  const Real aL2n_y = Real(0.1384816665) * (ala3U2_z - aL2U0_x) + (ala3U0_y * Real(0.0038075187499999994) +
-      (ala2o_z * Real(0.8913300000000001) - (aL2U2_x * Real(0.34123495800000003) + ala3U2_y *
+  const Real aL2n_y = Real(0.1384816665) * (ala2w00 - ala4U2_z) + (ala3U0_y * Real(0.0038075187499999994) +
+      (ala2o_z * Real(0.8913300000000001) + (aL2U2_x * Real(0.34123495800000003) - ala3U2_y *
       Real(0.011273199))));
   const Real aL3w01 = w4pp_x * w4pp_y;
   const Real aL3U0_y = ala3A_z - aL3w01;
@@ -799,45 +918,43 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL4F_y = c4 * aL4f_y - s4 * aL4f_x;
   const Real aL5w_x = c5 * w5pp_y - s5 * w4_z;
   const Real aL5w_y = c5 * w4_z + s5 * w5pp_y;
-  const Real aL5w01 = aL5w_x * aL5w_y;
   const Real aL5w02 = w5_z * aL5w_x;
   const Real aL5w12 = w5_z * aL5w_y;
-  const Real aL5U0_y = ala5A_z - aL5w01;
-  const Real aL5U1_x = ala5A_z + aL5w01;
   const Real aL5U2_x = aL5w02 - (c5 * ala5A_y + s5 * ala5A_x);
   const Real aL5U2_y = aL5w12 + (c5 * ala5A_x - s5 * ala5A_y);
   const Real aL5n_x = aL5U2_y * Real(2e-05);
   const Real aL5n_y = aL5U2_x * Real(2e-05);
-  const Real aL5n_z = Real(2e-05) * (aL5U0_y + aL5U1_x);
+  const Real aL5n_z = ala5A_z * Real(4e-05);
   const Real aL5N_x = c5 * aL5n_x - s5 * aL5n_y;
   const Real an4_z = s5 * aL5n_x + (c5 * aL5n_y - (aL4U1_x * Real(0.00042216) + (aL4a_y *
       Real(0.0028799999999999997) + aL4U0_y * Real(0.0002))));
-  const Real t333 = aL4n_y + aL5N_x;
-  const Real t335 = aL4n_x + aL5n_z;
-  const Real an4c_x = c4 * t333 + (Real(0.4318) * aL4f_z + s4 * t335);
+  const Real t316 = aL4n_y + aL5N_x;
+  const Real t318 = aL4n_x + aL5n_z;
+  const Real an4c_x = c4 * t316 + (Real(0.4318) * aL4f_z + s4 * t318);
   const Real an4c_y = an4_z - Real(0.4318) * aL4F_y;
   const Real af3b_x = c3 * aL4F_y - s3 * aL4f_z;
   const Real af3b_y = c3 * aL4f_z + s3 * aL4F_y;
-  const Real an3_z = c4 * t335 - (s4 * t333 - (aL3U1_x * Real(0.00065) + aL3U0_y *
+  const Real an3_z = c4 * t318 - (s4 * t316 - (aL3U1_x * Real(0.00065) + aL3U0_y *
       Real(0.0007499999999999999)));
   const Real an3c_x = Real(0.0203) * af3b_y + (an3_z + Real(0.15005) * af3b_x);
-  const Real t357 = aL3n_x + an4c_x;
-  const Real t359 = aL3n_y - an4c_y;
-  const Real an3c_y = c3 * t357 + (Real(0.15005) * aL4F_x + s3 * t359);
-  const Real t364 = aL2f_y + af3b_x;
-  const Real t366 = aL2f_x - aL4F_x;
-  const Real af2_x = s2 * t364 + c2 * t366;
-  const Real af2_y = s2 * t366 - c2 * t364;
-  const Real af2_z = af3b_y + (ala3U2_y * Real(0.025374999999999998) + aL2U2_x * Real(0.8913300000000001));
-  const Real an2_z = c3 * t359 - (s3 * t357 - (Real(0.011273199) * (ala3U1_y - aL2U0_x) - (Real(0.0203) *
+  const Real t340 = aL3n_x + an4c_x;
+  const Real t342 = aL3n_y - an4c_y;
+  const Real an3c_y = c3 * t340 + (Real(0.15005) * aL4F_x + s3 * t342);
+  const Real t347 = aL2f_y + af3b_x;
+  const Real t349 = aL2f_x - aL4F_x;
+  const Real af2_x = s2 * t347 + c2 * t349;
+  const Real af2_y = s2 * t349 - c2 * t347;
+  const Real af2_z = af3b_y + (ala3U2_y * Real(0.025374999999999998) - aL2U2_x * Real(0.8913300000000001));
+  const Real an2_z = c3 * t342 - (s3 * t340 - (Real(0.011273199) * (ala3U1_y - ala4U2_z) - (Real(0.0203) *
       aL4F_x + (ala3U0_z * Real(0.0038075187499999994) + (ala3p_y * Real(0.8913300000000001) - (ala3p_x *
       Real(0.025374999999999998) + (aL2U1_x * Real(0.34123495800000003) + (ala3U0_y * Real(0.0167651125) +
       ala3U1_z * Real(0.1384816665)))))))));
   const Real an2c_z = Real(0.0070991999999999965) * (aL1U0_x - aL1U1_y) + (r2_y * af2_x - (r2_x * af2_y + (c1
-      * Real(37.2347379) + (aL1U0_y * Real(1.6749876019999999) - (s1 * Real(1.024164) + (aL1U1_z *
-      Real(0.023751) + (aL1U0_z * Real(0.6903913435) - (aL1U1_x * Real(0.07312639999999992) + an2_z))))))));
-  const Real an0_z = s2 * (aL2n_y - an3c_y) - (c2 * (aL2n_x + an3c_x) - (r2_y * af2_z - (s1 * aL1n_y + (aL0n_z
-      - c1 * aL1n_x))));
+      * Real(37.2347379) + (aL1U0_y * Real(1.6749876019999999) - (s1 * Real(1.024164) + (t63 *
+      Real(0.05500463177396943) + (t154 * Real(0.6903913435) - (aL1U1_x * Real(0.07312639999999992) +
+      an2_z))))))));
+  const Real an0_z = s2 * (aL2n_y - an3c_y) + (c2 * (aL2n_x - an3c_x) + (r2_y * af2_z + (s1 * aL1n_y - (aL0n_z
+      + c1 * aL1n_x))));
   tau[0] = -an0_z;
   tau[1] = -an2c_z;
   tau[2] = an2_z;
@@ -848,24 +965,18 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, s3, c3, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], s3, c3, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   const Real S4b_t = s4 * Real(0.00020216);
   const Real S4b_xx = s4 * S4b_t - Real(0.00042216);
   const Real S4b_xy = c4 * S4b_t;
   const Real h4b_x = c4 * Real(0.0028799999999999997);
   const Real h4b_y = s4 * Real(0.0028799999999999997);
-  const Real S4c_xx = S4b_xx + Real(0.00064216) + Real(0.00065);
+  const Real S4c_xx = S4b_xx + Real(0.00129216);
   const Real S4c_xz = S4b_xy + Real(0.4318) * h4b_y;
   const Real S3b_zz = S4c_xx + Real(0.00077);
   const Real S3b_d = S4c_xx - Real(0.00077);
@@ -889,13 +1000,13 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
   const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
-  const Real t96 = r2_x * h2b_x;
-  const Real D2 = t96 - r2_y * h2b_y;
+  const Real t94 = r2_x * h2b_x;
+  const Real D2 = t94 - r2_y * h2b_y;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
   const Real J1 = D2 + (S2b_zz + D2) - Real(1.748114002);
   const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) - (S2b_xz - r2_x * h3b_y));
-  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t - (Real(2.0) * t96 - (s2 * S2b_t
-      - (S3c_xx - J1)) - Real(0.07312639999999992)) - Real(0.175)))) + Real(1.2867895711250001);
+  const Real S0b_zz = J1 - (S3c_xx - (s2 * S2b_t - (Real(2.0) * t94 - (s1 * S1b_t - (S3b_zz - (S3b_xx - h3b_y
+      * Real(0.3001))))))) - Real(1.3886631711250002);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
@@ -924,22 +1035,20 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v4o_x = Real(0.4318) * w4pp_y + (c3 * v3o_y - s3 * v3o_z);
   const Real v4P_x = h4b_y * state.z[4];
   const Real v4P_y = h4b_x * state.z[4];
-  const Real v4L_z = Real(0.00064216) * state.z[4];
+  const Real v4L_z = state.z[4] * Real(0.00064216);
   const Real v5L_z = state.z[5] * Real(4e-05);
-  const Real T5 = (state.z[0] * v0L_z - (state.z[1] * v1L_z + (state.z[2] * v2L_z - (state.z[3] * v3L_z +
-      (state.z[4] * v4L_z + state.z[5] * v5L_z))))) * Real(0.5) - (state.z[0] * (v1L_x - v2L_x) + (w5pp_x *
+  const Real T5 = (state.z[0] * v0L_z + (state.z[1] * v1L_z + (state.z[2] * v2L_z - (state.z[3] * v3L_z +
+      (state.z[4] * v4L_z + state.z[5] * v5L_z))))) * Real(0.5) + (state.z[0] * (v1L_x - v2L_x) + (w5pp_x *
       v5L_z - (v4o_x * v4P_y - (v3o_x * v4P_x - (w4pp_y * v4L_z - (v3o_z * v3P_y + (v3o_y * v3P_x - (w3pp_y *
       v3L_x - (w3pp_x * v3L_z + (w2_z * v3L_y + (v2o_y * v2P_y + (state.z[1] * v2L_z - v2o_x *
       v2P_x))))))))))));
-  return T5;
+  return -T5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5;
+  detail::sine_cosine2(state.y[1], s1, c1, state.y[2], t4, t5);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real c3 = detail::cosine(state.y[3]);

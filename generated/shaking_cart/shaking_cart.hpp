@@ -128,6 +128,7 @@ struct Model {
   Real c1;
   Real c2;
   Real c3;
+  Real c4;
 };
 
 // Names in order, closed by a null pointer.
@@ -189,7 +190,7 @@ template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
-/// 12 operations (8 mul, 4 add and sub, 0 div), 1 sin and cos.
+/// 7 operations (5 mul, 2 add and sub, 0 div), 1 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;

@@ -27,8 +27,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.6e-16 of the
-//   sum of absolute terms, other errors are 5.5e-16 of their scale; cond(M) up to 1.0e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 3.4e-16 of the
+//   sum of absolute terms, other errors are 3.2e-16 of their scale; cond(M) up to 1.0e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -141,7 +141,7 @@ struct Model {
     return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
   }
 
-  Real crankshaft_S_xx;
+  Real c0;
 };
 
 // Names in order, closed by a null pointer.
@@ -170,42 +170,42 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 18 operations (12 mul, 5 add and sub, 1 div), 4 sin and cos.
+/// 17 operations (11 mul, 5 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[3]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 41 operations (24 mul, 16 add and sub, 1 div), 4 sin and cos.
+/// 29 operations (17 mul, 11 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 61 operations (42 mul, 18 add and sub, 1 div), 4 sin and cos.
+/// 56 operations (38 mul, 17 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 26 operations (15 mul, 10 add and sub, 1 div), 4 sin and cos.
+/// 25 operations (14 mul, 10 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 93 operations (56 mul, 35 add and sub, 2 div), 4 sin and cos.
+/// 77 operations (46 mul, 29 add and sub, 2 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 86 operations (51 mul, 34 add and sub, 1 div), 4 sin and cos.
+/// 77 operations (47 mul, 29 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 47 operations (30 mul, 16 add and sub, 1 div), 4 sin and cos.
+/// 39 operations (27 mul, 11 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -215,34 +215,34 @@ template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
-/// 17 operations (11 mul, 5 add and sub, 1 div), 4 sin and cos.
+/// 16 operations (10 mul, 5 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 38 operations (20 mul, 14 add and sub, 3 div), 4 sin and cos, 1 atan2.
+/// 29 operations (18 mul, 10 add and sub, 0 div), 4 sin and cos, 1 atan2.
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 24 operations (15 mul, 8 add and sub, 1 div), 4 sin and cos.
+/// 14 operations (8 mul, 6 add and sub, 0 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 113 operations (66 mul, 45 add and sub, 2 div), 4 sin and cos.
+/// 97 operations (56 mul, 39 add and sub, 2 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 553 operations. For inputs sampled at the stages include slider_crank_kernels.hpp and pass a function of
+/// 476 operations. For inputs sampled at the stages include slider_crank_kernels.hpp and pass a function of
 /// the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -9,12 +9,135 @@ namespace slider_crank {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -22,8 +145,60 @@ template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
+// Angle of (x, y) by one division, sums and products, at one cost for all of them, less than 2 ulp off and exactly odd
+// in y: the smaller over the larger, beyond 1/2 turned back by pi/4, then a polynomial by fpminimax of Sollya. Of
+// numbers up to half the largest one; no number of infinite ones.
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
 JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
+#else
+JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept {
+  using Bits = unsigned long long;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 63), is_behind = x_bits >> 63;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 63), is_steep = (a - b) >> 63;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const double large = __builtin_bit_cast(double, a ^ exchange), small = __builtin_bit_cast(double, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463024898437905) - (b ^ exchange)) >> 63;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 63);
+  const double turn = static_cast<double>(wide);
+  const double t = (small - turn * large) / (large + turn * small + static_cast<double>(nothing)), z = t * t;
+  const double w = z * z, v = w * w;
+  const double low = (-0.3333333333333333 + z * 0.1999999999999723) +
+                     w * (-0.142857142851601 + z * 0.11111111068604916);
+  const double middle = (-0.09090907407679288 + z * 0.07692268042911367) +
+                        w * (-0.06666065366369484 + z * 0.058762025197991216);
+  const double high = (-0.05219603216056109 + z * 0.04545914188460735) +
+                      w * (-0.035981529310843786 + z * 0.0219654180922859);
+  const double angle = t + t * z * (low + v * (middle + v * (high + v * -0.007274827974643591)));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const double eighths = static_cast<double>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 63);
+  const double rest = __builtin_bit_cast(double, part) + eighths * 3.061616997868383e-17;
+  return __builtin_bit_cast(double, __builtin_bit_cast(Bits, eighths * 0.7853981633974483 + rest) ^ sign);
+}
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept {
+  using Bits = unsigned;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 31), is_behind = x_bits >> 31;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 31), is_steep = (a - b) >> 31;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const float large = __builtin_bit_cast(float, a ^ exchange), small = __builtin_bit_cast(float, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463025f) - (b ^ exchange)) >> 31;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 31);
+  const float turn = static_cast<float>(wide);
+  const float t = (small - turn * large) / (large + turn * small + static_cast<float>(nothing)), z = t * t;
+  const float low = (-0.3333333f + z * 0.19999681f) + z * z * (-0.1427416f + z * 0.1094557f);
+  const float angle = t + t * z * (low + z * z * z * z * (-0.079587296f + z * 0.037864342f));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const float eighths = static_cast<float>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 31);
+  const float rest = __builtin_bit_cast(float, part) + eighths * 1.5695824e-07f;
+  return __builtin_bit_cast(float, __builtin_bit_cast(Bits, eighths * 0.785398f + rest) ^ sign);
+}
+#endif
 template <class Real> JOURDAIN_FUNCTION
 Real arctangent2(const Real& y, const Real& x) noexcept { return atan2(y, x); }
 
@@ -32,6 +207,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
@@ -67,7 +303,8 @@ template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression = parameters.flywheel * Real(0.5);
   const Real t3 = Real(0.5) * expression;
-  crankshaft_S_xx = t3 + (expression - t3);
+  const Real crankshaft_S_xx = t3 + (expression - t3);
+  c0 = crankshaft_S_xx + crankshaft_S_xx + Real(0.0042275);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -83,10 +320,8 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -95,18 +330,16 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
   const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real t22 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
+  const Real t20 = piston_pinbx1_x / piston_pinbx_x;
   ydot[0] = state.z[0];
-  ydot[1] = t22 * state.z[0];
-  ydot[2] = -((piston_pinbx1_y + piston_pinbx_y * t22) * state.z[0]);
+  ydot[1] = t20 * state.z[0];
+  ydot[2] = -((piston_pinbx1_y + piston_pinbx_y * t20) * state.z[0]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -114,27 +347,19 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real t21 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
-  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
-  const Real h1b_x = c1 * Real(0.02475);
-  const Real h1b_y = s1 * Real(0.02475);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
-      Real(0.00111375);
-  const Real v1P_x = t21 * h1b_y;
-  const Real v1P_y = t21 * h1b_x;
-  const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
-      v1P_x));
+  const Real t19 = piston_pinbx1_x / piston_pinbx_x;
+  const Real t22 = piston_pinbx_y * t19 + (r1_y + piston_pinbx_y);
+  const Real D1 = t5 * Real(0.00111375);
+  const Real v1L_z = t19 * Real(0.00311375);
+  const Real T2 = (t19 * v1L_z + (D1 + (D1 + t22 * t22 * Real(0.48))) + model.c0) * Real(0.5) + (v1L_z + t19 *
+      D1);
   M[0][0] = T2 * Real(2.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -148,27 +373,24 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real w1_z = state.z[0] + t26;
   const Real t30 = Real(0.145) * w1_z;
   const Real t31 = Real(0.045) * state.z[0];
-  const Real t38 = t20 * (s0 * state.z[0] * t31 + w1_z * (s1 * t30));
+  const Real t33 = c0 * state.z[0] * t31;
+  const Real t35 = s0 * state.z[0] * t31;
+  const Real t38 = t20 * (t35 + w1_z * (s1 * t30));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
-  const Real kW0w22 = state.z[0] * state.z[0];
-  const Real ka1o_x = r1_x * kW0w22;
-  const Real ka1o_y = r1_y * kW0w22;
   const Real zw_1 = t26 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
-  const Real E1 = r1_x * h1b_x - r1_y * h1b_y - Real(0.00311375);
-  k[0] = (piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * (w1_z * (c1 * t30) - (c0 * state.z[0] * t31 -
-      piston_pinbx_y * t38)) * Real(0.48) + (t21 * (t38 * Real(0.00311375) - (h1b_x * ka1o_y + h1b_y *
-      ka1o_x)) - (t38 * E1 - (r1_x * kdf1_y + r1_y * kdf1_x)));
+  const Real E1 = t5 * Real(0.00111375) + Real(0.00311375);
+  k[0] = (piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * (w1_z * (c1 * t30) - (t33 - piston_pinbx_y * t38))
+      * Real(0.48) + (t21 * (t38 * Real(0.00311375) - (t35 * h1b_x + t33 * h1b_y)) + (t38 * E1 + (r1_x *
+      kdf1_y + r1_y * kdf1_x)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&q)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -176,22 +398,20 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real t21 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
+  const Real t19 = piston_pinbx1_x / piston_pinbx_x;
   const Real h1b_y = s1 * Real(0.02475);
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real q_2 = input.u[0] - Real(4.7088);
-  q[0] = -((h0_y + t21 * h1b_y) * Real(9.81) + (input.u[1] - (piston_pinbx_y * t21 + (r1_y + piston_pinbx_y))
+  q[0] = -((h0_y + t19 * h1b_y) * Real(9.81) + (input.u[1] - (piston_pinbx_y * t19 + (r1_y + piston_pinbx_y))
       * q_2));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -201,46 +421,39 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real piston_pinbx_y = s1 * Real(0.145);
   const Real t20 = Real(1.0) / piston_pinbx_x;
   const Real t21 = piston_pinbx1_x * t20;
-  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
+  const Real t24 = piston_pinbx_y + (r1_y + piston_pinbx_y * t21);
   const Real t26 = t21 * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t30 = Real(0.145) * w1_z;
-  const Real t31 = Real(0.045) * state.z[0];
-  const Real t38 = t20 * (s0 * state.z[0] * t31 + w1_z * (s1 * t30));
+  const Real t30 = Real(0.045) * state.z[0];
+  const Real t31 = c0 * state.z[0] * t30;
+  const Real t33 = s0 * state.z[0] * t30;
+  const Real t36 = t20 * (t33 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
-      Real(0.00111375);
-  const Real v1P_x = t21 * h1b_y;
-  const Real v1P_y = t21 * h1b_x;
+  const Real D1 = t5 * Real(0.00111375);
   const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
-      v1P_x));
+  const Real T2 = t21 * D1 + (v1L_z + (t24 * t24 * Real(0.48) + (D1 + (D1 + t21 * v1L_z)) + model.c0) *
+      Real(0.5));
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
-  const Real rW0w22 = state.z[0] * state.z[0];
-  const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
-  const Real ra1o_y = r1_y * rW0w22;
+  const Real ra1o_x = t31 - Real(9.81);
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real rdf1_x = t38 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t38 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t38 * Real(0.00311375);
-  const Real rdf2t_z = (w1_z * (c1 * t30) - (c0 * state.z[0] * t31 - piston_pinbx_y * t38)) * Real(0.48);
-  const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real tau_2_0 = input.u[0] - (rdf2t_z + Real(4.7088));
-  zdot[0] = -(Real(1.0) / (T2 * Real(2.0)) * (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y * rdf1_x -
-      (r1_x * rdf1_y - (rQp0 + rdn1_z)))))));
+  const Real rdf1_x = t36 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t36 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t36 * Real(0.00311375);
+  const Real rdf2t_z = (piston_pinbx_y * t36 + t21 * t31) * Real(0.48);
+  const Real rQ1_0 = h1b_y * ra1o_x + (t33 * h1b_x - rdn1_z);
+  const Real tau_2_0 = rdf2t_z - input.u[0] + Real(4.7088);
+  zdot[0] = (rdn1_z + (rQp0 - (r1_x * rdf1_y - (r1_y * rdf1_x + (input.u[1] - (t21 * rQ1_0 - t24 *
+      tau_2_0)))))) / (T2 * Real(2.0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -255,37 +468,33 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real w1_z = state.z[0] + t26;
   const Real t30 = Real(0.145) * w1_z;
   const Real t31 = Real(0.045) * state.z[0];
-  const Real t38 = t20 * (s0 * state.z[0] * t31 + w1_z * (s1 * t30));
+  const Real t33 = c0 * state.z[0] * t31;
+  const Real t35 = s0 * state.z[0] * t31;
+  const Real t38 = t20 * (t35 + w1_z * (s1 * t30));
   const Real t42 = t38 - t21 * zdot[0];
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
-  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
-      Real(0.00111375);
+  const Real J0 = t5 * Real(0.0022275) + model.c0;
   const Real aQp0 = h0_y * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
-  const Real aW0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = r1_x * aW0w22 - (Real(9.81) - r1_y * zdot[0]);
-  const Real aa1o_y = r1_x * zdot[0] - r1_y * aW0w22;
+  const Real aa1o_x = t33 - (Real(9.81) - r1_y * zdot[0]);
+  const Real aa1o_y = t35 - r1_x * zdot[0];
   const Real zw_1 = t26 * (state.z[0] + w1_z);
   const Real adf1_x = t42 * h1b_y + h1b_x * zw_1;
   const Real adf1_y = t42 * h1b_x - h1b_y * zw_1;
   const Real adn1_z = t42 * Real(0.00311375);
-  const Real adf2t_z = (w1_z * (c1 * t30) - (t24 * zdot[0] + (c0 * state.z[0] * t31 - piston_pinbx_y * t38)))
-      * Real(0.48);
-  const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.00311375) - h1b_x * aa1o_y));
+  const Real adf2t_z = (w1_z * (c1 * t30) - (t24 * zdot[0] + (t33 - piston_pinbx_y * t38))) * Real(0.48);
+  const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.00311375) + h1b_x * aa1o_y));
   const Real aQ2_0 = adf2t_z + Real(4.7088);
   tau[0] = -(t24 * aQ2_0 + (t21 * aQ1_0 + (r1_y * adf1_x - (r1_x * adf1_y + (adn0_z - (aQp0 + adn1_z))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -293,31 +502,23 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real t21 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
-  const Real t26 = t21 * state.z[0];
-  const Real t27 = (piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * state.z[0];
-  const Real h1b_x = c1 * Real(0.02475);
-  const Real h1b_y = s1 * Real(0.02475);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
-      Real(0.00111375);
+  const Real t19 = piston_pinbx1_x / piston_pinbx_x;
+  const Real t24 = t19 * state.z[0];
+  const Real t25 = (piston_pinbx_y + (r1_y + piston_pinbx_y * t19)) * state.z[0];
+  const Real J0 = t5 * Real(0.0022275) + model.c0;
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
-  const Real v1P_x = t26 * h1b_y;
-  const Real v1P_y = t26 * h1b_x;
-  const Real v1L_z = t26 * Real(0.00311375);
-  const Real T2 = (t27 * t27 * Real(0.48) + (state.z[0] * v0L_z + t26 * v1L_z)) * Real(0.5) - (v1o_y * v1P_y -
-      (state.z[0] * v1L_z + v1o_x * v1P_x));
+  const Real v1L_z = t24 * Real(0.00311375);
+  const Real T2 = (v1o_x * (s1 * t24) - v1o_y * (c1 * t24)) * Real(0.02475) + (state.z[0] * v1L_z + (t24 *
+      v1L_z + (state.z[0] * v0L_z + t25 * t25 * Real(0.48))) * Real(0.5));
   return T2;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real t3, c0;
-  detail::sine_cosine(state.y[0], t3, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real t3, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], t3, c0, state.y[1], t4, t5);
   const Real c1 = t3 * t4 - c0 * t5;
   const Real hg2_x = state.y[2] * Real(0.48) + (c0 - c1) * Real(0.02475);
   const Real V = hg2_x * Real(9.81);
@@ -327,10 +528,8 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -339,8 +538,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
   const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  result.piston_speed = -((piston_pinbx1_y + piston_pinbx_y * (piston_pinbx1_x * (Real(1.0) /
-      piston_pinbx_x))) * state.z[0]);
+  result.piston_speed = -((piston_pinbx1_y + piston_pinbx_y * (piston_pinbx1_x / piston_pinbx_x)) *
+      state.z[0]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -351,31 +550,27 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t6 = t2 * Real(0.145);
   const Real t7 = t1 * Real(0.145);
   const Real t9 = t1 * Real(0.045) - Real(0.006);
-  const Real t12 = t6 * t6 + t7 * t7;
-  const Real t13 = t9 * t9;
-  const Real t15 = detail::square_root(t12 - t13);
-  const Real t25 = (t6 * t15 - t7 * t9) / t12;
-  const Real t26 = (t7 * t15 + t6 * t9) / t12;
-  Real t29, t28;
-  detail::sine_cosine(state.y[1], t29, t28);
-  const Real t39 = state.y[1] + detail::arctangent2(-(t25 * t29 + t26 * t28), -(t26 * t29 - t25 * t28));
-  const Real t45 = t2 * Real(0.045) + Real(0.145) * (t1 * t26 + t2 * t25);
-  const Real t46 = state.y[1] - t39;
-  const Real t49 = t45 - state.y[2];
-  closed.y[1] = t39;
-  closed.y[2] = t45;
-  closed.regularity = -(t13 / t12 - Real(1.0));
-  closed.opening = t46 * t46 + t49 * t49;
+  const Real t12 = t9 * t9 - Real(0.021025);
+  const Real t14 = detail::square_root(-t12);
+  const Real t24 = (t6 * t14 - t7 * t9) * Real(47.562425683709876);
+  const Real t25 = (t7 * t14 + t6 * t9) * Real(47.562425683709876);
+  Real t28, t27;
+  detail::sine_cosine(state.y[1], t28, t27);
+  const Real t37 = detail::arctangent2(-(t24 * t28 + t25 * t27), -(t25 * t28 - t24 * t27));
+  const Real t40 = t14 + t2 * Real(0.045);
+  const Real t43 = t40 - state.y[2];
+  closed.y[1] = state.y[1] + t37;
+  closed.y[2] = t40;
+  closed.regularity = -(t12 * Real(47.562425683709876));
+  closed.opening = t37 * t37 + t43 * t43;
   state = closed;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -386,21 +581,17 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real piston_pinbx_y = s1 * Real(0.145);
   const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
   const Real piston_pind_y = piston_pinbx1_y - Real(0.006);
-  const Real t26 = piston_pinbx1_x * (Real(1.0) / piston_pinbx_x);
-  const Real t29 = t26 * state.z[0];
   g[0] = piston_pind_x;
   g[1] = piston_pind_y;
-  g_rate[0] = -(piston_pinbx_y * t29 - piston_pinbx_y * t26 * state.z[0]);
-  g_rate[1] = piston_pinbx1_x * state.z[0] - piston_pinbx_x * t29;
+  g_rate[0] = Real(0.0);
+  g_rate[1] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
@@ -410,45 +601,40 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real piston_pinbx_y = s1 * Real(0.145);
   const Real t20 = Real(1.0) / piston_pinbx_x;
   const Real t21 = piston_pinbx1_x * t20;
-  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
+  const Real t24 = piston_pinbx_y + (r1_y + piston_pinbx_y * t21);
   const Real t26 = t21 * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t30 = Real(0.145) * w1_z;
-  const Real t31 = Real(0.045) * state.z[0];
-  const Real t38 = t20 * (s0 * state.z[0] * t31 + w1_z * (s1 * t30));
-  const Real t42 = w1_z * (c1 * t30) - (c0 * state.z[0] * t31 - piston_pinbx_y * t38);
+  const Real t30 = Real(0.045) * state.z[0];
+  const Real t31 = c0 * state.z[0] * t30;
+  const Real ra1o_y = s0 * state.z[0] * t30;
+  const Real t36 = t20 * (ra1o_y + w1_z * (piston_pinbx_y * w1_z));
+  const Real t39 = piston_pinbx_y * t36 + t21 * t31;
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = model.crankshaft_S_xx - (D1 + D1 - Real(0.00311375) - model.crankshaft_S_xx) +
-      Real(0.00111375);
-  const Real v1P_x = t21 * h1b_y;
-  const Real v1P_y = t21 * h1b_x;
+  const Real D1 = t5 * Real(0.00111375);
   const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = (t24 * t24 * Real(0.48) + (J0 + t21 * v1L_z)) * Real(0.5) - (r1_x * v1P_y - (v1L_z + r1_y *
-      v1P_x));
+  const Real T2 = t21 * D1 + (v1L_z + (t24 * t24 * Real(0.48) + (D1 + (D1 + t21 * v1L_z)) + model.c0) *
+      Real(0.5));
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
-  const Real rW0w22 = state.z[0] * state.z[0];
-  const Real ra1o_x = Real(9.81) - r1_x * rW0w22;
-  const Real ra1o_y = r1_y * rW0w22;
+  const Real ra1o_x = t31 - Real(9.81);
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real rdf1_x = t38 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t38 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t38 * Real(0.00311375);
-  const Real rdf2t_z = t42 * Real(0.48);
-  const Real rQ1_0 = rdn1_z - (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real tau_2_0 = input.u[0] - (rdf2t_z + Real(4.7088));
-  const Real t113 = Real(1.0) / (T2 * Real(2.0)) * (t24 * tau_2_0 - (t21 * rQ1_0 + (input.u[1] + (r1_y *
-      rdf1_x - (r1_x * rdf1_y - (rQp0 + rdn1_z))))));
-  const Real ra1o_x_2 = ra1o_x + r1_y * t113;
-  const Real ra1o_y_2 = ra1o_y + r1_x * t113;
-  const Real rdf2t_z_2 = Real(0.48) * (t42 + t24 * t113);
-  const Real tau_2_0_2 = rdf2t_z_2 - (input.u[0] - Real(4.7088));
+  const Real rdf1_x = t36 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t36 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t36 * Real(0.00311375);
+  const Real rdf2t_z = t39 * Real(0.48);
+  const Real rQ1_0 = h1b_y * ra1o_x + (ra1o_y * h1b_x - rdn1_z);
+  const Real tau_2_0 = rdf2t_z - input.u[0] + Real(4.7088);
+  const Real t97 = (rdn1_z + (rQp0 - (r1_x * rdf1_y - (r1_y * rdf1_x + (input.u[1] - (t21 * rQ1_0 - t24 *
+      tau_2_0)))))) / (T2 * Real(2.0));
+  const Real ra1o_x_2 = ra1o_x + r1_y * t97;
+  const Real ra1o_y_2 = ra1o_y - r1_x * t97;
+  const Real rdf2t_z_2 = Real(0.48) * (t39 - t24 * t97);
+  const Real tau_2_0_2 = Real(4.7088) - (input.u[0] - rdf2t_z_2);
   lambda[0] = tau_2_0_2;
-  lambda[1] = -(t20 * (Real(0.00311375) * (t113 + (t38 + t21 * t113)) + (piston_pinbx_y * tau_2_0_2 - (h1b_x *
-      ra1o_y_2 - h1b_y * ra1o_x_2))));
+  lambda[1] = t20 * (h1b_y * ra1o_x_2 + (h1b_x * ra1o_y_2 - (piston_pinbx_y * tau_2_0_2 - Real(0.00311375) *
+      (t21 * t97 - (t36 - t97)))));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

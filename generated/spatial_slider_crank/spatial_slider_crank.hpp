@@ -28,8 +28,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 5.5e-16 of the
-//   sum of absolute terms, other errors are 8.0e-16 of their scale; cond(M) up to 1.0e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 7.3e-16 of the
+//   sum of absolute terms, other errors are 7.1e-16 of their scale; cond(M) up to 1.0e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -138,79 +138,79 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 20 operations (16 mul, 2 add and sub, 2 div), 6 sin and cos.
+/// 18 operations (14 mul, 2 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[4]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 40 operations (30 mul, 8 add and sub, 2 div), 6 sin and cos.
+/// 31 operations (22 mul, 7 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 94 operations (68 mul, 24 add and sub, 2 div), 6 sin and cos.
+/// 74 operations (54 mul, 18 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 16 operations (12 mul, 2 add and sub, 2 div), 6 sin and cos.
+/// 1 operations (1 mul, 0 add and sub, 0 div), 1 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 117 operations (84 mul, 30 add and sub, 3 div), 6 sin and cos.
+/// 98 operations (70 mul, 25 add and sub, 3 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 106 operations (74 mul, 30 add and sub, 2 div), 6 sin and cos.
+/// 87 operations (61 mul, 24 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 44 operations (34 mul, 8 add and sub, 2 div), 6 sin and cos.
+/// 35 operations (26 mul, 7 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
-/// 4 operations (3 mul, 1 add and sub, 0 div), 2 sin and cos.
+/// 3 operations (2 mul, 1 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
-/// 20 operations (14 mul, 4 add and sub, 2 div), 6 sin and cos.
+/// 18 operations (12 mul, 4 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
     result) noexcept;
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 46 operations (24 mul, 17 add and sub, 3 div), 6 sin and cos, 2 atan2.
+/// 43 operations (23 mul, 15 add and sub, 3 div), 6 sin and cos, 2 atan2.
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 38 operations (24 mul, 12 add and sub, 2 div), 6 sin and cos.
+/// 11 operations (6 mul, 5 add and sub, 0 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[3], Real (&g_rate)[3])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 151 operations (101 mul, 47 add and sub, 3 div), 6 sin and cos.
+/// 124 operations (84 mul, 37 add and sub, 3 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[3]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 656 operations.
+/// 569 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -9,12 +9,135 @@ namespace spatial_slider_crank {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -22,8 +145,60 @@ template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
+// Angle of (x, y) by one division, sums and products, at one cost for all of them, less than 2 ulp off and exactly odd
+// in y: the smaller over the larger, beyond 1/2 turned back by pi/4, then a polynomial by fpminimax of Sollya. Of
+// numbers up to half the largest one; no number of infinite ones.
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
 JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
+#else
+JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept {
+  using Bits = unsigned long long;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 63), is_behind = x_bits >> 63;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 63), is_steep = (a - b) >> 63;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const double large = __builtin_bit_cast(double, a ^ exchange), small = __builtin_bit_cast(double, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463024898437905) - (b ^ exchange)) >> 63;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 63);
+  const double turn = static_cast<double>(wide);
+  const double t = (small - turn * large) / (large + turn * small + static_cast<double>(nothing)), z = t * t;
+  const double w = z * z, v = w * w;
+  const double low = (-0.3333333333333333 + z * 0.1999999999999723) +
+                     w * (-0.142857142851601 + z * 0.11111111068604916);
+  const double middle = (-0.09090907407679288 + z * 0.07692268042911367) +
+                        w * (-0.06666065366369484 + z * 0.058762025197991216);
+  const double high = (-0.05219603216056109 + z * 0.04545914188460735) +
+                      w * (-0.035981529310843786 + z * 0.0219654180922859);
+  const double angle = t + t * z * (low + v * (middle + v * (high + v * -0.007274827974643591)));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const double eighths = static_cast<double>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 63);
+  const double rest = __builtin_bit_cast(double, part) + eighths * 3.061616997868383e-17;
+  return __builtin_bit_cast(double, __builtin_bit_cast(Bits, eighths * 0.7853981633974483 + rest) ^ sign);
+}
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept {
+  using Bits = unsigned;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 31), is_behind = x_bits >> 31;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 31), is_steep = (a - b) >> 31;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const float large = __builtin_bit_cast(float, a ^ exchange), small = __builtin_bit_cast(float, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463025f) - (b ^ exchange)) >> 31;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 31);
+  const float turn = static_cast<float>(wide);
+  const float t = (small - turn * large) / (large + turn * small + static_cast<float>(nothing)), z = t * t;
+  const float low = (-0.3333333f + z * 0.19999681f) + z * z * (-0.1427416f + z * 0.1094557f);
+  const float angle = t + t * z * (low + z * z * z * z * (-0.079587296f + z * 0.037864342f));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const float eighths = static_cast<float>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 31);
+  const float rest = __builtin_bit_cast(float, part) + eighths * 1.5695824e-07f;
+  return __builtin_bit_cast(float, __builtin_bit_cast(Bits, eighths * 0.785398f + rest) ^ sign);
+}
+#endif
 template <class Real> JOURDAIN_FUNCTION
 Real arctangent2(const Real& y, const Real& x) noexcept { return atan2(y, x); }
 
@@ -32,6 +207,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[4]) noexcept {
@@ -69,10 +305,8 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   Real s0, c0;
@@ -80,20 +314,18 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t22 = Real(0.08) * (c0 * (Real(1.0) / ballbx_x));
-  const Real t25 = Real(1.0) / ballbx3_y * (ballax_x - ballbx_y * s2 * t22);
+  const Real t19 = Real(0.08) * (c0 / ballbx_x);
+  const Real t22 = (ballax_x - ballbx_y * s2 * t19) / ballbx3_y;
   ydot[0] = state.z[0];
-  ydot[1] = (ballbx3_x * t25 - c2 * ballbx_y * t22) * state.z[0];
-  ydot[2] = -(t25 * state.z[0]);
-  ydot[3] = t22 * state.z[0];
+  ydot[1] = (ballbx3_x * t22 - c2 * ballbx_y * t19) * state.z[0];
+  ydot[2] = -(t22 * state.z[0]);
+  ydot[3] = t19 * state.z[0];
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   Real s0, c0;
@@ -101,37 +333,34 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t22 = Real(0.08) * (c0 * (Real(1.0) / ballbx_x));
-  const Real t25 = Real(1.0) / ballbx3_y * (ballax_x - ballbx_y * s2 * t22);
-  const Real t28 = ballbx3_x * t25 - c2 * ballbx_y * t22;
+  const Real t19 = Real(0.08) * (c0 / ballbx_x);
+  const Real t22 = (ballax_x - ballbx_y * s2 * t19) / ballbx3_y;
+  const Real t25 = ballbx3_x * t22 - c2 * ballbx_y * t19;
   const Real S2b_zz = s3 * s3 * Real(0.014849999999999999) - Real(0.01525);
-  const Real v2L_z = t25 * S2b_zz;
-  const Real v3p_y = c2 * t28;
-  const Real T3 = (t28 * (t25 * (c3 * s2)) - v3p_y * (s3 * t22)) * Real(0.075) + ((t25 * v2L_z - (t28 * t28 *
-      Real(2.5) + Real(0.01525) * (t22 * t22))) * Real(0.5) - Real(5e-05));
+  const Real t31 = t25 * t25;
+  const Real v2L_z = t22 * S2b_zz;
+  const Real T3 = t31 * Real(0.25) + ((t22 * v2L_z - (t31 * Real(2.5) + Real(0.01525) * (t19 * t19))) *
+      Real(0.5) - Real(5e-05));
   M[0][0] = -(T3 * Real(2.0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real ballax_y = Real(0.08) * c0;
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t17 = c2 * ballbx_y;
-  const Real t18 = ballbx_y * s2;
-  const Real t20 = Real(1.0) / ballbx_x;
-  const Real t21 = Real(1.0) / ballbx3_y;
-  const Real t22 = ballax_y * t20;
-  const Real t25 = t21 * (ballax_x - t18 * t22);
+  const Real t16 = c2 * ballbx_y;
+  const Real t17 = ballbx_y * s2;
+  const Real t19 = Real(1.0) / ballbx_x;
+  const Real t20 = Real(1.0) / ballbx3_y;
+  const Real t22 = Real(0.08) * (c0 * t19);
+  const Real t25 = t20 * (ballax_x - t17 * t22);
   const Real t30 = t25 * state.z[0];
   const Real t31 = t22 * state.z[0];
   const Real ballbm3t_x = ballbx_y * t31;
@@ -144,81 +373,53 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real ballbm2t_x = ballbx3_y * t30;
   const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
   const Real ballbm2a_y = ballbm3ap_y + t30 * ballbm2b_x;
-  const Real ballam0t_x = ballax_y * state.z[0];
   const Real ballam0t_y = ballax_x * state.z[0];
   const Real ballam0a_x = state.z[0] * ballam0t_y;
   const Real ballbm3a_y = t31 * ballbm3t_x;
   const Real ballda_y = ballam0a_x - ballbm3a_y;
-  const Real ballam0a_y = state.z[0] * ballam0t_x;
+  const Real ballam0a_y = state.z[0] * ballbm3t_y;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
   const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
   const Real ballbm2a_x = ballbm3ap_x + t30 * ballbm2b_y;
   const Real ballda_z = ballam0a_y - ballbm2a_x;
-  const Real t57 = t20 * ballda_y;
-  const Real t60 = t21 * (ballda_z + t18 * t57);
-  const Real t64 = ballbm2a_y - ballbx3_x * t60 - t17 * t57;
+  const Real t56 = t19 * ballda_y;
+  const Real t59 = t20 * (ballda_z + t17 * t56);
+  const Real t63 = ballbm2a_y - ballbx3_x * t59 - t16 * t56;
   const Real S3b_t = s3 * Real(0.014849999999999999);
   const Real S3b_xy = c3 * S3b_t;
-  const Real h3b_x = c3 * Real(0.075);
-  const Real h3b_y = s3 * Real(0.075);
-  const Real h2b_y = c2 * h3b_x;
-  const Real zw_2 = t30 * t30;
-  const Real kdf2_y = h2b_y * zw_2;
   const Real kKx3 = t30 * S3b_xy;
   const Real kQp3 = t30 * kKx3;
-  const Real z2_3 = t31 * Real(2.0);
-  const Real zw_3 = t31 * t31;
-  const Real kax3 = t30 * h3b_y;
-  const Real kdf3_x = h3b_x * zw_3;
-  const Real kdf3_z = z2_3 * kax3;
-  const Real kdn3_y = kKx3 * z2_3;
-  const Real kf2b_y = c2 * kdf3_x + s2 * kdf3_z;
-  const Real kf2_y = kdf2_y + kf2b_y;
-  const Real S3b_xx = s3 * S3b_t - Real(0.01505);
-  const Real S2b_zz = S3b_xx - Real(0.0002);
-  const Real h2b_x = s2 * h3b_x;
-  const Real p_3_3F_y = c2 * h3b_y;
-  k[0] = -((ballbx3_x * t25 - t17 * t22) * (kf2_y - (t64 * Real(2.5) + t60 * h2b_x + t57 * p_3_3F_y)) - t25 *
-      (kdn3_y - (t64 * h2b_x - t60 * S2b_zz)) + t22 * (kQp3 - (t64 * p_3_3F_y + t57 * Real(0.01525))));
+  const Real kdn3_y = Real(2.0) * (t31 * kKx3);
+  const Real S2b_zz = s3 * S3b_t - Real(0.01525);
+  k[0] = (ballbx3_x * t25 - t16 * t22) * t63 * Real(2.25) + t25 * (kdn3_y - (ballbx3_x * t63 * Real(0.25) -
+      t59 * S2b_zz)) - t22 * (kQp3 - (Real(0.25) * (t16 * t63) + t56 * Real(0.01525)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  const Real ballbx_x = c3 * Real(0.3);
-  const Real ballbx3_y = c2 * ballbx_x;
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  const Real ballax_x = s0 * Real(0.08);
-  const Real t20 = Real(0.08) * (s3 * s2 * (c0 * (Real(1.0) / ballbx_x)));
-  q[0] = -((t20 + Real(1.0) / ballbx3_y * (ballax_x - Real(0.3) * t20) * (c2 * c3)) * Real(0.73575));
+  const Real s0 = detail::sine(state.y[0]);
+  q[0] = -(s0 * Real(0.1962));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real ballax_y = Real(0.08) * c0;
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t17 = c2 * ballbx_y;
-  const Real t18 = ballbx_y * s2;
-  const Real t20 = Real(1.0) / ballbx_x;
-  const Real t21 = Real(1.0) / ballbx3_y;
-  const Real t22 = ballax_y * t20;
-  const Real t25 = t21 * (ballax_x - t18 * t22);
-  const Real t28 = ballbx3_x * t25 - t17 * t22;
+  const Real t16 = c2 * ballbx_y;
+  const Real t17 = ballbx_y * s2;
+  const Real t19 = Real(1.0) / ballbx_x;
+  const Real t20 = Real(1.0) / ballbx3_y;
+  const Real t22 = Real(0.08) * (c0 * t19);
+  const Real t25 = t20 * (ballax_x - t17 * t22);
+  const Real t28 = ballbx3_x * t25 - t16 * t22;
   const Real t30 = t25 * state.z[0];
   const Real t31 = t22 * state.z[0];
   const Real ballbm3t_x = ballbx_y * t31;
@@ -230,22 +431,20 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real ballbm3ap_y = c2 * ballbm3a_x;
   const Real ballbm2t_x = ballbx3_y * t30;
   const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
-  const Real ballam0t_x = ballax_y * state.z[0];
   const Real ballam0t_y = ballax_x * state.z[0];
   const Real ballam0a_x = state.z[0] * ballam0t_y;
   const Real ballbm3a_y = t31 * ballbm3t_x;
   const Real ballda_y = ballam0a_x - ballbm3a_y;
-  const Real ballam0a_y = state.z[0] * ballam0t_x;
+  const Real ballam0a_y = state.z[0] * ballbm3t_y;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
   const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
-  const Real t54 = t20 * ballda_y;
-  const Real t59 = t21 * (ballbm3ap_x - (ballam0a_y - (t30 * ballbm2b_y - t18 * t54)));
-  const Real t64 = t30 * ballbm2b_x + (ballbm3ap_y + (ballbx3_x * t59 - t17 * t54));
+  const Real t53 = t19 * ballda_y;
+  const Real t58 = t20 * (ballbm3ap_x - (ballam0a_y - (t30 * ballbm2b_y - t17 * t53)));
+  const Real t63 = t30 * ballbm2b_x + (ballbm3ap_y + (ballbx3_x * t58 - t16 * t53));
   const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real h3b_x = c3 * Real(0.075);
   const Real h3b_y = s3 * Real(0.075);
   const Real S2b_zz = s3 * S3b_t - Real(0.01525);
-  const Real h2b_x = s2 * h3b_x;
+  const Real h2b_x = ballbx3_x * Real(0.25);
   const Real v2P_y = t25 * h2b_x;
   const Real v2L_z = t25 * S2b_zz;
   const Real v3p_y = c2 * t28;
@@ -253,47 +452,35 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real T3 = t28 * v2P_y - (v3p_y * v3P_x + (Real(0.01525) * (t22 * t22) + (t28 * t28 * Real(2.5) - t25 *
       v2L_z)) * Real(0.5) + Real(5e-05));
   const Real S3b_xy = c3 * S3b_t;
-  const Real h2b_y = c2 * h3b_x;
-  const Real rdf1t_z = t64 * Real(2.5);
-  const Real zw_2 = t30 * t30;
-  const Real rdn2_z = t59 * S2b_zz;
-  const Real rL2a_y = s2 * Real(9.81) + c2 * t64;
+  const Real rdn2_z = t58 * S2b_zz;
+  const Real rL2a_y = s2 * Real(9.81) + c2 * t63;
   const Real rKx3 = t30 * S3b_xy;
-  const Real z2_3 = t31 * Real(2.0);
-  const Real zw_3 = t31 * t31;
-  const Real rax3 = t30 * h3b_y;
-  const Real rdf3_x = t54 * h3b_y - h3b_x * zw_3;
-  const Real rdf3_z = z2_3 * rax3;
-  const Real rdn3_y = rKx3 * z2_3;
-  const Real rdn3_z = t54 * Real(0.01525);
-  const Real rf1_z = t59 * h2b_x - (rdf1t_z - (h2b_y * zw_2 - (c2 * rdf3_x - s2 * rdf3_z)));
-  const Real rQ2_0 = t64 * h2b_x - (h2b_y * Real(9.81) - (rdn2_z - rdn3_y));
+  const Real rdn3_y = Real(2.0) * (t31 * rKx3);
+  const Real rdn3_z = t53 * Real(0.01525);
+  const Real rQ2_0 = t63 * h2b_x - (ballbx3_y * Real(2.4525) - (rdn2_z - rdn3_y));
   const Real rQ3_0 = h3b_y * rL2a_y - (t30 * rKx3 - rdn3_z);
-  zdot[0] = Real(1.0) / (Real(2.0) * T3) * (t25 * rQ2_0 + (t28 * rf1_z - t22 * rQ3_0));
+  zdot[0] = (t25 * rQ2_0 - (t28 * t63 * Real(2.25) + t22 * rQ3_0)) / (Real(2.0) * T3);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[1], Real (&tau)[1])
     noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real ballax_y = Real(0.08) * c0;
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t17 = c2 * ballbx_y;
-  const Real t18 = ballbx_y * s2;
-  const Real t20 = Real(1.0) / ballbx_x;
-  const Real t21 = Real(1.0) / ballbx3_y;
-  const Real t22 = ballax_y * t20;
-  const Real t25 = t21 * (ballax_x - t18 * t22);
-  const Real t28 = ballbx3_x * t25 - t17 * t22;
+  const Real t16 = c2 * ballbx_y;
+  const Real t17 = ballbx_y * s2;
+  const Real t19 = Real(1.0) / ballbx_x;
+  const Real t20 = Real(1.0) / ballbx3_y;
+  const Real t22 = Real(0.08) * (c0 * t19);
+  const Real t25 = t20 * (ballax_x - t17 * t22);
+  const Real t28 = ballbx3_x * t25 - t16 * t22;
   const Real t30 = t25 * state.z[0];
   const Real t31 = t22 * state.z[0];
   const Real ballbm3t_x = ballbx_y * t31;
@@ -306,60 +493,39 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ballbm2t_x = ballbx3_y * t30;
   const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
   const Real ballbm2a_y = ballbm3ap_y + t30 * ballbm2b_x;
-  const Real ballam0t_x = ballax_y * state.z[0];
   const Real ballam0t_y = ballax_x * state.z[0];
   const Real ballam0a_x = state.z[0] * ballam0t_y;
   const Real ballbm3a_y = t31 * ballbm3t_x;
   const Real ballda_y = ballam0a_x - ballbm3a_y;
-  const Real ballam0a_y = state.z[0] * ballam0t_x;
+  const Real ballam0a_y = state.z[0] * ballbm3t_y;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
   const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
   const Real ballbm2a_x = ballbm3ap_x + t30 * ballbm2b_y;
   const Real ballda_z = ballam0a_y - ballbm2a_x;
-  const Real t57 = t20 * ballda_y;
-  const Real t60 = t21 * (ballda_z + t18 * t57);
-  const Real t67 = ballbm2a_y - ballbx3_x * t60 - t17 * t57 - t28 * zdot[0];
-  const Real t69 = t60 + t25 * zdot[0];
-  const Real t71 = t57 - t22 * zdot[0];
+  const Real t56 = t19 * ballda_y;
+  const Real t59 = t20 * (ballda_z + t17 * t56);
+  const Real t66 = ballbm2a_y - ballbx3_x * t59 - t16 * t56 - t28 * zdot[0];
   const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real S3b_xx = s3 * S3b_t - Real(0.01505);
   const Real S3b_xy = c3 * S3b_t;
-  const Real h3b_x = c3 * Real(0.075);
-  const Real h3b_y = s3 * Real(0.075);
-  const Real S2b_zz = S3b_xx - Real(0.0002);
-  const Real h2b_x = s2 * h3b_x;
-  const Real h2b_y = c2 * h3b_x;
+  const Real S2b_zz = s3 * S3b_t - Real(0.01525);
   const Real adn0_z = zdot[0] * Real(0.0001);
-  const Real adf1t_z = t67 * Real(2.5);
-  const Real aQp2 = h2b_y * Real(9.81) - t67 * h2b_x;
-  const Real zw_2 = t30 * t30;
-  const Real adf2_y = t69 * h2b_x - h2b_y * zw_2;
-  const Real adn2_z = t69 * S2b_zz;
-  const Real aL2a_y = s2 * Real(9.81) + c2 * t67;
+  const Real aQp2 = ballbx3_y * Real(2.4525) - ballbx3_x * t66 * Real(0.25);
+  const Real adn2_z = (t59 + t25 * zdot[0]) * S2b_zz;
+  const Real aL2a_y = s2 * Real(9.81) + c2 * t66;
   const Real aKx3 = t30 * S3b_xy;
-  const Real aQp3 = t30 * aKx3 - h3b_y * aL2a_y;
-  const Real z2_3 = t31 * Real(2.0);
-  const Real zw_3 = t31 * t31;
-  const Real aax3 = t30 * h3b_y;
-  const Real adf3_x = t71 * h3b_y - h3b_x * zw_3;
-  const Real adf3_z = z2_3 * aax3;
-  const Real adn3_y = aKx3 * z2_3;
-  const Real adn3_z = t71 * Real(0.01525);
-  const Real af2b_y = c2 * adf3_x - s2 * adf3_z;
-  const Real af2_y = adf2_y + af2b_y;
+  const Real aQp3 = t30 * aKx3 - s3 * aL2a_y * Real(0.075);
+  const Real adn3_y = Real(2.0) * (t31 * aKx3);
+  const Real adn3_z = (t56 - t22 * zdot[0]) * Real(0.01525);
   const Real an2_z = adn2_z + adn3_y;
-  const Real af1_z = adf1t_z + af2_y;
   const Real aQ2_0 = aQp2 + an2_z;
   const Real aQ3_0 = aQp3 - adn3_z;
-  tau[0] = adn0_z - t28 * af1_z - t25 * aQ2_0 + t22 * aQ3_0;
+  tau[0] = adn0_z - t28 * t66 * Real(2.25) - t25 * aQ2_0 + t22 * aQ3_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   Real s0, c0;
@@ -367,17 +533,16 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t22 = Real(0.08) * (c0 * (Real(1.0) / ballbx_x));
-  const Real t25 = Real(1.0) / ballbx3_y * (ballax_x - ballbx_y * s2 * t22);
-  const Real t30 = (ballbx3_x * t25 - c2 * ballbx_y * t22) * state.z[0];
-  const Real t31 = t25 * state.z[0];
-  const Real t32 = t22 * state.z[0];
+  const Real t19 = Real(0.08) * (c0 / ballbx_x);
+  const Real t22 = (ballax_x - ballbx_y * s2 * t19) / ballbx3_y;
+  const Real t27 = (ballbx3_x * t22 - c2 * ballbx_y * t19) * state.z[0];
+  const Real t28 = t22 * state.z[0];
+  const Real t29 = t19 * state.z[0];
   const Real S2b_zz = s3 * s3 * Real(0.014849999999999999) - Real(0.01525);
-  const Real v2L_z = t31 * S2b_zz;
-  const Real v3p_y = c2 * t30;
-  const Real T3 = (t30 * t30 * Real(2.5) + (state.z[0] * state.z[0] * Real(0.0001) - (t31 * v2L_z -
-      Real(0.01525) * (t32 * t32)))) * Real(0.5) - (t30 * (t31 * (c3 * s2)) - v3p_y * (s3 * t32)) *
-      Real(0.075);
+  const Real t38 = t27 * t27;
+  const Real v2L_z = t28 * S2b_zz;
+  const Real T3 = (t38 * Real(2.5) + (state.z[0] * state.z[0] * Real(0.0001) - (t28 * v2L_z - Real(0.01525) *
+      (t29 * t29)))) * Real(0.5) - t38 * Real(0.25);
   return T3;
 }
 
@@ -385,19 +550,15 @@ template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real c3 = detail::cosine(state.y[3]);
   const Real s2 = detail::sine(state.y[2]);
-  const Real h2b_x = c3 * s2 * Real(0.075);
-  const Real hg1_z = h2b_x + Real(0.0144);
-  const Real V = hg1_z * Real(9.81);
+  const Real V = c3 * s2 * Real(0.73575) + Real(0.141264);
   return V;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   Real s0, c0;
@@ -408,7 +569,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real ballax_y = Real(0.08) * c0;
   const Real ballax0_z = ballax_y + Real(0.12);
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t26 = ballax_y * (Real(1.0) / ballbx_x);
+  const Real t23 = ballax_y / ballbx_x;
   result.pin_position.position[0] = Real(0.0);
   result.pin_position.position[1] = -ballax0_y;
   result.pin_position.position[2] = ballax0_z;
@@ -421,8 +582,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.pin_position.rotation[2][0] = Real(0.0);
   result.pin_position.rotation[2][1] = s0;
   result.pin_position.rotation[2][2] = c0;
-  result.slider_speed = (ballbx3_x * (Real(1.0) / ballbx3_y * (ballax_x - ballbx_y * s2 * t26)) - c2 *
-      ballbx_y * t26) * state.z[0];
+  result.slider_speed = (ballbx3_x * ((ballax_x - ballbx_y * s2 * t23) / ballbx3_y) - c2 * ballbx_y * t23) *
+      state.z[0];
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -436,35 +597,31 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t18 = t6 * Real(3.3333333333333335);
   Real t21, t20;
   detail::sine_cosine(state.y[3], t21, t20);
-  const Real t30 = state.y[3] + detail::arctangent2(-(t17 * t21 - t18 * t20), t18 * t21 + t17 * t20);
+  const Real t29 = detail::arctangent2(-(t17 * t21 - t18 * t20), t18 * t21 + t17 * t20);
   const Real t32 = t17 * Real(0.3);
   const Real t35 = t2 * Real(0.08) + Real(0.12);
   const Real t36 = t32 * t32;
   const Real t37 = t35 * t35;
-  const Real t44 = t32 * detail::square_root(t36 - t37) / t36;
+  const Real t39 = detail::square_root(t36 - t37);
+  const Real t44 = t32 * t39 / t36;
   const Real t45 = t32 * t35 / t36;
   Real t48, t47;
   detail::sine_cosine(state.y[2], t48, t47);
-  const Real t57 = state.y[2] + detail::arctangent2(-(t44 * t48 - t45 * t47), t45 * t48 + t44 * t47);
-  const Real t58 = t32 * t44;
-  const Real t59 = state.y[3] - t30;
-  const Real t61 = state.y[2] - t57;
-  const Real t65 = t58 - state.y[1];
-  closed.y[3] = t30;
-  closed.y[2] = t57;
-  closed.y[1] = t58;
+  const Real t56 = detail::arctangent2(-(t44 * t48 - t45 * t47), t45 * t48 + t44 * t47);
+  const Real t62 = t39 - state.y[1];
+  closed.y[3] = state.y[3] + t29;
+  closed.y[2] = state.y[2] + t56;
+  closed.y[1] = t39;
   closed.regularity = -((t7 * Real(11.111111111111112) - Real(1.0)) * (Real(1.0) - t37 / t36));
-  closed.opening = t59 * t59 + t61 * t61 + t65 * t65;
+  closed.opening = t29 * t29 + t56 * t56 + t62 * t62;
   state = closed;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[3], Real (&g_rate)[3])
     noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   const Real ballbx1_x = ballbx3_y - state.y[1];
@@ -478,53 +635,33 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real ballax0_z = ballax_y + Real(0.12);
   const Real ballbx3_x = ballbx_x * s2;
   const Real balld_z = ballax0_z - ballbx3_x;
-  const Real t30 = ballax_y * (Real(1.0) / ballbx_x);
-  const Real t33 = Real(1.0) / ballbx3_y * (ballax_x - ballbx_y * s2 * t30);
-  const Real t39 = t33 * state.z[0];
-  const Real t40 = t30 * state.z[0];
-  const Real ballbm3t_x = ballbx_y * t40;
-  const Real ballbm3vp_y = c2 * ballbm3t_x;
-  const Real ballbm2t_y = ballbx3_x * t39;
-  const Real ballbm2v_y = ballbm3vp_y - ballbm2t_y;
-  const Real ballbm1vl_z = (ballbx3_x * t33 - c2 * ballbx_y * t30) * state.z[0] + ballbm2v_y;
-  const Real ballbm3t_y = ballbx_x * t40;
-  const Real ballbm3vp_x = s2 * ballbm3t_x;
-  const Real ballbm2t_x = ballbx3_y * t39;
-  const Real ballam0t_x = ballax_y * state.z[0];
-  const Real balldv_y = ballbm3t_y - ballam0t_x;
-  const Real ballam0t_y = ballax_x * state.z[0];
-  const Real ballbm2v_x = ballbm3vp_x + ballbm2t_x;
-  const Real balldv_z = ballam0t_y - ballbm2v_x;
   g[0] = -ballbx1_x;
   g[1] = balld_y;
   g[2] = -balld_z;
-  g_rate[0] = ballbm1vl_z;
-  g_rate[1] = -balldv_y;
-  g_rate[2] = balldv_z;
+  g_rate[0] = Real(0.0);
+  g_rate[1] = Real(0.0);
+  g_rate[2] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&lambda)[3])
     noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s2, c2, s3, c3;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
   const Real ballbx_x = c3 * Real(0.3);
   const Real ballbx3_y = c2 * ballbx_x;
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real ballax_y = Real(0.08) * c0;
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t17 = c2 * ballbx_y;
-  const Real t18 = ballbx_y * s2;
-  const Real t20 = Real(1.0) / ballbx_x;
-  const Real t21 = Real(1.0) / ballbx3_y;
-  const Real t22 = ballax_y * t20;
-  const Real t25 = t21 * (ballax_x - t18 * t22);
-  const Real t28 = ballbx3_x * t25 - t17 * t22;
+  const Real t16 = c2 * ballbx_y;
+  const Real t17 = ballbx_y * s2;
+  const Real t19 = Real(1.0) / ballbx_x;
+  const Real t20 = Real(1.0) / ballbx3_y;
+  const Real t22 = Real(0.08) * (c0 * t19);
+  const Real t25 = t20 * (ballax_x - t17 * t22);
+  const Real t28 = ballbx3_x * t25 - t16 * t22;
   const Real t30 = t25 * state.z[0];
   const Real t31 = t22 * state.z[0];
   const Real ballbm3t_x = ballbx_y * t31;
@@ -536,22 +673,20 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real ballbm3ap_y = c2 * ballbm3a_x;
   const Real ballbm2t_x = ballbx3_y * t30;
   const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
-  const Real ballam0t_x = ballax_y * state.z[0];
   const Real ballam0t_y = ballax_x * state.z[0];
   const Real ballam0a_x = state.z[0] * ballam0t_y;
   const Real ballbm3a_y = t31 * ballbm3t_x;
   const Real ballda_y = ballam0a_x - ballbm3a_y;
-  const Real ballam0a_y = state.z[0] * ballam0t_x;
+  const Real ballam0a_y = state.z[0] * ballbm3t_y;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
   const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
-  const Real t54 = t20 * ballda_y;
-  const Real t59 = t21 * (ballbm3ap_x - (ballam0a_y - (t30 * ballbm2b_y - t18 * t54)));
-  const Real t64 = t30 * ballbm2b_x + (ballbm3ap_y + (ballbx3_x * t59 - t17 * t54));
+  const Real t53 = t19 * ballda_y;
+  const Real t58 = t20 * (ballbm3ap_x - (ballam0a_y - (t30 * ballbm2b_y - t17 * t53)));
+  const Real t63 = t30 * ballbm2b_x + (ballbm3ap_y + (ballbx3_x * t58 - t16 * t53));
   const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real h3b_x = c3 * Real(0.075);
   const Real h3b_y = s3 * Real(0.075);
   const Real S2b_zz = s3 * S3b_t - Real(0.01525);
-  const Real h2b_x = s2 * h3b_x;
+  const Real h2b_x = ballbx3_x * Real(0.25);
   const Real v2P_y = t25 * h2b_x;
   const Real v2L_z = t25 * S2b_zz;
   const Real v3p_y = c2 * t28;
@@ -559,42 +694,26 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real T3 = t28 * v2P_y - (v3p_y * v3P_x + (Real(0.01525) * (t22 * t22) + (t28 * t28 * Real(2.5) - t25 *
       v2L_z)) * Real(0.5) + Real(5e-05));
   const Real S3b_xy = c3 * S3b_t;
-  const Real h2b_y = c2 * h3b_x;
-  const Real rdf1t_z = t64 * Real(2.5);
-  const Real t100 = h2b_y * Real(9.81);
-  const Real zw_2 = t30 * t30;
-  const Real t104 = h2b_y * zw_2;
-  const Real rdn2_z = t59 * S2b_zz;
-  const Real t106 = s2 * Real(9.81);
-  const Real rL2a_y = t106 + c2 * t64;
+  const Real t96 = ballbx3_y * Real(2.4525);
+  const Real rdn2_z = t58 * S2b_zz;
+  const Real t100 = s2 * Real(9.81);
+  const Real rL2a_y = t100 + c2 * t63;
   const Real rKx3 = t30 * S3b_xy;
-  const Real t110 = t30 * rKx3;
-  const Real z2_3 = t31 * Real(2.0);
-  const Real zw_3 = t31 * t31;
-  const Real rax3 = t30 * h3b_y;
-  const Real t116 = h3b_x * zw_3;
-  const Real rdf3_x = t54 * h3b_y - t116;
-  const Real rdf3_z = z2_3 * rax3;
-  const Real rdn3_y = rKx3 * z2_3;
-  const Real rdn3_z = t54 * Real(0.01525);
-  const Real t122 = s2 * rdf3_z;
-  const Real rf1_z = t59 * h2b_x - (rdf1t_z - (t104 - (c2 * rdf3_x - t122)));
-  const Real rQ2_0 = t64 * h2b_x - (t100 - (rdn2_z - rdn3_y));
-  const Real rQ3_0 = h3b_y * rL2a_y - (t110 - rdn3_z);
-  const Real t137 = Real(1.0) / (Real(2.0) * T3) * (t25 * rQ2_0 + (t28 * rf1_z - t22 * rQ3_0));
-  const Real t139 = t64 - t28 * t137;
-  const Real t141 = t59 - t25 * t137;
-  const Real t143 = t54 - t22 * t137;
-  const Real rdf1t_z_2 = Real(2.5) * t139;
-  const Real rdn2_z_2 = S2b_zz * t141;
-  const Real rL2a_y_2 = t106 + c2 * t139;
-  const Real rdf3_x_2 = t116 - h3b_y * t143;
-  const Real rdn3_z_2 = Real(0.01525) * t143;
-  const Real rf1_z_2 = rdf1t_z_2 - (t104 + (h2b_x * t141 + (t122 + c2 * rdf3_x_2)));
-  const Real t165 = t21 * (h2b_x * t139 - (t100 + (rdn3_y - (rdn2_z_2 - ballbx3_x * rf1_z_2))));
-  lambda[0] = rf1_z_2;
-  lambda[1] = -(t20 * (h3b_y * rL2a_y_2 - (t110 - (rdn3_z_2 - (t17 * rf1_z_2 - t18 * t165)))));
-  lambda[2] = t165;
+  const Real t104 = t30 * rKx3;
+  const Real rdn3_y = Real(2.0) * (t31 * rKx3);
+  const Real rdn3_z = t53 * Real(0.01525);
+  const Real rQ2_0 = t63 * h2b_x - (t96 - (rdn2_z - rdn3_y));
+  const Real rQ3_0 = h3b_y * rL2a_y - (t104 - rdn3_z);
+  const Real t121 = (t25 * rQ2_0 - (t28 * t63 * Real(2.25) + t22 * rQ3_0)) / (Real(2.0) * T3);
+  const Real t123 = t63 - t28 * t121;
+  const Real rdn2_z_2 = S2b_zz * (t58 - t25 * t121);
+  const Real rL2a_y_2 = t100 + c2 * t123;
+  const Real rdn3_z_2 = Real(0.01525) * (t53 - t22 * t121);
+  const Real rf1_z = Real(2.25) * t123;
+  const Real t141 = t20 * (h2b_x * t123 - (t96 + (rdn3_y - (rdn2_z_2 - ballbx3_x * rf1_z))));
+  lambda[0] = rf1_z;
+  lambda[1] = -(t19 * (h3b_y * rL2a_y_2 - (t104 - (rdn3_z_2 - (t16 * rf1_z - t17 * t141)))));
+  lambda[2] = t141;
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -28,8 +28,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.0e-16 of the
-//   sum of absolute terms, other errors are 2.9e-16 of their scale; cond(M) up to 1.0e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.5e-16 of the
+//   sum of absolute terms, other errors are 3.4e-16 of their scale; cond(M) up to 1.0e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -150,42 +150,42 @@ State<Real> initial_state(const Model<Real>& model) noexcept;
 /// dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other coordinates have their
 /// velocity.
 /// Dependent positions move as the loops make them.
-/// 22 operations (14 mul, 7 add and sub, 1 div), 6 sin and cos.
+/// 19 operations (12 mul, 6 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[3]) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 43 operations (26 mul, 16 add and sub, 1 div), 6 sin and cos.
+/// 33 operations (20 mul, 12 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 75 operations (51 mul, 23 add and sub, 1 div), 6 sin and cos.
+/// 67 operations (45 mul, 21 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 52 operations (30 mul, 18 add and sub, 3 div), 6 sin and cos.
+/// 44 operations (24 mul, 16 add and sub, 3 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 124 operations (75 mul, 44 add and sub, 4 div), 6 sin and cos.
+/// 108 operations (64 mul, 39 add and sub, 4 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 118 operations (70 mul, 44 add and sub, 3 div), 6 sin and cos.
+/// 104 operations (60 mul, 40 add and sub, 3 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
 
 /// Kinetic energy, J.
-/// 48 operations (32 mul, 15 add and sub, 1 div), 6 sin and cos.
+/// 39 operations (26 mul, 12 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -208,21 +208,21 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 35 operations (20 mul, 14 add and sub, 1 div), 6 sin and cos.
+/// 11 operations (4 mul, 7 add and sub, 0 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 148 operations (89 mul, 54 add and sub, 4 div), 6 sin and cos.
+/// 132 operations (78 mul, 49 add and sub, 4 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 703 operations.
+/// 627 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

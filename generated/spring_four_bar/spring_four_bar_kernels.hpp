@@ -9,12 +9,135 @@ namespace spring_four_bar {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[3]) noexcept {
@@ -68,10 +252,8 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -81,15 +263,13 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
   const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
   ydot[0] = state.z[0];
   ydot[1] = -(t21 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0]);
-  ydot[2] = t21 * (c1 * pinbx1_y + s1 * pinbx1_x) * state.z[0];
+  ydot[2] = t4 * t21 * state.z[0];
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -98,25 +278,17 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real pinbx1_y = s0 + s1;
   const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
   const Real t25 = t21 * (c2 * pinbx1_y - pinbx1_x * s2);
-  const Real t29 = t21 * (c1 * pinbx1_y + s1 * pinbx1_x);
-  const Real h1b_x = c1 * Real(0.5);
-  const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_x - s0 * h1b_y;
-  const Real J0 = D1 + D1 - Real(0.3333333333333333) - Real(1.3333333333333333);
-  const Real v1P_x = t25 * h1b_y;
-  const Real v1P_y = t25 * h1b_x;
+  const Real t26 = t4 * t21;
   const Real v1L_z = t25 * Real(0.3333333333333333);
-  const Real T2 = Real(0.5) * (Real(0.3333333333333333) * (t29 * t29) - (J0 - t25 * v1L_z)) + (c0 * v1P_y -
-      (v1L_z + s0 * v1P_x));
-  M[0][0] = T2 * Real(2.0);
+  const Real T2 = v1L_z + (s0 * (s1 * t25) - (c0 * (c1 * t25) + (Real(0.3333333333333333) * (t26 * t26) + (t5
+      + t25 * v1L_z) + Real(1.6666666666666667)))) * Real(0.5);
+  M[0][0] = -(T2 * Real(2.0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -125,35 +297,31 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real pinbx1_y = s0 + s1;
   const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
   const Real t25 = t21 * (c2 * pinbx1_y - pinbx1_x * s2);
-  const Real t29 = t21 * (c1 * pinbx1_y + s1 * pinbx1_x);
-  const Real t31 = t25 * state.z[0];
-  const Real t32 = t29 * state.z[0];
-  const Real w1_z = state.z[0] - t31;
-  const Real t47 = state.z[0] * (c0 * state.z[0]) - t32 * (c2 * t32) - w1_z * (c1 * w1_z);
-  const Real t49 = state.z[0] * (s0 * state.z[0]) - t32 * (s2 * t32) + w1_z * (s1 * w1_z);
-  const Real t53 = t21 * (c2 * t47 + s2 * t49);
+  const Real t26 = t4 * t21;
+  const Real t28 = t25 * state.z[0];
+  const Real t29 = t26 * state.z[0];
+  const Real w1_z = state.z[0] - t28;
+  const Real t36 = state.z[0] * (c0 * state.z[0]);
+  const Real t37 = state.z[0] * (s0 * state.z[0]);
+  const Real t44 = t36 - t29 * (c2 * t29) - w1_z * (c1 * w1_z);
+  const Real t46 = t37 - t29 * (s2 * t29) + w1_z * (s1 * w1_z);
+  const Real t50 = t21 * (c2 * t44 + s2 * t46);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real kW0w22 = state.z[0] * state.z[0];
-  const Real ka1o_x = c0 * kW0w22;
-  const Real ka1o_y = s0 * kW0w22;
-  const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
-  const Real zw_1 = t31 * (state.z[0] + w1_z);
+  const Real kQp1 = t37 * h1b_x + t36 * h1b_y;
+  const Real zw_1 = t28 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
   const Real kn1c_z = c0 * kdf1_y + s0 * kdf1_x;
-  const Real D1 = c0 * h1b_x - s0 * h1b_y;
-  const Real E1 = D1 - Real(0.3333333333333333);
-  k[0] = -(kn1c_z + t53 * E1 - t25 * (kQp1 - t53 * Real(0.3333333333333333)) + Real(0.3333333333333333) * (t29
-      * (t21 * (c1 * t47 - s1 * t49))));
+  const Real E1 = t5 * Real(0.5) + Real(0.3333333333333333);
+  k[0] = -(kn1c_z - t50 * E1 - t25 * (kQp1 - t50 * Real(0.3333333333333333)) + Real(0.3333333333333333) * (t26
+      * (t21 * (c1 * t44 - s1 * t46))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -162,32 +330,27 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
   const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
-  const Real t30 = t22 * (c1 * pinbx1_y + s1 * pinbx1_x);
-  const Real t32 = t30 * state.z[0];
-  const Real diagonalbv2_x = s2 * t32;
-  const Real diagonalbv2_y = c2 * t32;
+  const Real t27 = t4 * t22;
+  const Real diagonalbv2_x = s2 * (t27 * state.z[0]);
   const Real h1b_x = c1 * Real(0.5);
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
-  const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
+  const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
-  const Real diagonal_T = diagonal_e * model.k + diagonal_rate * model.c;
+  const Real diagonal_T = diagonal_e * model.k - diagonal_rate * model.c;
   const Real diagonal_Tl = diagonal_T / diagonal_l;
-  const Real diagonalf_x = pinax2_x * diagonal_Tl;
   const Real diagonalf_y = s2 * diagonal_Tl;
-  const Real q_2 = s2 * diagonalf_x - c2 * (diagonalf_y + Real(4.905));
-  q[0] = -(t30 * q_2 + (h0_x - t22 * (c2 * pinbx1_y - pinbx1_x * s2) * h1b_x) * Real(9.81));
+  const Real q_2 = pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905));
+  q[0] = -(t27 * q_2 + (h0_x - t22 * (c2 * pinbx1_y - pinbx1_x * s2) * h1b_x) * Real(9.81));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -197,55 +360,51 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pinbx1_y = s0 + s1;
   const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
   const Real t26 = t22 * (c2 * pinbx1_y - pinbx1_x * s2);
-  const Real t30 = t22 * (c1 * pinbx1_y + s1 * pinbx1_x);
-  const Real t32 = t26 * state.z[0];
-  const Real t33 = t30 * state.z[0];
-  const Real diagonalbv2_x = s2 * t33;
-  const Real diagonalbv2_y = c2 * t33;
-  const Real w1_z = state.z[0] - t32;
-  const Real t47 = t33 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z));
-  const Real t50 = t33 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + w1_z * (s1 * w1_z));
-  const Real t54 = t22 * (c2 * t47 + s2 * t50);
+  const Real t27 = t4 * t22;
+  const Real t29 = t26 * state.z[0];
+  const Real t30 = t27 * state.z[0];
+  const Real diagonalbv2_x = s2 * t30;
+  const Real diagonalbv2_y = c2 * t30;
+  const Real w1_z = state.z[0] - t29;
+  const Real t37 = state.z[0] * (c0 * state.z[0]);
+  const Real t38 = state.z[0] * (s0 * state.z[0]);
+  const Real t44 = t30 * diagonalbv2_y - (t37 - w1_z * (c1 * w1_z));
+  const Real t47 = t30 * diagonalbv2_x - (t38 + w1_z * (s1 * w1_z));
+  const Real t51 = t22 * (c2 * t44 + s2 * t47);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_x - s0 * h1b_y;
   const Real v1P_x = t26 * h1b_y;
   const Real v1P_y = t26 * h1b_x;
   const Real v1L_z = t26 * Real(0.3333333333333333);
-  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (t26 * v1L_z + (Real(0.3333333333333333) -
-      (D1 + (D1 - Real(0.3333333333333333) * (t30 * t30))) + Real(1.3333333333333333)))));
+  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (Real(0.3333333333333333) * (t27 * t27) +
+      (t5 + t26 * v1L_z) + Real(1.6666666666666667))));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
   const Real diagonal_l = detail::square_root(diagonal_ll);
-  const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
+  const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
-  const Real diagonal_T = diagonal_e * model.k + diagonal_rate * model.c;
+  const Real diagonal_T = diagonal_e * model.k - diagonal_rate * model.c;
   const Real diagonal_Tl = diagonal_T / diagonal_l;
-  const Real diagonalf_x = pinax2_x * diagonal_Tl;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real rQp0 = h0_x * Real(9.81);
-  const Real rW0w22 = state.z[0] * state.z[0];
-  const Real ra1o_x = c0 * rW0w22;
-  const Real ra1o_y = Real(9.81) - s0 * rW0w22;
-  const Real zw_1 = t32 * (state.z[0] + w1_z);
-  const Real rdf1_x = t54 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t54 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t54 * Real(0.3333333333333333);
-  const Real rdn2_z = t22 * (c1 * t47 - s1 * t50) * Real(0.3333333333333333);
-  const Real rQ1_0 = h1b_y * ra1o_x - (h1b_x * ra1o_y - rdn1_z);
-  const Real tau_2_0 = c2 * (diagonalf_y + Real(4.905)) - (s2 * diagonalf_x + rdn2_z);
-  zdot[0] = Real(1.0) / (T2 * Real(2.0)) * (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t26 * rQ1_0 - t30
-      * tau_2_0)))));
+  const Real ra1o_y = t38 - Real(9.81);
+  const Real zw_1 = t29 * (state.z[0] + w1_z);
+  const Real rdf1_x = t51 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t51 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t51 * Real(0.3333333333333333);
+  const Real rdn2_z = t22 * (c1 * t44 - s1 * t47) * Real(0.3333333333333333);
+  const Real rQ1_0 = t37 * h1b_y + (h1b_x * ra1o_y + rdn1_z);
+  const Real tau_2_0 = c2 * (diagonalf_y + Real(4.905)) - (pinax2_x * diagonalf_y + rdn2_z);
+  zdot[0] = (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t26 * rQ1_0 - t27 * tau_2_0))))) / (T2 *
+      Real(2.0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -255,50 +414,47 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pinbx1_y = s0 + s1;
   const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
   const Real t26 = t22 * (c2 * pinbx1_y - pinbx1_x * s2);
-  const Real t30 = t22 * (c1 * pinbx1_y + s1 * pinbx1_x);
-  const Real t32 = t26 * state.z[0];
-  const Real t33 = t30 * state.z[0];
-  const Real diagonalbv2_x = s2 * t33;
-  const Real diagonalbv2_y = c2 * t33;
-  const Real w1_z = state.z[0] - t32;
-  const Real t47 = t33 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z));
-  const Real t50 = t33 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + w1_z * (s1 * w1_z));
-  const Real t61 = t22 * (c2 * t47 + s2 * t50) - t26 * zdot[0];
+  const Real t27 = t4 * t22;
+  const Real t29 = t26 * state.z[0];
+  const Real t30 = t27 * state.z[0];
+  const Real diagonalbv2_x = s2 * t30;
+  const Real diagonalbv2_y = c2 * t30;
+  const Real w1_z = state.z[0] - t29;
+  const Real t37 = state.z[0] * (c0 * state.z[0]);
+  const Real t38 = state.z[0] * (s0 * state.z[0]);
+  const Real t44 = w1_z * (c1 * w1_z) - (t37 - t30 * diagonalbv2_y);
+  const Real t47 = w1_z * (s1 * w1_z) + (t38 - t30 * diagonalbv2_x);
+  const Real t58 = t22 * (c2 * t44 - s2 * t47) - t26 * zdot[0];
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_x - s0 * h1b_y;
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
-  const Real J0 = D1 + (D1 - Real(1.6666666666666667));
-  const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
+  const Real J0 = t5 + Real(1.6666666666666667);
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
-  const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
+  const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
-  const Real diagonal_T = diagonal_e * model.k + diagonal_rate * model.c;
+  const Real diagonal_T = diagonal_e * model.k - diagonal_rate * model.c;
   const Real diagonal_Tl = diagonal_T / diagonal_l;
-  const Real diagonalf_x = pinax2_x * diagonal_Tl;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
-  const Real aW0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = s0 * zdot[0] + c0 * aW0w22;
-  const Real aa1o_y = c0 * zdot[0] + (Real(9.81) - s0 * aW0w22);
-  const Real zw_1 = t32 * (state.z[0] + w1_z);
-  const Real adf1_x = t61 * h1b_y + h1b_x * zw_1;
-  const Real adf1_y = t61 * h1b_x - h1b_y * zw_1;
-  const Real adn1_z = t61 * Real(0.3333333333333333);
-  const Real adn2_z = (t22 * (c1 * t47 - s1 * t50) - t30 * zdot[0]) * Real(0.3333333333333333);
-  const Real aQ1_0 = h1b_x * aa1o_y - (zdot[0] * Real(0.3333333333333333) + (h1b_y * aa1o_x + adn1_z));
-  const Real tau_2_0 = adn2_z + (s2 * diagonalf_x - c2 * (diagonalf_y + Real(4.905)));
-  tau[0] = adn1_z - (aQp0 + (adn0_z + (c0 * adf1_y - (s0 * adf1_x + (t26 * aQ1_0 - t30 * tau_2_0)))));
+  const Real aa1o_x = t37 + s0 * zdot[0];
+  const Real aa1o_y = t38 - (Real(9.81) + c0 * zdot[0]);
+  const Real zw_1 = t29 * (state.z[0] + w1_z);
+  const Real adf1_x = t58 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t58 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t58 * Real(0.3333333333333333);
+  const Real adn2_z = (t22 * (c1 * t44 + s1 * t47) - t27 * zdot[0]) * Real(0.3333333333333333);
+  const Real aQ1_0 = adn1_z + (h1b_y * aa1o_x + (zdot[0] * Real(0.3333333333333333) + h1b_x * aa1o_y));
+  const Real tau_2_0 = c2 * (diagonalf_y + Real(4.905)) - (pinax2_x * diagonalf_y + adn2_z);
+  tau[0] = t27 * tau_2_0 - (t26 * aQ1_0 - (s0 * adf1_x - (c0 * adf1_y - (adn0_z - (aQp0 - adn1_z)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -306,30 +462,23 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
   const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
-  const Real t31 = t21 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0];
-  const Real t32 = t21 * (c1 * pinbx1_y + s1 * pinbx1_x) * state.z[0];
+  const Real t28 = t21 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0];
+  const Real t29 = t4 * t21 * state.z[0];
   const Real v1o_x = s0 * state.z[0];
   const Real v1o_y = c0 * state.z[0];
-  const Real h1b_x = c1 * Real(0.5);
-  const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_x - s0 * h1b_y;
-  const Real J0 = D1 + (D1 - Real(1.6666666666666667));
+  const Real J0 = t5 + Real(1.6666666666666667);
   const Real v0L_z = state.z[0] * J0;
-  const Real v1P_x = t31 * h1b_y;
-  const Real v1P_y = t31 * h1b_x;
-  const Real v1L_z = t31 * Real(0.3333333333333333);
-  const Real T2 = v1o_x * v1P_x + (state.z[0] * v1L_z - (v1o_y * v1P_y + Real(0.5) * (t31 * v1L_z -
-      (state.z[0] * v0L_z - Real(0.3333333333333333) * (t32 * t32)))));
+  const Real v1L_z = t28 * Real(0.3333333333333333);
+  const Real T2 = state.z[0] * v1L_z - (Real(0.3333333333333333) * (t29 * t29) + (state.z[0] * v0L_z + t28 *
+      v1L_z) - (v1o_x * (s1 * t28) - v1o_y * (c1 * t28))) * Real(0.5);
   return -T2;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
+  Real s2, c2, s0, t7;
+  detail::sine_cosine2(state.y[2], s2, c2, state.y[0], s0, t7);
   const Real pinax2_x = c2 + Real(1.0);
-  Real s0, t7;
-  detail::sine_cosine(state.y[0], s0, t7);
   Real t8, t9;
   detail::sine_cosine(state.y[1], t8, t9);
   const Real s1 = t7 * t8 + s0 * t9;
@@ -409,10 +558,8 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -422,22 +569,17 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real pind_x = pinax2_x - pinbx1_x;
   const Real pinbx1_y = s0 + s1;
   const Real pind_y = s2 - pinbx1_y;
-  const Real t24 = Real(1.0) / (s1 * c2 + c1 * s2);
-  const Real t34 = t24 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0];
-  const Real t35 = t24 * (c1 * pinbx1_y + s1 * pinbx1_x) * state.z[0];
   g[0] = -pind_x;
   g[1] = -pind_y;
-  g_rate[0] = -(pinbx1_y * state.z[0] - s1 * t34 - s2 * t35);
-  g_rate[1] = pinbx1_x * state.z[0] + c1 * t34 - c2 * t35;
+  g_rate[0] = Real(0.0);
+  g_rate[1] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real
     (&lambda)[2]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
@@ -447,54 +589,52 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pinbx1_y = s0 + s1;
   const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
   const Real t26 = t22 * (c2 * pinbx1_y - pinbx1_x * s2);
-  const Real t30 = t22 * (c1 * pinbx1_y + s1 * pinbx1_x);
-  const Real t32 = t26 * state.z[0];
-  const Real t33 = t30 * state.z[0];
-  const Real diagonalbv2_x = s2 * t33;
-  const Real diagonalbv2_y = c2 * t33;
-  const Real w1_z = state.z[0] - t32;
-  const Real t47 = t33 * diagonalbv2_y - (state.z[0] * (c0 * state.z[0]) - w1_z * (c1 * w1_z));
-  const Real t50 = t33 * diagonalbv2_x - (state.z[0] * (s0 * state.z[0]) + w1_z * (s1 * w1_z));
-  const Real t54 = t22 * (c2 * t47 + s2 * t50);
-  const Real t58 = t22 * (c1 * t47 - s1 * t50);
+  const Real t27 = t4 * t22;
+  const Real t29 = t26 * state.z[0];
+  const Real t30 = t27 * state.z[0];
+  const Real diagonalbv2_x = s2 * t30;
+  const Real diagonalbv2_y = c2 * t30;
+  const Real w1_z = state.z[0] - t29;
+  const Real ra1o_x = state.z[0] * (c0 * state.z[0]);
+  const Real t38 = state.z[0] * (s0 * state.z[0]);
+  const Real t44 = t30 * diagonalbv2_y - (ra1o_x - w1_z * (c1 * w1_z));
+  const Real t47 = t30 * diagonalbv2_x - (t38 + w1_z * (s1 * w1_z));
+  const Real t51 = t22 * (c2 * t44 + s2 * t47);
+  const Real t55 = t22 * (c1 * t44 - s1 * t47);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real D1 = c0 * h1b_x - s0 * h1b_y;
   const Real v1P_x = t26 * h1b_y;
   const Real v1P_y = t26 * h1b_x;
   const Real v1L_z = t26 * Real(0.3333333333333333);
-  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (t26 * v1L_z + (Real(0.3333333333333333) -
-      (D1 + (D1 - Real(0.3333333333333333) * (t30 * t30))) + Real(1.3333333333333333)))));
+  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (Real(0.3333333333333333) * (t27 * t27) +
+      (t5 + t26 * v1L_z) + Real(1.6666666666666667))));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
   const Real diagonal_l = detail::square_root(diagonal_ll);
-  const Real diagonal_rate = (s2 * diagonalbv2_y - pinax2_x * diagonalbv2_x) / diagonal_l;
+  const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
-  const Real diagonal_T = diagonal_e * model.k + diagonal_rate * model.c;
+  const Real diagonal_T = diagonal_e * model.k - diagonal_rate * model.c;
   const Real diagonal_Tl = diagonal_T / diagonal_l;
-  const Real diagonalf_x = pinax2_x * diagonal_Tl;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real rQp0 = h0_x * Real(9.81);
-  const Real rW0w22 = state.z[0] * state.z[0];
-  const Real ra1o_x = c0 * rW0w22;
-  const Real ra1o_y = Real(9.81) - s0 * rW0w22;
-  const Real zw_1 = t32 * (state.z[0] + w1_z);
-  const Real rdf1_x = t54 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t54 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t54 * Real(0.3333333333333333);
-  const Real rdn2_z = t58 * Real(0.3333333333333333);
-  const Real rQ1_0 = h1b_y * ra1o_x - (h1b_x * ra1o_y - rdn1_z);
-  const Real t136 = s2 * diagonalf_x - c2 * (diagonalf_y + Real(4.905));
-  const Real tau_2_0 = rdn2_z + t136;
-  const Real t145 = Real(1.0) / (T2 * Real(2.0)) * (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t26 *
-      rQ1_0 + t30 * tau_2_0)))));
-  const Real ra1o_x_2 = ra1o_x + s0 * t145;
-  const Real ra1o_y_2 = ra1o_y + c0 * t145;
-  const Real rdn2_z_2 = Real(0.3333333333333333) * (t58 - t30 * t145);
-  const Real rQ1_0_2 = h1b_y * ra1o_x_2 - (h1b_x * ra1o_y_2 + Real(0.3333333333333333) * (t26 * t145 - (t54 +
-      t145)));
-  const Real tau_2_0_2 = t136 + rdn2_z_2;
+  const Real ra1o_y = t38 - Real(9.81);
+  const Real zw_1 = t29 * (state.z[0] + w1_z);
+  const Real rdf1_x = t51 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t51 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t51 * Real(0.3333333333333333);
+  const Real rdn2_z = t55 * Real(0.3333333333333333);
+  const Real rQ1_0 = ra1o_x * h1b_y + (h1b_x * ra1o_y + rdn1_z);
+  const Real t120 = pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905));
+  const Real tau_2_0 = rdn2_z + t120;
+  const Real t129 = (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t26 * rQ1_0 + t27 * tau_2_0))))) / (T2 *
+      Real(2.0));
+  const Real ra1o_x_2 = ra1o_x + s0 * t129;
+  const Real ra1o_y_2 = ra1o_y - c0 * t129;
+  const Real rdn2_z_2 = Real(0.3333333333333333) * (t55 - t27 * t129);
+  const Real rQ1_0_2 = h1b_y * ra1o_x_2 + (h1b_x * ra1o_y_2 - Real(0.3333333333333333) * (t26 * t129 - (t51 +
+      t129)));
+  const Real tau_2_0_2 = t120 + rdn2_z_2;
   lambda[0] = t22 * (c2 * rQ1_0_2 + c1 * tau_2_0_2);
   lambda[1] = t22 * (s2 * rQ1_0_2 - s1 * tau_2_0_2);
 }

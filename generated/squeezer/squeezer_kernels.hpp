@@ -9,12 +9,135 @@ namespace squeezer {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -22,8 +145,60 @@ template <class Real> JOURDAIN_FUNCTION
 Real cosine(const Real& x) noexcept { return cos(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real square_root(const Real& x) noexcept { return sqrt(x); }
+// Angle of (x, y) by one division, sums and products, at one cost for all of them, less than 2 ulp off and exactly odd
+// in y: the smaller over the larger, beyond 1/2 turned back by pi/4, then a polynomial by fpminimax of Sollya. Of
+// numbers up to half the largest one; no number of infinite ones.
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
 JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
+#else
+JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept {
+  using Bits = unsigned long long;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 63), is_behind = x_bits >> 63;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 63), is_steep = (a - b) >> 63;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const double large = __builtin_bit_cast(double, a ^ exchange), small = __builtin_bit_cast(double, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463024898437905) - (b ^ exchange)) >> 63;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 63);
+  const double turn = static_cast<double>(wide);
+  const double t = (small - turn * large) / (large + turn * small + static_cast<double>(nothing)), z = t * t;
+  const double w = z * z, v = w * w;
+  const double low = (-0.3333333333333333 + z * 0.1999999999999723) +
+                     w * (-0.142857142851601 + z * 0.11111111068604916);
+  const double middle = (-0.09090907407679288 + z * 0.07692268042911367) +
+                        w * (-0.06666065366369484 + z * 0.058762025197991216);
+  const double high = (-0.05219603216056109 + z * 0.04545914188460735) +
+                      w * (-0.035981529310843786 + z * 0.0219654180922859);
+  const double angle = t + t * z * (low + v * (middle + v * (high + v * -0.007274827974643591)));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const double eighths = static_cast<double>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 63);
+  const double rest = __builtin_bit_cast(double, part) + eighths * 3.061616997868383e-17;
+  return __builtin_bit_cast(double, __builtin_bit_cast(Bits, eighths * 0.7853981633974483 + rest) ^ sign);
+}
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept {
+  using Bits = unsigned;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 31), is_behind = x_bits >> 31;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 31), is_steep = (a - b) >> 31;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const float large = __builtin_bit_cast(float, a ^ exchange), small = __builtin_bit_cast(float, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463025f) - (b ^ exchange)) >> 31;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 31);
+  const float turn = static_cast<float>(wide);
+  const float t = (small - turn * large) / (large + turn * small + static_cast<float>(nothing)), z = t * t;
+  const float low = (-0.3333333f + z * 0.19999681f) + z * z * (-0.1427416f + z * 0.1094557f);
+  const float angle = t + t * z * (low + z * z * z * z * (-0.079587296f + z * 0.037864342f));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const float eighths = static_cast<float>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 31);
+  const float rest = __builtin_bit_cast(float, part) + eighths * 1.5695824e-07f;
+  return __builtin_bit_cast(float, __builtin_bit_cast(Bits, eighths * 0.785398f + rest) ^ sign);
+}
+#endif
 template <class Real> JOURDAIN_FUNCTION
 Real arctangent2(const Real& y, const Real& x) noexcept { return atan2(y, x); }
 
@@ -32,6 +207,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[7]) noexcept {
@@ -76,15 +312,13 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
+  Real t30, t31, s5, c5;
+  detail::sine_cosine2(state.y[4], t30, t31, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
   const Real loop3bx_x = c1 * Real(0.028);
   const Real loop3bx1_x = r1_x + loop3bx_x;
@@ -92,10 +326,6 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real loop3ax_y = Real(0.035) * c2;
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t30, t31;
-  detail::sine_cosine(state.y[4], t30, t31);
   const Real s4 = c3 * t30 + s3 * t31;
   const Real c4 = s3 * t30 - c3 * t31;
   const Real r4_x = c3 * Real(0.04);
@@ -104,8 +334,6 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real r4_y = s3 * Real(0.04);
   const Real loop4ax_y = c4 * Real(0.02);
   const Real loop4ax4_y = r4_y + loop4ax_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t50, t51;
   detail::sine_cosine(state.y[6], t50, t51);
   const Real s6 = c5 * t50 + s5 * t51;
@@ -117,31 +345,30 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real loop6ax_y = Real(0.02) * s6;
   const Real loop6ax6_y = r6_y - loop6ax_y;
   const Real t68 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
-  const Real t72 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
-  const Real t76 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
-  const Real t80 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
-  const Real t86 = loop3bx1_y - loop3bx_y * t80;
-  const Real t88 = loop3bx1_x + loop3bx_x * t80;
+  const Real t71 = Real(1.0) / (t31 * Real(0.0008));
+  const Real t73 = Real(1.0) / (t51 * Real(0.0008));
+  const Real t77 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
+  const Real t80 = t4 * t68 * Real(0.00019600000000000002);
+  const Real t82 = loop3bx1_y - loop3bx_y * t77;
+  const Real t83 = loop3ax_x * t80;
   ydot[0] = state.z[0];
-  ydot[1] = t80 * state.z[0];
-  ydot[2] = t68 * (loop3bx_x * loop3bx1_y + loop3bx1_x * loop3bx_y) * state.z[0];
-  ydot[3] = t72 * (loop4ax_x * t86 - loop4ax_y * t88) * state.z[0];
-  ydot[4] = -(t72 * (loop4ax4_x * t86 - loop4ax4_y * t88) * state.z[0]);
-  ydot[5] = -(t76 * (loop6ax_x * t86 + loop6ax_y * t88) * state.z[0]);
-  ydot[6] = -(t76 * (loop6ax6_x * t86 + loop6ax6_y * t88) * state.z[0]);
+  ydot[1] = t77 * state.z[0];
+  ydot[2] = t80 * state.z[0];
+  ydot[3] = t71 * (loop4ax_x * t82 - loop4ax_y * t83) * state.z[0];
+  ydot[4] = -(t71 * (loop4ax4_x * t82 - loop4ax4_y * t83) * state.z[0]);
+  ydot[5] = t73 * (loop6ax_x * t82 + loop6ax_y * t83) * state.z[0];
+  ydot[6] = t73 * (loop6ax6_x * t82 + loop6ax6_y * t83) * state.z[0];
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
+  Real t30, t31, s5, c5;
+  detail::sine_cosine2(state.y[4], t30, t31, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
   const Real loop3bx_x = c1 * Real(0.028);
   const Real loop3bx1_x = r1_x + loop3bx_x;
@@ -149,10 +376,6 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real loop3ax_y = Real(0.035) * c2;
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t30, t31;
-  detail::sine_cosine(state.y[4], t30, t31);
   const Real s4 = c3 * t30 + s3 * t31;
   const Real c4 = s3 * t30 - c3 * t31;
   const Real r4_x = c3 * Real(0.04);
@@ -161,8 +384,6 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real r4_y = s3 * Real(0.04);
   const Real loop4ax_y = c4 * Real(0.02);
   const Real loop4ax4_y = r4_y + loop4ax_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t50, t51;
   detail::sine_cosine(state.y[6], t50, t51);
   const Real s6 = c5 * t50 + s5 * t51;
@@ -174,60 +395,44 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real loop6ax_y = Real(0.02) * s6;
   const Real loop6ax6_y = r6_y - loop6ax_y;
   const Real t68 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
-  const Real t72 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
-  const Real t76 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
-  const Real t80 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
-  const Real t84 = t68 * (loop3bx_x * loop3bx1_y + loop3bx1_x * loop3bx_y);
-  const Real t86 = loop3bx1_y - loop3bx_y * t80;
-  const Real t88 = loop3bx1_x + loop3bx_x * t80;
-  const Real t92 = t72 * (loop4ax_x * t86 - loop4ax_y * t88);
-  const Real t96 = t72 * (loop4ax4_x * t86 - loop4ax4_y * t88);
-  const Real t100 = t76 * (loop6ax_x * t86 + loop6ax_y * t88);
-  const Real t104 = t76 * (loop6ax6_x * t86 + loop6ax6_y * t88);
-  const Real h6b_x = c6 * Real(4.08774e-05);
-  const Real h6b_y = s6 * Real(4.08774e-05);
-  const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + (D6 - Real(4.0618678476e-05));
-  const Real h4b_x = s4 * Real(4.08774e-05);
-  const Real h4b_y = c4 * Real(4.08774e-05);
-  const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (D4 + Real(6.6455736e-05) + Real(8.03380146e-07));
-  const Real h1b_x = c1 * Real(4.1975e-05);
-  const Real h1b_y = s1 * Real(4.1975e-05);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real v1P_x = t80 * h1b_y;
-  const Real v1P_y = t80 * h1b_x;
-  const Real v1L_z = t80 * Real(9.237125e-07);
-  const Real v3L_z = t92 * J3;
-  const Real v4o_x = r4_y * t92;
-  const Real v4o_y = r4_x * t92;
-  const Real v4P_x = t96 * h4b_y;
-  const Real v4P_y = t96 * h4b_x;
-  const Real v4L_z = t96 * Real(8.03380146e-07);
-  const Real v5L_z = t100 * J5;
-  const Real v6o_x = r6_y * t100;
-  const Real v6o_y = r6_x * t100;
-  const Real v6P_x = t104 * h6b_y;
-  const Real v6P_y = t104 * h6b_x;
-  const Real v6L_z = t104 * Real(8.03380146e-07);
-  const Real T6 = r1_y * v1P_x - (v1L_z + (r1_x * v1P_y - (t92 * v4L_z + (v4o_x * v4P_x + (v4o_y * v4P_y -
-      (t100 * v6L_z - (v6o_x * v6P_x + (v6o_y * v6P_y - (t104 * v6L_z + (t96 * v4L_z + (t80 * v1L_z + (D1 +
-      (D1 + (Real(9.237125e-07) + (t84 * t84 * Real(1.6170147425e-05) + (t92 * v3L_z - t100 * v5L_z) +
-      Real(2.4094568e-06)))))))) * Real(0.5)))))))));
+  const Real t71 = Real(1.0) / (t31 * Real(0.0008));
+  const Real t73 = Real(1.0) / (t51 * Real(0.0008));
+  const Real t77 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
+  const Real t80 = t4 * t68 * Real(0.00019600000000000002);
+  const Real t82 = loop3bx1_y - loop3bx_y * t77;
+  const Real t83 = loop3ax_x * t80;
+  const Real t87 = t71 * (loop4ax_x * t82 - loop4ax_y * t83);
+  const Real t91 = t71 * (loop4ax4_x * t82 - loop4ax4_y * t83);
+  const Real t95 = t73 * (loop6ax_x * t82 + loop6ax_y * t83);
+  const Real t99 = t73 * (loop6ax6_x * t82 + loop6ax6_y * t83);
+  const Real J5 = t50 * Real(3.2701920000000002e-06) - Real(4.0618678476e-05);
+  const Real J3 = t30 * Real(3.2701920000000002e-06) + Real(6.725911614599999e-05);
+  const Real D1 = t5 * Real(2.93825e-07);
+  const Real v1L_z = t77 * Real(9.237125e-07);
+  const Real v3L_z = t87 * J3;
+  const Real v4o_x = r4_y * t87;
+  const Real v4o_y = r4_x * t87;
+  const Real v4L_z = t91 * Real(8.03380146e-07);
+  const Real v5L_z = t95 * J5;
+  const Real v6o_x = r6_y * t95;
+  const Real v6o_y = r6_x * t95;
+  const Real v6L_z = t99 * Real(8.03380146e-07);
+  const Real T6 = (v4o_x * (c4 * t91) + (v4o_y * (s4 * t91) + (v6o_x * (s6 * t99) + v6o_y * (c6 * t99)))) *
+      Real(4.08774e-05) + (t87 * v4L_z - (v1L_z + (t95 * v6L_z - ((t95 * v5L_z - (t87 * v3L_z + (t80 * t80 *
+      Real(1.6170147425e-05) - (D1 + (D1 - (t77 * v1L_z + (t91 * v4L_z + t99 * v6L_z)))))) -
+      Real(3.3331693e-06)) * Real(0.5) + t77 * D1))));
   M[0][0] = -(T6 * Real(2.0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
+  Real t30, t31, s5, c5;
+  detail::sine_cosine2(state.y[4], t30, t31, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
   const Real loop3bx_x = c1 * Real(0.028);
   const Real loop3bx1_x = r1_x + loop3bx_x;
@@ -235,10 +440,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real loop3ax_y = Real(0.035) * c2;
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t30, t31;
-  detail::sine_cosine(state.y[4], t30, t31);
   const Real s4 = c3 * t30 + s3 * t31;
   const Real c4 = s3 * t30 - c3 * t31;
   const Real r4_x = c3 * Real(0.04);
@@ -247,8 +448,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real r4_y = s3 * Real(0.04);
   const Real loop4ax_y = c4 * Real(0.02);
   const Real loop4ax4_y = r4_y + loop4ax_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t50, t51;
   detail::sine_cosine(state.y[6], t50, t51);
   const Real s6 = c5 * t50 + s5 * t51;
@@ -260,165 +459,148 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real loop6ax_y = Real(0.02) * s6;
   const Real loop6ax6_y = r6_y - loop6ax_y;
   const Real t68 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
-  const Real t72 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
-  const Real t76 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
-  const Real t80 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
-  const Real t84 = t68 * (loop3bx_x * loop3bx1_y + loop3bx1_x * loop3bx_y);
-  const Real t86 = loop3bx1_y - loop3bx_y * t80;
-  const Real t88 = loop3bx1_x + loop3bx_x * t80;
-  const Real t92 = t72 * (loop4ax_x * t86 - loop4ax_y * t88);
-  const Real t96 = t72 * (loop4ax4_x * t86 - loop4ax4_y * t88);
-  const Real t100 = t76 * (loop6ax_x * t86 + loop6ax_y * t88);
-  const Real t104 = t76 * (loop6ax6_x * t86 + loop6ax6_y * t88);
-  const Real t106 = t80 * state.z[0];
-  const Real t107 = t84 * state.z[0];
-  const Real t108 = t92 * state.z[0];
-  const Real t109 = t96 * state.z[0];
-  const Real t110 = t100 * state.z[0];
-  const Real t111 = t104 * state.z[0];
-  const Real loop3am2t_x = loop3ax_y * t107;
-  const Real loop3bm1t_x = loop3bx_y * t106;
-  const Real loop3bm0t_x = loop3bx1_y * state.z[0];
-  const Real loop3am2t_y = loop3ax_x * t107;
-  const Real loop3am2a_x = t107 * loop3am2t_y;
-  const Real loop3bm1t_y = loop3bx_x * t106;
-  const Real loop3bm1a_x = t106 * loop3bm1t_y;
-  const Real loop3bm0t_y = loop3bx1_x * state.z[0];
-  const Real loop3bm0b_y = loop3bm0t_y + loop3bm1t_y * Real(2.0);
+  const Real t71 = Real(1.0) / (t31 * Real(0.0008));
+  const Real t73 = Real(1.0) / (t51 * Real(0.0008));
+  const Real t77 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
+  const Real t80 = t4 * t68 * Real(0.00019600000000000002);
+  const Real t82 = loop3bx1_y - loop3bx_y * t77;
+  const Real t83 = loop3ax_x * t80;
+  const Real t87 = t71 * (loop4ax_x * t82 - loop4ax_y * t83);
+  const Real t91 = t71 * (loop4ax4_x * t82 - loop4ax4_y * t83);
+  const Real t95 = t73 * (loop6ax_x * t82 + loop6ax_y * t83);
+  const Real t99 = t73 * (loop6ax6_x * t82 + loop6ax6_y * t83);
+  const Real t101 = t77 * state.z[0];
+  const Real t102 = t80 * state.z[0];
+  const Real t103 = t87 * state.z[0];
+  const Real t104 = t91 * state.z[0];
+  const Real t105 = t95 * state.z[0];
+  const Real t106 = t99 * state.z[0];
+  const Real loop3am2t_x = loop3ax_y * t102;
+  const Real loop3bm1t_x = loop3bx_y * t101;
+  const Real loop3am2t_y = loop3ax_x * t102;
+  const Real loop3am2a_x = t102 * loop3am2t_y;
+  const Real loop3bm1t_y = loop3bx_x * t101;
+  const Real loop3bm1a_x = t101 * loop3bm1t_y;
+  const Real loop3bm0b_y = loop3am2t_y + loop3bm1t_y;
   const Real loop3bm0a_x = loop3bm1a_x + state.z[0] * loop3bm0b_y;
   const Real loop3da_x = loop3am2a_x - loop3bm0a_x;
-  const Real loop3am2a_y = t107 * loop3am2t_x;
-  const Real loop3bm1a_y = t106 * loop3bm1t_x;
-  const Real loop3bm0b_x = loop3bm0t_x - loop3bm1t_x * Real(2.0);
-  const Real loop3bm0a_y = loop3bm1a_y - state.z[0] * loop3bm0b_x;
+  const Real loop3am2a_y = t102 * loop3am2t_x;
+  const Real loop3bm1a_y = t101 * loop3bm1t_x;
+  const Real loop3bm0b_x = loop3am2t_x + loop3bm1t_x;
+  const Real loop3bm0a_y = loop3bm1a_y + state.z[0] * loop3bm0b_x;
   const Real loop3da_y = loop3am2a_y - loop3bm0a_y;
-  const Real loop4am4t_x = loop4ax_y * t109;
-  const Real loop4am3t_x = loop4ax4_y * t108;
-  const Real loop4am4t_y = loop4ax_x * t109;
-  const Real loop4am4a_x = t109 * loop4am4t_y;
-  const Real loop4am3t_y = loop4ax4_x * t108;
-  const Real loop4am3b_y = loop4am3t_y - Real(2.0) * loop4am4t_y;
-  const Real loop4am3a_x = loop4am4a_x + t108 * loop4am3b_y;
+  const Real loop4am4t_x = loop4ax_y * t104;
+  const Real loop4am4t_y = loop4ax_x * t104;
+  const Real loop4am4a_x = t104 * loop4am4t_y;
+  const Real loop4am3b_y = loop3am2t_y - loop4am4t_y;
+  const Real loop4am3a_x = loop4am4a_x + t103 * loop4am3b_y;
   const Real loop4da_x = loop3bm0a_x - loop4am3a_x;
-  const Real loop4am4a_y = t109 * loop4am4t_x;
-  const Real loop4am3b_x = loop4am3t_x - Real(2.0) * loop4am4t_x;
-  const Real loop4am3a_y = loop4am4a_y + t108 * loop4am3b_x;
+  const Real loop4am4a_y = t104 * loop4am4t_x;
+  const Real loop4am3b_x = loop3am2t_x + loop4am4t_x;
+  const Real loop4am3a_y = loop4am4a_y - t103 * loop4am3b_x;
   const Real loop4da_y = loop3bm0a_y + loop4am3a_y;
-  const Real loop6am6t_x = loop6ax_y * t111;
-  const Real loop6am5t_x = loop6ax6_y * t110;
-  const Real loop6am6t_y = loop6ax_x * t111;
-  const Real loop6am6a_x = t111 * loop6am6t_y;
-  const Real loop6am5t_y = loop6ax6_x * t110;
-  const Real loop6am5b_y = loop6am5t_y - Real(2.0) * loop6am6t_y;
-  const Real loop6am5a_x = loop6am6a_x - t110 * loop6am5b_y;
+  const Real loop6am6t_x = loop6ax_y * t106;
+  const Real loop6am6t_y = loop6ax_x * t106;
+  const Real loop6am6a_x = t106 * loop6am6t_y;
+  const Real loop6am5b_y = loop3am2t_y - loop6am6t_y;
+  const Real loop6am5a_x = loop6am6a_x - t105 * loop6am5b_y;
   const Real loop6da_x = loop3bm0a_x + loop6am5a_x;
-  const Real loop6am6a_y = t111 * loop6am6t_x;
-  const Real loop6am5b_x = loop6am5t_x - Real(2.0) * loop6am6t_x;
-  const Real loop6am5a_y = loop6am6a_y - t110 * loop6am5b_x;
+  const Real loop6am6a_y = t106 * loop6am6t_x;
+  const Real loop6am5b_x = loop3am2t_x - loop6am6t_x;
+  const Real loop6am5a_y = loop6am6a_y - t105 * loop6am5b_x;
   const Real loop6da_y = loop3bm0a_y + loop6am5a_y;
-  const Real t168 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
-  const Real t173 = loop3bx_y * t168;
-  const Real t174 = loop4da_x + t173;
-  const Real t175 = loop3bx_x * t168;
-  const Real t176 = loop4da_y - t175;
-  const Real t180 = t72 * (loop4ax_x * t174 - loop4ax_y * t176);
-  const Real t184 = t72 * (loop4ax4_x * t174 - loop4ax4_y * t176);
-  const Real t185 = loop6da_x + t173;
-  const Real t186 = loop6da_y - t175;
-  const Real t190 = t76 * (loop6ax_x * t185 + loop6ax_y * t186);
-  const Real t194 = t76 * (loop6ax6_x * t185 + loop6ax6_y * t186);
+  const Real t150 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
+  const Real t155 = loop3bx_y * t150;
+  const Real t156 = loop4da_x + t155;
+  const Real t157 = loop3bx_x * t150;
+  const Real t158 = loop4da_y - t157;
+  const Real t162 = t71 * (loop4ax_x * t156 - loop4ax_y * t158);
+  const Real t166 = t71 * (loop4ax4_x * t156 - loop4ax4_y * t158);
+  const Real t167 = loop6da_x + t155;
+  const Real t168 = loop6da_y - t157;
+  const Real t172 = t73 * (loop6ax_x * t167 + loop6ax_y * t168);
+  const Real t176 = t73 * (loop6ax6_x * t167 + loop6ax6_y * t168);
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
-  const Real w1_z = state.z[0] + t106;
-  const Real w4_z = t108 - t109;
-  const Real w6_z = t110 + t111;
+  const Real w1_z = state.z[0] + t101;
+  const Real w4_z = t103 - t104;
+  const Real w6_z = t105 + t106;
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real ka1o_x = r1_x * kW0w22;
   const Real ka1o_y = r1_y * kW0w22;
   const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
-  const Real zw_1 = t106 * (state.z[0] + w1_z);
+  const Real zw_1 = t101 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
-  const Real kW3w22 = t108 * t108;
+  const Real kW3w22 = t103 * t103;
   const Real ka4o_x = r4_x * kW3w22;
   const Real ka4o_y = r4_y * kW3w22;
   const Real kQp4 = h4b_x * ka4o_y - h4b_y * ka4o_x;
-  const Real zw_4 = t109 * (t108 + w4_z);
+  const Real zw_4 = t104 * (t103 + w4_z);
   const Real kdf4_x = h4b_x * zw_4;
   const Real kdf4_y = h4b_y * zw_4;
-  const Real kW5w22 = t110 * t110;
+  const Real kW5w22 = t105 * t105;
   const Real ka6o_x = r6_x * kW5w22;
   const Real ka6o_y = r6_y * kW5w22;
   const Real kQp6 = h6b_x * ka6o_y - h6b_y * ka6o_x;
-  const Real zw_6 = t111 * (t110 + w6_z);
+  const Real zw_6 = t106 * (t105 + w6_z);
   const Real kdf6_x = h6b_x * zw_6;
   const Real kdf6_y = h6b_y * zw_6;
   const Real kn6c_z = r6_x * kdf6_y - r6_y * kdf6_x;
   const Real kn4c_z = r4_x * kdf4_y - r4_y * kdf4_x;
   const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
-  const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
+  const Real D6 = t50 * Real(1.6350960000000001e-06);
   const Real E6 = D6 - Real(8.03380146e-07);
   const Real Jc6 = D6 + E6;
   const Real J5 = Jc6 - Real(3.981529833e-05);
-  const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
+  const Real D4 = t30 * Real(1.6350960000000001e-06);
   const Real E4 = Real(8.03380146e-07) + D4;
   const Real Jc4 = D4 + E4;
   const Real J3 = Jc4 + Real(6.6455736e-05);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real E1 = D1 + Real(9.237125e-07);
-  k[0] = -(kn1c_z - t168 * E1 - t80 * (kQp1 + t168 * Real(9.237125e-07)) - t84 * (t68 * (loop3bx_x * loop3da_x
-      + loop3bx_y * loop3da_y)) * Real(1.6170147425e-05) + t92 * (kn4c_z + (t180 * J3 - t184 * E4)) + t96 *
-      (kQp4 - (t180 * E4 - t184 * Real(8.03380146e-07))) + t100 * (kn6c_z - (t190 * J5 + t194 * E6)) + t104 *
-      (kQp6 - (t190 * E6 - t194 * Real(8.03380146e-07))));
+  const Real E1 = t5 * Real(2.93825e-07) - Real(9.237125e-07);
+  k[0] = -(kn1c_z + t150 * E1 - t77 * (kQp1 + t150 * Real(9.237125e-07)) - t80 * (t68 * (loop3bx_x * loop3da_x
+      + loop3bx_y * loop3da_y)) * Real(1.6170147425e-05) + t87 * (kn4c_z + (t162 * J3 - t166 * E4)) + t91 *
+      (kQp4 - (t162 * E4 - t166 * Real(8.03380146e-07))) - t95 * (kn6c_z + (t172 * J5 + t176 * E6)) - t99 *
+      (kQp6 + (t172 * E6 - t176 * Real(8.03380146e-07))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  const Real r1_x = c0 * Real(0.007);
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real loop3bx_x = c1 * Real(0.028);
-  const Real loop3bx1_x = r1_x + loop3bx_x;
-  const Real r1_y = s0 * Real(0.007);
-  const Real loop3bx_y = s1 * Real(0.028);
-  const Real loop3bx1_y = r1_y - loop3bx_y;
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
-  const Real spring1d_x = spring1bx_x - Real(0.03635) - Real(0.014);
-  const Real spring1d_y = spring1bx_y - Real(0.03273) + Real(0.072);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1d_x = spring1bx_x - Real(0.05035);
+  const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
+  const Real spring1_ll = spring1d_x * spring1d_x + spring1d_y * spring1d_y + Real(1e-18);
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
   const Real spring1f_x = spring1d_x * spring1_Tl;
   const Real spring1f_y = spring1d_y * spring1_Tl;
   const Real push2_0 = spring1bx_x * spring1f_y - spring1bx_y * spring1f_x;
-  q[0] = -(Real(1.0) / ((s2 * loop3bx_y - loop3bx_x * c2) * Real(0.035)) * (loop3bx_x * loop3bx1_y +
-      loop3bx1_x * loop3bx_y) * push2_0 + model.drive);
+  q[0] = -(t4 / ((s1 * s2 - c1 * c2) * Real(0.0009800000000000002)) * push2_0 * Real(0.00019600000000000002) +
+      model.drive);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
+  Real t30, t31, s5, c5;
+  detail::sine_cosine2(state.y[4], t30, t31, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
   const Real loop3bx_x = c1 * Real(0.028);
   const Real loop3bx1_x = r1_x + loop3bx_x;
@@ -426,10 +608,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real loop3ax_y = Real(0.035) * c2;
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t30, t31;
-  detail::sine_cosine(state.y[4], t30, t31);
   const Real s4 = c3 * t30 + s3 * t31;
   const Real c4 = s3 * t30 - c3 * t31;
   const Real r4_x = c3 * Real(0.04);
@@ -438,8 +616,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real r4_y = s3 * Real(0.04);
   const Real loop4ax_y = c4 * Real(0.02);
   const Real loop4ax4_y = r4_y + loop4ax_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t50, t51;
   detail::sine_cosine(state.y[6], t50, t51);
   const Real s6 = c5 * t50 + s5 * t51;
@@ -451,100 +627,89 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real loop6ax_y = Real(0.02) * s6;
   const Real loop6ax6_y = r6_y - loop6ax_y;
   const Real t68 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
-  const Real t72 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
-  const Real t76 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
-  const Real t80 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
-  const Real t84 = t68 * (loop3bx_x * loop3bx1_y + loop3bx1_x * loop3bx_y);
-  const Real t86 = loop3bx1_y - loop3bx_y * t80;
-  const Real t88 = loop3bx1_x + loop3bx_x * t80;
-  const Real t92 = t72 * (loop4ax_x * t86 - loop4ax_y * t88);
-  const Real t96 = t72 * (loop4ax4_x * t86 - loop4ax4_y * t88);
-  const Real t100 = t76 * (loop6ax_x * t86 + loop6ax_y * t88);
-  const Real t104 = t76 * (loop6ax6_x * t86 + loop6ax6_y * t88);
-  const Real t106 = t80 * state.z[0];
-  const Real t107 = t84 * state.z[0];
-  const Real t108 = t92 * state.z[0];
-  const Real t109 = t96 * state.z[0];
-  const Real t110 = t100 * state.z[0];
-  const Real t111 = t104 * state.z[0];
-  const Real loop3am2t_x = loop3ax_y * t107;
-  const Real loop3bm1t_x = loop3bx_y * t106;
-  const Real loop3bm0t_x = loop3bx1_y * state.z[0];
-  const Real loop3am2t_y = loop3ax_x * t107;
-  const Real loop3am2a_x = t107 * loop3am2t_y;
-  const Real loop3bm1t_y = loop3bx_x * t106;
-  const Real loop3bm1a_x = t106 * loop3bm1t_y;
-  const Real loop3bm0t_y = loop3bx1_x * state.z[0];
-  const Real loop3bm0b_y = loop3bm0t_y + loop3bm1t_y * Real(2.0);
+  const Real t71 = Real(1.0) / (t31 * Real(0.0008));
+  const Real t73 = Real(1.0) / (t51 * Real(0.0008));
+  const Real t77 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
+  const Real t80 = t4 * t68 * Real(0.00019600000000000002);
+  const Real t82 = loop3bx1_y - loop3bx_y * t77;
+  const Real t83 = loop3ax_x * t80;
+  const Real t87 = t71 * (loop4ax_x * t82 - loop4ax_y * t83);
+  const Real t91 = t71 * (loop4ax4_x * t82 - loop4ax4_y * t83);
+  const Real t95 = t73 * (loop6ax_x * t82 + loop6ax_y * t83);
+  const Real t99 = t73 * (loop6ax6_x * t82 + loop6ax6_y * t83);
+  const Real t101 = t77 * state.z[0];
+  const Real t102 = t80 * state.z[0];
+  const Real t103 = t87 * state.z[0];
+  const Real t104 = t91 * state.z[0];
+  const Real t105 = t95 * state.z[0];
+  const Real t106 = t99 * state.z[0];
+  const Real loop3am2t_x = loop3ax_y * t102;
+  const Real loop3bm1t_x = loop3bx_y * t101;
+  const Real loop3am2t_y = loop3ax_x * t102;
+  const Real loop3am2a_x = t102 * loop3am2t_y;
+  const Real loop3bm1t_y = loop3bx_x * t101;
+  const Real loop3bm1a_x = t101 * loop3bm1t_y;
+  const Real loop3bm0b_y = loop3am2t_y + loop3bm1t_y;
   const Real loop3bm0a_x = loop3bm1a_x + state.z[0] * loop3bm0b_y;
   const Real loop3da_x = loop3am2a_x - loop3bm0a_x;
-  const Real loop3am2a_y = t107 * loop3am2t_x;
-  const Real loop3bm1a_y = t106 * loop3bm1t_x;
-  const Real loop3bm0b_x = loop3bm0t_x - loop3bm1t_x * Real(2.0);
-  const Real loop3bm0a_y = loop3bm1a_y - state.z[0] * loop3bm0b_x;
+  const Real loop3am2a_y = t102 * loop3am2t_x;
+  const Real loop3bm1a_y = t101 * loop3bm1t_x;
+  const Real loop3bm0b_x = loop3am2t_x + loop3bm1t_x;
+  const Real loop3bm0a_y = loop3bm1a_y + state.z[0] * loop3bm0b_x;
   const Real loop3da_y = loop3am2a_y - loop3bm0a_y;
-  const Real loop4am4t_x = loop4ax_y * t109;
-  const Real loop4am3t_x = loop4ax4_y * t108;
-  const Real loop4am4t_y = loop4ax_x * t109;
-  const Real loop4am4a_x = t109 * loop4am4t_y;
-  const Real loop4am3t_y = loop4ax4_x * t108;
-  const Real loop4am3b_y = loop4am3t_y - Real(2.0) * loop4am4t_y;
-  const Real loop4am4a_y = t109 * loop4am4t_x;
-  const Real loop4am3b_x = loop4am3t_x - Real(2.0) * loop4am4t_x;
-  const Real loop6am6t_x = loop6ax_y * t111;
-  const Real loop6am5t_x = loop6ax6_y * t110;
-  const Real loop6am6t_y = loop6ax_x * t111;
-  const Real loop6am6a_x = t111 * loop6am6t_y;
-  const Real loop6am5t_y = loop6ax6_x * t110;
-  const Real loop6am5b_y = loop6am5t_y - Real(2.0) * loop6am6t_y;
-  const Real loop6am6a_y = t111 * loop6am6t_x;
-  const Real loop6am5b_x = loop6am5t_x - Real(2.0) * loop6am6t_x;
-  const Real t160 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
-  const Real t165 = loop3bx_y * t160;
-  const Real t168 = loop4am4a_x - (loop3bm0a_x - (t108 * loop4am3b_y - t165));
-  const Real t169 = loop3bx_x * t160;
-  const Real t172 = loop4am4a_y + (loop3bm0a_y + (t108 * loop4am3b_x - t169));
-  const Real t176 = t72 * (loop4ax_x * t168 + loop4ax_y * t172);
-  const Real t180 = t72 * (loop4ax4_x * t168 + loop4ax4_y * t172);
-  const Real t183 = loop6am6a_x + (loop3bm0a_x - (t110 * loop6am5b_y - t165));
-  const Real t186 = loop6am6a_y + (loop3bm0a_y - (t110 * loop6am5b_x + t169));
-  const Real t190 = t76 * (loop6ax_x * t183 + loop6ax_y * t186);
-  const Real t194 = t76 * (loop6ax6_x * t183 + loop6ax6_y * t186);
+  const Real loop4am4t_x = loop4ax_y * t104;
+  const Real loop4am4t_y = loop4ax_x * t104;
+  const Real loop4am4a_x = t104 * loop4am4t_y;
+  const Real loop4am3b_y = loop3am2t_y - loop4am4t_y;
+  const Real loop4am4a_y = t104 * loop4am4t_x;
+  const Real loop4am3b_x = loop3am2t_x + loop4am4t_x;
+  const Real loop6am6t_x = loop6ax_y * t106;
+  const Real loop6am6t_y = loop6ax_x * t106;
+  const Real loop6am6a_x = t106 * loop6am6t_y;
+  const Real loop6am5b_y = loop3am2t_y - loop6am6t_y;
+  const Real loop6am6a_y = t106 * loop6am6t_x;
+  const Real loop6am5b_x = loop3am2t_x - loop6am6t_x;
+  const Real t142 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
+  const Real t147 = loop3bx_y * t142;
+  const Real t150 = t147 - (t103 * loop4am3b_y - (loop3bm0a_x - loop4am4a_x));
+  const Real t151 = loop3bx_x * t142;
+  const Real t154 = t151 + (t103 * loop4am3b_x - (loop3bm0a_y + loop4am4a_y));
+  const Real t158 = t71 * (loop4ax_x * t150 + loop4ax_y * t154);
+  const Real t162 = t71 * (loop4ax4_x * t150 + loop4ax4_y * t154);
+  const Real t165 = t147 - (t105 * loop6am5b_y - (loop3bm0a_x + loop6am6a_x));
+  const Real t168 = t151 + (t105 * loop6am5b_x - (loop3bm0a_y + loop6am6a_y));
+  const Real t172 = t73 * (loop6ax_x * t165 - loop6ax_y * t168);
+  const Real t176 = t73 * (loop6ax6_x * t165 - loop6ax6_y * t168);
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
-  const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + (D6 - Real(4.0618678476e-05));
+  const Real J5 = t50 * Real(3.2701920000000002e-06) - Real(4.0618678476e-05);
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
-  const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (D4 + Real(6.6455736e-05) + Real(8.03380146e-07));
+  const Real J3 = t30 * Real(3.2701920000000002e-06) + Real(6.725911614599999e-05);
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real v1P_x = t80 * h1b_y;
-  const Real v1P_y = t80 * h1b_x;
-  const Real v1L_z = t80 * Real(9.237125e-07);
-  const Real v3L_z = t92 * J3;
-  const Real v4o_x = r4_y * t92;
-  const Real v4o_y = r4_x * t92;
-  const Real v4P_x = t96 * h4b_y;
-  const Real v4P_y = t96 * h4b_x;
-  const Real v4L_z = t96 * Real(8.03380146e-07);
-  const Real v5L_z = t100 * J5;
-  const Real v6o_x = r6_y * t100;
-  const Real v6o_y = r6_x * t100;
-  const Real v6P_x = t104 * h6b_y;
-  const Real v6P_y = t104 * h6b_x;
-  const Real v6L_z = t104 * Real(8.03380146e-07);
-  const Real T6 = r1_y * v1P_x - (v1L_z + (r1_x * v1P_y - (t92 * v4L_z + (v4o_x * v4P_x + (v4o_y * v4P_y -
-      (t100 * v6L_z - (v6o_x * v6P_x + (v6o_y * v6P_y - (t104 * v6L_z + (t96 * v4L_z + (t80 * v1L_z + (D1 +
-      (D1 + (Real(9.237125e-07) + (t84 * t84 * Real(1.6170147425e-05) + (t92 * v3L_z - t100 * v5L_z) +
-      Real(2.4094568e-06)))))))) * Real(0.5)))))))));
+  const Real D1 = t5 * Real(2.93825e-07);
+  const Real v1L_z = t77 * Real(9.237125e-07);
+  const Real v3L_z = t87 * J3;
+  const Real v4o_x = r4_y * t87;
+  const Real v4o_y = r4_x * t87;
+  const Real v4P_x = t91 * h4b_y;
+  const Real v4P_y = t91 * h4b_x;
+  const Real v4L_z = t91 * Real(8.03380146e-07);
+  const Real v5L_z = t95 * J5;
+  const Real v6o_x = r6_y * t95;
+  const Real v6o_y = r6_x * t95;
+  const Real v6P_x = t99 * h6b_y;
+  const Real v6P_y = t99 * h6b_x;
+  const Real v6L_z = t99 * Real(8.03380146e-07);
+  const Real T6 = t77 * D1 - ((t99 * v6L_z + (t91 * v4L_z + (t77 * v1L_z - (D1 + (D1 - (t80 * t80 *
+      Real(1.6170147425e-05) + (t87 * v3L_z - t95 * v5L_z)))))) + Real(3.3331693e-06)) * Real(0.5) - (v6o_y *
+      v6P_y + (v6o_x * v6P_x - (t95 * v6L_z - (v4o_y * v4P_y + (v4o_x * v4P_x - (v1L_z - t87 * v4L_z)))))));
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
   const Real spring1d_x = spring1bx_x - Real(0.05035);
   const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
-  const Real spring1_ll = spring1d_x * spring1d_x + (spring1d_y * spring1d_y + Real(1e-18));
+  const Real spring1_ll = spring1d_x * spring1d_x + spring1d_y * spring1d_y + Real(1e-18);
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
@@ -553,49 +718,47 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = r1_y * rW0w22;
-  const Real zw_1 = t106 * (state.z[0] + (state.z[0] + t106));
-  const Real rdf1_x = t160 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t160 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t160 * Real(9.237125e-07);
+  const Real zw_1 = t101 * (t101 + (state.z[0] + state.z[0]));
+  const Real rdf1_x = t142 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t142 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t142 * Real(9.237125e-07);
   const Real rdn2_z = t68 * (loop3bx_x * loop3da_x + loop3bx_y * loop3da_y) * Real(1.6170147425e-05);
-  const Real rdn3_z = t176 * J3;
-  const Real rW3w22 = t108 * t108;
-  const Real ra4o_x = r4_y * t176 - r4_x * rW3w22;
-  const Real ra4o_y = r4_x * t176 + r4_y * rW3w22;
-  const Real zw_4 = t109 * (t108 + (t108 - t109));
-  const Real rdf4_x = t180 * h4b_y - h4b_x * zw_4;
-  const Real rdf4_y = t180 * h4b_x + h4b_y * zw_4;
-  const Real rdn4_z = t180 * Real(8.03380146e-07);
-  const Real rdn5_z = t190 * J5;
-  const Real rW5w22 = t110 * t110;
-  const Real ra6o_x = r6_y * t190 + r6_x * rW5w22;
-  const Real ra6o_y = r6_x * t190 - r6_y * rW5w22;
-  const Real zw_6 = t111 * (t110 + (t110 + t111));
-  const Real rdf6_x = t194 * h6b_y + h6b_x * zw_6;
-  const Real rdf6_y = t194 * h6b_x - h6b_y * zw_6;
-  const Real rdn6_z = t194 * Real(8.03380146e-07);
-  const Real rn6c_z = rdn6_z - (rdn5_z + (r6_x * rdf6_y + r6_y * rdf6_x));
-  const Real rn4c_z = rdn4_z - (rdn3_z - (r4_x * rdf4_y + r4_y * rdf4_x));
-  const Real rQ1_0 = h1b_y * ra1o_x + (h1b_x * ra1o_y + rdn1_z);
-  const Real rQ4_0 = h4b_x * ra4o_y + (t176 * Real(8.03380146e-07) + (h4b_y * ra4o_x - rdn4_z));
-  const Real rQ6_0 = h6b_x * ra6o_y - (t190 * Real(8.03380146e-07) - (h6b_y * ra6o_x - rdn6_z));
-  const Real tau_2_0 = spring1bx_y * spring1f_x - (spring1bx_x * spring1f_y + rdn2_z);
-  zdot[0] = -(Real(1.0) / (Real(2.0) * T6) * (r1_x * rdf1_y + (rdn1_z - (r1_y * rdf1_x - (t80 * rQ1_0 - (t84 *
-      tau_2_0 + (t92 * rn4c_z + (t96 * rQ4_0 + (t100 * rn6c_z - t104 * rQ6_0)))) + model.drive)))));
+  const Real rdn3_z = t158 * J3;
+  const Real rW3w22 = t103 * t103;
+  const Real ra4o_x = r4_y * t158 + r4_x * rW3w22;
+  const Real ra4o_y = r4_x * t158 - r4_y * rW3w22;
+  const Real zw_4 = t104 * (t104 - (t103 + t103));
+  const Real rdf4_x = t162 * h4b_y - h4b_x * zw_4;
+  const Real rdf4_y = t162 * h4b_x + h4b_y * zw_4;
+  const Real rdn4_z = t162 * Real(8.03380146e-07);
+  const Real rdn5_z = t172 * J5;
+  const Real rW5w22 = t105 * t105;
+  const Real ra6o_x = r6_y * t172 - r6_x * rW5w22;
+  const Real ra6o_y = r6_x * t172 + r6_y * rW5w22;
+  const Real zw_6 = t106 * (t106 + (t105 + t105));
+  const Real rdf6_x = t176 * h6b_y - h6b_x * zw_6;
+  const Real rdf6_y = t176 * h6b_x + h6b_y * zw_6;
+  const Real rdn6_z = t176 * Real(8.03380146e-07);
+  const Real rn6c_z = r6_y * rdf6_x + (r6_x * rdf6_y + (rdn5_z - rdn6_z));
+  const Real rn4c_z = r4_y * rdf4_x + (r4_x * rdf4_y - (rdn3_z - rdn4_z));
+  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y + h1b_y * ra1o_x);
+  const Real rQ4_0 = rdn4_z - (h4b_y * ra4o_x + (t158 * Real(8.03380146e-07) + h4b_x * ra4o_y));
+  const Real rQ6_0 = rdn6_z - (h6b_y * ra6o_x - (t172 * Real(8.03380146e-07) - h6b_x * ra6o_y));
+  const Real tau_2_0 = rdn2_z + (spring1bx_x * spring1f_y - spring1bx_y * spring1f_x);
+  zdot[0] = (t99 * rQ6_0 - (t95 * rn6c_z - (t91 * rQ4_0 - (t87 * rn4c_z + (t80 * tau_2_0 + (t77 * rQ1_0 -
+      (r1_y * rdf1_x - (rdn1_z + r1_x * rdf1_y))))))) - model.drive) / (T6 * Real(2.0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
+  Real t30, t31, s5, c5;
+  detail::sine_cosine2(state.y[4], t30, t31, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
   const Real loop3bx_x = c1 * Real(0.028);
   const Real loop3bx1_x = r1_x + loop3bx_x;
@@ -603,10 +766,6 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real loop3ax_y = Real(0.035) * c2;
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t30, t31;
-  detail::sine_cosine(state.y[4], t30, t31);
   const Real s4 = c3 * t30 + s3 * t31;
   const Real c4 = s3 * t30 - c3 * t31;
   const Real r4_x = c3 * Real(0.04);
@@ -615,8 +774,6 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real r4_y = s3 * Real(0.04);
   const Real loop4ax_y = c4 * Real(0.02);
   const Real loop4ax4_y = r4_y + loop4ax_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t50, t51;
   detail::sine_cosine(state.y[6], t50, t51);
   const Real s6 = c5 * t50 + s5 * t51;
@@ -628,101 +785,84 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real loop6ax_y = Real(0.02) * s6;
   const Real loop6ax6_y = r6_y - loop6ax_y;
   const Real t68 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
-  const Real t72 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
-  const Real t76 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
-  const Real t80 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
-  const Real t84 = t68 * (loop3bx_x * loop3bx1_y + loop3bx1_x * loop3bx_y);
-  const Real t86 = loop3bx1_y - loop3bx_y * t80;
-  const Real t88 = loop3bx1_x + loop3bx_x * t80;
-  const Real t92 = t72 * (loop4ax_x * t86 - loop4ax_y * t88);
-  const Real t96 = t72 * (loop4ax4_x * t86 - loop4ax4_y * t88);
-  const Real t100 = t76 * (loop6ax_x * t86 + loop6ax_y * t88);
-  const Real t104 = t76 * (loop6ax6_x * t86 + loop6ax6_y * t88);
-  const Real t106 = t80 * state.z[0];
-  const Real t107 = t84 * state.z[0];
-  const Real t108 = t92 * state.z[0];
-  const Real t109 = t96 * state.z[0];
-  const Real t110 = t100 * state.z[0];
-  const Real t111 = t104 * state.z[0];
-  const Real loop3am2t_x = loop3ax_y * t107;
-  const Real loop3bm1t_x = loop3bx_y * t106;
-  const Real loop3bm0t_x = loop3bx1_y * state.z[0];
-  const Real loop3am2t_y = loop3ax_x * t107;
-  const Real loop3am2a_x = t107 * loop3am2t_y;
-  const Real loop3bm1t_y = loop3bx_x * t106;
-  const Real loop3bm1a_x = t106 * loop3bm1t_y;
-  const Real loop3bm0t_y = loop3bx1_x * state.z[0];
-  const Real loop3bm0b_y = loop3bm0t_y + loop3bm1t_y * Real(2.0);
+  const Real t71 = Real(1.0) / (t31 * Real(0.0008));
+  const Real t73 = Real(1.0) / (t51 * Real(0.0008));
+  const Real t77 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
+  const Real t80 = t4 * t68 * Real(0.00019600000000000002);
+  const Real t82 = loop3bx1_y - loop3bx_y * t77;
+  const Real t83 = loop3ax_x * t80;
+  const Real t87 = t71 * (loop4ax_x * t82 - loop4ax_y * t83);
+  const Real t91 = t71 * (loop4ax4_x * t82 - loop4ax4_y * t83);
+  const Real t95 = t73 * (loop6ax_x * t82 + loop6ax_y * t83);
+  const Real t99 = t73 * (loop6ax6_x * t82 + loop6ax6_y * t83);
+  const Real t101 = t77 * state.z[0];
+  const Real t102 = t80 * state.z[0];
+  const Real t103 = t87 * state.z[0];
+  const Real t104 = t91 * state.z[0];
+  const Real t105 = t95 * state.z[0];
+  const Real t106 = t99 * state.z[0];
+  const Real loop3am2t_x = loop3ax_y * t102;
+  const Real loop3bm1t_x = loop3bx_y * t101;
+  const Real loop3am2t_y = loop3ax_x * t102;
+  const Real loop3am2a_x = t102 * loop3am2t_y;
+  const Real loop3bm1t_y = loop3bx_x * t101;
+  const Real loop3bm1a_x = t101 * loop3bm1t_y;
+  const Real loop3bm0b_y = loop3am2t_y + loop3bm1t_y;
   const Real loop3bm0a_x = loop3bm1a_x + state.z[0] * loop3bm0b_y;
   const Real loop3da_x = loop3am2a_x - loop3bm0a_x;
-  const Real loop3am2a_y = t107 * loop3am2t_x;
-  const Real loop3bm1a_y = t106 * loop3bm1t_x;
-  const Real loop3bm0b_x = loop3bm0t_x - loop3bm1t_x * Real(2.0);
-  const Real loop3bm0a_y = loop3bm1a_y - state.z[0] * loop3bm0b_x;
+  const Real loop3am2a_y = t102 * loop3am2t_x;
+  const Real loop3bm1a_y = t101 * loop3bm1t_x;
+  const Real loop3bm0b_x = loop3am2t_x + loop3bm1t_x;
+  const Real loop3bm0a_y = loop3bm1a_y + state.z[0] * loop3bm0b_x;
   const Real loop3da_y = loop3am2a_y - loop3bm0a_y;
-  const Real loop4am4t_x = loop4ax_y * t109;
-  const Real loop4am3t_x = loop4ax4_y * t108;
-  const Real loop4am4t_y = loop4ax_x * t109;
-  const Real loop4am4a_x = t109 * loop4am4t_y;
-  const Real loop4am3t_y = loop4ax4_x * t108;
-  const Real loop4am3b_y = loop4am3t_y - Real(2.0) * loop4am4t_y;
-  const Real loop4am3a_x = loop4am4a_x + t108 * loop4am3b_y;
+  const Real loop4am4t_x = loop4ax_y * t104;
+  const Real loop4am4t_y = loop4ax_x * t104;
+  const Real loop4am4a_x = t104 * loop4am4t_y;
+  const Real loop4am3b_y = loop3am2t_y - loop4am4t_y;
+  const Real loop4am3a_x = loop4am4a_x + t103 * loop4am3b_y;
   const Real loop4da_x = loop3bm0a_x - loop4am3a_x;
-  const Real loop4am4a_y = t109 * loop4am4t_x;
-  const Real loop4am3b_x = loop4am3t_x - Real(2.0) * loop4am4t_x;
-  const Real loop4am3a_y = loop4am4a_y + t108 * loop4am3b_x;
+  const Real loop4am4a_y = t104 * loop4am4t_x;
+  const Real loop4am3b_x = loop3am2t_x + loop4am4t_x;
+  const Real loop4am3a_y = loop4am4a_y - t103 * loop4am3b_x;
   const Real loop4da_y = loop3bm0a_y + loop4am3a_y;
-  const Real loop6am6t_x = loop6ax_y * t111;
-  const Real loop6am5t_x = loop6ax6_y * t110;
-  const Real loop6am6t_y = loop6ax_x * t111;
-  const Real loop6am6a_x = t111 * loop6am6t_y;
-  const Real loop6am5t_y = loop6ax6_x * t110;
-  const Real loop6am5b_y = loop6am5t_y - Real(2.0) * loop6am6t_y;
-  const Real loop6am5a_x = loop6am6a_x - t110 * loop6am5b_y;
+  const Real loop6am6t_x = loop6ax_y * t106;
+  const Real loop6am6t_y = loop6ax_x * t106;
+  const Real loop6am6a_x = t106 * loop6am6t_y;
+  const Real loop6am5b_y = loop3am2t_y - loop6am6t_y;
+  const Real loop6am5a_x = loop6am6a_x - t105 * loop6am5b_y;
   const Real loop6da_x = loop3bm0a_x + loop6am5a_x;
-  const Real loop6am6a_y = t111 * loop6am6t_x;
-  const Real loop6am5b_x = loop6am5t_x - Real(2.0) * loop6am6t_x;
-  const Real loop6am5a_y = loop6am6a_y - t110 * loop6am5b_x;
+  const Real loop6am6a_y = t106 * loop6am6t_x;
+  const Real loop6am5b_x = loop3am2t_x - loop6am6t_x;
+  const Real loop6am5a_y = loop6am6a_y - t105 * loop6am5b_x;
   const Real loop6da_y = loop3bm0a_y + loop6am5a_y;
-  const Real t168 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
-  const Real t173 = loop3bx_y * t168;
-  const Real t174 = loop4da_x + t173;
-  const Real t175 = loop3bx_x * t168;
-  const Real t176 = loop4da_y - t175;
-  const Real t185 = loop6da_x + t173;
-  const Real t186 = loop6da_y - t175;
-  const Real t197 = t168 - t80 * zdot[0];
-  const Real t201 = t72 * (loop4ax_x * t174 - loop4ax_y * t176) + t92 * zdot[0];
-  const Real t203 = t72 * (loop4ax4_x * t174 - loop4ax4_y * t176) + t96 * zdot[0];
-  const Real t205 = t76 * (loop6ax_x * t185 + loop6ax_y * t186) + t100 * zdot[0];
-  const Real t207 = t76 * (loop6ax6_x * t185 + loop6ax6_y * t186) + t104 * zdot[0];
+  const Real t150 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
+  const Real t155 = loop3bx_y * t150;
+  const Real t156 = loop4da_x + t155;
+  const Real t157 = loop3bx_x * t150;
+  const Real t158 = loop4da_y - t157;
+  const Real t167 = loop6da_x + t155;
+  const Real t168 = loop6da_y - t157;
+  const Real t179 = t150 - t77 * zdot[0];
+  const Real t183 = t71 * (loop4ax_x * t156 - loop4ax_y * t158) + t87 * zdot[0];
+  const Real t185 = t71 * (loop4ax4_x * t156 - loop4ax4_y * t158) + t91 * zdot[0];
+  const Real t187 = t73 * (loop6ax_x * t167 + loop6ax_y * t168) + t95 * zdot[0];
+  const Real t189 = t73 * (loop6ax6_x * t167 + loop6ax6_y * t168) + t99 * zdot[0];
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
-  const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real E6 = D6 - Real(8.03380146e-07);
-  const Real Jc6 = D6 + E6;
-  const Real J5 = Jc6 - Real(3.981529833e-05);
+  const Real J5 = t50 * Real(3.2701920000000002e-06) - Real(4.0618678476e-05);
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
-  const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real E4 = Real(8.03380146e-07) + D4;
-  const Real Jc4 = D4 + E4;
-  const Real J3 = Jc4 + Real(6.6455736e-05);
+  const Real J3 = t30 * Real(3.2701920000000002e-06) + Real(6.725911614599999e-05);
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real E1 = D1 + Real(9.237125e-07);
-  const Real Jc1 = D1 + E1;
-  const Real J0 = Jc1 + Real(2.4094568e-06);
-  const Real w1_z = state.z[0] + t106;
-  const Real w4_z = t108 - t109;
-  const Real w6_z = t110 + t111;
+  const Real J0 = t5 * Real(5.8765e-07) - Real(3.3331693e-06);
+  const Real w1_z = state.z[0] + t101;
+  const Real w4_z = t103 - t104;
+  const Real w6_z = t105 + t106;
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
-  const Real spring1bx2_x = spring1bx_x - Real(0.03635);
-  const Real spring1bx2_y = spring1bx_y - Real(0.03273);
-  const Real spring1d_x = spring1bx2_x - Real(0.014);
-  const Real spring1d_y = spring1bx2_y + Real(0.072);
+  const Real spring1d_x = spring1bx_x - Real(0.05035);
+  const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
   const Real spring1_ll = spring1d_x * spring1d_x + Real(1e-18) + spring1d_y * spring1d_y;
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
@@ -735,53 +875,50 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aa1o_x = r1_y * zdot[0] + r1_x * aW0w22;
   const Real aa1o_y = r1_x * zdot[0] - r1_y * aW0w22;
   const Real aQp1 = zdot[0] * Real(9.237125e-07) + h1b_x * aa1o_y - h1b_y * aa1o_x;
-  const Real zw_1 = t106 * (state.z[0] + w1_z);
-  const Real adf1_x = t197 * h1b_y + h1b_x * zw_1;
-  const Real adf1_y = t197 * h1b_x - h1b_y * zw_1;
-  const Real adn1_z = t197 * Real(9.237125e-07);
-  const Real adn2_z = (t68 * (loop3bx_x * loop3da_x + loop3bx_y * loop3da_y) - t84 * zdot[0]) *
+  const Real zw_1 = t101 * (state.z[0] + w1_z);
+  const Real adf1_x = t179 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t179 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t179 * Real(9.237125e-07);
+  const Real adn2_z = (t68 * (loop3bx_x * loop3da_x + loop3bx_y * loop3da_y) - t80 * zdot[0]) *
       Real(1.6170147425e-05);
-  const Real adn3_z = t201 * J3;
-  const Real aW3w22 = t108 * t108;
-  const Real aa4o_x = r4_y * t201 + r4_x * aW3w22;
-  const Real aa4o_y = r4_x * t201 - r4_y * aW3w22;
-  const Real aQp4 = t201 * Real(8.03380146e-07) + h4b_x * aa4o_y + h4b_y * aa4o_x;
-  const Real zw_4 = t109 * (t108 + w4_z);
-  const Real adf4_x = t203 * h4b_y + h4b_x * zw_4;
-  const Real adf4_y = t203 * h4b_x - h4b_y * zw_4;
-  const Real adn4_z = t203 * Real(8.03380146e-07);
-  const Real adn5_z = t205 * J5;
-  const Real aW5w22 = t110 * t110;
-  const Real aa6o_x = r6_y * t205 + r6_x * aW5w22;
-  const Real aa6o_y = r6_x * t205 - r6_y * aW5w22;
-  const Real aQp6 = t205 * Real(8.03380146e-07) - h6b_x * aa6o_y - h6b_y * aa6o_x;
-  const Real zw_6 = t111 * (t110 + w6_z);
-  const Real adf6_x = t207 * h6b_y + h6b_x * zw_6;
-  const Real adf6_y = t207 * h6b_x - h6b_y * zw_6;
-  const Real adn6_z = t207 * Real(8.03380146e-07);
+  const Real adn3_z = t183 * J3;
+  const Real aW3w22 = t103 * t103;
+  const Real aa4o_x = r4_y * t183 + r4_x * aW3w22;
+  const Real aa4o_y = r4_x * t183 - r4_y * aW3w22;
+  const Real aQp4 = t183 * Real(8.03380146e-07) + h4b_x * aa4o_y + h4b_y * aa4o_x;
+  const Real zw_4 = t104 * (t103 + w4_z);
+  const Real adf4_x = t185 * h4b_y + h4b_x * zw_4;
+  const Real adf4_y = t185 * h4b_x - h4b_y * zw_4;
+  const Real adn4_z = t185 * Real(8.03380146e-07);
+  const Real adn5_z = t187 * J5;
+  const Real aW5w22 = t105 * t105;
+  const Real aa6o_x = r6_y * t187 - r6_x * aW5w22;
+  const Real aa6o_y = r6_x * t187 + r6_y * aW5w22;
+  const Real aQp6 = t187 * Real(8.03380146e-07) - h6b_x * aa6o_y - h6b_y * aa6o_x;
+  const Real zw_6 = t106 * (t105 + w6_z);
+  const Real adf6_x = t189 * h6b_y - h6b_x * zw_6;
+  const Real adf6_y = t189 * h6b_x + h6b_y * zw_6;
+  const Real adn6_z = t189 * Real(8.03380146e-07);
   const Real an6c_z = adn6_z - (adn5_z + (r6_x * adf6_y + r6_y * adf6_x));
   const Real an4c_z = adn4_z - (adn3_z - (r4_x * adf4_y + r4_y * adf4_x));
-  const Real an1c_z = adn1_z - (adn0_z - (r1_x * adf1_y - r1_y * adf1_x));
+  const Real an1c_z = adn1_z + (adn0_z + (r1_x * adf1_y - r1_y * adf1_x));
   const Real aQ1_0 = aQp1 - adn1_z;
   const Real aQ4_0 = aQp4 - adn4_z;
   const Real aQ6_0 = aQp6 + adn6_z;
   const Real tau_0_0 = an1c_z + model.drive;
   const Real tau_2_0 = push2_0 + adn2_z;
-  tau[0] = -(tau_0_0 - t80 * aQ1_0 + t84 * tau_2_0 + t92 * an4c_z + t96 * aQ4_0 - t100 * an6c_z - t104 *
-      aQ6_0);
+  tau[0] = -(tau_0_0 - t77 * aQ1_0 + t80 * tau_2_0 + t87 * an4c_z + t91 * aQ4_0 - t95 * an6c_z - t99 * aQ6_0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
+  Real t30, t31, s5, c5;
+  detail::sine_cosine2(state.y[4], t30, t31, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
   const Real loop3bx_x = c1 * Real(0.028);
   const Real loop3bx1_x = r1_x + loop3bx_x;
@@ -789,10 +926,6 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real loop3ax_y = Real(0.035) * c2;
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t30, t31;
-  detail::sine_cosine(state.y[4], t30, t31);
   const Real s4 = c3 * t30 + s3 * t31;
   const Real c4 = s3 * t30 - c3 * t31;
   const Real r4_x = c3 * Real(0.04);
@@ -801,8 +934,6 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real r4_y = s3 * Real(0.04);
   const Real loop4ax_y = c4 * Real(0.02);
   const Real loop4ax4_y = r4_y + loop4ax_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t50, t51;
   detail::sine_cosine(state.y[6], t50, t51);
   const Real s6 = c5 * t50 + s5 * t51;
@@ -814,51 +945,37 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real loop6ax_y = Real(0.02) * s6;
   const Real loop6ax6_y = r6_y - loop6ax_y;
   const Real t68 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
-  const Real t72 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
-  const Real t76 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
-  const Real t80 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
-  const Real t86 = loop3bx1_y - loop3bx_y * t80;
-  const Real t88 = loop3bx1_x + loop3bx_x * t80;
-  const Real t106 = t80 * state.z[0];
-  const Real t107 = t68 * (loop3bx_x * loop3bx1_y + loop3bx1_x * loop3bx_y) * state.z[0];
-  const Real t108 = t72 * (loop4ax_x * t86 - loop4ax_y * t88) * state.z[0];
-  const Real t109 = t72 * (loop4ax4_x * t86 - loop4ax4_y * t88) * state.z[0];
-  const Real t110 = t76 * (loop6ax_x * t86 + loop6ax_y * t88) * state.z[0];
-  const Real t111 = t76 * (loop6ax6_x * t86 + loop6ax6_y * t88) * state.z[0];
-  const Real h6b_x = c6 * Real(4.08774e-05);
-  const Real h6b_y = s6 * Real(4.08774e-05);
-  const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + (D6 - Real(4.0618678476e-05));
-  const Real h4b_x = s4 * Real(4.08774e-05);
-  const Real h4b_y = c4 * Real(4.08774e-05);
-  const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (D4 + Real(6.6455736e-05) + Real(8.03380146e-07));
-  const Real h1b_x = c1 * Real(4.1975e-05);
-  const Real h1b_y = s1 * Real(4.1975e-05);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real J0 = D1 + (D1 + Real(3.3331693e-06));
+  const Real t71 = Real(1.0) / (t31 * Real(0.0008));
+  const Real t73 = Real(1.0) / (t51 * Real(0.0008));
+  const Real t77 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
+  const Real t80 = t4 * t68 * Real(0.00019600000000000002);
+  const Real t82 = loop3bx1_y - loop3bx_y * t77;
+  const Real t83 = loop3ax_x * t80;
+  const Real t101 = t77 * state.z[0];
+  const Real t102 = t80 * state.z[0];
+  const Real t103 = t71 * (loop4ax_x * t82 - loop4ax_y * t83) * state.z[0];
+  const Real t104 = t71 * (loop4ax4_x * t82 - loop4ax4_y * t83) * state.z[0];
+  const Real t105 = t73 * (loop6ax_x * t82 + loop6ax_y * t83) * state.z[0];
+  const Real t106 = t73 * (loop6ax6_x * t82 + loop6ax6_y * t83) * state.z[0];
+  const Real J5 = t50 * Real(3.2701920000000002e-06) - Real(4.0618678476e-05);
+  const Real J3 = t30 * Real(3.2701920000000002e-06) + Real(6.725911614599999e-05);
+  const Real J0 = t5 * Real(5.8765e-07) - Real(3.3331693e-06);
   const Real v0L_z = state.z[0] * J0;
   const Real v1o_x = r1_y * state.z[0];
   const Real v1o_y = r1_x * state.z[0];
-  const Real v1P_x = t106 * h1b_y;
-  const Real v1P_y = t106 * h1b_x;
-  const Real v1L_z = t106 * Real(9.237125e-07);
-  const Real v3L_z = t108 * J3;
-  const Real v4o_x = r4_y * t108;
-  const Real v4o_y = r4_x * t108;
-  const Real v4P_x = t109 * h4b_y;
-  const Real v4P_y = t109 * h4b_x;
-  const Real v4L_z = t109 * Real(8.03380146e-07);
-  const Real v5L_z = t110 * J5;
-  const Real v6o_x = r6_y * t110;
-  const Real v6o_y = r6_x * t110;
-  const Real v6P_x = t111 * h6b_y;
-  const Real v6P_y = t111 * h6b_x;
-  const Real v6L_z = t111 * Real(8.03380146e-07);
-  const Real T6 = v1o_x * v1P_x - (state.z[0] * v1L_z + (v1o_y * v1P_y - (t108 * v4L_z + (v4o_x * v4P_x +
-      (v4o_y * v4P_y - (t110 * v6L_z - (v6o_x * v6P_x + (v6o_y * v6P_y - (t111 * v6L_z + (t109 * v4L_z + (t106
-      * v1L_z + (state.z[0] * v0L_z + (t107 * t107 * Real(1.6170147425e-05) + (t108 * v3L_z - t110 *
-      v5L_z)))))) * Real(0.5)))))))));
+  const Real v1L_z = t101 * Real(9.237125e-07);
+  const Real v3L_z = t103 * J3;
+  const Real v4o_x = r4_y * t103;
+  const Real v4o_y = r4_x * t103;
+  const Real v4L_z = t104 * Real(8.03380146e-07);
+  const Real v5L_z = t105 * J5;
+  const Real v6o_x = r6_y * t105;
+  const Real v6o_y = r6_x * t105;
+  const Real v6L_z = t106 * Real(8.03380146e-07);
+  const Real T6 = (v6o_y * (c6 * t106) + (v6o_x * (s6 * t106) + (v4o_x * (c4 * t104) + v4o_y * (s4 * t104))))
+      * Real(4.08774e-05) + ((v1o_x * (s1 * t101) - v1o_y * (c1 * t101)) * Real(4.1975e-05) + ((t105 * v5L_z -
+      (t103 * v3L_z + (t102 * t102 * Real(1.6170147425e-05) - (state.z[0] * v0L_z - (t101 * v1L_z + (t104 *
+      v4L_z + t106 * v6L_z)))))) * Real(0.5) - (t105 * v6L_z + (state.z[0] * v1L_z - t103 * v4L_z))));
   return -T6;
 }
 
@@ -868,10 +985,8 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   detail::sine_cosine(state.y[2], s2, c2);
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
-  const Real spring1bx2_x = spring1bx_x - Real(0.03635);
-  const Real spring1bx2_y = spring1bx_y - Real(0.03273);
-  const Real spring1d_x = spring1bx2_x - Real(0.014);
-  const Real spring1d_y = spring1bx2_y + Real(0.072);
+  const Real spring1d_x = spring1bx_x - Real(0.05035);
+  const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
   const Real spring1_ll = spring1d_x * spring1d_x + Real(1e-18) + spring1d_y * spring1d_y;
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
@@ -882,10 +997,8 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
@@ -914,95 +1027,80 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real t1, t2;
   detail::sine_cosine(state.y[0], t1, t2);
-  const Real t4 = t2 * Real(0.007);
-  const Real t6 = t1 * Real(0.028);
-  const Real t7 = t2 * Real(0.028);
-  const Real t9 = t4 + Real(0.03635);
-  const Real t10 = t1 * Real(0.007);
-  const Real t12 = t10 - Real(0.03273);
-  const Real t15 = t6 * t6 + t7 * t7;
-  const Real t16 = t7 / t15;
-  const Real t17 = t6 / t15;
-  const Real t19 = t17 * Real(0.035);
-  const Real t20 = t16 * Real(0.035);
-  const Real t27 = t12 * t17 + t9 * t16;
-  const Real t28 = t12 * t16 - t9 * t17;
-  const Real t31 = t20 * t28 + t19 * t27;
-  const Real t34 = t19 * t28 - t20 * t27;
-  const Real t43 = (t27 * t27 + (t28 * t28 + (t20 * t20 + t19 * t19 - Real(1.0)))) * Real(0.5);
-  const Real t46 = t34 * t34 + t31 * t31;
-  const Real t47 = t43 * t43;
-  const Real t49 = detail::square_root(t46 - t47);
-  const Real t58 = (t34 * t49 + t31 * t43) / t46;
-  const Real t59 = (t31 * t49 - t34 * t43) / t46;
-  const Real t65 = t19 * t58 - (t27 - t20 * t59);
-  const Real t67 = t20 * t58 - (t28 + t19 * t59);
-  Real t70, t69;
-  detail::sine_cosine(state.y[1], t70, t69);
-  const Real t79 = state.y[1] + detail::arctangent2(t65 * t70 - t67 * t69, -(t67 * t70 + t65 * t69));
-  Real t82, t81;
-  detail::sine_cosine(state.y[2], t82, t81);
-  const Real t90 = state.y[2] + detail::arctangent2(t58 * t82 + t59 * t81, t59 * t82 - t58 * t81);
-  const Real t106 = (t10 + Real(0.028) * (t2 * t67 + t1 * t65) + Real(0.00227)) * Real(25.0);
-  const Real t107 = (t4 - Real(0.028) * (t1 * t67 - t2 * t65) + Real(0.06934)) * Real(25.0);
-  const Real t110 = t106 * t106 + t107 * t107;
-  const Real t113 = Real(0.5) * (t110 - Real(1.25));
-  const Real t114 = t113 * t113;
-  const Real t121 = Real(1.0) - t114 * Real(4.0);
-  const Real t123 = detail::square_root(-(t114 - Real(0.25))) * Real(2.0);
-  const Real t124 = t113 * Real(2.0);
-  const Real t127 = t123 * Real(0.5);
-  const Real t128 = Real(1.0) + t124 * Real(0.5);
-  const Real t129 = t106 * t127;
-  const Real t130 = t107 * t128;
-  const Real t132 = t107 * t127;
-  const Real t133 = t106 * t128;
-  const Real t135 = (t129 - t130) / t110;
-  const Real t136 = (t132 + t133) / t110;
+  const Real t6 = t2 * Real(0.007) + Real(0.03635);
+  const Real t9 = t1 * Real(0.007) - Real(0.03273);
+  const Real t11 = t2 * Real(35.714285714285715);
+  const Real t12 = t1 * Real(35.714285714285715);
+  const Real t14 = t12 * Real(0.035);
+  const Real t15 = t11 * Real(0.035);
+  const Real t20 = t9 * t12 + t6 * t11;
+  const Real t23 = t9 * Real(44.642857142857146);
+  const Real t24 = t6 * Real(44.642857142857146);
+  const Real t28 = t20 * Real(0.25) + Real(1.775877168367347);
+  const Real t32 = t20 * Real(0.7812500000000001) + Real(4.67070990114796);
+  const Real t33 = t28 * t28;
+  const Real t35 = detail::square_root(t32 - t33);
+  const Real t45 = (t24 * t35 - t23 * t28) / t32;
+  const Real t46 = (t23 * t35 + t24 * t28) / t32;
+  const Real t52 = t14 * t45 + (t20 - t15 * t46);
+  const Real t54 = t15 * t45 + (t9 * t11 - t6 * t12 + t14 * t46);
+  Real t57, t56;
+  detail::sine_cosine(state.y[1], t57, t56);
+  const Real t65 = detail::arctangent2(-(t52 * t57 - t54 * t56), t54 * t57 + t52 * t56);
+  Real t69, t68;
+  detail::sine_cosine(state.y[2], t69, t68);
+  const Real t77 = detail::arctangent2(-(t45 * t69 - t46 * t68), t46 * t69 + t45 * t68);
+  const Real t82 = t45 * Real(0.8750000000000001) - Real(0.875);
+  const Real t85 = t46 * Real(0.8750000000000001) + Real(0.82475);
+  const Real t88 = t82 * t82 + t85 * t85;
+  const Real t90 = t88 - Real(1.25);
+  const Real t92 = t90 * Real(0.5);
+  const Real t94 = Real(0.25) - t92 * t92;
+  const Real t95 = detail::square_root(t94);
+  const Real t97 = t94 * Real(4.0);
+  const Real t99 = t95 * Real(2.0);
+  const Real t100 = Real(1.0) + t92;
+  const Real t101 = t82 * t95;
+  const Real t102 = t85 * t100;
+  const Real t104 = t85 * t95;
+  const Real t105 = t82 * t100;
+  const Real t107 = (t101 + t102) / t88;
+  const Real t108 = (t104 - t105) / t88;
+  Real t111, t110;
+  detail::sine_cosine(state.y[3], t111, t110);
+  const Real t119 = detail::arctangent2(-(t107 * t111 - t108 * t110), t108 * t111 + t107 * t110);
+  Real t123, t122;
+  detail::sine_cosine(state.y[4], t123, t122);
+  const Real t131 = detail::arctangent2(-(t99 * t123 - t90 * t122), t90 * t123 + t99 * t122);
+  const Real t135 = (t104 + t105) / t88;
+  const Real t136 = (t101 - t102) / t88;
   Real t139, t138;
-  detail::sine_cosine(state.y[3], t139, t138);
-  const Real t147 = state.y[3] + detail::arctangent2(t135 * t139 + t136 * t138, t136 * t139 - t135 * t138);
-  Real t150, t149;
-  detail::sine_cosine(state.y[4], t150, t149);
-  const Real t159 = state.y[4] + detail::arctangent2(-(t123 * t150 - t124 * t149), t124 * t150 + t123 * t149);
-  const Real t162 = (t132 - t133) / t110;
-  const Real t163 = (t129 + t130) / t110;
-  Real t166, t165;
-  detail::sine_cosine(state.y[5], t166, t165);
-  const Real t175 = state.y[5] + detail::arctangent2(-(t162 * t166 - t163 * t165), t163 * t166 + t162 * t165);
-  Real t178, t177;
-  detail::sine_cosine(state.y[6], t178, t177);
-  const Real t188 = state.y[6] + detail::arctangent2(-(t123 * t178 + t124 * t177), -(t124 * t178 - t123 *
-      t177));
-  const Real t189 = state.y[1] - t79;
-  const Real t191 = state.y[2] - t90;
-  const Real t193 = state.y[3] - t147;
-  const Real t195 = state.y[4] - t159;
-  const Real t197 = state.y[5] - t175;
-  const Real t199 = state.y[6] - t188;
-  closed.y[1] = t79;
-  closed.y[2] = t90;
-  closed.y[3] = t147;
-  closed.y[4] = t159;
-  closed.y[5] = t175;
-  closed.y[6] = t188;
-  closed.regularity = t121 * ((Real(1.0) - t47 / t46) * t121);
-  closed.opening = t199 * t199 + (t197 * t197 + (t195 * t195 + (t193 * t193 + (t189 * t189 + t191 * t191))));
+  detail::sine_cosine(state.y[5], t139, t138);
+  const Real t148 = detail::arctangent2(-(t135 * t139 + t136 * t138), -(t136 * t139 - t135 * t138));
+  Real t152, t151;
+  detail::sine_cosine(state.y[6], t152, t151);
+  const Real t161 = detail::arctangent2(-(t99 * t152 + t90 * t151), -(t90 * t152 - t99 * t151));
+  closed.y[1] = state.y[1] + t65;
+  closed.y[2] = state.y[2] + t77;
+  closed.y[3] = state.y[3] + t119;
+  closed.y[4] = state.y[4] + t131;
+  closed.y[5] = state.y[5] + t148;
+  closed.y[6] = state.y[6] + t161;
+  closed.regularity = -(t97 * ((t33 / t32 - Real(1.0)) * t97));
+  closed.opening = t161 * t161 + (t148 * t148 + (t131 * t131 + (t119 * t119 + (t65 * t65 + t77 * t77))));
   state = closed;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[6], Real (&g_rate)[6])
     noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
+  Real t36, t37, s5, c5;
+  detail::sine_cosine2(state.y[4], t36, t37, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
   const Real loop3ax2_x = loop3ax_x - Real(0.03635);
   const Real loop3bx_x = c1 * Real(0.028);
@@ -1014,10 +1112,6 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
   const Real loop3d_y = loop3ax2_y + loop3bx1_y;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t36, t37;
-  detail::sine_cosine(state.y[4], t36, t37);
   const Real s4 = c3 * t36 + s3 * t37;
   const Real c4 = s3 * t36 - c3 * t37;
   const Real r4_x = c3 * Real(0.04);
@@ -1030,8 +1124,6 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real loop4ax4_y = r4_y + loop4ax_y;
   const Real loop4ax3_y = loop4ax4_y - Real(0.00227);
   const Real loop4d_y = loop3bx1_y - loop4ax3_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t62, t63;
   detail::sine_cosine(state.y[6], t62, t63);
   const Real s6 = c5 * t62 + s5 * t63;
@@ -1046,70 +1138,30 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real loop6ax6_y = r6_y - loop6ax_y;
   const Real loop6ax5_y = Real(0.00227) + loop6ax6_y;
   const Real loop6d_y = loop3bx1_y + loop6ax5_y;
-  const Real t84 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
-  const Real t88 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
-  const Real t92 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
-  const Real t96 = t84 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
-  const Real t102 = loop3bx1_y - loop3bx_y * t96;
-  const Real t104 = loop3bx1_x + loop3bx_x * t96;
-  const Real t122 = t96 * state.z[0];
-  const Real t123 = t84 * (loop3bx_x * loop3bx1_y + loop3bx1_x * loop3bx_y) * state.z[0];
-  const Real t124 = t88 * (loop4ax_x * t102 - loop4ax_y * t104) * state.z[0];
-  const Real t125 = t88 * (loop4ax4_x * t102 - loop4ax4_y * t104) * state.z[0];
-  const Real t126 = t92 * (loop6ax_x * t102 + loop6ax_y * t104) * state.z[0];
-  const Real t127 = t92 * (loop6ax6_x * t102 + loop6ax6_y * t104) * state.z[0];
-  const Real loop3am2t_x = loop3ax_y * t123;
-  const Real loop3bm1t_x = loop3bx_y * t122;
-  const Real loop3bm0t_x = loop3bx1_y * state.z[0];
-  const Real loop3bm0v_x = loop3bm1t_x - loop3bm0t_x;
-  const Real loop3dv_x = loop3am2t_x - loop3bm0v_x;
-  const Real loop3am2t_y = loop3ax_x * t123;
-  const Real loop3bm1t_y = loop3bx_x * t122;
-  const Real loop3bm0t_y = loop3bx1_x * state.z[0];
-  const Real loop3bm0v_y = loop3bm1t_y + loop3bm0t_y;
-  const Real loop3dv_y = loop3am2t_y - loop3bm0v_y;
-  const Real loop4am4t_x = loop4ax_y * t125;
-  const Real loop4am3t_x = loop4ax4_y * t124;
-  const Real loop4am3v_x = loop4am4t_x - loop4am3t_x;
-  const Real loop4dv_x = loop3bm0v_x - loop4am3v_x;
-  const Real loop4am4t_y = loop4ax_x * t125;
-  const Real loop4am3t_y = loop4ax4_x * t124;
-  const Real loop4am3v_y = loop4am4t_y - loop4am3t_y;
-  const Real loop4dv_y = loop3bm0v_y + loop4am3v_y;
-  const Real loop6am6t_x = loop6ax_y * t127;
-  const Real loop6am5t_x = loop6ax6_y * t126;
-  const Real loop6am5v_x = loop6am6t_x - loop6am5t_x;
-  const Real loop6dv_x = loop3bm0v_x - loop6am5v_x;
-  const Real loop6am6t_y = loop6ax_x * t127;
-  const Real loop6am5t_y = loop6ax6_x * t126;
-  const Real loop6am5v_y = loop6am6t_y - loop6am5t_y;
-  const Real loop6dv_y = loop3bm0v_y - loop6am5v_y;
   g[0] = -loop3d_x;
   g[1] = loop3d_y;
   g[2] = loop4d_x;
   g[3] = loop4d_y;
   g[4] = loop6d_x;
   g[5] = loop6d_y;
-  g_rate[0] = -loop3dv_x;
-  g_rate[1] = -loop3dv_y;
-  g_rate[2] = loop4dv_x;
-  g_rate[3] = loop4dv_y;
-  g_rate[4] = loop6dv_x;
-  g_rate[5] = loop6dv_y;
+  g_rate[0] = Real(0.0);
+  g_rate[1] = Real(0.0);
+  g_rate[2] = Real(0.0);
+  g_rate[3] = Real(0.0);
+  g_rate[4] = Real(0.0);
+  g_rate[5] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real
     (&lambda)[6]) noexcept {
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  Real t4, t5;
-  detail::sine_cosine(state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2, s3, c3;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
+  Real t30, t31, s5, c5;
+  detail::sine_cosine2(state.y[4], t30, t31, state.y[5], s5, c5);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.007);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real loop3ax_x = s2 * Real(0.035);
   const Real loop3bx_x = c1 * Real(0.028);
   const Real loop3bx1_x = r1_x + loop3bx_x;
@@ -1117,10 +1169,6 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real loop3ax_y = Real(0.035) * c2;
   const Real loop3bx_y = s1 * Real(0.028);
   const Real loop3bx1_y = r1_y - loop3bx_y;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  Real t30, t31;
-  detail::sine_cosine(state.y[4], t30, t31);
   const Real s4 = c3 * t30 + s3 * t31;
   const Real c4 = s3 * t30 - c3 * t31;
   const Real r4_x = c3 * Real(0.04);
@@ -1129,8 +1177,6 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real r4_y = s3 * Real(0.04);
   const Real loop4ax_y = c4 * Real(0.02);
   const Real loop4ax4_y = r4_y + loop4ax_y;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   Real t50, t51;
   detail::sine_cosine(state.y[6], t50, t51);
   const Real s6 = c5 * t50 + s5 * t51;
@@ -1142,101 +1188,90 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real loop6ax_y = Real(0.02) * s6;
   const Real loop6ax6_y = r6_y - loop6ax_y;
   const Real t68 = Real(1.0) / (loop3ax_x * loop3bx_y - loop3bx_x * loop3ax_y);
-  const Real t72 = Real(1.0) / (loop4ax_x * loop4ax4_y - loop4ax4_x * loop4ax_y);
-  const Real t76 = Real(1.0) / (loop6ax_x * loop6ax6_y - loop6ax6_x * loop6ax_y);
-  const Real t80 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
-  const Real t84 = t68 * (loop3bx_x * loop3bx1_y + loop3bx1_x * loop3bx_y);
-  const Real t86 = loop3bx1_y - loop3bx_y * t80;
-  const Real t88 = loop3bx1_x + loop3bx_x * t80;
-  const Real t92 = t72 * (loop4ax_x * t86 - loop4ax_y * t88);
-  const Real t96 = t72 * (loop4ax4_x * t86 - loop4ax4_y * t88);
-  const Real t100 = t76 * (loop6ax_x * t86 + loop6ax_y * t88);
-  const Real t104 = t76 * (loop6ax6_x * t86 + loop6ax6_y * t88);
-  const Real t106 = t80 * state.z[0];
-  const Real t107 = t84 * state.z[0];
-  const Real t108 = t92 * state.z[0];
-  const Real t109 = t96 * state.z[0];
-  const Real t110 = t100 * state.z[0];
-  const Real t111 = t104 * state.z[0];
-  const Real loop3am2t_x = loop3ax_y * t107;
-  const Real loop3bm1t_x = loop3bx_y * t106;
-  const Real loop3bm0t_x = loop3bx1_y * state.z[0];
-  const Real loop3am2t_y = loop3ax_x * t107;
-  const Real loop3am2a_x = t107 * loop3am2t_y;
-  const Real loop3bm1t_y = loop3bx_x * t106;
-  const Real loop3bm1a_x = t106 * loop3bm1t_y;
-  const Real loop3bm0t_y = loop3bx1_x * state.z[0];
-  const Real loop3bm0b_y = loop3bm0t_y + loop3bm1t_y * Real(2.0);
+  const Real t71 = Real(1.0) / (t31 * Real(0.0008));
+  const Real t73 = Real(1.0) / (t51 * Real(0.0008));
+  const Real t77 = t68 * (loop3ax_x * loop3bx1_y + loop3bx1_x * loop3ax_y);
+  const Real t80 = t4 * t68 * Real(0.00019600000000000002);
+  const Real t82 = loop3bx1_y - loop3bx_y * t77;
+  const Real t83 = loop3ax_x * t80;
+  const Real t87 = t71 * (loop4ax_x * t82 - loop4ax_y * t83);
+  const Real t91 = t71 * (loop4ax4_x * t82 - loop4ax4_y * t83);
+  const Real t95 = t73 * (loop6ax_x * t82 + loop6ax_y * t83);
+  const Real t99 = t73 * (loop6ax6_x * t82 + loop6ax6_y * t83);
+  const Real t101 = t77 * state.z[0];
+  const Real t102 = t80 * state.z[0];
+  const Real t103 = t87 * state.z[0];
+  const Real t104 = t91 * state.z[0];
+  const Real t105 = t95 * state.z[0];
+  const Real t106 = t99 * state.z[0];
+  const Real loop3am2t_x = loop3ax_y * t102;
+  const Real loop3bm1t_x = loop3bx_y * t101;
+  const Real loop3am2t_y = loop3ax_x * t102;
+  const Real loop3am2a_x = t102 * loop3am2t_y;
+  const Real loop3bm1t_y = loop3bx_x * t101;
+  const Real loop3bm1a_x = t101 * loop3bm1t_y;
+  const Real loop3bm0b_y = loop3am2t_y + loop3bm1t_y;
   const Real loop3bm0a_x = loop3bm1a_x + state.z[0] * loop3bm0b_y;
   const Real loop3da_x = loop3am2a_x - loop3bm0a_x;
-  const Real loop3am2a_y = t107 * loop3am2t_x;
-  const Real loop3bm1a_y = t106 * loop3bm1t_x;
-  const Real loop3bm0b_x = loop3bm0t_x - loop3bm1t_x * Real(2.0);
-  const Real loop3bm0a_y = loop3bm1a_y - state.z[0] * loop3bm0b_x;
+  const Real loop3am2a_y = t102 * loop3am2t_x;
+  const Real loop3bm1a_y = t101 * loop3bm1t_x;
+  const Real loop3bm0b_x = loop3am2t_x + loop3bm1t_x;
+  const Real loop3bm0a_y = loop3bm1a_y + state.z[0] * loop3bm0b_x;
   const Real loop3da_y = loop3am2a_y - loop3bm0a_y;
-  const Real loop4am4t_x = loop4ax_y * t109;
-  const Real loop4am3t_x = loop4ax4_y * t108;
-  const Real loop4am4t_y = loop4ax_x * t109;
-  const Real loop4am4a_x = t109 * loop4am4t_y;
-  const Real loop4am3t_y = loop4ax4_x * t108;
-  const Real loop4am3b_y = loop4am3t_y - Real(2.0) * loop4am4t_y;
-  const Real loop4am4a_y = t109 * loop4am4t_x;
-  const Real loop4am3b_x = loop4am3t_x - Real(2.0) * loop4am4t_x;
-  const Real loop6am6t_x = loop6ax_y * t111;
-  const Real loop6am5t_x = loop6ax6_y * t110;
-  const Real loop6am6t_y = loop6ax_x * t111;
-  const Real loop6am6a_x = t111 * loop6am6t_y;
-  const Real loop6am5t_y = loop6ax6_x * t110;
-  const Real loop6am5b_y = loop6am5t_y - Real(2.0) * loop6am6t_y;
-  const Real loop6am6a_y = t111 * loop6am6t_x;
-  const Real loop6am5b_x = loop6am5t_x - Real(2.0) * loop6am6t_x;
-  const Real t160 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
-  const Real t164 = t68 * (loop3bx_x * loop3da_x + loop3bx_y * loop3da_y);
-  const Real t165 = loop3bx_y * t160;
-  const Real t168 = loop4am4a_x - (loop3bm0a_x - (t108 * loop4am3b_y - t165));
-  const Real t169 = loop3bx_x * t160;
-  const Real t172 = loop4am4a_y + (loop3bm0a_y + (t108 * loop4am3b_x - t169));
-  const Real t176 = t72 * (loop4ax_x * t168 + loop4ax_y * t172);
-  const Real t180 = t72 * (loop4ax4_x * t168 + loop4ax4_y * t172);
-  const Real t183 = loop6am6a_x + (loop3bm0a_x - (t110 * loop6am5b_y - t165));
-  const Real t186 = loop6am6a_y + (loop3bm0a_y - (t110 * loop6am5b_x + t169));
-  const Real t190 = t76 * (loop6ax_x * t183 + loop6ax_y * t186);
-  const Real t194 = t76 * (loop6ax6_x * t183 + loop6ax6_y * t186);
+  const Real loop4am4t_x = loop4ax_y * t104;
+  const Real loop4am4t_y = loop4ax_x * t104;
+  const Real loop4am4a_x = t104 * loop4am4t_y;
+  const Real loop4am3b_y = loop3am2t_y - loop4am4t_y;
+  const Real loop4am4a_y = t104 * loop4am4t_x;
+  const Real loop4am3b_x = loop3am2t_x + loop4am4t_x;
+  const Real loop6am6t_x = loop6ax_y * t106;
+  const Real loop6am6t_y = loop6ax_x * t106;
+  const Real loop6am6a_x = t106 * loop6am6t_y;
+  const Real loop6am5b_y = loop3am2t_y - loop6am6t_y;
+  const Real loop6am6a_y = t106 * loop6am6t_x;
+  const Real loop6am5b_x = loop3am2t_x - loop6am6t_x;
+  const Real t142 = t68 * (loop3ax_x * loop3da_x + loop3ax_y * loop3da_y);
+  const Real t146 = t68 * (loop3bx_x * loop3da_x + loop3bx_y * loop3da_y);
+  const Real t147 = loop3bx_y * t142;
+  const Real t150 = t147 - (t103 * loop4am3b_y - (loop3bm0a_x - loop4am4a_x));
+  const Real t151 = loop3bx_x * t142;
+  const Real t154 = t151 + (t103 * loop4am3b_x - (loop3bm0a_y + loop4am4a_y));
+  const Real t158 = t71 * (loop4ax_x * t150 + loop4ax_y * t154);
+  const Real t162 = t71 * (loop4ax4_x * t150 + loop4ax4_y * t154);
+  const Real t165 = t147 - (t105 * loop6am5b_y - (loop3bm0a_x + loop6am6a_x));
+  const Real t168 = t151 + (t105 * loop6am5b_x - (loop3bm0a_y + loop6am6a_y));
+  const Real t172 = t73 * (loop6ax_x * t165 - loop6ax_y * t168);
+  const Real t176 = t73 * (loop6ax6_x * t165 - loop6ax6_y * t168);
   const Real h6b_x = c6 * Real(4.08774e-05);
   const Real h6b_y = s6 * Real(4.08774e-05);
-  const Real D6 = r6_x * h6b_x + r6_y * h6b_y;
-  const Real J5 = D6 + (D6 - Real(4.0618678476e-05));
+  const Real J5 = t50 * Real(3.2701920000000002e-06) - Real(4.0618678476e-05);
   const Real h4b_x = s4 * Real(4.08774e-05);
   const Real h4b_y = c4 * Real(4.08774e-05);
-  const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
-  const Real J3 = D4 + (D4 + Real(6.6455736e-05) + Real(8.03380146e-07));
+  const Real J3 = t30 * Real(3.2701920000000002e-06) + Real(6.725911614599999e-05);
   const Real h1b_x = c1 * Real(4.1975e-05);
   const Real h1b_y = s1 * Real(4.1975e-05);
-  const Real D1 = r1_x * h1b_x - r1_y * h1b_y;
-  const Real v1P_x = t80 * h1b_y;
-  const Real v1P_y = t80 * h1b_x;
-  const Real v1L_z = t80 * Real(9.237125e-07);
-  const Real v3L_z = t92 * J3;
-  const Real v4o_x = r4_y * t92;
-  const Real v4o_y = r4_x * t92;
-  const Real v4P_x = t96 * h4b_y;
-  const Real v4P_y = t96 * h4b_x;
-  const Real v4L_z = t96 * Real(8.03380146e-07);
-  const Real v5L_z = t100 * J5;
-  const Real v6o_x = r6_y * t100;
-  const Real v6o_y = r6_x * t100;
-  const Real v6P_x = t104 * h6b_y;
-  const Real v6P_y = t104 * h6b_x;
-  const Real v6L_z = t104 * Real(8.03380146e-07);
-  const Real T6 = r1_y * v1P_x - (v1L_z + (r1_x * v1P_y - (t92 * v4L_z + (v4o_x * v4P_x + (v4o_y * v4P_y -
-      (t100 * v6L_z - (v6o_x * v6P_x + (v6o_y * v6P_y - (t104 * v6L_z + (t96 * v4L_z + (t80 * v1L_z + (D1 +
-      (D1 + (Real(9.237125e-07) + (t84 * t84 * Real(1.6170147425e-05) + (t92 * v3L_z - t100 * v5L_z) +
-      Real(2.4094568e-06)))))))) * Real(0.5)))))))));
+  const Real D1 = t5 * Real(2.93825e-07);
+  const Real v1L_z = t77 * Real(9.237125e-07);
+  const Real v3L_z = t87 * J3;
+  const Real v4o_x = r4_y * t87;
+  const Real v4o_y = r4_x * t87;
+  const Real v4P_x = t91 * h4b_y;
+  const Real v4P_y = t91 * h4b_x;
+  const Real v4L_z = t91 * Real(8.03380146e-07);
+  const Real v5L_z = t95 * J5;
+  const Real v6o_x = r6_y * t95;
+  const Real v6o_y = r6_x * t95;
+  const Real v6P_x = t99 * h6b_y;
+  const Real v6P_y = t99 * h6b_x;
+  const Real v6L_z = t99 * Real(8.03380146e-07);
+  const Real T6 = t77 * D1 - ((t99 * v6L_z + (t91 * v4L_z + (t77 * v1L_z - (D1 + (D1 - (t80 * t80 *
+      Real(1.6170147425e-05) + (t87 * v3L_z - t95 * v5L_z)))))) + Real(3.3331693e-06)) * Real(0.5) - (v6o_y *
+      v6P_y + (v6o_x * v6P_x - (t95 * v6L_z - (v4o_y * v4P_y + (v4o_x * v4P_x - (v1L_z - t87 * v4L_z)))))));
   const Real spring1bx_x = s2 * Real(0.018) + c2 * Real(0.02);
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
   const Real spring1d_x = spring1bx_x - Real(0.05035);
   const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
-  const Real spring1_ll = spring1d_x * spring1d_x + (spring1d_y * spring1d_y + Real(1e-18));
+  const Real spring1_ll = spring1d_x * spring1d_x + spring1d_y * spring1d_y + Real(1e-18);
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
@@ -1246,79 +1281,79 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = r1_y * rW0w22;
-  const Real zw_1 = t106 * (state.z[0] + (state.z[0] + t106));
-  const Real rdf1_x = t160 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t160 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t160 * Real(9.237125e-07);
-  const Real rdn2_z = t164 * Real(1.6170147425e-05);
-  const Real rdn3_z = t176 * J3;
-  const Real rW3w22 = t108 * t108;
-  const Real t321 = r4_x * rW3w22;
-  const Real ra4o_x = r4_y * t176 - t321;
-  const Real t324 = r4_y * rW3w22;
-  const Real ra4o_y = r4_x * t176 + t324;
-  const Real zw_4 = t109 * (t108 + (t108 - t109));
-  const Real t333 = h4b_x * zw_4;
-  const Real rdf4_x = t180 * h4b_y - t333;
-  const Real t336 = h4b_y * zw_4;
-  const Real rdf4_y = t180 * h4b_x + t336;
-  const Real rdn4_z = t180 * Real(8.03380146e-07);
-  const Real rdn5_z = t190 * J5;
-  const Real rW5w22 = t110 * t110;
-  const Real t342 = r6_x * rW5w22;
-  const Real ra6o_x = r6_y * t190 + t342;
-  const Real t345 = r6_y * rW5w22;
-  const Real ra6o_y = r6_x * t190 - t345;
-  const Real zw_6 = t111 * (t110 + (t110 + t111));
-  const Real t354 = h6b_x * zw_6;
-  const Real rdf6_x = t194 * h6b_y + t354;
-  const Real t357 = h6b_y * zw_6;
-  const Real rdf6_y = t194 * h6b_x - t357;
-  const Real rdn6_z = t194 * Real(8.03380146e-07);
-  const Real rn6c_z = rdn6_z - (rdn5_z + (r6_x * rdf6_y + r6_y * rdf6_x));
-  const Real rn4c_z = rdn4_z - (rdn3_z - (r4_x * rdf4_y + r4_y * rdf4_x));
-  const Real rQ1_0 = h1b_y * ra1o_x + (h1b_x * ra1o_y + rdn1_z);
-  const Real rQ4_0 = h4b_x * ra4o_y + (t176 * Real(8.03380146e-07) + (h4b_y * ra4o_x - rdn4_z));
-  const Real rQ6_0 = h6b_x * ra6o_y - (t190 * Real(8.03380146e-07) - (h6b_y * ra6o_x - rdn6_z));
+  const Real zw_1 = t101 * (t101 + (state.z[0] + state.z[0]));
+  const Real rdf1_x = t142 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t142 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t142 * Real(9.237125e-07);
+  const Real rdn2_z = t146 * Real(1.6170147425e-05);
+  const Real rdn3_z = t158 * J3;
+  const Real rW3w22 = t103 * t103;
+  const Real t291 = r4_x * rW3w22;
+  const Real ra4o_x = r4_y * t158 + t291;
+  const Real t294 = r4_y * rW3w22;
+  const Real ra4o_y = r4_x * t158 - t294;
+  const Real zw_4 = t104 * (t104 - (t103 + t103));
+  const Real t303 = h4b_x * zw_4;
+  const Real rdf4_x = t162 * h4b_y - t303;
+  const Real t306 = h4b_y * zw_4;
+  const Real rdf4_y = t162 * h4b_x + t306;
+  const Real rdn4_z = t162 * Real(8.03380146e-07);
+  const Real rdn5_z = t172 * J5;
+  const Real rW5w22 = t105 * t105;
+  const Real t312 = r6_x * rW5w22;
+  const Real ra6o_x = r6_y * t172 - t312;
+  const Real t315 = r6_y * rW5w22;
+  const Real ra6o_y = r6_x * t172 + t315;
+  const Real zw_6 = t106 * (t106 + (t105 + t105));
+  const Real t324 = h6b_x * zw_6;
+  const Real rdf6_x = t176 * h6b_y - t324;
+  const Real t327 = h6b_y * zw_6;
+  const Real rdf6_y = t176 * h6b_x + t327;
+  const Real rdn6_z = t176 * Real(8.03380146e-07);
+  const Real rn6c_z = r6_y * rdf6_x + (r6_x * rdf6_y + (rdn5_z - rdn6_z));
+  const Real rn4c_z = r4_y * rdf4_x + (r4_x * rdf4_y - (rdn3_z - rdn4_z));
+  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y + h1b_y * ra1o_x);
+  const Real rQ4_0 = rdn4_z - (h4b_y * ra4o_x + (t158 * Real(8.03380146e-07) + h4b_x * ra4o_y));
+  const Real rQ6_0 = rdn6_z - (h6b_y * ra6o_x - (t172 * Real(8.03380146e-07) - h6b_x * ra6o_y));
   const Real tau_2_0 = push2_0 + rdn2_z;
-  const Real t397 = Real(1.0) / (Real(2.0) * T6) * (r1_x * rdf1_y + (rdn1_z - (r1_y * rdf1_x - (t80 * rQ1_0 +
-      (t84 * tau_2_0 - (t92 * rn4c_z + (t96 * rQ4_0 + (t100 * rn6c_z - t104 * rQ6_0)))) + model.drive))));
-  const Real t402 = t176 + t92 * t397;
-  const Real t404 = t180 + t96 * t397;
-  const Real t406 = t190 - t100 * t397;
-  const Real t408 = t194 - t104 * t397;
-  const Real ra1o_x_2 = ra1o_x - r1_y * t397;
-  const Real ra1o_y_2 = ra1o_y + r1_x * t397;
-  const Real rdn2_z_2 = Real(1.6170147425e-05) * (t164 + t84 * t397);
-  const Real rdn3_z_2 = J3 * t402;
-  const Real ra4o_x_2 = t321 - r4_y * t402;
-  const Real ra4o_y_2 = t324 + r4_x * t402;
-  const Real rdf4_x_2 = t333 - h4b_y * t404;
-  const Real rdf4_y_2 = t336 + h4b_x * t404;
-  const Real rdn4_z_2 = Real(8.03380146e-07) * t404;
-  const Real rdn5_z_2 = J5 * t406;
-  const Real ra6o_x_2 = t342 + r6_y * t406;
-  const Real ra6o_y_2 = t345 - r6_x * t406;
-  const Real rdf6_x_2 = t354 + h6b_y * t408;
-  const Real rdf6_y_2 = t357 - h6b_x * t408;
-  const Real rdn6_z_2 = Real(8.03380146e-07) * t408;
-  const Real rn6c_z_2 = rdn6_z_2 - (rdn5_z_2 - (r6_x * rdf6_y_2 - r6_y * rdf6_x_2));
-  const Real rn4c_z_2 = rdn4_z_2 - (rdn3_z_2 - (r4_x * rdf4_y_2 - r4_y * rdf4_x_2));
-  const Real rQ4_0_2 = h4b_x * ra4o_y_2 + (Real(8.03380146e-07) * t402 - (h4b_y * ra4o_x_2 + rdn4_z_2));
-  const Real rQ6_0_2 = h6b_x * ra6o_y_2 + (Real(8.03380146e-07) * t406 - (h6b_y * ra6o_x_2 - rdn6_z_2));
+  const Real t367 = (t99 * rQ6_0 - (t95 * rn6c_z - (t91 * rQ4_0 - (t87 * rn4c_z + (t80 * tau_2_0 + (t77 *
+      rQ1_0 - (r1_y * rdf1_x - (rdn1_z + r1_x * rdf1_y))))))) - model.drive) / (T6 * Real(2.0));
+  const Real t372 = t158 + t87 * t367;
+  const Real t374 = t162 + t91 * t367;
+  const Real t376 = t172 + t95 * t367;
+  const Real t378 = t176 + t99 * t367;
+  const Real ra1o_x_2 = ra1o_x + r1_y * t367;
+  const Real ra1o_y_2 = ra1o_y - r1_x * t367;
+  const Real rdn2_z_2 = Real(1.6170147425e-05) * (t146 - t80 * t367);
+  const Real rdn3_z_2 = J3 * t372;
+  const Real ra4o_x_2 = t291 + r4_y * t372;
+  const Real ra4o_y_2 = t294 - r4_x * t372;
+  const Real rdf4_x_2 = t303 - h4b_y * t374;
+  const Real rdf4_y_2 = t306 + h4b_x * t374;
+  const Real rdn4_z_2 = Real(8.03380146e-07) * t374;
+  const Real rdn5_z_2 = J5 * t376;
+  const Real ra6o_x_2 = t312 - r6_y * t376;
+  const Real ra6o_y_2 = t315 + r6_x * t376;
+  const Real rdf6_x_2 = t324 - h6b_y * t378;
+  const Real rdf6_y_2 = t327 + h6b_x * t378;
+  const Real rdn6_z_2 = Real(8.03380146e-07) * t378;
+  const Real rn6c_z_2 = r6_y * rdf6_x_2 - (r6_x * rdf6_y_2 + (rdn5_z_2 - rdn6_z_2));
+  const Real rn4c_z_2 = r4_y * rdf4_x_2 - (r4_x * rdf4_y_2 - (rdn3_z_2 - rdn4_z_2));
+  const Real rQ4_0_2 = rdn4_z_2 - (h4b_y * ra4o_x_2 + (Real(8.03380146e-07) * t372 - h4b_x * ra4o_y_2));
+  const Real rQ6_0_2 = rdn6_z_2 + (h6b_y * ra6o_x_2 + (Real(8.03380146e-07) * t376 - h6b_x * ra6o_y_2));
   const Real tau_2_0_2 = push2_0 + rdn2_z_2;
-  const Real t462 = t76 * (loop6ax_x * rn6c_z_2 + loop6ax6_x * rQ6_0_2);
-  const Real t466 = t76 * (loop6ax_y * rn6c_z_2 + loop6ax6_y * rQ6_0_2);
-  const Real t470 = t72 * (loop4ax_x * rn4c_z_2 + loop4ax4_x * rQ4_0_2);
-  const Real t474 = t72 * (loop4ax_y * rn4c_z_2 + loop4ax4_y * rQ4_0_2);
-  const Real t485 = h1b_y * ra1o_x_2 + (h1b_x * ra1o_y_2 + (Real(9.237125e-07) * (t80 * t397 + (t160 + t397))
-      - (loop3bx_x * (t466 - t474) - loop3bx_y * (t462 + t470))));
-  lambda[0] = t68 * (loop3ax_x * t485 + loop3bx_x * tau_2_0_2);
-  lambda[1] = -(t68 * (loop3ax_y * t485 + loop3bx_y * tau_2_0_2));
-  lambda[2] = -t470;
-  lambda[3] = -t474;
-  lambda[4] = -t462;
-  lambda[5] = t466;
+  const Real t432 = t73 * (loop6ax_x * rn6c_z_2 + loop6ax6_x * rQ6_0_2);
+  const Real t436 = t73 * (loop6ax_y * rn6c_z_2 + loop6ax6_y * rQ6_0_2);
+  const Real t440 = t71 * (loop4ax_x * rn4c_z_2 + loop4ax4_x * rQ4_0_2);
+  const Real t444 = t71 * (loop4ax_y * rn4c_z_2 + loop4ax4_y * rQ4_0_2);
+  const Real t455 = loop3bx_y * (t432 + t440) - (loop3bx_x * (t436 - t444) + (Real(9.237125e-07) * (t367 -
+      (t142 - t77 * t367)) - (h1b_x * ra1o_y_2 + h1b_y * ra1o_x_2)));
+  lambda[0] = t68 * (loop3ax_x * t455 + loop3bx_x * tau_2_0_2);
+  lambda[1] = -(t68 * (loop3ax_y * t455 + loop3bx_y * tau_2_0_2));
+  lambda[2] = -t440;
+  lambda[3] = -t444;
+  lambda[4] = -t432;
+  lambda[5] = t436;
 }
 
 template <class Real> JOURDAIN_FUNCTION

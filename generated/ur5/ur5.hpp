@@ -11,13 +11,15 @@
 // - bodies are rigid; joints are ideal and without limits
 // - time is a sum of three numbers, which 7 additions move
 // Left out
-// - base inertial parameters: what a joint's motion does not feel is counted with the parent (34 operations
+// - base inertial parameters: what a joint's motion does not feel is counted with the parent (30 operations
 //   of forward_dynamics)
 // - parallel axes: consecutive parallel joints share one frame and the sine and cosine of the summed angle
-//   (111 operations of forward_dynamics)
+//   (113 operations of forward_dynamics)
 // - snapped rotations: rotations by multiples of a right angle are permutations (86 operations of
 //   forward_dynamics)
 // - common factors: factors that several terms of a sum share are multiplied once (7 operations of
+//   forward_dynamics)
+// - constant factors: constant factors of a product are multiplied with each other first (4 operations of
 //   forward_dynamics)
 // - Z: dy/dt = z, so there is no position_rate
 // - t: nothing depends on time but what the caller gives
@@ -31,7 +33,7 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.4e-16 of the
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.2e-16 of the
 //   sum of absolute terms, other errors are 5.5e-16 of their scale; cond(M) up to 2.6e+02
 // - the symbolic equations (M, k_bar, q_bar, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start
@@ -154,12 +156,12 @@ template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
-/// 92 operations (48 mul, 44 add and sub, 0 div), 10 sin and cos.
+/// 85 operations (47 mul, 38 add and sub, 0 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[6][6]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 216 operations (131 mul, 85 add and sub, 0 div), 10 sin and cos.
+/// 205 operations (126 mul, 79 add and sub, 0 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[6]) noexcept;
 
@@ -171,20 +173,20 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 385 operations (204 mul, 176 add and sub, 5 div), 10 sin and cos.
+/// 360 operations (198 mul, 157 add and sub, 5 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[6]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 294 operations (164 mul, 130 add and sub, 0 div), 10 sin and cos.
+/// 271 operations (153 mul, 118 add and sub, 0 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept;
 
 /// Kinetic energy, J.
-/// 146 operations (82 mul, 64 add and sub, 0 div), 10 sin and cos.
+/// 140 operations (82 mul, 58 add and sub, 0 div), 10 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -195,7 +197,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 1707 operations. For inputs sampled at the stages include ur5_kernels.hpp and pass a function of the state
+/// 1607 operations. For inputs sampled at the stages include ur5_kernels.hpp and pass a function of the state
 /// instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

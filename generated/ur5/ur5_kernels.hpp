@@ -9,12 +9,135 @@ namespace ur5 {
 
 namespace detail {
 
-// The functions of the C library for built-in types; those of another number type are found by its namespace.
+// Functions for built-in types; those of another number type are found by its namespace.
+//
+// Sine and cosine of doubles of at most 2^30 by sums and products alone: one cost for all of them, less than 1 ulp off,
+// exactly odd and even. x = n pi/2 + h + l with pi/2 in parts of 23 bits, whose products with n are exact, so that
+// fused operations change them in nothing (Cody and Waite, Software Manual for the Elementary Functions, 1980);
+// polynomials by fpminimax of Sollya. They need round to nearest. V is double or a vector, I unsigned integers of its
+// size.
+#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if defined(JOURDAIN_LIBRARY_SINES)
 JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
-JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
+template <class V, class I> JOURDAIN_FUNCTION
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned long long one = 1, zero = 0;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
+  const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = __builtin_bit_cast(I, shifted);
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w));
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+JOURDAIN_FUNCTION inline bool is_in_range(double x) noexcept { return x <= 1073741824.0 && x >= -1073741824.0; }
+JOURDAIN_FUNCTION inline void sine_cosine(const double& x, double& s, double& c) noexcept {
+  if (is_in_range(x)) {
+    sine_cosine_in_range<double, unsigned long long>(x, s, c);
+  } else {
+    s = ::sin(x);
+    c = ::cos(x);
+  }
+}
+JOURDAIN_FUNCTION inline double sine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
+  double s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+// Both of any finite float at one cost, less than 1 ulp off, exactly odd and even: the quadrant and what is left of it
+// by 96 bits of 2/pi times the 24 of x in integers (Payne and Hanek, ACM SIGNUM Newsletter 18, 1983), then polynomials.
+JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
+                                   283381887, 2488855287};
+  const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
+  const unsigned keep = ((a - 1061752796) >> 31) - 1;
+  const unsigned above = (a >> 23) - 126, begin = above & ((above >> 31) - 1), m = (a & 8388607) | 8388608;
+  const unsigned word = begin / 32, left = 32 - (begin & 31);
+  const unsigned long long first = two_over_pi[word], second = two_over_pi[word + 1];
+  const unsigned long long third = two_over_pi[word + 2], fourth = two_over_pi[word + 3];
+  const unsigned w0 = static_cast<unsigned>(((first << 32) | second) >> left);
+  const unsigned w1 = static_cast<unsigned>(((second << 32) | third) >> left);
+  const unsigned w2 = static_cast<unsigned>(((third << 32) | fourth) >> left);
+  const unsigned long long wide = 1, mantissa = m;
+  const unsigned long long turns = ((mantissa * w0) << 32) + mantissa * w1 + ((mantissa * w2) >> 32);
+  const unsigned n = static_cast<unsigned>((turns + (wide << 61)) >> 62) & keep;
+  const unsigned long long rest = turns - (static_cast<unsigned long long>(n) << 62), negative = rest >> 63;
+  const unsigned long long f = (rest ^ (0 - negative)) + negative, f1 = f >> 32, f0 = f & 4294967295;
+  const unsigned long long r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const float r1 = static_cast<float>(static_cast<int>(r >> 38)) * 1.1920929e-07f;
+  const float r2 = static_cast<float>(static_cast<int>((r >> 14) & 16777215)) * 7.1054274e-15f;
+  const float r3 = static_cast<float>(static_cast<int>(r & 16383)) * 4.3368087e-19f;
+  const float sum = r1 + r2;
+  const float h = __builtin_bit_cast(float, (__builtin_bit_cast(unsigned, sum) & keep) | (a & ~keep));
+  const float l = __builtin_bit_cast(float, __builtin_bit_cast(unsigned, (r2 - (sum - r1)) + r3) & keep);
+  const float z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const float odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const float even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const unsigned flip = (static_cast<unsigned>(negative) << 31) & keep;
+  const unsigned sine_bits = __builtin_bit_cast(unsigned, h + (h * z * odd + l * w)) ^ flip;
+  const unsigned cosine_bits = __builtin_bit_cast(unsigned, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const unsigned exchange = (sine_bits ^ cosine_bits) & (0 - (n & one));
+
+  if (a < 2139095040) {
+    s = __builtin_bit_cast(float, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+    c = __builtin_bit_cast(float, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+  } else {
+    s = x - x;
+    c = x - x;
+  }
+}
+JOURDAIN_FUNCTION inline float sine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return s;
+}
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
+  float s, c;
+  sine_cosine(x, s, c);
+  return c;
+}
+#endif
+JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
 template <class Real> JOURDAIN_FUNCTION
 Real sine(const Real& x) noexcept { return sin(x); }
@@ -28,6 +151,67 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
+
+// Of several angles at once, where a number type has that.
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
@@ -83,44 +267,37 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, t16, t17, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 - s2 * t17;
   const Real c3 = s2 * t16 + c2 * t17;
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   const Real S5b_t = s5 * Real(0.016685526854599998);
-  const Real S5b_xx = s5 * S5b_t + Real(0.0002254731454000014);
+  const Real t32 = s5 * S5b_t;
+  const Real S5b_xx = t32 + Real(0.0002254731454000014);
   const Real S5b_xy = c5 * S5b_t;
-  const Real S5c_xx = S5b_xx - Real(0.0171364731454) - Real(0.10971);
+  const Real S5c_xx = S5b_xx - Real(0.1268464731454);
   const Real S4b_zz = S5c_xx - Real(0.126621);
-  const Real S4b_d = S5c_xx + Real(0.126621);
-  const Real S4b_t = s4 * S4b_d;
+  const Real S4b_t = s4 * t32;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
   const Real S4b_xy = c4 * S4b_t;
   const Real S4b_xz = c4 * S5b_xy;
   const Real S4b_yz = s4 * S5b_xy;
   const Real S4c_xx = S5b_xx + Real(0.004608836229750008);
   const Real S4c_xz = S4b_yz - Real(0.0019412038252500001);
-  const Real S4c_yy = Real(0.10971) - S4b_xx;
-  const Real S3b_zz = S4c_xx + S4c_yy;
-  const Real S3b_d = S4c_xx - S4c_yy;
+  const Real S4c_yy = S4b_xx - Real(0.10971);
+  const Real S3b_zz = S4c_xx - S4c_yy;
+  const Real S3b_d = S4c_xx + S4c_yy;
   const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real t70 = s2 * h3b_x * Real(0.39225);
-  const Real D3 = t70 + Real(0.39225) * (c2 * h3b_y);
+  const Real D3 = t16 * Real(0.00697606230375);
   const Real E3 = S3b_zz - D3;
   const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
@@ -129,20 +306,20 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real h2_y = h3b_y - h2b_y;
   const Real J2 = D3 - E3 - Real(0.59565195167475);
   const Real S2_xz = S3b_xz + S2b_xz;
-  const Real t89 = r2_x * h2_x;
-  const Real D2 = t89 - r2_y * h2_y;
+  const Real t86 = r2_x * h2_x;
+  const Real D2 = t86 - r2_y * h2_y;
   const Real E2 = J2 + D2;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
   const Real J1 = D2 + E2 - Real(1.7701269384100002);
   const Real S1_xz = S2_xz + S1b_xz;
-  const Real S0b_zz = Real(2.0) * (t70 + t89) + (S4b_xx - (S4b_zz + (s1 * s1 * Real(1.7550195384100002) + (s2
-      * s2 * Real(0.59155695167475) + (s3 * S3b_t + (S4c_xx + J1) + Real(0.0020475)) + Real(0.0075537)) -
-      Real(0.00333))) + Real(0.29520861244275));
+  const Real S0b_zz = J1 + (S4c_xx + (s3 * S3b_t + (s2 * s2 * Real(0.59155695167475) + (s1 * s1 *
+      Real(1.7550195384100002) + (S4b_zz - (S4b_xx + Real(2.0) * (s2 * h3b_x * Real(0.39225) + t86))))))) -
+      Real(0.28893741244275);
   const Real p_3_2n_z = r2_y * h3b_y + (E3 - r2_x * h3b_x);
   const Real p_4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
   const Real p_5_5N_y = c4 * Real(0.0171364731454);
   const Real p_5_4N_x = Real(0.0171364731454) * (s3 * s4);
-  M[0][0] = S0b_zz;
+  M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = S1_xz;
   M[0][2] = M[2][0] = S2_xz;
   M[0][3] = M[3][0] = S3b_xz;
@@ -167,77 +344,66 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, t16, t17, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 - s2 * t17;
   const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   const Real S5b_t = s5 * Real(0.016685526854599998);
-  const Real S5b_xx = s5 * S5b_t + Real(0.0002254731454000014);
+  const Real t35 = s5 * S5b_t;
+  const Real S5b_xx = t35 + Real(0.0002254731454000014);
   const Real S5b_xy = c5 * S5b_t;
   const Real S5b_yy = S5b_xx - Real(0.0171364731454);
   const Real S5c_xx = S5b_yy - Real(0.10971);
   const Real S4b_zz = S5c_xx - Real(0.126621);
-  const Real S4b_d = S5c_xx + Real(0.126621);
-  const Real S4b_t = s4 * S4b_d;
+  const Real S4b_t = s4 * t35;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
   const Real S4b_xy = c4 * S4b_t;
   const Real S4b_xz = c4 * S5b_xy;
   const Real S4b_yz = s4 * S5b_xy;
   const Real S4b_yy = S4b_zz - S4b_xx;
-  const Real S4c_xx = S5b_xx + Real(0.004608836229750008);
   const Real S4c_xz = S4b_yz - Real(0.0019412038252500001);
-  const Real S4c_yy = Real(0.10971) - S4b_xx;
-  const Real S3b_d = S4c_xx - S4c_yy;
+  const Real S3b_d = S5b_xx + S4b_xx - Real(0.10510116377025);
   const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
   const Real S3b_xy = S4b_xz - c3 * S3b_t;
   const Real S3b_yz = c3 * S4b_xy + s3 * S4c_xz;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real S3c_xy = S3b_xy - (r3_x * h3b_y + r3_y * h3b_x);
   const Real S2b_xy = s2 * c2 * Real(0.59155695167475);
   const Real S2b_yz = c2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
   const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real S2_xy = S3c_xy + S2b_xy;
+  const Real S2_xy = S2b_xy - (r3_y * h3b_x - (S3b_xy - r3_x * h3b_y));
   const Real S2_yz = S3b_yz + S2b_yz;
-  const Real S2c_xy = S2_xy - (r2_x * h2_y - r2_y * h2_x);
   const Real S1b_xy = c1 * s1 * Real(1.7550195384100002);
   const Real S1b_yz = c1 * Real(0.4084992088750001);
-  const Real S1_xy = S2c_xy - S1b_xy;
+  const Real S1_xy = S1b_xy - (r2_y * h2_x + (S2_xy - r2_x * h2_y));
   const Real S1_yz = S2_yz - S1b_yz;
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
   const Real w4pp_y = s3 * state.z[0];
   const Real w4_z = w4pp_x + state.z[4];
-  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
+  const Real t107 = c4 * w4pp_y;
+  const Real w5pp_x = t107 - s4 * w3_z;
   const Real kKy1 = S1_xy * state.z[0];
   const Real kQp1 = state.z[0] * kKy1;
   const Real zz_1 = state.z[1] * state.z[1];
-  const Real kdn1_x = S1_yz * zz_1 - Real(2.0) * (state.z[1] * kKy1);
-  const Real kal1o_y = state.z[1] * state.z[0];
   const Real kW1w00 = state.z[0] * state.z[0];
   const Real kW1U1_y = zz_1 + kW1w00;
   const Real ka2o_x = r2_x * zz_1;
   const Real ka2o_y = r2_y * kW1U1_y;
-  const Real kKy2 = S2_xy * state.z[0] - S2_yz * state.z[1];
-  const Real kQp2 = state.z[0] * kKy2 + h2_x * ka2o_y + h2_y * ka2o_x + S2_yz * kal1o_y;
+  const Real t120 = S2_xy * state.z[0];
+  const Real kKy2 = t120 - S2_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -245,14 +411,12 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kdf2_x = h2_x * zw_2;
   const Real kdf2_y = h2_y * zw_2;
   const Real kdf2_z = z2_2 * kax2;
-  const Real kdn2_x = S2_yz * zz_2 - kKy2 * z2_2;
-  const Real kal2o_y = kal1o_y + state.z[2] * state.z[0];
   const Real kW2w22 = w2_z * w2_z;
   const Real kW2U1_y = kW1w00 + kW2w22;
   const Real ka3o_x = ka2o_x + r3_x * kW2w22;
   const Real ka3o_y = ka2o_y - r3_y * kW2U1_y;
-  const Real kKy3 = S3b_xy * state.z[0] - S3b_yz * w2_z;
-  const Real kQp3 = state.z[0] * kKy3 + S3b_yz * kal2o_y + h3b_x * ka3o_y + h3b_y * ka3o_x;
+  const Real t141 = S3b_xy * state.z[0];
+  const Real kKy3 = t141 - S3b_yz * w2_z;
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w2_z + w3_z);
@@ -260,57 +424,47 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kdf3_x = h3b_x * zw_3;
   const Real kdf3_y = h3b_y * zw_3;
   const Real kdf3_z = z2_3 * kax3;
-  const Real kdn3_x = S3b_yz * zz_3 - kKy3 * z2_3;
-  const Real kal3o_y = kal2o_y + state.z[3] * state.z[0];
+  const Real kal3o_y = w3_z * state.z[0];
   const Real kal4p_x = s3 * kal3o_y;
   const Real kal4p_y = c3 * kal3o_y;
-  const Real kKx4 = S4b_xx * w4pp_y - S4b_xy * w3_z - S4b_xz * w4pp_x;
-  const Real kKy4 = S4b_xy * w4pp_y - S4b_yz * w4pp_x - S4b_yy * w3_z;
-  const Real kQp4 = S4b_zz * kal4p_x - S4b_xz * kal4p_y + w3_z * kKx4 + w4pp_y * kKy4;
+  const Real kKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
+  const Real kKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
-  const Real kdn4_x = S4b_yz * zz_4 - kKy4 * z2_4;
-  const Real kdn4_y = S4b_xz * zz_4 - kKx4 * z2_4;
   const Real kal4o_x = kal4p_y - w3_z * state.z[4];
-  const Real kal4o_y = w4pp_y * state.z[4];
-  const Real kal5p_y = c4 * kal4o_y + s4 * kal4o_x;
+  const Real kal5p_y = state.z[4] * t107 + s4 * kal4o_x;
   const Real kKx5 = S5b_xx * w4_z + S5b_xy * w5pp_x;
   const Real kKy5 = S5b_xy * w4_z - S5b_yy * w5pp_x;
-  const Real kQp5 = Real(0.0171364731454) * kal5p_y + w4_z * kKy5 - w5pp_x * kKx5;
+  const Real kQp5 = w5pp_x * kKx5 - (Real(0.0171364731454) * kal5p_y + w4_z * kKy5);
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real kdn5_x = kKy5 * z2_5;
   const Real kdn5_y = kKx5 * z2_5;
   const Real kn4b_x = c4 * kdn5_y;
   const Real kn4b_y = s4 * kdn5_y;
-  const Real kn4_x = kdn4_x + kn4b_x;
-  const Real kn4_y = kdn4_y - kn4b_y;
-  const Real kn3b_x = c3 * kdn5_x - s3 * kn4_x;
-  const Real kn3_x = kdn3_x + kn3b_x;
+  const Real kn4_x = kn4b_x + (S4b_yz * zz_4 + kKy4 * z2_4);
+  const Real kn4_y = kn4b_y - (S4b_xz * zz_4 + kKx4 * z2_4);
   const Real kf3c_x = kdf2_x + kdf3_x;
   const Real kf3c_y = kdf2_y + kdf3_y;
   const Real kf3c_z = kdf2_z + kdf3_z;
-  const Real kn3c_x = kn3_x + (kdn2_x + r3_y * kdf3_z);
-  const Real kn3c_z = kn4_y + (r3_x * kdf3_y - r3_y * kdf3_x);
-  const Real kn2c_x = kn3c_x + (kdn1_x - r2_y * kf3c_z);
-  const Real kn2c_z = kn3c_z + (r2_x * kf3c_y + r2_y * kf3c_x);
-  const Real kQ1_0 = kQp1 - kn2c_z;
-  const Real kQ2_0 = kQp2 - kn3c_z;
-  const Real kQ3_0 = kQp3 - kn4_y;
-  const Real kQ4_0 = kQp4 - kdn5_x;
-  k[0] = kn2c_x;
-  k[1] = kQ1_0;
+  const Real kn3c_z = r3_y * kdf3_x + (kn4_y - r3_x * kdf3_y);
+  const Real kn2c_x = r2_y * kf3c_z - (Real(2.0) * (state.z[1] * kKy1) + (S1_yz * zz_1 + (r3_y * kdf3_z -
+      (kKy2 * z2_2 - (S2_yz * zz_2 - (s3 * kn4_x - (c3 * kdn5_x + (S3b_yz * zz_3 - kKy3 * z2_3))))))));
+  const Real kQ1_0 = r2_y * kf3c_x + (r2_x * kf3c_y + (kQp1 - kn3c_z));
+  const Real kQ2_0 = state.z[0] * t120 + (kn3c_z + (h2_x * ka2o_y + h2_y * ka2o_x));
+  const Real kQ3_0 = kn4_y + (h3b_y * ka3o_x + (state.z[0] * t141 + h3b_x * ka3o_y));
+  const Real kQ4_0 = kdn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 - (S4b_zz * kal4p_x - S4b_xz * kal4p_y)));
+  k[0] = -kn2c_x;
+  k[1] = -kQ1_0;
   k[2] = kQ2_0;
   k[3] = kQ3_0;
-  k[4] = -kQ4_0;
-  k[5] = -kQp5;
+  k[4] = kQ4_0;
+  k[5] = kQp5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&q)[6]) noexcept {
-  Real t3, c1;
-  detail::sine_cosine(state.y[1], t3, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real t3, c1, t4, t5;
+  detail::sine_cosine2(state.y[1], t3, c1, state.y[2], t4, t5);
   const Real c2 = t3 * t4 - c1 * t5;
   Real t13, t14;
   detail::sine_cosine(state.y[3], t13, t14);
@@ -334,32 +488,26 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&zdot)[6])
     noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, t16, t17, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 - s2 * t17;
   const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   const Real S5b_t = s5 * Real(0.016685526854599998);
-  const Real S5b_xx = s5 * S5b_t + Real(0.0002254731454000014);
+  const Real t35 = s5 * S5b_t;
+  const Real S5b_xx = t35 + Real(0.0002254731454000014);
   const Real S5b_xy = c5 * S5b_t;
   const Real S5b_yy = S5b_xx - Real(0.0171364731454);
   const Real S5c_xx = S5b_yy - Real(0.10971);
   const Real S4b_zz = S5c_xx - Real(0.126621);
-  const Real S4b_d = S5c_xx + Real(0.126621);
-  const Real S4b_t = s4 * S4b_d;
+  const Real S4b_t = s4 * t35;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
   const Real S4b_xy = c4 * S4b_t;
   const Real S4b_xz = c4 * S5b_xy;
@@ -381,29 +529,30 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real h2b_y = c2 * Real(1.598759275);
   const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real S2_xy = S2b_xy - (r3_y * h3b_x - (S3b_xy - r3_x * h3b_y));
+  const Real S2_xy = r3_x * h3b_y - (S3b_xy - (r3_y * h3b_x - S2b_xy));
   const Real S2_yz = S3b_yz + S2b_yz;
   const Real S1b_t = s1 * Real(1.7550195384100002);
   const Real S1b_xy = c1 * S1b_t;
   const Real S1b_yz = c1 * Real(0.4084992088750001);
   const Real h1b_y = c1 * Real(4.4329225);
   const Real h1_y = h2_y + h1b_y;
-  const Real S1_xy = S1b_xy - (r2_y * h2_x + (S2_xy - r2_x * h2_y));
+  const Real S1_xy = r2_x * h2_y + (S2_xy - (r2_y * h2_x - S1b_xy));
   const Real S1_yz = S2_yz - S1b_yz;
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
   const Real w4pp_y = s3 * state.z[0];
   const Real w4_z = w4pp_x + state.z[4];
-  const Real w5pp_x = c4 * w4pp_y - s4 * w3_z;
+  const Real t111 = c4 * w4pp_y;
+  const Real w5pp_x = t111 - s4 * w3_z;
   const Real bKy1 = S1_xy * state.z[0];
   const Real zz_1 = state.z[1] * state.z[1];
-  const Real bal1o_y = state.z[1] * state.z[0];
   const Real bW1w00 = state.z[0] * state.z[0];
   const Real bW1U1_y = zz_1 + bW1w00;
   const Real ba2o_x = Real(9.81) + r2_x * zz_1;
   const Real ba2o_y = r2_y * bW1U1_y;
-  const Real bKy2 = S2_xy * state.z[0] - S2_yz * state.z[1];
+  const Real t127 = S2_xy * state.z[0];
+  const Real bKy2 = t127 + S2_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
@@ -411,12 +560,12 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bdf2_x = h2_x * zw_2;
   const Real bdf2_y = h2_y * zw_2;
   const Real bdf2_z = z2_2 * bax2;
-  const Real bal2o_y = bal1o_y + state.z[2] * state.z[0];
   const Real bW2w22 = w2_z * w2_z;
   const Real bW2U1_y = bW1w00 + bW2w22;
   const Real ba3o_x = ba2o_x + r3_x * bW2w22;
   const Real ba3o_y = ba2o_y - r3_y * bW2U1_y;
-  const Real bKy3 = S3b_xy * state.z[0] - S3b_yz * w2_z;
+  const Real t148 = S3b_xy * state.z[0];
+  const Real bKy3 = t148 - S3b_yz * w2_z;
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w2_z + w3_z);
@@ -424,16 +573,15 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bdf3_x = h3b_x * zw_3;
   const Real bdf3_y = h3b_y * zw_3;
   const Real bdf3_z = z2_3 * bax3;
-  const Real bal3o_y = bal2o_y + state.z[3] * state.z[0];
+  const Real bal3o_y = w3_z * state.z[0];
   const Real bal4p_x = s3 * bal3o_y;
   const Real bal4p_y = c3 * bal3o_y;
-  const Real bKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
-  const Real bKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
+  const Real bKx4 = S4b_xy * w3_z - (S4b_xx * w4pp_y - S4b_xz * w4pp_x);
+  const Real bKy4 = S4b_yz * w4pp_x - (S4b_xy * w4pp_y - S4b_yy * w3_z);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
   const Real bal4o_x = bal4p_y - w3_z * state.z[4];
-  const Real bal4o_y = w4pp_y * state.z[4];
-  const Real bal5p_y = c4 * bal4o_y + s4 * bal4o_x;
+  const Real bal5p_y = state.z[4] * t111 + s4 * bal4o_x;
   const Real bKx5 = S5b_xx * w4_z + S5b_xy * w5pp_x;
   const Real bKy5 = S5b_xy * w4_z - S5b_yy * w5pp_x;
   const Real z2_5 = Real(2.0) * state.z[5];
@@ -441,112 +589,99 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bdn5_y = bKx5 * z2_5;
   const Real bn4b_x = c4 * bdn5_y;
   const Real bn4b_y = s4 * bdn5_y;
-  const Real bn4_x = bn4b_x + (S4b_yz * zz_4 + bKy4 * z2_4);
-  const Real bn4_y = bn4b_y - (S4b_xz * zz_4 + bKx4 * z2_4);
+  const Real bn4_x = bKy4 * z2_4 + (S4b_yz * zz_4 + bn4b_x);
+  const Real bn4_y = bKx4 * z2_4 + (S4b_xz * zz_4 - bn4b_y);
   const Real bf3c_x = bdf2_x + bdf3_x;
   const Real bf3c_y = bdf2_y + bdf3_y;
   const Real bf3c_z = bdf2_z + bdf3_z;
-  const Real bn3c_z = r3_y * bdf3_x + (bn4_y - r3_x * bdf3_y);
-  const Real b_4 = input.u[4] + (bdn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 - (S4b_zz * bal4p_x - S4b_xz *
-      bal4p_y))));
-  const Real b_5 = input.u[5] + (w5pp_x * bKx5 - (Real(0.0171364731454) * bal5p_y + w4_z * bKy5));
+  const Real bn3c_z = r3_x * bdf3_y + (bn4_y - r3_y * bdf3_x);
+  const Real b_4 = S4b_xz * bal4p_y - (S4b_zz * bal4p_x - (w3_z * bKx4 + (w4pp_y * bKy4 + (bdn5_x +
+      input.u[4]))));
+  const Real b_5 = w4_z * bKy5 + (Real(0.0171364731454) * bal5p_y - (w5pp_x * bKx5 + input.u[5]));
   const Real S3b_zz = S4c_xx + S4c_yy;
-  const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
-  const Real t252 = r3_x * h3b_x;
-  const Real D3 = t252 + r3_y * h3b_y;
+  const Real D3 = t16 * Real(0.00697606230375);
   const Real E3 = S3b_zz - D3;
   const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real J2 = D3 - E3 - Real(0.59565195167475);
-  const Real S2_xz = S3b_xz + S2b_xz;
-  const Real t262 = r2_x * h2_x;
-  const Real D2 = t262 - r2_y * h2_y;
-  const Real E2 = J2 + D2;
+  const Real t250 = r2_x * h2_x;
+  const Real D2 = t250 - r2_y * h2_y;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
-  const Real J1 = D2 + E2 - Real(1.7701269384100002);
+  const Real J1 = D2 + (J2 + D2) - Real(1.7701269384100002);
   const Real p4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
   const Real p5_5N_y = c4 * Real(0.0171364731454);
   const Real p5_4N_x = Real(0.0171364731454) * (s3 * s4);
   const Real L_5_3 = p5_5N_y * Real(58.355064750790525);
-  const Real t281 = p5_5N_y * L_5_3;
-  const Real t282 = p5_4N_x * L_5_3;
+  const Real t269 = p5_5N_y * L_5_3;
   const Real L_5_0 = p5_4N_x * Real(58.355064750790525);
-  const Real t285 = b_5 * L_5_3;
   const Real invD_4 = Real(1.0) / S4b_zz;
   const Real L_4_3 = S4b_yz * invD_4;
-  const Real t290 = S4b_yz * L_4_3;
-  const Real H4_3_3 = t290 + (S3b_zz - t281);
-  const Real H4_3_2 = t290 + (E3 - t281);
-  const Real H4_3_1 = t290 - (t281 - (r2_y * h3b_y + (E3 - r2_x * h3b_x)));
-  const Real t299 = p4_4N_x * L_4_3;
-  const Real H4_3_0 = t299 - (S3b_xz - t282);
+  const Real t278 = S4b_yz * L_4_3;
+  const Real H4_3_3 = t269 - (S3b_zz + t278);
+  const Real H4_3_2 = D3 + H4_3_3;
+  const Real H4_3_1 = r2_x * h3b_x - (r2_y * h3b_y - H4_3_2);
+  const Real H4_3_0 = p5_4N_x * L_5_3 + (s3 * S4b_xy - (c3 * S4c_xz - p4_4N_x * L_4_3));
   const Real L_4_0 = p4_4N_x * invD_4;
-  const Real t304 = b_4 * L_4_3;
-  const Real u4_3 = t304 - (t285 - (input.u[3] + (bn4_y + (h3b_y * ba3o_x + (h3b_x * ba3o_y + (state.z[0] *
-      bKy3 + S3b_yz * bal2o_y))))));
+  const Real t293 = b_5 * L_5_3 + b_4 * L_4_3;
+  const Real u4_3 = state.z[0] * t148 + (h3b_x * ba3o_y + (h3b_y * ba3o_x - (bn4_y - (input.u[3] + t293))));
   const Real invD_3 = Real(1.0) / H4_3_3;
   const Real L_3_2 = H4_3_2 * invD_3;
-  const Real H3_2_2 = H4_3_2 * L_3_2 - (t290 - (J2 + t281));
-  const Real H3_2_1 = H4_3_1 * L_3_2 - (t290 - (E2 + t281));
-  const Real H3_2_0 = H4_3_0 * L_3_2 - (t299 - (S2_xz - t282));
+  const Real t303 = J2 + (t269 - t278);
+  const Real H3_2_2 = H4_3_2 * L_3_2 - t303;
+  const Real H3_2_1 = t303 + (D2 - H4_3_1 * L_3_2);
+  const Real t309 = S2b_xz - H4_3_0;
+  const Real H3_2_0 = H4_3_0 * L_3_2 + t309;
   const Real L_3_1 = H4_3_1 * invD_3;
   const Real L_3_0 = H4_3_0 * invD_3;
-  const Real u3_2 = u4_3 * L_3_2 - (t304 - (t285 - (input.u[2] + (bn3c_z + (S2_yz * bal1o_y + (h2_y * ba2o_x +
-      (state.z[0] * bKy2 + h2_x * ba2o_y)))))));
+  const Real u3_2 = state.z[0] * t127 - (h2_x * ba2o_y + (h2_y * ba2o_x - (bn3c_z - (input.u[2] + (t293 - u4_3
+      * L_3_2)))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = H3_2_1 * L_2_1 - (H4_3_1 * L_3_1 - (t290 - (J1 + t281)));
-  const Real H2_1_0 = H3_2_0 * L_2_1 - (H4_3_0 * L_3_1 - (t299 + (t282 - (S2_xz + S1b_xz))));
+  const Real H2_1_1 = t269 + (J1 - (t278 + (H4_3_1 * L_3_1 - H3_2_1 * L_2_1)));
+  const Real H2_1_0 = t309 + (S1b_xz + (H4_3_0 * L_3_1 + H3_2_0 * L_2_1));
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real u2_1 = u3_2 * L_2_1 - (u4_3 * L_3_1 - (t304 - (t285 - (input.u[1] - (r2_y * bf3c_x + (r2_x *
-      bf3c_y - (bn3c_z + (h1_y * Real(9.81) - state.z[0] * bKy1))))))));
+  const Real u2_1 = state.z[0] * bKy1 - (h1_y * Real(9.81) - (bn3c_z + (r2_x * bf3c_y + (r2_y * bf3c_x -
+      (input.u[1] + (t293 - (u4_3 * L_3_1 + u3_2 * L_2_1)))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = Real(2.0) * (t252 + t262) - (H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0 -
-      (p4_4N_x * L_4_0 - (p5_4N_x * L_5_0 + (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx + J1)
-      + Real(0.0020475)) + Real(0.0075537)) - Real(0.00333)) - Real(0.29520861244275)))))));
-  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u4_3 * L_3_0 - (b_4 * L_4_0 + (b_5 * L_5_0 - (input.u[0] -
-      (r2_y * bf3c_z - (Real(2.0) * (state.z[1] * bKy1) + (S1_yz * zz_1 + (r3_y * bdf3_z - (bKy2 * z2_2 -
-      (S2_yz * zz_2 - (s3 * bn4_x - (c3 * bdn5_x + (S3b_yz * zz_3 - bKy3 * z2_3))))))))))))));
-  const Real invD_0 = Real(1.0) / H1_0_0;
-  const Real y_0 = u1_0 * invD_0;
+  const Real H1_0_0 = Real(2.0) * (r3_x * h3b_x + t250) + (H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0
+      + (p4_4N_x * L_4_0 - (p5_4N_x * L_5_0 + (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx +
+      J1)))))))))) + Real(0.28893741244275);
+  const Real u1_0 = bKy3 * z2_3 - (S3b_yz * zz_3 + (c3 * bdn5_x - (s3 * bn4_x - (S2_yz * zz_2 + (bKy2 * z2_2 +
+      (r3_y * bdf3_z + (S1_yz * zz_1 + (Real(2.0) * (state.z[1] * bKy1) - (r2_y * bf3c_z - (input.u[0] + (b_5
+      * L_5_0 - (b_4 * L_4_0 + (u4_3 * L_3_0 - (u3_2 * L_2_0 - u2_1 * L_1_0))))))))))))));
+  const Real y_0 = u1_0 / H1_0_0;
   const Real y_1 = u2_1 * invD_1;
-  const Real zdot_1 = y_1 + L_1_0 * y_0;
+  const Real zdot_1 = y_1 - L_1_0 * y_0;
   const Real y_2 = u3_2 * invD_2;
-  const Real zdot_2 = L_2_0 * y_0 + (y_2 - L_2_1 * zdot_1);
+  const Real zdot_2 = L_2_1 * zdot_1 - (y_2 - L_2_0 * y_0);
   const Real y_3 = u4_3 * invD_3;
-  const Real zdot_3 = L_3_0 * y_0 - (L_3_1 * zdot_1 - (y_3 - L_3_2 * zdot_2));
+  const Real zdot_3 = L_3_2 * zdot_2 + (y_3 + (L_3_1 * zdot_1 - L_3_0 * y_0));
   const Real y_4 = b_4 * invD_4;
-  const Real t429 = zdot_3 + (zdot_1 + zdot_2);
-  const Real zdot_4 = L_4_3 * t429 - (y_4 + L_4_0 * y_0);
+  const Real t402 = zdot_2 + (zdot_1 - zdot_3);
+  const Real zdot_4 = L_4_0 * y_0 - (y_4 - L_4_3 * t402);
   const Real y_5 = b_5 * Real(58.355064750790525);
-  const Real zdot_5 = L_5_3 * t429 - (y_5 - L_5_0 * y_0);
-  zdot[0] = y_0;
+  const Real zdot_5 = L_5_0 * y_0 - (y_5 + L_5_3 * t402);
+  zdot[0] = -y_0;
   zdot[1] = zdot_1;
   zdot[2] = zdot_2;
-  zdot[3] = zdot_3;
+  zdot[3] = -zdot_3;
   zdot[4] = zdot_4;
-  zdot[5] = -zdot_5;
+  zdot[5] = zdot_5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[6], Real (&tau)[6])
     noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, t16, t17, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 - s2 * t17;
   const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   const Real w2_z = state.z[1] + state.z[2];
@@ -565,19 +700,20 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala2o_x = r2_x * ala2w22 - (r2_y * zdot[1] - Real(9.81));
   const Real ala2o_y = r2_x * zdot[1] + r2_y * ala2U1_y;
   const Real ala2o_z = r2_y * zdot[0] - r2_x * ala2U2_x;
-  const Real ala2A_y = ala1A_y + state.z[2] * state.z[0];
+  const Real ala2A_y = w2_z * state.z[0];
   const Real ala2A_z = zdot[1] + zdot[2];
-  const Real ala3w02 = w2_z * state.z[0];
   const Real ala3w22 = w2_z * w2_z;
   const Real ala3U1_y = ala2w00 + ala3w22;
-  const Real ala3U2_x = ala2A_y + ala3w02;
   const Real ala3o_x = r3_y * ala2A_z + (ala2o_x + r3_x * ala3w22);
   const Real ala3o_y = r3_y * ala3U1_y - (ala2o_y + r3_x * ala2A_z);
-  const Real ala3o_z = r3_x * ala3U2_x - (ala2o_z - r3_y * zdot[0]);
-  const Real ala3A_y = ala2A_y + state.z[3] * state.z[0];
+  const Real ala3o_z = r3_x * ala2A_y * Real(2.0) - (ala2o_z - r3_y * zdot[0]);
+  const Real ala3A_y = w3_z * state.z[0];
   const Real ala3A_z = ala2A_z + zdot[3];
-  const Real ala4np_x = c3 * zdot[0] - s3 * ala3A_y;
-  const Real ala4np_y = s3 * zdot[0] + c3 * ala3A_y;
+  const Real t91 = c3 * zdot[0];
+  const Real t92 = s3 * ala3A_y;
+  const Real ala4np_x = t91 - t92;
+  const Real t95 = c3 * ala3A_y;
+  const Real ala4np_y = s3 * zdot[0] + t95;
   const Real ala4A_x = ala4np_y - w3_z * state.z[4];
   const Real ala4A_y = ala3A_z + w4pp_y * state.z[4];
   const Real ala4A_z = ala4np_x + zdot[4];
@@ -589,62 +725,50 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL0n_z = zdot[0] * Real(0.29853861244275);
   const Real aL1w_x = c1 * state.z[0];
   const Real aL1w_y = s1 * state.z[0];
-  const Real aL1al_y = s1 * zdot[0] + c1 * ala1A_y;
-  const Real aL1w00 = aL1w_x * aL1w_x;
+  const Real t119 = s1 * zdot[0];
+  const Real t120 = c1 * ala1A_y;
+  const Real aL1al_y = t119 + t120;
   const Real aL1w01 = aL1w_x * aL1w_y;
-  const Real aL1w02 = state.z[1] * aL1w_x;
   const Real aL1w11 = aL1w_y * aL1w_y;
-  const Real aL1w12 = state.z[1] * aL1w_y;
   const Real aL1U0_y = zdot[1] + aL1w01;
-  const Real aL1U0_z = aL1al_y - aL1w02;
   const Real aL1U1_x = zdot[1] - aL1w01;
-  const Real aL1U1_y = ala2w22 + aL1w00;
-  const Real aL1U2_x = aL1al_y + aL1w02;
-  const Real aL1U2_y = aL1w12 - (c1 * zdot[0] - s1 * ala1A_y);
-  const Real aL1U2_z = aL1w00 + aL1w11;
-  const Real aL1n_x = aL1U2_y * Real(1.7625732384100001) - (aL1U1_y - aL1U2_z) * Real(0.4084992088750001);
+  const Real aL1U2_x = t120 + aL1al_y;
+  const Real aL1n_x = ala2o_z * Real(4.1472311492000005) + (ala2w22 - aL1w11) * Real(0.4084992088750001);
   const Real aL1n_y = aL1U0_y * Real(0.4084992088750001) + aL1U2_x * Real(0.0075537);
   const Real aL2w_x = c2 * state.z[0];
   const Real aL2w_y = s2 * state.z[0];
-  const Real aL2al_y = s2 * zdot[0] - c2 * ala2A_y;
+  const Real t148 = s2 * ala2A_y;
+  const Real t149 = s2 * zdot[0];
+  const Real t150 = c2 * ala2A_y;
+  const Real aL2al_y = t149 - t150;
   const Real aL2a_x = c2 * ala2o_x + s2 * ala2o_y;
   const Real aL2w00 = aL2w_x * aL2w_x;
   const Real aL2w01 = aL2w_x * aL2w_y;
-  const Real aL2w02 = w2_z * aL2w_x;
-  const Real aL2w11 = aL2w_y * aL2w_y;
-  const Real aL2w12 = w2_z * aL2w_y;
   const Real aL2U0_y = ala2A_z - aL2w01;
-  const Real aL2U0_z = aL2al_y + aL2w02;
   const Real aL2U1_x = ala2A_z + aL2w01;
   const Real aL2U1_y = ala3w22 + aL2w00;
-  const Real aL2U2_x = aL2al_y - aL2w02;
-  const Real aL2U2_y = aL2w12 + (c2 * zdot[0] + s2 * ala2A_y);
-  const Real aL2U2_z = aL2w00 + aL2w11;
+  const Real aL2U2_x = t150 - aL2al_y;
+  const Real aL2U2_y = t148 + (c2 * zdot[0] + t148);
   const Real aL2f_x = aL2U0_y * Real(1.598759275);
   const Real aL2f_y = aL2U1_y * Real(1.598759275);
   const Real aL2f_z = aL2U2_y * Real(1.598759275);
-  const Real aL2n_x = (aL2U1_y - aL2U2_z) * Real(0.07714261911624999) - (aL2U2_y * Real(0.59360445167475) -
+  const Real aL2n_x = (ala2w00 - aL2U1_y) * Real(0.07714261911624999) + (aL2U2_y * Real(0.59360445167475) -
       ala2o_z * Real(1.598759275));
-  const Real aL2n_y = aL2U2_x * Real(0.0020475) + aL2U0_y * Real(0.07714261911624999);
+  const Real aL2n_y = aL2U2_x * Real(0.0020475) - aL2U0_y * Real(0.07714261911624999);
   const Real aL3a_y = c3 * ala3o_y - s3 * ala3o_x;
-  const Real aL3w00 = w4pp_x * w4pp_x;
   const Real aL3w01 = w4pp_x * w4pp_y;
-  const Real aL3w02 = w3_z * w4pp_x;
   const Real aL3w11 = w4pp_y * w4pp_y;
-  const Real aL3w12 = w3_z * w4pp_y;
   const Real aL3w22 = w3_z * w3_z;
   const Real aL3U0_x = aL3w11 + aL3w22;
   const Real aL3U0_y = ala3A_z + aL3w01;
   const Real aL3U1_x = ala3A_z - aL3w01;
-  const Real aL3U1_z = ala4np_x + aL3w12;
-  const Real aL3U2_x = ala4np_y + aL3w02;
-  const Real aL3U2_y = ala4np_x - aL3w12;
-  const Real aL3U2_z = aL3w00 + aL3w11;
+  const Real aL3U2_x = t95 + ala4np_y;
+  const Real aL3U2_y = t92 - ala4np_x;
   const Real aL3f_x = aL3U0_x * Real(0.017784735);
   const Real aL3f_y = aL3U1_x * Real(0.017784735);
   const Real aL3f_z = aL3U2_x * Real(0.017784735);
-  const Real aL3n_x = aL3U2_y * Real(0.10971) - aL3U1_x * Real(0.0019412038252500001);
-  const Real aL3n_y = Real(0.0019412038252500001) * (aL3U0_x - aL3U2_z) - (ala3o_z * Real(0.017784735) -
+  const Real aL3n_x = aL3U2_y * Real(0.10971) + aL3U1_x * Real(0.0019412038252500001);
+  const Real aL3n_y = Real(0.0019412038252500001) * (ala2w00 - aL3U0_x) + (ala3o_z * Real(0.017784735) -
       aL3U2_x * Real(0.004608836229750008));
   const Real aL3F_x = c3 * aL3f_x + s3 * aL3f_y;
   const Real aL3F_y = c3 * aL3f_y - s3 * aL3f_x;
@@ -670,23 +794,23 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL5n_y = aL5U2_x * Real(0.0002254731454000014);
   const Real aL5n_z = aL5U0_y * Real(0.016911) + aL5U1_x * Real(0.0002254731454000014);
   const Real aL5N_y = c5 * aL5n_y + s5 * aL5n_x;
-  const Real t290 = aL4n_x + aL5N_y;
-  const Real t292 = aL4n_y + aL5n_z;
-  const Real an4_x = c4 * t290 + s4 * t292;
+  const Real t269 = aL4n_x + aL5N_y;
+  const Real t271 = aL4n_y + aL5n_z;
+  const Real an4_x = c4 * t269 + s4 * t271;
   const Real an4_z = s5 * aL5n_y - (c5 * aL5n_x - (aL4U0_y * Real(0.126621) + Real(0.10971) * aL4U1_x));
-  const Real an3_z = c4 * t292 - (s4 * t290 + (aL3U1_z * Real(0.0019412038252500001) - (aL3U0_y *
-      Real(0.10971) + (aL3a_y * Real(0.017784735) + aL3U1_x * Real(0.004608836229750008)))));
+  const Real an3_z = c4 * t271 - (s4 * t269 + (t91 * Real(0.0019412038252500001) - (aL3U0_y * Real(0.10971) +
+      (aL3a_y * Real(0.017784735) + aL3U1_x * Real(0.004608836229750008)))));
   const Real af3c_x = aL3F_x - (c2 * aL2f_x + s2 * aL2f_y);
   const Real af3c_y = aL3F_y + (c2 * aL2f_y - s2 * aL2f_x);
   const Real af3c_z = aL2f_z - aL3f_z;
-  const Real an3c_z = r3_y * aL3F_x + (r3_x * aL3F_y - (aL2a_x * Real(1.598759275) + (aL2U0_z *
+  const Real an3c_z = r3_y * aL3F_x + (r3_x * aL3F_y - (aL2a_x * Real(1.598759275) + (t149 *
       Real(0.07714261911624999) + (aL2U0_y * Real(0.59360445167475) + (aL2U1_x * Real(0.0020475) + an3_z)))));
   const Real an2c_z = r2_y * af3c_x - (r2_x * af3c_y - (aL1U1_x * Real(0.0075537) + (aL1U0_y *
-      Real(1.7625732384100001) + (aL1U0_z * Real(0.4084992088750001) - (c1 * Real(43.48696972500001) +
+      Real(1.7625732384100001) + (t119 * Real(0.4084992088750001) - (c1 * Real(43.48696972500001) +
       an3c_z)))));
-  const Real an0_z = s3 * (aL3n_y + an4_x) + (c3 * (aL3n_x + an4_z) - (r2_y * af3c_z - (s1 * aL1n_y - (c1 *
-      aL1n_x + (r3_y * aL3f_z - (s2 * aL2n_y + (aL0n_z - c2 * aL2n_x)))))));
-  tau[0] = an0_z;
+  const Real an0_z = s3 * (aL3n_y - an4_x) + (c3 * (aL3n_x - an4_z) + (r2_y * af3c_z - (s1 * aL1n_y + (c1 *
+      aL1n_x - (r3_y * aL3f_z + (s2 * aL2n_y - (aL0n_z + c2 * aL2n_x)))))));
+  tau[0] = -an0_z;
   tau[1] = an2c_z;
   tau[2] = -an3c_z;
   tau[3] = an3_z;
@@ -696,46 +820,38 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s1, c1;
-  detail::sine_cosine(state.y[1], s1, c1);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, c1, t4, t5, t16, t17, s4, c4;
+  detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
-  Real t16, t17;
-  detail::sine_cosine(state.y[3], t16, t17);
   const Real s3 = c2 * t16 - s2 * t17;
   const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
-  const Real r3_y = c2 * Real(0.39225);
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   const Real S5b_t = s5 * Real(0.016685526854599998);
-  const Real S5b_xx = s5 * S5b_t + Real(0.0002254731454000014);
+  const Real t34 = s5 * S5b_t;
+  const Real S5b_xx = t34 + Real(0.0002254731454000014);
   const Real S5b_xy = c5 * S5b_t;
-  const Real S5c_xx = S5b_xx - Real(0.0171364731454) - Real(0.10971);
+  const Real S5c_xx = S5b_xx - Real(0.1268464731454);
   const Real S4b_zz = S5c_xx - Real(0.126621);
-  const Real S4b_d = S5c_xx + Real(0.126621);
-  const Real S4b_t = s4 * S4b_d;
+  const Real S4b_t = s4 * t34;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
   const Real S4b_xy = c4 * S4b_t;
   const Real S4b_xz = c4 * S5b_xy;
   const Real S4b_yz = s4 * S5b_xy;
   const Real S4c_xx = S5b_xx + Real(0.004608836229750008);
   const Real S4c_xz = S4b_yz - Real(0.0019412038252500001);
-  const Real S4c_yy = Real(0.10971) - S4b_xx;
-  const Real S3b_zz = S4c_xx + S4c_yy;
-  const Real S3b_d = S4c_xx - S4c_yy;
+  const Real S4c_yy = S4b_xx - Real(0.10971);
+  const Real S3b_zz = S4c_xx - S4c_yy;
+  const Real S3b_d = S4c_xx + S4c_yy;
   const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real t71 = r3_x * h3b_x;
-  const Real D3 = t71 + r3_y * h3b_y;
+  const Real D3 = t16 * Real(0.00697606230375);
   const Real S2b_xz = s2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
@@ -743,14 +859,14 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h2_y = h3b_y - h2b_y;
   const Real J2 = D3 - (S3b_zz - D3) - Real(0.59565195167475);
   const Real S2_xz = S3b_xz + S2b_xz;
-  const Real t89 = r2_x * h2_x;
-  const Real D2 = t89 - r2_y * h2_y;
+  const Real t86 = r2_x * h2_x;
+  const Real D2 = t86 - r2_y * h2_y;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
   const Real J1 = D2 + (J2 + D2) - Real(1.7701269384100002);
   const Real S1_xz = S2_xz + S1b_xz;
-  const Real S0b_zz = Real(2.0) * (t71 + t89) + (S4b_xx - (S4b_zz + (s1 * s1 * Real(1.7550195384100002) + (s2
-      * s2 * Real(0.59155695167475) + (s3 * S3b_t + (S4c_xx + J1) + Real(0.0020475)) + Real(0.0075537)) -
-      Real(0.00333))) + Real(0.29520861244275));
+  const Real S0b_zz = J1 + (S4c_xx + (s3 * S3b_t + (s2 * s2 * Real(0.59155695167475) + (s1 * s1 *
+      Real(1.7550195384100002) + (S4b_zz - (S4b_xx + Real(2.0) * (r3_x * h3b_x + t86))))))) -
+      Real(0.28893741244275);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
@@ -765,7 +881,7 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v2P_y = h2_x * state.z[2];
   const Real v2L_x = S2_xz * state.z[2];
   const Real v2L_z = J2 * state.z[2];
-  const Real v3o_x = v2o_x - r3_y * w2_z;
+  const Real v3o_x = v2o_x - Real(0.39225) * (c2 * w2_z);
   const Real v3o_y = v2o_y + r3_x * w2_z;
   const Real v3P_x = h3b_y * state.z[3];
   const Real v3P_y = h3b_x * state.z[3];
@@ -774,20 +890,18 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real v4L_x = S4b_xz * state.z[4];
   const Real v4L_y = S4b_yz * state.z[4];
   const Real v4L_z = S4b_zz * state.z[4];
-  const Real v5L_z = Real(0.0171364731454) * state.z[5];
-  const Real T5 = (state.z[0] * v0L_z - (state.z[1] * v1L_z + (state.z[2] * v2L_z - (state.z[3] * v3L_z -
-      (state.z[4] * v4L_z - state.z[5] * v5L_z))))) * Real(0.5) + (state.z[0] * (v3L_x + (v1L_x + v2L_x)) +
+  const Real v5L_z = state.z[5] * Real(0.0171364731454);
+  const Real T5 = (state.z[0] * v0L_z + (state.z[1] * v1L_z + (state.z[2] * v2L_z - (state.z[3] * v3L_z -
+      (state.z[4] * v4L_z - state.z[5] * v5L_z))))) * Real(0.5) - (state.z[0] * (v3L_x + (v1L_x + v2L_x)) +
       (w5pp_y * v5L_z - (w4pp_y * v4L_x + (w4pp_x * v4L_z - (w3_z * v4L_y - (v3o_y * v3P_y - (v3o_x * v3P_x +
       (w2_z * v3L_z - (v2o_y * v2P_y + (state.z[1] * v2L_z - v2o_x * v2P_x))))))))));
-  return T5;
+  return -T5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s1, t3;
-  detail::sine_cosine(state.y[1], s1, t3);
-  Real t4, t5;
-  detail::sine_cosine(state.y[2], t4, t5);
+  Real s1, t3, t4, t5;
+  detail::sine_cosine2(state.y[1], s1, t3, state.y[2], t4, t5);
   const Real s2 = t3 * t4 + s1 * t5;
   Real t13, t14;
   detail::sine_cosine(state.y[3], t13, t14);

@@ -3,9 +3,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 
-#include <iterator>
 #include <memory>
-#include <sstream>
 
 #include "commands/bench_text.hpp"
 #include "commands/build_model.hpp"
@@ -13,6 +11,7 @@
 #include "commands/emission.hpp"
 #include "commands/method_names.hpp"
 #include "commands/progress.hpp"
+#include "commands/shared_library.hpp"
 
 namespace jourdain::commands {
 
@@ -27,11 +26,6 @@ struct Arguments {
   BenchChoices choices;
   bool json = false;
 };
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream words(text);
-  return {std::istream_iterator<std::string>(words), {}};
-}
 
 /// What is emitted and measured where nothing is asked for: derivatives too, unless they take long to compile.
 std::vector<std::string> usual_functions(const LoadedMechanism& loaded) {

@@ -15,6 +15,7 @@
 #include "commands/committed_files.hpp"
 #include "commands/emission.hpp"
 #include "commands/load.hpp"
+#include "commands/printable.hpp"
 #include "loops/plan/plan_text.hpp"
 
 namespace jourdain::commands {
@@ -59,15 +60,15 @@ std::optional<Arguments> completed(const Arguments& given) {
   if (recorded.size() > 1) {
     std::vector<std::string> names;
     for (const RecordedModel& model : recorded) names.push_back(model.name);
-    fmt::print(stderr, "error: {} holds several models made from {}: {}; --name chooses one\n", given.folder,
-               description, fmt::join(names, ", "));
+    fmt::print(stderr, "error: {} holds several models made from {}: {}; --name chooses one\n",
+               printable(given.folder), printable(description), fmt::join(names, ", "));
     return std::nullopt;
   }
   if (given.words.empty()) try {
       return with_recorded(given, recorded.front());
     } catch (const CLI::ParseError& error) {
       fmt::print(stderr, "error: {}/{}.json was made with options that this version does not take: {}\n",
-                 given.folder, recorded.front().name, error.what());
+                 printable(given.folder), recorded.front().name, printable(error.what()));
       return std::nullopt;
     }
   Arguments named = given;
@@ -80,17 +81,17 @@ int compare(const Arguments& arguments, const CompiledModel& compiled) {
   const std::vector<std::string> texts = differences(arguments.folder, compiled.files);
   for (const std::string& text : texts) fmt::print(stderr, "{}", text);
   if (texts.empty()) {
-    fmt::print("  {} holds just that: {} files, the same byte for byte\n", arguments.folder,
+    fmt::print("  {} holds just that: {} files, the same byte for byte\n", printable(arguments.folder),
                compiled.files.size());
     return kSuccess;
   }
   std::string options;
   if (!arguments.model.name.empty()) options += " --name " + arguments.model.name;
   for (const std::string& word : arguments.words) options += " " + word;
-  fmt::print(stderr,
-             "error: {} of {} files are not what {} gives now\n  jourdain compile {} -o {}{} writes them.\n",
-             texts.size(), compiled.files.size(), arguments.model.path, arguments.model.path,
-             arguments.folder, options);
+  const std::string path = printable(arguments.model.path);
+  fmt::print(
+      stderr, "error: {} of {} files are not what {} gives now\n  jourdain compile {} -o {}{} writes them.\n",
+      texts.size(), compiled.files.size(), path, path, printable(arguments.folder), printable(options));
   return kModelWrong;
 }
 

@@ -13,8 +13,8 @@
 
 #include "commands/commands.hpp"
 #include "commands/load.hpp"
+#include "commands/printable.hpp"
 #include "support/interruption.hpp"
-#include "support/utf8.hpp"
 
 namespace jourdain::commands {
 
@@ -53,18 +53,6 @@ std::vector<std::string> reversed_arguments(int argc, char** argv) {
     }
   std::reverse(arguments.begin(), arguments.end());
   return arguments;
-}
-
-/// For a terminal: arguments, which messages name, may hold anything.
-std::string printable(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const support::Utf8Character character = support::utf8_at(text, i);
-    const bool shown = character.printable || text[i] == '\n';
-    out += shown ? text.substr(i, character.bytes) : "?";
-    i += character.bytes;
-  }
-  return out;
 }
 
 /// Prints help, or what is wrong with the arguments, which may hold anything.

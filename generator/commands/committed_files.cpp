@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "commands/printable.hpp"
 #include "support/diagnostics.hpp"
 
 namespace jourdain::commands {
@@ -47,7 +48,7 @@ std::string first_difference(const std::string& path, std::string_view there, st
     if (begin >= text.size()) return "(the file ends)";
     return part(text.substr(begin, text.find('\n', begin) - begin), at - begin);
   };
-  return fmt::format("{}:{}:{}: error: differs\n  there: {}\n  now:   {}\n", path,
+  return fmt::format("{}:{}:{}: error: differs\n  there: {}\n  now:   {}\n", printable(path),
                      1 + std::count(there.begin(), there.begin() + static_cast<std::ptrdiff_t>(begin), '\n'),
                      at - begin + 1, line(there), line(now));
 }
@@ -77,7 +78,7 @@ std::vector<std::string> differences(const std::string& folder, const std::vecto
   for (const support::FileText& file : files) {
     const std::string path = (fs::path(folder) / file.name).generic_string();
     if (!fs::exists(path)) {
-      texts.push_back(fmt::format("{}: error: missing\n", path));
+      texts.push_back(fmt::format("{}: error: missing\n", printable(path)));
       continue;
     }
     const std::string there = support::read_file(path);

@@ -60,8 +60,8 @@ int run(const Arguments& arguments, const CLI::App& command) {
   fmt::print("{}{}{}", operations_table(compiled.module), verdict_text(compiled.verdict),
              readback_text(compiled.readback));
   if (arguments.explain)
-    fmt::print("{}{}{}", oracles_text(compiled.verdict), passes_text(compiled.passes),
-               omissions_text(compiled.omissions));
+    fmt::print("{}{}{}{}", oracles_text(compiled.verdict), passes_text(compiled.passes),
+               lanes_text(compiled.module), omissions_text(compiled.omissions));
   return kSuccess;
 }
 

@@ -21,7 +21,6 @@ namespace jourdain::commands {
 namespace {
 
 struct Arguments {
-  bool own_sines = false;
   RunArguments run;
   studies::StepCostOptions steps;
   std::vector<std::string> methods;
@@ -122,7 +121,6 @@ int run(Arguments arguments) {
   bar.show("deriving the equations", 0);
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
-  options.choices.own_sines = arguments.own_sines;
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
   return arguments.target.empty() ? report_on(arguments, *model, compiled, bar)
@@ -156,8 +154,6 @@ void add_cost(CLI::App& app, int& status) {
       command->add_option("--cold", arguments->steps.cold, "single steps of each method with evicted caches")
           ->check(CLI::Range(1L, 100000L))
           ->capture_default_str();
-  command->add_flag("--own-sines", arguments->own_sines,
-                    "sine and cosine by sums and products, as with compile --own-sines");
   command
       ->add_option(
           "--target", arguments->target,

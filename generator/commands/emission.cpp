@@ -47,9 +47,8 @@ void EmissionArguments::add_to(CLI::App& command) {
   command.add_flag(
       "--packs", packs,
       "C++: literals that every pack of numbers takes, sine and cosine at once where a pack has them");
-  command.add_flag("--own-sines", own_sines,
-                   "sine and cosine by sums and products, of one cost up to 2^30 rad (float: any); "
-                   "not with -ffast-math");
+  command.add_flag("--libm", libm, kLibmHelp);
+  command.add_flag("--no-lanes", no_lanes, kNoLanesHelp);
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
 
@@ -71,7 +70,8 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   choices.has_float = real != "double";
   choices.has_interface = interface;
   choices.packs = packs;
-  choices.own_sines = own_sines;
+  choices.own_sines = !libm;
+  choices.lanes = !no_lanes;
   if (!functions.empty()) loaded.options.functions = chosen;
   return "";
 }

@@ -9,13 +9,20 @@
 
 namespace jourdain::commands {
 
+inline constexpr const char* kLibmHelp =
+    "sines, cosines and arctangents of the C library, instead of sums and products of one cost up to "
+    "2^30 rad (float: any)";
+
+inline constexpr const char* kNoLanesHelp =
+    "limbs that are alike one after the other, not at once as lanes of vectors";
+
 struct EmissionArguments {
   std::vector<std::string> functions, frames;
   bool clock = false;
   std::string language = "c++", real = "both";
-  bool interface = false, packs = false, own_sines = false;
+  bool interface = false, packs = false, libm = false, no_lanes = false;
 
-  /// Adds --functions, --frame, --language, --real, --interface, --packs, --own-sines and --clock.
+  /// Adds --functions, --frame, --language, --real, --interface, --packs, --libm, --no-lanes and --clock.
   void add_to(CLI::App& command);
 
   /// Sets the options of `loaded` and adds the functions that are asked for to its mechanism. Returns what is wrong

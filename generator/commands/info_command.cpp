@@ -68,9 +68,12 @@ std::string loops_text(const model::Mechanism& mechanism) {
 
 /// How M ż = k̄ − q̄ is solved, with what the two pure ways would cost before any pass.
 std::string algorithm_text(const Articulation& articulation) {
+  if (articulation.planar && articulation.form != dynamics::PlanarForm::kWorkingFrames)
+    return fmt::format("  accelerations: of links, by the angles between them ({} operations on their own)\n",
+                       articulation.operations);
   if (articulation.planar)
     return fmt::format(
-        "  accelerations: of links, from which those of joints follow ({} operations, before passes)\n",
+        "  accelerations: of links, from which those of joints follow ({} operations on their own)\n",
         articulation.operations);
   if (articulation.articulated == 0 || articulation.links.size() == 1) return "";
   const auto links = std::count(articulation.links.begin(), articulation.links.end(), true);
@@ -87,7 +90,7 @@ std::string algorithm_text(const Articulation& articulation) {
 std::string compiler_text(const CompiledModel& compiled) {
   std::string text = operations_table(compiled.module) + algorithm_text(compiled.articulation) +
                      omissions_text(compiled.omissions) + passes_text(compiled.passes) +
-                     verdict_text(compiled.verdict);
+                     lanes_text(compiled.module) + verdict_text(compiled.verdict);
   for (const std::string& assumption : compiled.assumptions)
     text += fmt::format("  assumes: {}\n", assumption);
   return text;

@@ -1,7 +1,6 @@
 #include "commands/load.hpp"
 
 #include <fmt/format.h>
-#include <nettle/sha2.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -9,7 +8,6 @@
 #include <CLI/Validators.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -17,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/content_hash.hpp"
 #include "compile/start_check.hpp"
 #include "loops/plan/plan.hpp"
 #include "loops/plan/plan_text.hpp"
@@ -28,17 +27,6 @@ namespace jourdain::commands {
 
 namespace {
 
-std::string sha256(const std::string& text) {
-  sha256_ctx context;
-  sha256_init(&context);
-  sha256_update(&context, text.size(), reinterpret_cast<const std::uint8_t*>(text.data()));
-  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
-  sha256_digest(&context, digest.size(), digest.data());
-  std::string hex;
-  for (std::uint8_t byte : digest) hex += fmt::format("{:02x}", byte);
-  return hex;
-}
-
 /// Emitted files name no folder: they are the same from wherever the command was called.
 std::string printed_path(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
@@ -47,7 +35,7 @@ std::vector<support::FileHash> imported_files(const support::Diagnostics& diagno
   std::vector<support::FileHash> files;
   std::set<std::string> paths;
   for (const support::SourceFile& file : diagnostics.files())
-    if (paths.insert(file.path).second) files.push_back({printed_path(file.path), sha256(file.text)});
+    if (paths.insert(file.path).second) files.push_back({printed_path(file.path), sha256_of(file.text)});
   files.erase(files.begin());
   return files;
 }
@@ -137,7 +125,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   loaded.options.loops = std::move(plan);
   if (loaded.options.loops) fmt::print(stderr, "{}", loops::assembly_text(*loaded.options.loops));
   loaded.options.path = printed_path(arguments.path);
-  loaded.options.sha256 = sha256(diagnostics.text());
+  loaded.options.sha256 = sha256_of(diagnostics.text());
   loaded.options.imported = imported_files(diagnostics);
   for (const support::SourceFile& file : diagnostics.files()) loaded.sources.push_back(file.path);
   loaded.options.damping = read.damping;

@@ -139,6 +139,7 @@ std::future<std::optional<FreeModel>> build_free_bodies(const Arguments& argumen
   support::Diagnostics ignored("free bodies", "");
   CompileOptions options;
   options.name = loaded.options.name + "_free_bodies";
+  options.choices = loaded.options.choices;
   options.functions = loadable_functions({"rk4"});
   options.loops = loops::plan_loops(*mechanism, ignored);
   if (!options.loops) return nothing();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "passes/lanes.hpp"
+
 namespace jourdain::commands {
 
 namespace {
@@ -70,6 +72,15 @@ std::string passes_text(const std::vector<passes::PassRecord>& passes) {
       text += fmt::format("    {:<18} {:<14} {:>7} -> {}\n", pass.name, effect(pass.effect),
                           pass.operations_before, pass.operations_after);
   return text;
+}
+
+std::string lanes_text(const ir::Module& module) {
+  std::string text;
+  for (const ir::Program& program : module.functions)
+    if (!program.lanes.empty())
+      text += fmt::format("    {:<26} {:>6} of {}\n", program.name, passes::saved_by_lanes(program),
+                          ir::count_operations(program).arithmetic());
+  return text.empty() ? "" : "  lanes (operations that go with those of limbs that are alike)\n" + text;
 }
 
 std::string programs_text(const passes::PassRecord& pass, const ir::Module& module) {

@@ -18,6 +18,8 @@ std::string oracles_text(const validate::Verdict& verdict);
 /// The programs after a pass, with operations and time.
 std::string programs_text(const passes::PassRecord& pass, const ir::Module& module);
 
+/// Operations of functions that are computed at once with others; empty where there are none.
+std::string lanes_text(const ir::Module& module);
 std::string passes_text(const std::vector<passes::PassRecord>& passes);
 std::string omissions_text(const std::vector<Omission>& omissions);
 

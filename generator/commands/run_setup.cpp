@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "commands/emission.hpp"
 #include "commands/input_table.hpp"
 #include "compile/start_check.hpp"
 #include "loops/plan/parameter_check.hpp"
@@ -117,6 +118,8 @@ void RunArguments::add_to(CLI::App& command) {
   command.add_option("--real", real, "number type")
       ->check(CLI::IsMember({"double", "float"}))
       ->capture_default_str();
+  command.add_flag("--libm", libm, kLibmHelp);
+  command.add_flag("--no-lanes", no_lanes, kNoLanesHelp);
 }
 
 std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
@@ -124,6 +127,8 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
   status = kModelWrong;
   if (!loaded) return {};
   RunModel model{std::move(*loaded), {}};
+  model.loaded.options.choices.own_sines = !arguments.libm;
+  model.loaded.options.choices.lanes = !arguments.no_lanes;
   status = kUsage;
   if (!apply_settings(arguments.settings, model.loaded.mechanism, model.parameters)) return {};
   if (const loops::LoopPlan* plan = model.loaded.plan())

@@ -19,6 +19,7 @@ struct RunArguments {
   std::vector<double> constant_input;  ///< one value per input; empty: zeros
   std::string inputs;                  ///< a file: .csv or .toml; empty: constant
   std::string real = "double";
+  bool libm = false, no_lanes = false;
 
   void add_to(CLI::App& command);
 };

@@ -6,12 +6,15 @@
 #include <map>
 #include <tuple>
 
+#include "compile/program_cost.hpp"
 #include "dynamics/absolute_rates.hpp"
+#include "dynamics/link_equations.hpp"
 #include "dynamics/scene.hpp"
 #include "lowering/lower.hpp"
 
 namespace jourdain {
 
+using dynamics::PlanarForm;
 using kinematics::kGround;
 
 namespace {
@@ -35,6 +38,8 @@ class Choice {
     const dynamics::Scene scene(mechanism, options.link_tree, statements);
     moves_in_planes_ = dynamics::moves_in_planes(scene);
     velocities_ = scene.layout.velocity_count();
+    has_link_equations_ =
+        velocities_ <= kMostLinkEquations && velocities_ > 0 && dynamics::has_link_equations(scene);
     for (const kinematics::Link& link : scene.tree.links) {
       const bool root = link.parent == kGround;
       depth_.push_back(root ? 0 : depth_[link.parent] + 1);
@@ -48,6 +53,7 @@ class Choice {
   Articulation choose() {
     Articulation result = choose_links();
     if (moves_in_planes_ && velocities_ < kLargeScene) keep(result, {none(), true});
+    for (const Way& way : by_angles()) keep_cheaper(result, way);
     judge(result);
     return result;
   }
@@ -56,11 +62,32 @@ class Choice {
   struct Way {
     std::vector<bool> links;
     bool planar = false;
+    PlanarForm form = PlanarForm::kWorkingFrames;
 
     friend bool operator<(const Way& a, const Way& b) {
-      return std::tie(a.planar, a.links) < std::tie(b.planar, b.links);
+      return std::tie(a.planar, a.form, a.links) < std::tie(b.planar, b.form, b.links);
     }
   };
+
+  static Way way_of(const Articulation& chosen) { return {chosen.links, chosen.planar, chosen.form}; }
+
+  static void set(Articulation& chosen, const Way& way, std::size_t operations) {
+    chosen.links = way.links;
+    chosen.planar = way.planar;
+    chosen.form = way.form;
+    chosen.operations = operations;
+  }
+
+  std::vector<Way> by_angles() const {
+    if (!has_link_equations_) return {};
+    return {{none(), true, PlanarForm::kAngles}, {none(), true, PlanarForm::kAnglesToUnitRows}};
+  }
+
+  void keep_cheaper(Articulation& best, const Way& way) {
+    if (cost(way).saves_on(cost(way_of(best)))) set(best, way, operations(way));
+  }
+
+  ProgramCost cost(const Way& way) { return cost_behind_passes(program(way)); }
 
   std::vector<bool> none() const { return std::vector<bool>(parent_.size(), false); }
 
@@ -68,23 +95,22 @@ class Choice {
   /// other's much less.
   void judge(Articulation& best) {
     const ForwardError errors(mechanism_);
-    best.error = best.fewest_error = errors.of(program({best.links, best.planar}));
+    best.error = best.fewest_error = errors.of(program(way_of(best)));
     if (best.error.units <= kFewUnits) return;
     std::vector<Way> ways = {{std::vector<bool>(parent_.size(), true), false}};
     if (velocities_ < kLargeScene) ways.push_back({none(), false});
     if (velocities_ < kLargeScene && moves_in_planes_) ways.push_back({none(), true});
+    for (const Way& way : by_angles()) ways.push_back(way);
     const std::size_t fewest = best.operations;
     for (const Way& way : ways) {
       const ir::Program zdot = program(way);
-      const std::size_t count = ir::count_operations(zdot).arithmetic();
+      const std::size_t count = operations(way);
       const SampledError error = errors.of(zdot);
       if (count > kMostMore * fewest || !(error.units * kMuchLess < best.error.units)) continue;
-      best.links = way.links;
-      best.planar = way.planar;
-      best.operations = count;
+      set(best, way, count);
       best.error = error;
     }
-    best.spent = best.operations - fewest;
+    best.spent = best.operations > fewest ? best.operations - fewest : 0;
   }
 
   Articulation choose_links() {
@@ -125,9 +151,7 @@ class Choice {
   bool keep(Articulation& best, const Way& way) {
     const std::size_t count = operations(way);
     if (count >= best.operations) return false;
-    best.links = way.links;
-    best.planar = way.planar;
-    best.operations = count;
+    set(best, way, count);
     return true;
   }
 
@@ -135,13 +159,15 @@ class Choice {
 
   std::size_t operations(const Way& way) {
     if (const auto known = counted_.find(way); known != counted_.end()) return known->second;
-    return counted_[way] = ir::count_operations(program(way)).arithmetic();
+    return counted_[way] =
+               has_link_equations_ ? cost(way).arithmetic : ir::count_operations(program(way)).arithmetic();
   }
 
   /// Of the accelerations, before any pass.
   ir::Program program(const Way& way) {
     options_.articulated = way.links;
     options_.planar = way.planar;
+    options_.planar_form = way.form;
     return lower_accelerations(mechanism_, options_);
   }
 
@@ -182,7 +208,7 @@ class Choice {
 
   const model::Mechanism& mechanism_;
   dynamics::DerivationOptions options_;
-  bool moves_in_planes_ = false;
+  bool moves_in_planes_ = false, has_link_equations_ = false;
   std::size_t velocities_ = 0;
   std::vector<std::size_t> depth_, parent_, children_;
   std::map<Way, std::size_t> counted_;

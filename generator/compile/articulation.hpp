@@ -10,9 +10,12 @@
 namespace jourdain {
 
 struct Articulation {
-  std::vector<bool> links;     ///< DerivationOptions::articulated
-  bool planar = false;         ///< DerivationOptions::planar, with no articulated links
-  std::size_t operations = 0;  ///< of the accelerations before any pass, as chosen
+  std::vector<bool> links;  ///< DerivationOptions::articulated
+  bool planar = false;      ///< DerivationOptions::planar, with no articulated links
+  dynamics::PlanarForm form = dynamics::PlanarForm::kWorkingFrames;
+  /// Of the accelerations, as chosen: before any pass, but behind all of them where a scene has equations of links,
+  /// as passes alone see what the sum of two angles costs.
+  std::size_t operations = 0;
   std::size_t factorised =
       0;  ///< without articulated bodies but a free root's; 0 for large scenes, where it is not
           ///< counted because it grows with the cube of a branch's length
@@ -24,13 +27,14 @@ struct Articulation {
   void set(dynamics::DerivationOptions& options) const {
     options.articulated = links;
     options.planar = planar;
+    options.planar_form = form;
   }
 };
 
 /// Which links are articulated bodies (the others' joints are eliminated from M): first the best depth from the roots,
 /// then branch by branch one link more or less as long as that saves operations. Large scenes start from all
-/// links. Scenes that move in planes may go by accelerations of links. What takes the fewest operations is
-/// kept unless it loses digits that another way keeps.
+/// links. Scenes that move in planes may go by accelerations of links, small ones by angles between links
+/// (program_cost.hpp). What takes the fewest operations is kept unless it loses digits that another way keeps.
 Articulation choose_articulation(const model::Mechanism& mechanism,
                                  const dynamics::DerivationOptions& options);
 

@@ -15,7 +15,9 @@
 #include "emit/c/c_interface.hpp"
 #include "emit/cpp/model_files.hpp"
 #include "loops/plan/plan.hpp"
+#include "passes/lanes.hpp"
 #include "programs/closed_system.hpp"
+#include "programs/like_limbs.hpp"
 #include "programs/tree_functions.hpp"
 #include "reference/massless.hpp"
 #include "validate/loops/validation.hpp"
@@ -95,6 +97,13 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
     result.verdict.failures = {"a constant of the equations is beyond the range of double"};
     result.verdict.overflows = 1;
     return result;
+  }
+  if (options.choices.lanes) {
+    const std::vector<passes::LikeLimbs> limbs = programs::like_limbs(mechanism);
+    for (ir::Program& program : result.module.functions) {
+      program = passes::in_lanes(program, limbs);
+      if (options.choices.language == ir::Language::kC) program.lanes.clear();  // the same bits one by one
+    }
   }
   const std::vector<std::string> defects = module_defects(result.module, result.facts);
   JD_CHECK(defects.empty(), "broken program, {}", defects.front());

@@ -9,6 +9,7 @@
 #include "loops/plan/plan_text.hpp"
 #include "model/coordinates.hpp"
 #include "model/names.hpp"
+#include "passes/lanes.hpp"
 #include "validate/snapping.hpp"
 
 namespace jourdain {
@@ -32,6 +33,12 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
     list.push_back("quaternions are near unit length; a step ends with unit length");
   if (const std::string sentence = accuracy_sentence(compiled.articulation); !sentence.empty())
     list.push_back(sentence);
+  for (const ir::Program& program : compiled.module.functions)
+    if (program.name == "forward_dynamics" && !program.lanes.empty())
+      list.push_back(fmt::format(
+          "limbs that are alike are computed at once, as lanes of vectors: {} of {} operations of "
+          "forward_dynamics go with others (--no-lanes: one after the other)",
+          passes::saved_by_lanes(program), ir::count_operations(program).arithmetic()));
   if (compiled.facts.clock) list.push_back("time is a sum of three numbers, which 7 additions move");
   if (std::any_of(compiled.module.functions.begin(), compiled.module.functions.end(), emit::turns_with_time))
     list.push_back(

@@ -51,8 +51,11 @@ ir::Module forward_module(const dynamics::Equations& equations, const programs::
       equations, programs::with_needed({ir::name_of(ir::FunctionId::kForwardDynamics)}, scene));
 }
 
+/// Without dear passes, on both sides of a comparison.
 std::size_t optimised_operations(const ir::Module& module, const CompileOptions& options) {
-  return forward_operations(passes::optimise(module, options.passes_off).module);
+  std::vector<std::string> passes_off = passes::dear_pass_names();
+  passes_off.insert(passes_off.end(), options.passes_off.begin(), options.passes_off.end());
+  return forward_operations(passes::optimise(module, passes_off).module);
 }
 
 const Switch kElimination = {"elimination from M",

@@ -60,6 +60,12 @@ Axes plane_axes(const std::array<double, 3>& axis) {
   return {first, kinematics::cross(n, first)};
 }
 
+/// Of the origins. What the sides bind, they bind in this order with every compiler.
+MovingVector from_to(const SeenFrame& a, const SeenFrame& b) {
+  const MovingVector begin = a.position();
+  return b.position() - begin;
+}
+
 /// One loop.
 class Closure {
  public:
@@ -72,7 +78,7 @@ class Closure {
         carrier_(model::carrier(scene.mechanism, from_.body, to_.body)),
         a_(scene, from_, ancestor_, loop.name + "a"),
         b_(scene, to_, ancestor_, loop.name + "b"),
-        difference_(b_.position() - a_.position()) {
+        difference_(from_to(a_, b_)) {
     difference_.value = scene.statements.bind(loop.name + "d", difference_.value);
     difference_.first = scene.statements.bind(loop.name + "dv", difference_.first);
     difference_.second = scene.statements.bind(loop.name + "da", difference_.second);

@@ -36,10 +36,14 @@ Ex derive_kinetic_energy(const Scene& scene) {
       energy = statements.bind(fmt::format("T{}", i), energy + (half + power(moving, parent)));
     velocity.push_back(statements.bind(v + "s", parent.linear + own.linear));
   }
+  return with_rotor_energy(scene, energy);
+}
+
+Ex with_rotor_energy(const Scene& scene, Ex energy) {
   for (const model::Actuator& actuator : scene.mechanism.actuators) {
     if (actuator.rotor_inertia.is_zero()) continue;
     const Ex rate = scene.states[scene.link_of(actuator.joint, actuator.coordinate)].rate;
-    energy = statements.bind("T_rotor", energy + reflected_inertia(scene, actuator) / 2 * rate * rate);
+    energy = scene.statements.bind("T_rotor", energy + reflected_inertia(scene, actuator) / 2 * rate * rate);
   }
   return energy;
 }

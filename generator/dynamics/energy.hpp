@@ -9,6 +9,9 @@ namespace jourdain::dynamics {
 /// its product with the velocity of the parent. Rotors count with ½ (gear rate)² inertia.
 Ex derive_kinetic_energy(const Scene& scene);
 
+/// `energy` and that of the rotors.
+Ex with_rotor_energy(const Scene& scene, Ex energy);
+
 /// Of gravity (zero at the inertial origin), joint springs and force elements, J.
 Ex derive_potential_energy(const Scene& scene);
 

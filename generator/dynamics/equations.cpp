@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "dynamics/absolute_rates.hpp"
 #include "dynamics/accelerations.hpp"
 #include "dynamics/applied_forces.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/free_root.hpp"
+#include "dynamics/joint_equations.hpp"
 #include "dynamics/kinematic_functions.hpp"
 #include "dynamics/link_forces.hpp"
 #include "dynamics/loop_forces.hpp"
@@ -40,29 +43,22 @@ class Derivation {
       equations_.closures = derive_closure(scene_, rates);
       return std::move(equations_);
     }
+    const AppliedForces applied = derive_applied_forces(scene_, Inputs::kGiven);
     if (options_.forces_only) {
-      equations_.k_bar = k_bar();
-      equations_.tau =
-          inverse_dynamics("a", derive_applied_forces(scene_, Inputs::kZero), options_.tau_by_links);
+      derive_forces(applied);
       return std::move(equations_);
     }
-    const AppliedForces applied = derive_applied_forces(scene_, Inputs::kGiven);
     if (options_.accelerations_only) {
       equations_.zdot = accelerations(applied);
       return std::move(equations_);
     }
     equations_.ydot = position_rate();
-    equations_.M = mass_matrix();
-    equations_.k_bar = k_bar();
-    equations_.q_bar = q_bar(applied);
+    derive_forces(applied);
     if (mechanism_.loops.empty()) equations_.zdot = accelerations(applied);
-    equations_.tau =
-        inverse_dynamics("a", derive_applied_forces(scene_, Inputs::kZero), options_.tau_by_links);
     if (options_.for_derivatives) {
       equations_.residual = inverse_dynamics("r", applied, false);
       equations_.load = load(applied);
     }
-    equations_.kinetic_energy = derive_kinetic_energy(scene_);
     equations_.potential_energy = derive_potential_energy(scene_);
     set_initial_state();
     for (const model::Output& output : mechanism_.outputs) equations_.output_names.push_back(output.name);
@@ -111,6 +107,25 @@ class Derivation {
     return ydot;
   }
 
+  void derive_forces(const AppliedForces& applied) {
+    const FromLinkEquations& from_links = options_.from_links;
+    equations_.M =
+        with_rotors(from_links.mass_matrix && links() ? joint_mass_matrix(scene_, *links()) : mass_matrix());
+    equations_.k_bar = k_bar();
+    equations_.q_bar = q_bar(applied);
+    const AppliedForces passive = derive_applied_forces(scene_, Inputs::kZero);
+    equations_.tau = from_links.tau && links() ? with_rotors(link_inverse_dynamics(scene_, *links(), passive))
+                                               : inverse_dynamics("a", passive, options_.tau_by_links);
+    equations_.kinetic_energy = from_links.kinetic_energy && links() ? link_kinetic_energy(scene_, *links())
+                                                                     : derive_kinetic_energy(scene_);
+  }
+
+  /// The equations of links, where the scene has them.
+  const std::optional<LinkEquations>& links() {
+    if (!links_ && has_link_equations(scene_)) links_ = derive_link_equations(scene_, RowScale::kNone);
+    return links_;
+  }
+
   /// Momentum of the composite body of each column, and its power on the columns inward of it; v of a free link is in
   /// the inertial frame. Both triangles are filled.
   std::vector<std::vector<Ex>> mass_matrix() {
@@ -131,7 +146,10 @@ class Derivation {
           if (scene_.tree.links[j].parent != kGround) moving = to_parent(scene_, j, moving, name);
         }
       }
-    M = with_free_blocks(scene_, std::move(M));
+    return with_free_blocks(scene_, std::move(M));
+  }
+
+  std::vector<std::vector<Ex>> with_rotors(std::vector<std::vector<Ex>> M) {
     for (const model::Actuator& actuator : mechanism_.actuators) {
       if (actuator.rotor_inertia.is_zero()) continue;
       const std::size_t e = *scene_.states[scene_.link_of(actuator.joint, actuator.coordinate)].entry;
@@ -161,6 +179,7 @@ class Derivation {
   }
 
   std::vector<Ex> k_bar() {
+    if (options_.from_links.k_bar && links()) return joint_forces(scene_, links()->inertia, "lk");
     const std::vector<Ex> at_rest(count_, 0);
     const std::vector<Wrench> none(scene_.link_count());
     std::vector<Ex> k =
@@ -196,6 +215,12 @@ class Derivation {
 
   /// Less the forces `q`.
   std::vector<Ex> with_weights(std::vector<Ex> q, const std::string& name) {
+    if (options_.from_links.q_bar && links()) {
+      const std::vector<Ex> weights = joint_forces(scene_, links()->weight_alone, "lg");
+      for (std::size_t e = 0; e < count_; ++e)
+        q[e] = statements_.bind(fmt::format("{}_{}", name, e), -weights[e] - q[e]);
+      return q;
+    }
     std::vector<Vector3> gravity;
     for (std::size_t i = 0; i < scene_.link_count(); ++i) {
       const Link& link = scene_.tree.links[i];
@@ -215,6 +240,11 @@ class Derivation {
   /// M⁻¹ (k̄ − q̄), with gravity as an inertia force: that costs less than k̄ and q̄ apart. A free link is solved in
   /// its own axes, falling with gravity.
   std::vector<Ex> accelerations(const AppliedForces& applied) {
+    if (options_.planar && options_.planar_form != PlanarForm::kWorkingFrames && has_link_equations(scene_)) {
+      const bool unit = options_.planar_form == PlanarForm::kAnglesToUnitRows;
+      return solve_link_equations(
+          scene_, derive_link_equations(scene_, unit ? RowScale::kUnit : RowScale::kNone), applied);
+    }
     if (options_.planar && moves_in_planes(scene_))
       return solve_planar_accelerations(scene_, planar_forces(scene_, applied));
     const std::vector<std::vector<Ex>> inertia =
@@ -280,6 +310,7 @@ class Derivation {
   const Scene scene_;
   kinematics::Statements& statements_;
   std::size_t count_;
+  std::optional<LinkEquations> links_;
 };
 
 }  // namespace

@@ -13,14 +13,29 @@ namespace jourdain::dynamics {
 
 using kinematics::Ex;
 
+/// How accelerations of links in planes are derived.
+enum class PlanarForm {
+  kWorkingFrames,    ///< solve_planar_accelerations
+  kAngles,           ///< derive_link_equations
+  kAnglesToUnitRows  ///< the same by RowScale::kUnit
+};
+
+/// Functions that are made from the equations of links (joint_equations.hpp) where the scene has those.
+struct FromLinkEquations {
+  bool mass_matrix = false, k_bar = false, q_bar = false, tau = false, kinetic_energy = false;
+};
+
 /// Simplifications that the derivation may use; each can be switched off to count what it saves.
 struct DerivationOptions {
   kinematics::LinkTreeOptions link_tree;
   std::vector<bool> articulated;  ///< see ArticulatedLinks; empty: none but free links
-  bool planar = false;  ///< accelerations of links instead of joints where the scene moves_in_planes
+  bool planar =
+      false;  ///< accelerations of links instead of joints where the scene has them in `planar_form`
+  PlanarForm planar_form = PlanarForm::kWorkingFrames;
+  FromLinkEquations from_links;
   bool accelerations_only = false;  ///< nothing but zdot
   bool closures_only = false;       ///< nothing but the closures of loops
-  bool forces_only = false;         ///< nothing but k_bar and tau
+  bool forces_only = false;         ///< nothing but M, k_bar, q_bar, tau, kinetic_energy
   /// By derive_forces_by_links where no link is free, instead of derive_generalized_forces.
   bool k_bar_by_links = false, tau_by_links = false;
   bool for_derivatives = false;  ///< fills in residual, load, rates of closures; outputs take ż, λ

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "dynamics/absolute_rates.hpp"
 #include "dynamics/articulated.hpp"
 #include "dynamics/energy.hpp"
@@ -43,17 +45,31 @@ class Solver {
         forces_(scene.frames),
         x_(count_) {
     for (std::size_t k = 0; k < count_; ++k) rows_[k].u = b[k];
-    rigid_ = derive_composites(scene.tree, scene.frames, statements_, [this](std::size_t i) {
-      return articulated_[i] ? Joins::kNot : is_carried_along(i) ? Joins::kMass : Joins::kRigid;
-    });
   }
 
   std::vector<Ex> solve() {
+    rigid_ = derive_composites(scene_.tree, scene_.frames, statements_, [this](std::size_t i) {
+      return articulated_[i] ? Joins::kNot : is_carried_along(i) ? Joins::kMass : Joins::kRigid;
+    });
     for (std::size_t i = 0; i < scene_.link_count(); ++i) set_rows(i);
     if (basis_ == Basis::kLinks)
       add_planar_rotors(scene_, H_);
     else
       add_rotors();
+    return eliminated();
+  }
+
+  /// M given, in lower triangle.
+  std::vector<Ex> solve(std::vector<std::vector<Ex>> M) {
+    H_ = std::move(M);
+    for (std::size_t i = 0; i < scene_.link_count(); ++i)
+      for (std::size_t j = scene_.tree.links[i].parent; j != kGround; j = scene_.tree.links[j].parent)
+        rows_[*scene_.states[i].entry].inward.push_back(*scene_.states[j].entry);
+    return eliminated();
+  }
+
+ private:
+  std::vector<Ex> eliminated() {
     for (std::size_t i = scene_.link_count(); i-- > 0;)
       if (articulated_[i])
         give_way(i);
@@ -70,7 +86,6 @@ class Solver {
     return x_;
   }
 
- private:
   std::string named(const char* quantity, std::size_t i, std::size_t j) const {
     return fmt::format("{}{}_{}", quantity, i, j);
   }
@@ -238,6 +253,11 @@ std::vector<Ex> solve_accelerations(const Scene& scene, const ArticulatedLinks& 
 std::vector<Ex> solve_planar_accelerations(const Scene& scene, const std::vector<Ex>& u) {
   const ArticulatedLinks none(scene.link_count(), false);
   return joint_rates_of(scene, Solver(scene, none, u, Basis::kLinks).solve());
+}
+
+std::vector<Ex> solve_given(const Scene& scene, std::vector<std::vector<Ex>> M, const std::vector<Ex>& b) {
+  const ArticulatedLinks none(scene.link_count(), false);
+  return Solver(scene, none, b, Basis::kLinks).solve(std::move(M));
 }
 
 }  // namespace jourdain::dynamics

@@ -22,4 +22,8 @@ std::vector<Ex> solve_accelerations(const Scene& scene, const ArticulatedLinks& 
 /// dz/dt where the scene moves_in_planes, through the accelerations of links; `u` by planar_forces.
 std::vector<Ex> solve_planar_accelerations(const Scene& scene, const std::vector<Ex>& u);
 
+/// M x = b by entries of z, where each link has one and none is free: M in lower triangle, its entries between
+/// different branches not looked at.
+std::vector<Ex> solve_given(const Scene& scene, std::vector<std::vector<Ex>> M, const std::vector<Ex>& b);
+
 }  // namespace jourdain::dynamics

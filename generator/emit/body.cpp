@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "emit/bundles.hpp"
+
 namespace jourdain::emit {
 
 using ir::Node;
@@ -49,27 +51,33 @@ class BodyBuilder {
         leaf_(leaf),
         result_(result),
         stored_(stored),
+        bundles_(program),
         uses_(ir::use_counts(program)),
         is_angle_(angles_of_time(program)),
         name_(program.nodes.size()) {
     for (std::size_t i = 0; i < program.nodes.size(); ++i)
       if (const auto it = stored.find(ValueId(i)); it != stored.end())
         name_[i] = it->second;
+      else if (bundles_.first(i) != i)
+        name_[i] = name_[bundles_.first(i)];
       else if (is_statement(i))
         name_[i] = names.unique(program.labels[i], fmt::format("t{}", i));
     find_pairs();
+    name_gathered(names);
   }
 
   Body build(std::size_t maximum_statements) {
     std::vector<std::size_t> statements;
     for (std::size_t i = 0; i < program_.nodes.size(); ++i)
-      if (!name_[i].empty()) statements.push_back(i);
+      if (!name_[i].empty() && bundles_.first(i) == i) statements.push_back(i);
     Body body;
     const std::vector<std::size_t> part_of = cut(statements, maximum_statements);
     const std::size_t parts = statements.empty() ? 1 : part_of[statements.back()] + 1;
     const auto slots = work_slots(statements, part_of, parts);
-    for (const auto& [i, slot] : slots) is_angle_[i] = false;
-    body.work_size = slots.size();
+    for (const auto& [i, slot] : slots) {
+      is_angle_[i] = false;
+      body.work_size += bundles_.width(i);
+    }
     body.parts.resize(parts);
     for (std::size_t part = 0; part < parts; ++part)
       body.parts[part] = part_statements(part, statements, part_of, slots);
@@ -84,6 +92,7 @@ class BodyBuilder {
     if (ir::operand_count(node.op) == 0) return false;
     if (node.op == Op::kSin || node.op == Op::kCos) return true;
     if (node.op == Op::kNegate) return uses_[i] > 1;
+    if (bundles_.width(i) > 1) return !bundles_.is_read_once(i) || !program_.labels[i].empty();
     return uses_[i] > 1 || !program_.labels[i].empty();
   }
 
@@ -102,15 +111,41 @@ class BodyBuilder {
       }
   }
 
+  /// Terms of bundles that are brought together for several of them.
+  void name_gathered(Names& names) {
+    std::map<std::vector<ValueId>, std::size_t> count;
+    for (const std::vector<ValueId>& bundle : program_.lanes)
+      for (int k = 0; k < ir::operand_count(program_[bundle[0]].op); ++k)
+        if (std::vector<ValueId> terms = bundles_.operands(bundle[0].value, k); is_gathered(terms))
+          ++count[std::move(terms)];
+    for (const auto& [terms, uses] : count)
+      if (const std::string& first = name_[terms[0].value]; uses > 1)
+        gathered_[terms] =
+            names.unique(first.empty() ? "" : first + "s", fmt::format("g{}", gathered_.size()));
+  }
+
+  /// One number for all lanes.
+  static bool is_same(const std::vector<ValueId>& values) {
+    return std::all_of(values.begin(), values.end(), [&](ValueId value) { return value == values[0]; });
+  }
+
+  bool is_gathered(const std::vector<ValueId>& values) const {
+    return !bundles_.are_bundle(values) && !is_same(values) &&
+           !std::all_of(values.begin(), values.end(),
+                        [this](ValueId value) { return program_[value].op == Op::kLiteral; });
+  }
+
   /// Statements that statement `i` reads, through the expressions written inside it.
   void operands(std::size_t i, std::set<std::size_t>& found) const {
-    const Node& node = program_.nodes[i];
-    for (int k = 0; k < ir::operand_count(node.op); ++k) {
-      const std::size_t operand = (k == 0 ? node.a : node.b).value;
-      if (!name_[operand].empty())
-        found.insert(operand);
-      else
-        operands(operand, found);
+    for (const ValueId lane : bundles_.together(i)) {
+      const Node& node = program_[lane];
+      for (int k = 0; k < ir::operand_count(node.op); ++k) {
+        const std::size_t operand = (k == 0 ? node.a : node.b).value;
+        if (!name_[operand].empty())
+          found.insert(bundles_.first(operand));
+        else if (bundles_.first(operand) == operand)
+          operands(operand, found);
+      }
     }
   }
 
@@ -129,7 +164,8 @@ class BodyBuilder {
       position[statements[k]] = k;
       for (std::size_t operand : reads(statements[k])) last[operand] = k;
     }
-    for (const ir::Output& output : program_.outputs) last[output.value.value] = statements.size();
+    for (const ir::Output& output : program_.outputs)
+      last[bundles_.first(output.value.value)] = statements.size();
     std::vector<long> change(statements.size() + 2, 0);
     for (const auto& [value, end] : last) {
       if (!position.count(value)) continue;
@@ -165,7 +201,7 @@ class BodyBuilder {
         if (name_[output.value.value].empty())
           operands(output.value.value, needed);
         else
-          needed.insert(output.value.value);
+          needed.insert(bundles_.first(output.value.value));
       }
     std::set<std::size_t> from_earlier;
     for (std::size_t i : needed)
@@ -173,13 +209,15 @@ class BodyBuilder {
     return from_earlier;
   }
 
-  /// Entry of `w` for each value that a later part reads.
+  /// Entry of `w`, the first of several for lanes, for each value that a later part reads.
   std::map<std::size_t, std::size_t> work_slots(const std::vector<std::size_t>& statements,
                                                 const std::vector<std::size_t>& part_of,
                                                 std::size_t parts) const {
     std::map<std::size_t, std::size_t> slots;
+    std::size_t size = 0;
     for (std::size_t part = 1; part < parts; ++part)
-      for (std::size_t i : needed_in(part, statements, part_of, parts)) slots.try_emplace(i, slots.size());
+      for (std::size_t i : needed_in(part, statements, part_of, parts))
+        if (slots.try_emplace(i, size).second) size += bundles_.width(i);
     return slots;
   }
 
@@ -191,16 +229,62 @@ class BodyBuilder {
     Statements part;
     if (index > 0)
       for (std::size_t i : needed_in(index, statements, part_of, parts))
-        part.push_back(constant(name_[i], w[slots.at(i)]));
-    for (std::size_t i : statements)
-      if (part_of[i] == index) add_statement(part, i);
+        part.push_back(bundles_.width(i) == 1
+                           ? constant(name_[i], w[slots.at(i)])
+                           : constant_lanes(name_[i], bundles_.width(i),
+                                            lanes(entries(w, slots.at(i), bundles_.width(i)))));
+    std::set<std::string> brought;
+    for (std::size_t i : statements) {
+      if (part_of[i] != index) continue;
+      bring_together(part, i, brought);
+      add_statement(part, i);
+    }
     for (const auto& [i, slot] : slots)
-      if (part_of[i] == index) part.push_back(set(w[slot], name(name_[i])));
+      for (std::size_t l = 0; part_of[i] == index && l < bundles_.width(i); ++l)
+        part.push_back(set(w[slot + l], by_name(bundles_.together(i)[l])));
     return part;
+  }
+
+  static std::vector<Expression> entries(const Expression& array, std::size_t first, std::size_t count) {
+    std::vector<Expression> list;
+    for (std::size_t l = 0; l < count; ++l) list.push_back(array[first + l]);
+    return list;
+  }
+
+  static Statement constant_lanes(const std::string& variable, std::size_t count, Expression value) {
+    const Type type{Type::Kind::kLanes, {}, false, static_cast<int>(count)};
+    return {Declare{type, Declare::Change::kConstant, {{variable, {}, std::move(value)}}}};
+  }
+
+  std::vector<Expression> reals(const std::vector<ValueId>& values) const {
+    std::vector<Expression> list;
+    for (const ValueId value : values) list.push_back(real(value));
+    return list;
+  }
+
+  /// Declares what statement `i` is the first of the part to need, through the expressions written inside it.
+  void bring_together(Statements& part, std::size_t i, std::set<std::string>& brought) const {
+    const bool is_bundle = bundles_.width(i) > 1;
+    for (int k = 0; k < ir::operand_count(program_.nodes[i].op); ++k) {
+      const std::vector<ValueId> terms = bundles_.operands(i, k);
+      if (is_bundle && bundles_.are_bundle(terms)) {
+        if (name_[terms[0].value].empty()) bring_together(part, terms[0].value, brought);
+        continue;
+      }
+      for (const ValueId term : terms)
+        if (name_[term.value].empty()) bring_together(part, bundles_.first(term.value), brought);
+      const auto it = gathered_.find(terms);
+      if (is_bundle && it != gathered_.end() && brought.insert(it->second).second)
+        part.push_back(constant_lanes(it->second, terms.size(), lanes(reals(terms))));
+    }
   }
 
   void add_statement(Statements& part, std::size_t i) const {
     if (second_.count(i)) return;
+    if (bundles_.width(i) > 1) {
+      part.push_back(constant_lanes(name_[i], bundles_.width(i), computation_of_bundle(i)));
+      return;
+    }
     const auto it = pair_.find(i);
     if (it != pair_.end()) {
       const bool sine_first = program_.nodes[i].op == Op::kSin;
@@ -225,8 +309,30 @@ class BodyBuilder {
   }
 
   /// A value as it is computed: an angle where it is one.
-  Expression as_computed(ValueId id) const {
-    return name_[id.value].empty() ? computation(id) : name(name_[id.value]);
+  Expression as_computed(ValueId id) const { return name_[id.value].empty() ? computation(id) : by_name(id); }
+
+  Expression by_name(ValueId id) const {
+    const std::optional<Bundles::Place> lane = bundles_.place_of(id.value);
+    return lane ? name(name_[id.value])[lane->lane] : name(name_[id.value]);
+  }
+
+  /// Of all lanes of a bundle.
+  Expression computation_of_bundle(std::size_t first) const {
+    const Op op = program_.nodes[first].op;
+    std::vector<Expression> operands;
+    for (int k = 0; k < ir::operand_count(op); ++k) {
+      const std::vector<ValueId> terms = bundles_.operands(first, k);
+      const std::string& known = name_[terms[0].value];
+      if (bundles_.are_bundle(terms))
+        operands.push_back(known.empty() ? computation_of_bundle(terms[0].value) : name(known));
+      else if (is_same(terms))
+        operands.push_back(real(terms[0]));
+      else if (const auto it = gathered_.find(terms); it != gathered_.end())
+        operands.push_back(name(it->second));
+      else
+        operands.push_back(lanes(reals(terms)));
+    }
+    return operation(op, std::move(operands));
   }
 
   Expression computation(ValueId id) const {
@@ -250,6 +356,8 @@ class BodyBuilder {
   const LeafPlace& leaf_;
   const ResultStatement& result_;
   const StoredValues& stored_;
+  Bundles bundles_;
+  std::map<std::vector<ValueId>, std::string> gathered_;  ///< variables of terms that several bundles read
   std::vector<std::size_t> uses_;
   std::vector<bool> is_angle_;
   std::vector<std::string> name_;  ///< of statements; empty for what is written inside them

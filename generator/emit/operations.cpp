@@ -105,6 +105,7 @@ class Counter {
       case Kind::kReal:
       case Kind::kMember:
       case Kind::kFrom:
+      case Kind::kLanes:
       case Kind::kToReal:
       case Kind::kToAngle:
       case Kind::kInputsAt:

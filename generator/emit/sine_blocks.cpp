@@ -101,10 +101,10 @@ void add_block(Statements& to, const Statements& body, const std::vector<std::si
 
 }  // namespace
 
-Statements in_sine_blocks(const Statements& body) {
+std::optional<Statements> in_sine_blocks(const Statements& body) {
   Beginning beginning(body);
   std::vector<std::size_t> pairs = beginning.pairs();
-  if (pairs.size() < 2) return body;
+  if (pairs.size() < 2) return {};
   pairs.resize(pairs.size() / 2 * 2);
   std::set<std::size_t> moved = beginning.early();
   Statements result;

@@ -52,6 +52,7 @@ Expression operator*(const Expression& a, const Expression& b) { return operatio
 Expression operator/(const Expression& a, const Expression& b) { return operation(Op::kDivide, {a, b}); }
 Expression operator-(const Expression& a) { return operation(Op::kNegate, {a}); }
 Expression square_root(const Expression& a) { return operation(Op::kSqrt, {a}); }
+Expression lanes(std::vector<Expression> numbers) { return {Kind::kLanes, "", std::move(numbers)}; }
 Expression to_real(const Expression& a) { return {Kind::kToReal, "", {a}}; }
 Expression to_angle(const Expression& time) { return {Kind::kToAngle, "", {time}}; }
 Expression inputs_at(const Expression& state) { return {Kind::kInputsAt, "", {state}}; }

@@ -24,7 +24,8 @@ struct Expression {
     kMember,         ///< member `name` of the struct operands[0]
     kEntry,          ///< entry operands[1] of the array operands[0]
     kFrom,           ///< the array operands[0] from its entry operands[1] on
-    kOperation,      ///< `operation` of the operands, reals or integers
+    kOperation,      ///< `operation` of the operands, reals, integers or lanes
+    kLanes,          ///< numbers that are computed with at once: the operands, reals
     kToReal,         ///< an angle, a time or an integer as a real
     kToAngle,        ///< a time as an angle
     kInputsAt        ///< what the inputs are at the state operands[0]: held over the step, or sampled there
@@ -60,6 +61,7 @@ Expression operator*(const Expression& a, const Expression& b);
 Expression operator/(const Expression& a, const Expression& b);
 Expression operator-(const Expression& a);
 Expression square_root(const Expression& a);
+Expression lanes(std::vector<Expression> numbers);
 Expression to_real(const Expression& a);
 Expression to_angle(const Expression& time);
 Expression inputs_at(const Expression& state);
@@ -70,11 +72,11 @@ Expression velocity_count();
 bool mentions(const Expression& expression, const std::string& variable);
 
 struct Type {
-  enum class Kind { kReal, kAngle, kInteger, kStruct };
+  enum class Kind { kReal, kAngle, kInteger, kStruct, kLanes };
   Kind kind = Kind::kReal;
   std::string name = {};    ///< of a struct
   bool is_support = false;  ///< a struct that only emitted functions use
-  int depth = 0;            ///< steps that a struct of that kind remembers
+  int depth = 0;            ///< steps that a struct of that kind remembers; number of lanes
 };
 
 struct Variable {

@@ -11,6 +11,9 @@ namespace jourdain::ir {
 
 namespace {
 
+/// Literals this near to a double, relatively, are it: 0.7 (1/0.7) is 1.
+constexpr double kRounding = 1e-61;
+
 std::size_t hash(const Node& node) {
   auto h = static_cast<std::size_t>(node.op);
   const auto mix = [&h](std::size_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull + (h >> 29); };
@@ -77,7 +80,8 @@ Signed Builder::literal(double value) {
 
 Signed Builder::literal(const cln::cl_R& value) {
   const bool negative = cln::minusp(value);
-  const std::array<double, 4> parts = support::split(negative ? -value : value);
+  std::array<double, 4> parts = support::split(negative ? -value : value);
+  if (std::fabs(parts[1]) < kRounding * parts[0]) parts = {parts[0], 0, 0, 0};
   return {intern({.op = Op::kLiteral, .literal = parts[0], .tail = {parts[1], parts[2], parts[3]}}),
           negative};
 }

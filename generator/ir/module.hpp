@@ -1,6 +1,7 @@
 // All programs of one emitted model: what depends on parameters only, and the functions that use it.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "ir/function_id.hpp"
@@ -30,6 +31,15 @@ inline bool has_arctangent(const Module& module) {
   std::size_t count = count_operations(module.constants).atan2;
   for (const Program& program : module.functions) count += count_operations(program).atan2;
   return count > 0;
+}
+
+/// Has any of them a sine, cosine or arctangent?
+inline bool has_angles(const Module& module) {
+  const auto angles = [](const Program& program) {
+    const Operations count = count_operations(program);
+    return count.sin + count.cos + count.atan2 > 0;
+  };
+  return angles(module.constants) || std::any_of(module.functions.begin(), module.functions.end(), angles);
 }
 
 }  // namespace jourdain::ir

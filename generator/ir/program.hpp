@@ -65,6 +65,9 @@ struct Program {
   std::vector<Node> nodes;
   std::vector<std::string> labels;  ///< mechanical name of a value ("w3_x"), or empty
   std::vector<Output> outputs;
+  /// Values that may be computed at once, by one operation on several numbers: two or more, of one op, next to each
+  /// other, none of which needs another. A value stands there once.
+  std::vector<std::vector<ValueId>> lanes;
 
   const Node& operator[](ValueId id) const {
     JD_CHECK(id.value < nodes.size(), "value {} of {}", id.value, nodes.size());

@@ -12,8 +12,9 @@ struct TextChoices {
   Language language = Language::kCpp;
   /// Number types of what is compiled: C++'s instantiations, C's files. At least one.
   bool has_double = true, has_float = true;
-  bool packs = false;      ///< C++: numbers and angles by customization points, as packs of lanes want them
-  bool own_sines = false;  ///< sine and cosine by sums and products instead of the C library
+  bool packs = false;     ///< C++: numbers and angles by customization points, as packs of lanes want them
+  bool own_sines = true;  ///< sine and cosine by sums and products instead of the C library
+  bool lanes = true;      ///< limbs that are alike are computed in one order, in C++ at once
   bool has_interface = false;  ///< C: instances and the table of variables too
 };
 

@@ -19,6 +19,7 @@ class Inspection {
       found("{} labels for {} values", program_.labels.size(), program_.nodes.size());
     for (std::size_t i = 0; i < program_.nodes.size(); ++i) inspect(i);
     inspect_outputs();
+    inspect_lanes();
     if (list_.empty()) inspect_uses();  // whose operands exist
     return std::move(list_);
   }
@@ -52,6 +53,22 @@ class Inspection {
         found("output '{}' is %{} of {}", output.name, output.value.value, program_.nodes.size());
       if (!seen.insert({output.name, output.row, output.column}).second)
         found("output '{}' [{}][{}] is given twice", output.name, output.row, output.column);
+    }
+  }
+
+  void inspect_lanes() {
+    std::set<std::size_t> seen;
+    for (const std::vector<ValueId>& bundle : program_.lanes) {
+      for (std::size_t l = 0; l < bundle.size(); ++l) {
+        const std::size_t i = bundle[l].value;
+        if (i >= program_.nodes.size() || i != bundle[0].value + l || !seen.insert(i).second ||
+            operand_count(program_.nodes[i].op) != 2 || program_.nodes[i].op != program_[bundle[0]].op)
+          return found("lane {} of %{} is %{}", l, bundle[0].value, i);
+        for (const ValueId operand : {program_.nodes[i].a, program_.nodes[i].b})
+          if (operand.value >= bundle[0].value)
+            found("%{} needs %{}, which is computed with it", i, operand.value);
+      }
+      if (bundle.size() < 2) found("%{} is alone in its lanes", bundle.empty() ? 0 : bundle[0].value);
     }
   }
 

@@ -19,12 +19,11 @@ namespace {
 class Splitting {
  public:
   explicit Splitting(const Program& program)
-      : program_(program), fixed_(program.nodes.size()), copy_(program) {}
+      : program_(program), fixed_(constant_values(program)), copy_(program) {}
 
   Program run() {
     return remove_dead_code(copy_.run([this](ValueId id) -> std::optional<Signed> {
       const Node& node = program_[id];
-      fixed_[id.value] = is_fixed(node);
       if ((node.op != Op::kSin && node.op != Op::kCos) || !is_sum(node.a)) return {};
       const Pair pair = pair_of(node.a);
       return node.op == Op::kSin ? pair.sine : pair.cosine;
@@ -35,15 +34,6 @@ class Splitting {
   struct Pair {
     Signed sine, cosine;
   };
-
-  /// Depends on literals and parameters alone.
-  bool is_fixed(const Node& node) const {
-    const int operands = ir::operand_count(node.op);
-    if (operands == 0)
-      return node.op == Op::kLiteral || node.leaf == ir::LeafKind::kParameter ||
-             node.leaf == ir::LeafKind::kConstant;
-    return fixed_[node.a.value] && (operands == 1 || fixed_[node.b.value]);
-  }
 
   bool is_sum(ValueId id) const {
     const Node& node = program_[id];

@@ -1,7 +1,9 @@
 #include "passes/constants.hpp"
 
 #include <optional>
+#include <utility>
 
+#include "passes/constant_terms.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::passes {
@@ -24,30 +26,22 @@ class Grouping {
   explicit Grouping(const Program& program)
       : program_(program),
         uses_(ir::use_counts(program)),
-        constant_(program.nodes.size()),
+        constant_(constant_values(program)),
         copy_(program),
-        products_(program.nodes.size()) {
-    for (std::size_t i = 0; i < program.nodes.size(); ++i) constant_[i] = is_constant(program.nodes[i]);
-  }
+        products_(program.nodes.size()) {}
 
   Program run() {
     return remove_dead_code(copy_.run([this](ValueId id) -> std::optional<Signed> {
       const Node& node = program_[id];
       if (node.op == Op::kMultiply && (is_reciprocal(node.a, node.b) || is_reciprocal(node.b, node.a)))
         return copy_.builder().literal(1);
+      if (const auto quotient = quotient_instead(id)) return quotient;
       if (constant_[id.value] || (node.op != Op::kMultiply && node.op != Op::kDivide)) return {};
       return joined(products_[id.value] = product(node));
     }));
   }
 
  private:
-  bool is_constant(const Node& node) const {
-    if (node.op == Op::kLiteral) return true;
-    if (node.op == Op::kLeaf)
-      return node.leaf == ir::LeafKind::kParameter || node.leaf == ir::LeafKind::kConstant;
-    return constant_[node.a.value] && (ir::operand_count(node.op) == 1 || constant_[node.b.value]);
-  }
-
   /// Is `value` 1 over `divisor`?
   bool is_reciprocal(ValueId value, ValueId divisor) const {
     const Node& node = program_[value];
@@ -56,19 +50,33 @@ class Grouping {
     return dividend.op == Op::kLiteral && dividend.literal == 1 && dividend.tail[0] == 0;
   }
 
+  /// x/d for x (1/d) where that is all that 1/d is for.
+  std::optional<Signed> quotient_instead(ValueId id) {
+    const Node& node = program_[id];
+    if (node.op != Op::kMultiply || node.a == node.b) return {};
+    for (const auto& [reciprocal, x] : {std::pair(node.b, node.a), std::pair(node.a, node.b)}) {
+      const Node& other = program_[reciprocal];
+      if (uses_[reciprocal.value] > 1 || constant_[reciprocal.value] || !is_reciprocal(reciprocal, other.b))
+        continue;
+      return joined(products_[id.value] = quotient(x, other.b));
+    }
+    return {};
+  }
+
   Product product(const Node& node) {
+    if (node.op == Op::kDivide) return quotient(node.a, node.b);
     Product result;
     multiply_in(result, node.a);
-    if (node.op == Op::kMultiply) {
-      multiply_in(result, node.b);
-    } else if (constant_[node.b.value]) {
-      const Signed divisor = copy_[node.b];
-      result.constant = result.constant ? copy_.builder().divide(*result.constant, divisor)
-                                        : copy_.builder().divide(copy_.builder().literal(1), divisor);
-    } else {
-      const Signed divisor = copy_[node.b];
-      result.rest = copy_.builder().divide(result.rest ? *result.rest : copy_.builder().literal(1), divisor);
-    }
+    multiply_in(result, node.b);
+    return result;
+  }
+
+  Product quotient(ValueId dividend, ValueId by) {
+    Product result;
+    multiply_in(result, dividend);
+    const Signed divisor = copy_[by];
+    std::optional<Signed>& side = constant_[by.value] ? result.constant : result.rest;
+    side = copy_.builder().divide(side ? *side : copy_.builder().literal(1), divisor);
     return result;
   }
 
@@ -98,7 +106,7 @@ class Grouping {
 }  // namespace
 
 Program group_constants(const Program& program) {
-  return settled(program, [](const Program& p) { return Grouping(p).run(); });
+  return settled(program, [](const Program& p) { return group_constant_terms(Grouping(p).run()); });
 }
 
 }  // namespace jourdain::passes

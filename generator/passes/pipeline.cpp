@@ -7,6 +7,7 @@
 #include "passes/constants.hpp"
 #include "passes/factor.hpp"
 #include "passes/hoist.hpp"
+#include "passes/resubstitute.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::passes {
@@ -34,6 +35,7 @@ const std::vector<Pass>& pipeline() {
       {"factor", Effect::kReassociating, each_function(factor)},
       {"group_constants", Effect::kReassociating, each_function(group_constants)},
       {"remove_dead_code", Effect::kExact, each_function(remove_dead_code)},
+      {"resubstitute", Effect::kReassociating, each_function(resubstitute), true},
       {"hoist", Effect::kExact, hoist},
   };
   return passes;
@@ -42,6 +44,13 @@ const std::vector<Pass>& pipeline() {
 std::vector<std::string> pass_names() {
   std::vector<std::string> names;
   for (const Pass& pass : pipeline()) names.emplace_back(pass.name);
+  return names;
+}
+
+std::vector<std::string> dear_pass_names() {
+  std::vector<std::string> names;
+  for (const Pass& pass : pipeline())
+    if (pass.is_dear) names.emplace_back(pass.name);
   return names;
 }
 
@@ -75,7 +84,8 @@ PassRecord run(const Pass& pass, Module& module) {
 }  // namespace
 
 Module optimise_once(Module module) {
-  for (const Pass& pass : pipeline()) module = pass.run(module);
+  for (const Pass& pass : pipeline())
+    if (!pass.is_dear) module = pass.run(module);
   return module;
 }
 
@@ -85,6 +95,7 @@ Optimised optimise(Module module, const std::vector<std::string>& switched_off, 
     const Module before = module;
     for (const Pass& pass : pipeline()) {
       if (std::find(switched_off.begin(), switched_off.end(), pass.name) != switched_off.end()) continue;
+      if (pass.is_dear && arithmetic(module) != arithmetic(before)) continue;
       result.records.push_back(run(pass, module));
       result.records.back().round = round;
       if (watch) watch(result.records.back(), module);

@@ -17,12 +17,17 @@ struct Pass {
   const char* name;
   Effect effect;
   std::function<ir::Module(const ir::Module&)> run;
+  /// Takes much longer than others: it waits until those before it save nothing, and is left out where two ways are
+  /// compared.
+  bool is_dear = false;
 };
 
 /// In the order in which they run. So is the whole: of an optimised module it gives the same programs.
 const std::vector<Pass>& pipeline();
 
 std::vector<std::string> pass_names();
+/// Of those that are dear.
+std::vector<std::string> dear_pass_names();
 
 struct PassRecord {
   std::string name;
@@ -45,7 +50,8 @@ using Watch = std::function<void(const PassRecord&, const ir::Module&)>;
 Optimised optimise(ir::Module module, const std::vector<std::string>& switched_off = {},
                    const Watch& watch = nullptr);
 
-/// The module after one round of the pipeline: enough to compare operations of two ways to write the same.
+/// The module after one round of the pipeline without dear passes: enough to compare operations of two ways to write
+/// the same.
 ir::Module optimise_once(ir::Module module);
 
 std::size_t arithmetic(const ir::Module& module);

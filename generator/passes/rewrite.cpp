@@ -1,6 +1,7 @@
 #include "passes/rewrite.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace jourdain::passes {
 
@@ -20,6 +21,17 @@ Program Copy::run(const Rewritten& rewritten, const std::vector<bool>& left_out)
   for (const ir::Output& output : program_.outputs)
     builder_.output(output.name, output.row, output.column, (*this)[output.value]);
   return builder_.finish(program_.name);
+}
+
+std::vector<bool> constant_values(const Program& program) {
+  std::vector<bool> constant;
+  for (const Node& node : program.nodes) {
+    const int operands = ir::operand_count(node.op);
+    constant.push_back(operands == 0 ? node.op == ir::Op::kLiteral || node.leaf == ir::LeafKind::kParameter ||
+                                           node.leaf == ir::LeafKind::kConstant
+                                     : constant[node.a.value] && (operands == 1 || constant[node.b.value]));
+  }
+  return constant;
 }
 
 std::vector<bool> needed_values(const Program& program) {
@@ -72,11 +84,12 @@ bool same_operations(const Program& a, const Program& b) { return a.nodes == b.n
 
 Program settled(const Program& program, const Rewriting& rewrite) {
   constexpr int kMostRuns = 100;  // a cycle would cost idempotence, never correctness
-  Program current = program;
+  Program current = program, before;
   for (int run = 0; run < kMostRuns; ++run) {
     Program next = rewrite(current);
-    if (same_operations(next, current)) return next;
-    current = std::move(next);
+    // Two sums that are equal but for their order may change places for ever: the first of both is kept.
+    if (same_operations(next, current) || (run > 0 && same_operations(next, before))) return next;
+    before = std::exchange(current, std::move(next));
   }
   return current;
 }

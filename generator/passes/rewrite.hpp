@@ -41,8 +41,12 @@ class Copy {
 
 using Rewriting = std::function<ir::Program(const ir::Program&)>;
 
-/// `rewrite` run on its own result until that changes nothing: what makes a pass idempotent.
+/// `rewrite` run on its own result until that changes nothing, or gives the program before, which is kept then: what
+/// makes a pass idempotent.
 ir::Program settled(const ir::Program& program, const Rewriting& rewrite);
+
+/// Marks the values that depend on literals and parameters alone.
+std::vector<bool> constant_values(const ir::Program& program);
 
 /// Marks the values that the outputs need.
 std::vector<bool> needed_values(const ir::Program& program);

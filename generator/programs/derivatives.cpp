@@ -10,6 +10,7 @@
 #include "ir/symmetric_factors.hpp"
 #include "lowering/cheapest_elimination.hpp"
 #include "lowering/lower.hpp"
+#include "passes/fingerprints.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::programs {
@@ -219,7 +220,16 @@ class Assembly {
     }
   }
 
-  Program finish(FunctionId function) { return passes::remove_dead_code(builder_.finish(name_of(function))); }
+  /// Without entries of matrices that are 0 for all arguments, however they were derived: what is not given is 0.
+  Program finish(FunctionId function) {
+    Program program = passes::remove_dead_code(builder_.finish(name_of(function)));
+    const std::optional<std::vector<passes::Fingerprint>> values = passes::fingerprints(program);
+    if (!values) return program;
+    std::erase_if(program.outputs, [&](const ir::Output& output) {
+      return output.column >= 0 && (*values)[output.value.value].is_zero();
+    });
+    return passes::remove_dead_code(program);
+  }
 
   const DerivativeSources& sources_;
   DerivativeTerms terms_;
@@ -246,6 +256,7 @@ DerivativeSources tree_sources(const model::Mechanism& mechanism,
                                const dynamics::DerivationOptions& options) {
   dynamics::DerivationOptions plain = options;
   plain.planar = false;
+  plain.from_links = {};
   plain.articulated.clear();  // M is factorised for the derivatives anyway
   plain.for_derivatives = true;
   const Equations equations = dynamics::derive_equations(mechanism, plain);

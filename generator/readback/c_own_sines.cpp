@@ -9,7 +9,16 @@ namespace {
 using Passage = CPassage;
 
 constexpr std::array<Passage, 5> kDouble = {{
-    {"sine_bits", R"(typedef char @D@sine_bits_fit[sizeof(double) == sizeof(unsigned long long) ? 1 : -1];
+    {"sine_bits", R"(#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+typedef char @D@sine_bits_fit[sizeof(double) == sizeof(unsigned long long) ? 1 : -1];
 static unsigned long long @D@sine_bits(double x) {
   union {
     double value;
@@ -19,8 +28,8 @@ static unsigned long long @D@sine_bits(double x) {
   both.value = x;
   return both.bits;
 }
-)"},
-    {"sine_value", R"(static double @D@sine_value(unsigned long long bits) {
+
+static double @D@sine_value(unsigned long long bits) {
   union {
     double value;
     unsigned long long bits;
@@ -29,8 +38,18 @@ static unsigned long long @D@sine_bits(double x) {
   both.bits = bits;
   return both.value;
 }
+#endif
 )"},
-    {"sine_cosine", R"(static void @D@sine_cosine(double x, double *s, double *c) {
+    {"sine_cosine", R"(#if defined(JOURDAIN_LIBRARY_SINES)
+static void @D@sine_cosine(double x, double *s, double *c) {
+  *s = sin(x);
+  *c = cos(x);
+}
+#else
+static void @D@sine_cosine(double x, double *s, double *c) {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
   const unsigned long long one = 1, bits = @D@sine_bits(x), sign = bits & (one << 63);
   const double a = @D@sine_value(bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
   const unsigned long long n = @D@sine_bits(shifted);
@@ -58,6 +77,7 @@ static unsigned long long @D@sine_bits(double x) {
     *c = cos(x);
   }
 }
+#endif
 )"},
     {"sine", R"(static double @D@sine(double x) {
   double s, c;
@@ -73,10 +93,52 @@ static unsigned long long @D@sine_bits(double x) {
   return c;
 }
 )"},
+    {"arctangent2", R"(#if defined(JOURDAIN_LIBRARY_SINES)
+static double @D@arctangent2(double y, double x) {
+  return atan2(y, x);
+}
+#else
+static double @D@arctangent2(double y, double x) {
+  const unsigned long long one = 1, y_bits = @D@sine_bits(y), x_bits = @D@sine_bits(x);
+  const unsigned long long sign = y_bits & (one << 63), is_behind = x_bits >> 63;
+  const unsigned long long b = y_bits ^ sign, a = x_bits ^ (is_behind << 63), is_steep = (a - b) >> 63;
+  const unsigned long long exchange = (a ^ b) & (0 - is_steep);
+  const double large = @D@sine_value(a ^ exchange), small = @D@sine_value(b ^ exchange);
+  const unsigned long long is_wide = (@D@sine_bits(large * 0.5463024898437905) - (b ^ exchange)) >> 63;
+  const int wide = (int)is_wide, nothing = (int)(((a ^ exchange) - one) >> 63);
+  const double turn = (double)wide;
+  const double t = (small - turn * large) / (large + turn * small + (double)nothing), z = t * t;
+  const double w = z * z, v = w * w;
+  const double low = (-0.3333333333333333 + z * 0.1999999999999723) +
+                     w * (-0.142857142851601 + z * 0.11111111068604916);
+  const double middle = (-0.09090907407679288 + z * 0.07692268042911367) +
+                        w * (-0.06666065366369484 + z * 0.058762025197991216);
+  const double high = (-0.05219603216056109 + z * 0.04545914188460735) +
+                      w * (-0.035981529310843786 + z * 0.0219654180922859);
+  const double angle = t + t * z * (low + v * (middle + v * (high + v * -0.007274827974643591)));
+  const unsigned long long is_back = is_steep ^ is_behind;
+  const int quarters = (int)(is_steep + ((is_behind & ~is_steep) << 1));
+  const double eighths = (double)(2 * quarters + wide - 2 * (int)(is_wide & is_back));
+  const unsigned long long part = @D@sine_bits(angle) ^ (is_back << 63);
+  const double rest = @D@sine_value(part) + eighths * 3.061616997868383e-17;
+
+  return @D@sine_value(@D@sine_bits(eighths * 0.7853981633974483 + rest) ^ sign);
+}
+#endif
+)"},
 }};
 
 constexpr std::array<Passage, 5> kFloat = {{
-    {"sine_bits", R"(typedef char @D@sine_bits_fit[sizeof(float) == sizeof(unsigned) ? 1 : -1];
+    {"sine_bits", R"(#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+typedef char @D@sine_bits_fit[sizeof(float) == sizeof(unsigned) ? 1 : -1];
 static unsigned @D@sine_bits(float x) {
   union {
     float value;
@@ -86,8 +148,8 @@ static unsigned @D@sine_bits(float x) {
   both.value = x;
   return both.bits;
 }
-)"},
-    {"sine_value", R"(static float @D@sine_value(unsigned bits) {
+
+static float @D@sine_value(unsigned bits) {
   union {
     float value;
     unsigned bits;
@@ -96,8 +158,18 @@ static unsigned @D@sine_bits(float x) {
   both.bits = bits;
   return both.value;
 }
+#endif
 )"},
-    {"sine_cosine", R"(static void @D@sine_cosine(float x, float *s, float *c) {
+    {"sine_cosine", R"(#if defined(JOURDAIN_LIBRARY_SINES)
+static void @D@sine_cosine(float x, float *s, float *c) {
+  *s = sinf(x);
+  *c = cosf(x);
+}
+#else
+static void @D@sine_cosine(float x, float *s, float *c) {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
   static const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
                                           283381887, 2488855287};
   const unsigned one = 1, bits = @D@sine_bits(x), sign = bits & (one << 31), a = bits ^ sign;
@@ -137,6 +209,7 @@ static unsigned @D@sine_bits(float x) {
     *c = x - x;
   }
 }
+#endif
 )"},
     {"sine", R"(static float @D@sine(float x) {
   float s, c;
@@ -152,10 +225,37 @@ static unsigned @D@sine_bits(float x) {
   return c;
 }
 )"},
+    {"arctangent2", R"(#if defined(JOURDAIN_LIBRARY_SINES)
+static float @D@arctangent2(float y, float x) {
+  return atan2f(y, x);
+}
+#else
+static float @D@arctangent2(float y, float x) {
+  const unsigned one = 1, y_bits = @D@sine_bits(y), x_bits = @D@sine_bits(x);
+  const unsigned sign = y_bits & (one << 31), is_behind = x_bits >> 31;
+  const unsigned b = y_bits ^ sign, a = x_bits ^ (is_behind << 31), is_steep = (a - b) >> 31;
+  const unsigned exchange = (a ^ b) & (0 - is_steep);
+  const float large = @D@sine_value(a ^ exchange), small = @D@sine_value(b ^ exchange);
+  const unsigned is_wide = (@D@sine_bits(large * 0.5463025f) - (b ^ exchange)) >> 31;
+  const int wide = (int)is_wide, nothing = (int)(((a ^ exchange) - one) >> 31);
+  const float turn = (float)wide;
+  const float t = (small - turn * large) / (large + turn * small + (float)nothing), z = t * t;
+  const float low = (-0.3333333f + z * 0.19999681f) + z * z * (-0.1427416f + z * 0.1094557f);
+  const float angle = t + t * z * (low + z * z * z * z * (-0.079587296f + z * 0.037864342f));
+  const unsigned is_back = is_steep ^ is_behind;
+  const int quarters = (int)(is_steep + ((is_behind & ~is_steep) << 1));
+  const float eighths = (float)(2 * quarters + wide - 2 * (int)(is_wide & is_back));
+  const unsigned part = @D@sine_bits(angle) ^ (is_back << 31);
+  const float rest = @D@sine_value(part) + eighths * 1.5695824e-07f;
+
+  return @D@sine_value(@D@sine_bits(eighths * 0.785398f + rest) ^ sign);
+}
+#endif
+)"},
 }};
 
 /// What those of the same name compute.
-constexpr std::array<Passage, 3> kMeanings = {{
+constexpr std::array<Passage, 4> kMeanings = {{
     {"sine_cosine", R"(static void @D@sine_cosine(@R@ x, @R@ *s, @R@ *c) {
   *s = sin@F@(x);
   *c = cos@F@(x);
@@ -167,6 +267,10 @@ constexpr std::array<Passage, 3> kMeanings = {{
 )"},
     {"cosine", R"(static @R@ @D@cosine(@R@ x) {
   return cos@F@(x);
+}
+)"},
+    {"arctangent2", R"(static @R@ @D@arctangent2(@R@ y, @R@ x) {
+  return atan2@F@(y, x);
 }
 )"},
 }};

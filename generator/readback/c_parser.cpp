@@ -81,14 +81,25 @@ class CFileParser : public StatementParser {
       if (!begins(text.tokens)) continue;
       for (std::size_t i = 0; i + 1 < text.tokens.tokens.size(); ++i) take();
       if (!known_.c_operations.insert(text.name).second) refuse_here("no second " + text.name);
-      unit_.has_own_sines = unit_.has_own_sines || text.meaning;
-      if (text.meaning) CFileParser(unit_, known_, *text.meaning, file_, texts_).item();
+      unit_.has_own_sines = unit_.has_own_sines || (text.meaning && text.name == "sine_cosine");
+      if (text.meaning) read_meaning(*text.meaning);
+      if (text.name == "angle_sine") declare_of_number("sine");
+      if (text.name == "angle_cosine") declare_of_number("cosine");
       if (text.name == "time") add_sum(known_.c->prefix + "time", {unit_.symbols["Time"]});
       if (text.name == "angle")
         add_sum(known_.c->internal() + "angle", {unit_.symbols["detail"], unit_.symbols["Angle"]});
       return true;
     }
     return false;
+  }
+
+  void read_meaning(const Tokens& meaning) { CFileParser(unit_, known_, meaning, file_, texts_).item(); }
+
+  /// What a function of angles is read as, where own sines leave it out because nothing else calls it.
+  void declare_of_number(const std::string& name) {
+    if (!known_.c_operations.count("sine_cosine") || !known_.c_operations.insert(name).second) return;
+    for (const CKnownText& text : texts_.all())
+      if (text.name == name && text.meaning) read_meaning(*text.meaning);
   }
 
   bool begins(const Tokens& text) const {

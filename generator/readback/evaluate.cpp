@@ -218,6 +218,7 @@ Value Interpreter::binary(const Expression& expression) {
   if (a.kind == Value::Kind::kNumber && b.kind == Value::Kind::kNumber)
     return is_arithmetic(op) ? of_number(domain_.operate(operation(op), a.number, b.number))
                              : compare(expression, a, b);
+  if ((is_lanes(a) || is_lanes(b)) && is_arithmetic(op)) return lane_by_lane(operation(op), a, b, expression);
   if (a.kind == Value::Kind::kPlace && a.type->kind == Type::Kind::kArray) a = pointer_to(a);
   if (a.kind == Value::Kind::kPointer && b.kind == Value::Kind::kInteger && op == BinaryOp::kAdd) {
     a.address += static_cast<std::size_t>(b.integer) * a.type->cells;
@@ -271,8 +272,8 @@ void Interpreter::store(const Value& place, const Value& given, const Expression
     memory_[place.address] = number_cell(value.number);
   } else if (place.type->kind == Type::Kind::kInteger && value.kind == Value::Kind::kInteger) {
     memory_[place.address] = integer_cell(value.integer);
-  } else if (place.type->kind == Type::Kind::kStruct && value.kind == Value::Kind::kPlace &&
-             value.type == place.type) {
+  } else if ((place.type->kind == Type::Kind::kStruct || place.type->kind == Type::Kind::kLanes) &&
+             value.kind == Value::Kind::kPlace && value.type == place.type) {
     for (std::size_t i = 0; i < place.type->cells; ++i)
       memory_[place.address + i] = memory_[value.address + i];
   } else {
@@ -307,9 +308,10 @@ long Interpreter::integer(const Expression& expression) {
   return value.integer;
 }
 
-/// A number from an integer, from a constant of type double or from a number.
+/// A number from an integer, from a constant of type double or from a number; lanes from a list of numbers.
 Value Interpreter::cast(const Expression& expression) {
   const Type* type = types_.resolve(*expression.type, lookup());
+  if (type->kind == Type::Kind::kLanes) return lanes_of(type, expression);
   if (type->kind != Type::Kind::kNumber || expression.arguments.size() != 1)
     refuse_at(expression.place, "a conversion to another type than that of numbers");
   const Value value = evaluate_loaded(*expression.arguments[0]);
@@ -323,7 +325,8 @@ Value Interpreter::cast(const Expression& expression) {
 Value Interpreter::subscript(const Expression& expression) {
   Value array = evaluate(*expression.a);
   const long index = integer(*expression.b);
-  if (array.kind == Value::Kind::kPlace && array.type->kind == Type::Kind::kArray) {
+  if (array.kind == Value::Kind::kPlace &&
+      (array.type->kind == Type::Kind::kArray || array.type->kind == Type::Kind::kLanes)) {
     if (index < 0 || index >= array.type->extent)
       refuse_at(expression.place, fmt::format("entry {} of {}", index, types_.text(array.type)));
     array.type = array.type->element;

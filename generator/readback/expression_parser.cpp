@@ -349,6 +349,12 @@ const Expression* ExpressionParser::name() {
       arguments(made, ")");
       return &made;
     }
+    if (is("{")) {
+      made.kind = ExpressionKind::kCast;
+      made.type = &read;
+      made.arguments.push_back(list());
+      return &made;
+    }
     expect("::");  // a member of a type
     made.name = expect_name();
     made.type = &read;

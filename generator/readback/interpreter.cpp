@@ -116,7 +116,8 @@ Value Interpreter::field(const Value& object, const std::string& name) {
 }
 
 Value Interpreter::entry(const Value& array, std::size_t index) {
-  if (array.type->kind != Type::Kind::kArray || static_cast<long>(index) >= array.type->extent)
+  const bool has_entries = array.type->kind == Type::Kind::kArray || array.type->kind == Type::Kind::kLanes;
+  if (!has_entries || static_cast<long>(index) >= array.type->extent)
     throw Refusal(fmt::format("{} has no entry {}", types_.text(array.type), index));
   Value place = array;
   place.type = array.type->element;
@@ -177,6 +178,7 @@ void Interpreter::initialise(const Value& place, const Type* type, bool with_zer
       if (with_zeros) cell(place) = integer_cell(0);
       return;
     case Type::Kind::kArray:
+    case Type::Kind::kLanes:
       for (long i = 0; i < type->extent; ++i)
         initialise(entry(place, static_cast<std::size_t>(i)), type->element, with_zeros);
       return;
@@ -209,6 +211,7 @@ void Interpreter::initialise(const Value& place, const Type* type, bool with_zer
 void Interpreter::initialise_from(const Value& place, const Expression& initial) {
   if (initial.kind != ExpressionKind::kList) return store(place, evaluate(initial), initial);
   const std::vector<const Expression*>& list = initial.arguments;
+  if (place.type->kind == Type::Kind::kLanes) return initialise_lanes(place, initial);
   if (list.empty()) return initialise(place, place.type, true);
   if (place.type->kind != Type::Kind::kArray || static_cast<long>(list.size()) > place.type->extent)
     refuse_at(initial.place, fmt::format("{} values for {}", list.size(), types_.text(place.type)));

@@ -113,6 +113,14 @@ class Interpreter {
   long integer(const Expression& expression);
   Value pointer_to(const Value& array) const;
 
+  // lanes
+  static bool is_lanes(const Value& value) {
+    return value.kind == Value::Kind::kPlace && value.type->kind == Type::Kind::kLanes;
+  }
+  void initialise_lanes(const Value& place, const Expression& list);
+  Value lanes_of(const Type* type, const Expression& cast);
+  Value lane_by_lane(ir::Op op, const Value& a, const Value& b, const Expression& expression);
+
   // calls
   Value call(const Expression& expression);
   Value call_c_library(const Expression& expression, const std::vector<Value>& arguments);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "readback/lanes_text.hpp"
 #include "readback/own_sines.hpp"
 
 namespace jourdain::readback {
@@ -215,6 +216,9 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(known("", "Time", kTime));
     list.push_back(known("detail", "Angle", kAngle));
     list.push_back(sines());
+    list.push_back(known("detail", "", own_sine_blocks()));
+    list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
+    list.push_back(known("detail", kLanes, lanes_text()));
     return list;
   }();
   static const std::vector<KnownText> of_packs = [] {
@@ -222,6 +226,9 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(known("", "Time", for_packs(kTime)));
     list.push_back(known("detail", "Angle", for_packs(kAngle)));
     list.push_back(sines());
+    list.push_back(known("detail", "", own_sine_blocks()));
+    list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
+    list.push_back(known("detail", kLanes, lanes_text()));
     list.push_back(known("", "", kNumbers));
     list.push_back(known("", "", kNumberOfTime));
     list.push_back(known("detail", "", kNumberOfAngle));

@@ -12,9 +12,13 @@
 
 namespace jourdain::readback {
 
+/// The type of numbers that are computed with at once.
+inline constexpr const char* kLanes = "Lanes";
+
 struct KnownText {
   std::string_view scope;  ///< namespace within the outer one, or empty
-  std::string_view type;   ///< name of a struct template that stands for the type of its numbers; or empty
+  /// Name of a template that stands for its numbers, added up or beside each other; or empty.
+  std::string_view type;
   std::unique_ptr<std::string> text;
   Tokens tokens;                       ///< of `text`
   std::optional<Tokens> meaning = {};  ///< what is read in its place

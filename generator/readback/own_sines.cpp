@@ -3,14 +3,30 @@
 namespace jourdain::readback {
 
 const char* own_sines() {
-  return R"(#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2
-#error "emitted with --own-sines: sums have to be rounded as they are written, without -ffast-math or x87"
+  return R"(#if defined(JOURDAIN_LIBRARY_SINES)
+#elif defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__ROUNDING_MATH__) || defined(_M_FP_FAST)
+#define JOURDAIN_LIBRARY_SINES
+#elif __FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2 || defined(__INTEL_COMPILER)
+#define JOURDAIN_LIBRARY_SINES
+#elif defined(__clang__) && __clang_major__ < 11
+#define JOURDAIN_LIBRARY_SINES
+#elif !defined(__clang__) && ((defined(__GNUC__) && __GNUC__ < 11) || defined(__CUDACC__))
+#define JOURDAIN_LIBRARY_SINES
 #endif
+#if defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline double sine(double x) noexcept { return ::sin(x); }
+JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
+JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
+JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+#else
 template <class V, class I> JOURDAIN_FUNCTION
 #if defined(__GNUC__)
 __attribute__((always_inline))
 #endif
 inline void sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
   const unsigned long long one = 1, zero = 0;
   const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 63);
   const V a = __builtin_bit_cast(V, bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
@@ -52,51 +68,10 @@ JOURDAIN_FUNCTION inline double cosine(double x) noexcept {
   sine_cosine(x, s, c);
   return c;
 }
-JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1) noexcept {
-#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1)) {
-    typedef double Lanes __attribute__((vector_size(16)));
-    typedef unsigned long long Bits __attribute__((vector_size(16)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    return;
-  }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-}
-JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1,
-                                           const double& x2, double& s2, double& c2,
-                                           const double& x3, double& s3, double& c3) noexcept {
-#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
-    typedef double Lanes __attribute__((vector_size(32)));
-    typedef unsigned long long Bits __attribute__((vector_size(32)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    s2 = s[2];
-    c2 = c[2];
-    s3 = s[3];
-    c3 = c[3];
-    return;
-  }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-  sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
-}
 JOURDAIN_FUNCTION inline void sine_cosine(const float& x, float& s, float& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
   const unsigned two_over_pi[8] = {40, 3194018707, 2433043071, 165016701, 1295478838, 3634718287,
                                    283381887, 2488855287};
   const unsigned one = 1, bits = __builtin_bit_cast(unsigned, x), sign = bits & (one << 31), a = bits ^ sign;
@@ -146,6 +121,112 @@ JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
   sine_cosine(x, s, c);
   return c;
 }
+#endif
+)";
+}
+
+const char* own_sine_blocks() {
+  return R"(#if !defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1)) {
+    typedef double Lanes __attribute__((vector_size(16)));
+    typedef unsigned long long Bits __attribute__((vector_size(16)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+}
+JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                                           const double& x1, double& s1, double& c1,
+                                           const double& x2, double& s2, double& c2,
+                                           const double& x3, double& s3, double& c3) noexcept {
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
+    typedef double Lanes __attribute__((vector_size(32)));
+    typedef unsigned long long Bits __attribute__((vector_size(32)));
+    Lanes s, c;
+    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
+    s0 = s[0];
+    c0 = c[0];
+    s1 = s[1];
+    c1 = c[1];
+    s2 = s[2];
+    c2 = c[2];
+    s3 = s[3];
+    c3 = c[3];
+    return;
+  }
+#endif
+  sine_cosine(x0, s0, c0);
+  sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
+  sine_cosine(x3, s3, c3);
+}
+#endif
+)";
+}
+
+const char* own_arctangent() {
+  return R"(#if defined(JOURDAIN_LIBRARY_SINES)
+JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
+#else
+JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept {
+  using Bits = unsigned long long;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 63), is_behind = x_bits >> 63;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 63), is_steep = (a - b) >> 63;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const double large = __builtin_bit_cast(double, a ^ exchange), small = __builtin_bit_cast(double, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463024898437905) - (b ^ exchange)) >> 63;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 63);
+  const double turn = static_cast<double>(wide);
+  const double t = (small - turn * large) / (large + turn * small + static_cast<double>(nothing)), z = t * t;
+  const double w = z * z, v = w * w;
+  const double low = (-0.3333333333333333 + z * 0.1999999999999723) +
+                     w * (-0.142857142851601 + z * 0.11111111068604916);
+  const double middle = (-0.09090907407679288 + z * 0.07692268042911367) +
+                        w * (-0.06666065366369484 + z * 0.058762025197991216);
+  const double high = (-0.05219603216056109 + z * 0.04545914188460735) +
+                      w * (-0.035981529310843786 + z * 0.0219654180922859);
+  const double angle = t + t * z * (low + v * (middle + v * (high + v * -0.007274827974643591)));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const double eighths = static_cast<double>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 63);
+  const double rest = __builtin_bit_cast(double, part) + eighths * 3.061616997868383e-17;
+  return __builtin_bit_cast(double, __builtin_bit_cast(Bits, eighths * 0.7853981633974483 + rest) ^ sign);
+}
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept {
+  using Bits = unsigned;
+  const Bits one = 1, y_bits = __builtin_bit_cast(Bits, y), x_bits = __builtin_bit_cast(Bits, x);
+  const Bits sign = y_bits & (one << 31), is_behind = x_bits >> 31;
+  const Bits b = y_bits ^ sign, a = x_bits ^ (is_behind << 31), is_steep = (a - b) >> 31;
+  const Bits exchange = (a ^ b) & (0 - is_steep);
+  const float large = __builtin_bit_cast(float, a ^ exchange), small = __builtin_bit_cast(float, b ^ exchange);
+  const Bits is_wide = (__builtin_bit_cast(Bits, large * 0.5463025f) - (b ^ exchange)) >> 31;
+  const int wide = static_cast<int>(is_wide), nothing = static_cast<int>(((a ^ exchange) - one) >> 31);
+  const float turn = static_cast<float>(wide);
+  const float t = (small - turn * large) / (large + turn * small + static_cast<float>(nothing)), z = t * t;
+  const float low = (-0.3333333f + z * 0.19999681f) + z * z * (-0.1427416f + z * 0.1094557f);
+  const float angle = t + t * z * (low + z * z * z * z * (-0.079587296f + z * 0.037864342f));
+  const Bits is_back = is_steep ^ is_behind;
+  const int quarters = static_cast<int>(is_steep + ((is_behind & ~is_steep) << 1));
+  const float eighths = static_cast<float>(2 * quarters + wide - 2 * static_cast<int>(is_wide & is_back));
+  const Bits part = __builtin_bit_cast(Bits, angle) ^ (is_back << 31);
+  const float rest = __builtin_bit_cast(float, part) + eighths * 1.5695824e-07f;
+  return __builtin_bit_cast(float, __builtin_bit_cast(Bits, eighths * 0.785398f + rest) ^ sign);
+}
+#endif
 )";
 }
 
@@ -154,6 +235,12 @@ const char* library_sines() {
 JOURDAIN_FUNCTION inline double cosine(double x) noexcept { return ::cos(x); }
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
+)";
+}
+
+const char* library_arctangent() {
+  return R"(JOURDAIN_FUNCTION inline double arctangent2(double y, double x) noexcept { return ::atan2(y, x); }
+JOURDAIN_FUNCTION inline float arctangent2(float y, float x) noexcept { return ::atan2f(y, x); }
 )";
 }
 

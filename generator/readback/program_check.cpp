@@ -281,13 +281,16 @@ void check_library(const Unit& unit, NumberType type, Findings& findings) {
 
 }  // namespace
 
-void check_library(const Unit& unit, bool own_sines, Findings& findings) {
+void check_library(const Unit& unit, const Expected& expected, Findings& findings) {
   const bool has_sines =
-      !unit.is_c || std::any_of(unit.functions.begin(), unit.functions.end(), [&](const Function* f) {
-        const std::string name(unit.symbols.text(f->name));
-        return f->scope == "detail" && (name == "sine" || name == "cosine" || name == "sine_cosine");
-      });
-  findings.expect("sines written out", unit.has_own_sines, own_sines && has_sines);
+      unit.is_c ? std::any_of(unit.functions.begin(), unit.functions.end(),
+                              [&](const Function* f) {
+                                const std::string name(unit.symbols.text(f->name));
+                                return f->scope == "detail" &&
+                                       (name == "sine" || name == "cosine" || name == "sine_cosine");
+                              })
+                : expected.module && ir::has_angles(*expected.module);
+  findings.expect("sines written out", unit.has_own_sines, expected.choices.own_sines && has_sines);
   for (const NumberType type : {NumberType::kOwn, NumberType::kDouble, NumberType::kFloat})
     if (!unit.is_c || type == NumberType::kOwn)
       findings.guarded("functions of the C library", [&] { check_library(unit, type, findings); });

@@ -16,6 +16,6 @@ namespace jourdain::readback {
 void check_programs(const Unit& unit, const Expected& expected, NodeTable& table, Findings& findings);
 
 /// The functions that stand for sin, cos, sqrt and atan2, for double, float and another number type.
-void check_library(const Unit& unit, bool own_sines, Findings& findings);
+void check_library(const Unit& unit, const Expected& expected, Findings& findings);
 
 }  // namespace jourdain::readback

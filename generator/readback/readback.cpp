@@ -20,7 +20,7 @@ void check_functions(const Unit& unit, const Expected& expected, Findings& findi
   check_scopes(unit, findings);
   NodeTable table(expected.is_float);
   check_programs(unit, expected, table, findings);
-  check_library(unit, expected.choices.own_sines, findings);
+  check_library(unit, expected, findings);
   check_guards(unit, expected, findings);
   record.functions += findings.counts.size();
   record.nodes += table.size();

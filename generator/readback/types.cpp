@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "readback/known_text.hpp"
 #include "readback/tokens.hpp"
 
 namespace jourdain::readback {
@@ -9,6 +10,7 @@ namespace jourdain::readback {
 namespace {
 
 constexpr long kLongestArray = 1000000;
+constexpr long kMostLanes = 4;
 
 Type of(Type::Kind kind) {
   Type type;
@@ -45,6 +47,19 @@ const Type* TypeTable::array(const Type* element, long extent) {
     made.element = element;
     made.extent = extent;
     made.cells = static_cast<std::size_t>(extent) * element->cells;
+    known = &made;
+  }
+  return known;
+}
+
+const Type* TypeTable::lanes(long count) {
+  if (count < 2 || count > kMostLanes) throw Refusal(fmt::format("{} lanes", count));
+  const Type*& known = lanes_[count];
+  if (!known) {
+    Type& made = types_.emplace_back(of(Type::Kind::kLanes));
+    made.element = &number_;
+    made.extent = count;
+    made.cells = static_cast<std::size_t>(count);
     known = &made;
   }
   return known;
@@ -111,6 +126,9 @@ const Type* TypeTable::resolve(const TypeName& name, const Lookup& lookup) {
   if (unit_.numbers.count(last) && name.arguments.size() == 1 &&
       resolve(name.arguments[0].type, lookup) == &number_)
     return &sum_;
+  if (unit_.numbers.count(last) && unit_.symbols.text(last) == kLanes && name.arguments.size() == 2 &&
+      name.arguments[0].value && resolve(name.arguments[1].type, lookup) == &number_)
+    return lanes(integer_of_(*name.arguments[0].value, lookup));
   const Struct* syntax = find_struct(name.path, lookup);
   if (!syntax) throw Refusal(fmt::format("the type {} is not known here", text_of(unit_, name)));
   return instance(*syntax, bindings_of(*syntax, name, lookup));
@@ -187,6 +205,8 @@ std::string TypeTable::text(const Type* type) const {
       return unit_.symbols.text(type->structure->syntax->name);
     case Type::Kind::kArray:
       return fmt::format("{}[{}]", text(type->element), type->extent);
+    case Type::Kind::kLanes:
+      return fmt::format("{}<{}, Real>", kLanes, type->extent);
     case Type::Kind::kFunction:
       return "function";
   }

@@ -16,10 +16,20 @@ struct StructType;
 
 /// Types are equal where their addresses are.
 struct Type {
-  enum class Kind : std::uint8_t { kVoid, kBool, kInteger, kNative, kNumber, kStruct, kArray, kFunction };
+  enum class Kind : std::uint8_t {
+    kVoid,
+    kBool,
+    kInteger,
+    kNative,
+    kNumber,
+    kStruct,
+    kArray,
+    kLanes,
+    kFunction
+  };
   Kind kind = Kind::kVoid;
-  const Type* element = nullptr;  ///< kArray
-  long extent = 0;                ///< kArray
+  const Type* element = nullptr;  ///< kArray, kLanes
+  long extent = 0;                ///< kArray; kLanes: numbers that are computed with at once
   const StructType* structure = nullptr;
   std::size_t cells = 1;  ///< of memory
 };
@@ -75,6 +85,7 @@ class TypeTable {
   const Type* nothing() const { return &void_; }
   const Type* function() const { return &function_; }
   const Type* array(const Type* element, long extent);
+  const Type* lanes(long count);
   /// Throws Refusal where the name is unknown.
   const Type* resolve(const TypeName& name, const Lookup& lookup);
   /// With the declarator's bounds.
@@ -99,6 +110,7 @@ class TypeTable {
   std::deque<Type> types_;
   std::deque<StructType> struct_types_;
   std::map<std::pair<const Type*, long>, const Type*> arrays_;
+  std::map<long, const Type*> lanes_;
   std::map<std::pair<const Struct*, std::vector<std::pair<const Type*, long>>>, const Type*> instances_;
   Symbol real_ = 0;
 };

@@ -25,11 +25,13 @@ constexpr long double kResidue = 1e-60L;
 constexpr long double kLessStable = 1e4L;
 
 /// |a − b| over the larger scale; 0 where both are no numbers, infinite where one is or nothing bounds the rounding.
+/// Over the larger number, which is less, where these leave the range of double.
 double apart(const ScaledReal& a, const ScaledReal& b, long double floor) {
   if (a.is_number() != b.is_number()) return INFINITY;
   if (!a.is_number() || a == b) return 0;
   const long double scale = std::max({a.scale(), b.scale(), floor});
   const auto difference = static_cast<long double>(abs(a - b));
+  if (std::isinf(difference)) return static_cast<double>(abs(a - b) / (abs(a) > abs(b) ? abs(a) : abs(b)));
   return std::isfinite(scale) && scale > 0 ? static_cast<double>(difference / scale) : INFINITY;
 }
 

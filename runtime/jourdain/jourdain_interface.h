@@ -13,7 +13,7 @@ extern "C" {
 #endif
 
 /* Changes with the layout of what follows. */
-#define JOURDAIN_INTERFACE_VERSION 1
+#define JOURDAIN_INTERFACE_VERSION 2
 
 /* What a variable is to who steps the model; numbers of one role are counted together, see `index`. */
 typedef enum jourdain_role {
@@ -77,6 +77,7 @@ typedef struct jourdain_variable {
 typedef struct jourdain_argument {
   const char* name;
   int rows, columns; /* a vector has one column */
+  int dimensions;    /* 0: a number, 1: a vector, 2: a matrix */
 } jourdain_argument;
 
 /* A function of the instance's parameters, state and inputs. */
@@ -86,7 +87,8 @@ typedef struct jourdain_function {
   int given_count, result_count;
   const jourdain_argument* given; /* beside the instance */
   const jourdain_argument* results;
-  long operations; /* arithmetic */
+  int takes_inputs; /* 0: it is the same at all inputs */
+  long operations;  /* arithmetic */
   jourdain_status (*call)(void* instance, const double* const* given, double* const* results);
 } jourdain_function;
 
@@ -95,7 +97,7 @@ typedef struct jourdain_stepper {
   const char* name; /* "rk4_step" */
   const char* description;
   int order;
-  int remembers; /* 1: set_state and set_inputs start it anew */
+  int remembers; /* 1: set_state and set_inputs start it anew, steps by others and of another length too */
   long operations;
   /* `count` steps of length h, s, inputs held; ends at the first that does not answer JOURDAIN_OK. */
   jourdain_status (*step)(void* instance, double h, long count);

@@ -33,6 +33,10 @@ std::vector<std::string> strict_flags();
 
 bool have_compiler(const std::string& compiler);
 
+/// Options under which compiled code has the interpreter's bits: its sines are the C library's.
+inline const std::vector<std::string> kAsInterpreted = {"-O1", "-ffp-contract=off",
+                                                        "-DJOURDAIN_LIBRARY_SINES"};
+
 /// Several models in one translation unit, behind one generic driver that is a template over Model.
 class CompiledBatch {
  public:

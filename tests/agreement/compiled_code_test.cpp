@@ -31,7 +31,7 @@ void check(const std::string& compiler, std::uint64_t first) {
       models.push_back(emit_model(derived.back(), fmt::format("tree{}", seed)));
     }
     for (const bool single : {false, true}) {
-      const CompiledBatch batch(models, compiler, single ? "float" : "double", {"-O1", "-ffp-contract=off"});
+      const CompiledBatch batch(models, compiler, single ? "float" : "double", kAsInterpreted);
       for (std::size_t k = 0; k < kTreesPerUnit; ++k) {
         const std::uint64_t seed = begin + k;
         const Sample sample = random_sample(derived[k].mechanism, seed, single);

@@ -2,12 +2,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "agreement/shared_data.hpp"
 #include "compile/articulation.hpp"
+#include "compile/program_cost.hpp"
 #include "dynamics/absolute_rates.hpp"
+#include "dynamics/link_equations.hpp"
 #include "extremes/extreme_scenes.hpp"
+#include "passes/pipeline.hpp"
+#include "programs/tree_functions.hpp"
 #include "properties/refusals.hpp"
 
 namespace jourdain::tests {
@@ -85,6 +91,139 @@ TEST(PlanarTrees, MoveAlikeByAccelerationsOfLinksAndOfJoints) {
     }
   }
   EXPECT_GE(by_links, 50);
+}
+
+/// Largest difference of two programs of one function, in 77 digits, in units of their numbers' scale.
+long double difference(const ir::Program& found, const ir::Program& wanted, const validate::Point& point) {
+  const std::vector<ScaledReal> a = ir::interpret(found, point.exact), b = ir::interpret(wanted, point.exact);
+  long double largest = a.size() == b.size() ? 0 : INFINITY;
+  for (std::size_t i = 0; i < b.size(); ++i)
+    if (const long double scale = b[i].scale(); scale > 0)
+      largest = std::max(largest, std::fabs(static_cast<long double>(a[i] - b[i])) / scale);
+  return largest;
+}
+
+TEST(PlanarTrees, MoveAlikeByAnglesBetweenLinks) {
+  int by_angles = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const model::Mechanism mechanism = read_scene(planar_tree(seed));
+    kinematics::Statements statements;
+    by_angles += dynamics::has_link_equations(dynamics::Scene(mechanism, {}, statements));
+    for (const bool regroup : {true, false})
+      for (const dynamics::PlanarForm form :
+           {dynamics::PlanarForm::kAngles, dynamics::PlanarForm::kAnglesToUnitRows}) {
+        dynamics::DerivationOptions angles;
+        angles.planar = true;
+        angles.planar_form = form;
+        angles.link_tree.regroup = regroup;
+        const ir::Program found = lower_accelerations(mechanism, angles),
+                          wanted = lower_accelerations(mechanism, {});
+        for (const validate::Sample& sample : validate::draw_samples(mechanism, 3))
+          EXPECT_LE(difference(found, wanted, validate::point_at(mechanism, sample)), 1e-40L) << seed;
+      }
+  }
+  EXPECT_GE(by_angles, 60);
+}
+
+TEST(PlanarTrees, HaveTheSameMassesAndForcesByAnglesBetweenLinks) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const model::Mechanism mechanism = read_scene(planar_tree(seed));
+    dynamics::DerivationOptions angles;
+    angles.from_links = {true, true, true, true, true};
+    const dynamics::Equations found = dynamics::derive_equations(mechanism, angles),
+                              wanted = dynamics::derive_equations(mechanism);
+    for (const ir::FunctionId function :
+         {ir::FunctionId::kMassMatrix, ir::FunctionId::kKBar, ir::FunctionId::kQBar,
+          ir::FunctionId::kInverseDynamics, ir::FunctionId::kKineticEnergy})
+      for (const validate::Sample& sample : validate::draw_samples(mechanism, 3))
+        EXPECT_LE(
+            difference(programs::lower_function(found, function), programs::lower_function(wanted, function),
+                       validate::point_at(mechanism, sample)),
+            1e-40L)
+            << seed << " " << ir::name_of(function);
+  }
+}
+
+TEST(PlanarTrees, MayEndInALinkWhoseRotorAloneResists) {
+  const model::Mechanism mechanism = read_scene(R"toml([model]
+name = "rotor"
+gravity = [0, -9.81, 0]
+[[body]]
+name = "arm"
+mass = 2
+center_of_mass = [0.3, 0, 0]
+inertia = [0, 0.1, 0.1]
+[[body]]
+name = "tool"
+mass = 0
+inertia = [0, 0, 0]
+[[joint]]
+name = "shoulder"
+type = "revolute"
+parent = "world"
+child = "arm"
+axis = [0, 0, 1]
+[[joint]]
+name = "wrist"
+type = "revolute"
+parent = "arm"
+child = "tool"
+axis = [0, 0, 1]
+position = [0.5, 0, 0]
+[[actuator]]
+joint = "wrist"
+rotor_inertia = 0.02
+)toml");
+  EXPECT_LE(choose_articulation(mechanism, {}).error.units, 8);
+}
+
+TEST(PlanarTrees, GoByAnglesOnlyWhereThatTakesNoMoreArithmetic) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const model::Mechanism mechanism = read_scene(planar_tree(seed));
+    const Articulation chosen = choose_articulation(mechanism, {});
+    if (chosen.form == dynamics::PlanarForm::kWorkingFrames) continue;
+    const auto arithmetic = [&](bool planar, dynamics::PlanarForm form) {
+      dynamics::DerivationOptions options;
+      options.planar = planar;
+      options.planar_form = form;
+      return cost_behind_passes(lower_accelerations(mechanism, options)).arithmetic;
+    };
+    EXPECT_EQ(arithmetic(true, chosen.form), chosen.operations);
+    EXPECT_LE(chosen.operations, arithmetic(true, dynamics::PlanarForm::kWorkingFrames)) << seed;
+  }
+}
+
+/// Median over 200 states of the error in double, as emitted, in units of rounding of the largest acceleration.
+double median_units(const model::Mechanism& mechanism, dynamics::PlanarForm form) {
+  dynamics::DerivationOptions options;
+  options.planar = true;
+  options.planar_form = form;
+  ir::Module module{{}, {lower_accelerations(mechanism, options)}};
+  const ir::Program zdot = passes::optimise(std::move(module), {"hoist"}).module.functions[0];
+  std::vector<double> units;
+  for (const validate::Sample& sample : validate::draw_samples(mechanism, 200)) {
+    const validate::Point point = validate::point_at(mechanism, sample);
+    const std::vector<ScaledReal> exact = ir::interpret(zdot, point.exact);
+    const std::vector<double> found = ir::interpret(zdot, point.rounded);
+    double error = 0, largest = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      largest = std::max(largest, std::fabs(static_cast<double>(exact[i])));
+      error = std::max(error, std::fabs(static_cast<double>(exact[i] - ScaledReal(found[i]))));
+    }
+    units.push_back(error / largest / 0x1p-53);
+  }
+  std::nth_element(units.begin(), units.begin() + 100, units.end());
+  return units[100];
+}
+
+TEST(PlanarTrees, LoseNoMoreDigitsByAnglesThanByWorkingFrames) {
+  constexpr double kSampling = 1.1;  // medians of a few hundred states scatter by that much
+  for (const char* name : {"double_pendulum.toml", "chain4.toml"}) {
+    const model::Mechanism mechanism = read_model(model_path(name));
+    EXPECT_LE(median_units(mechanism, choose_articulation(mechanism, {}).form),
+              kSampling * median_units(mechanism, dynamics::PlanarForm::kWorkingFrames))
+        << name;
+  }
 }
 
 TEST(PlanarTrees, WithoutSharedFramesGoByJoints) {

@@ -217,7 +217,7 @@ TEST(RandomScenes, CompiledCodeAgreesBitByBitWithTheInterpreter) {
       derived.push_back(derive(random_scene(seed)));
       models.push_back(emit_model(derived.back(), fmt::format("scene{}", seed)));
     }
-    const CompiledBatch batch(models, compiler, "double", {"-O1", "-ffp-contract=off"});
+    const CompiledBatch batch(models, compiler, "double", kAsInterpreted);
     for (std::size_t k = 0; k < models.size(); ++k) {
       const Derived& d = derived[k];
       const Sample sample = random_sample(d.mechanism, k);

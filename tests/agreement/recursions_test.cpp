@@ -20,7 +20,9 @@ TEST(Recursions, TakeNeverMoreOperationsThanCompositeBodies) {
     const model::Mechanism mechanism = tests::read_model(tests::model_path(name + std::string(".toml")));
     dynamics::DerivationOptions chosen;
     choose_recursions(mechanism, chosen);
-    for (const ir::FunctionId function : {ir::FunctionId::kKBar, ir::FunctionId::kInverseDynamics})
+    for (const ir::FunctionId function :
+         {ir::FunctionId::kMassMatrix, ir::FunctionId::kKBar, ir::FunctionId::kQBar,
+          ir::FunctionId::kInverseDynamics, ir::FunctionId::kKineticEnergy})
       EXPECT_LE(operations(mechanism, chosen, function), operations(mechanism, {}, function)) << name;
   }
 }

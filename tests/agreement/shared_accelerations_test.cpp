@@ -130,15 +130,15 @@ TEST_F(SharedAccelerations, TakeAsFewOperationsAsEver) {
     const char *robot, *function;
     std::size_t operations;
   };
-  const Best best[] = {{"rail_arm", "forward_dynamics", 789},
+  const Best best[] = {{"rail_arm", "forward_dynamics", 781},
                        {"rail_arm", "mass_matrix", 281},
-                       {"biped", "forward_dynamics", 1509},
-                       {"ur5", "forward_dynamics", 385},
-                       {"ur5", "mass_matrix", 92},
-                       {"panda", "forward_dynamics", 1002},
-                       {"panda", "mass_matrix", 319},
-                       {"hyq", "forward_dynamics", 621},
-                       {"talos_reduced", "forward_dynamics", 5737}};
+                       {"biped", "forward_dynamics", 1465},
+                       {"ur5", "forward_dynamics", 360},
+                       {"ur5", "mass_matrix", 85},
+                       {"panda", "forward_dynamics", 997},
+                       {"panda", "mass_matrix", 313},
+                       {"hyq", "forward_dynamics", 580},
+                       {"talos_reduced", "forward_dynamics", 5696}};
   for (const Best& entry : best)
     if (has_robot(entry.robot)) {
       EXPECT_EQ(operations(entry.robot, entry.function), entry.operations)

@@ -34,6 +34,23 @@ std::size_t files_in(const fs::path& folder) {
   return fs::exists(folder) ? std::size_t(std::distance(fs::directory_iterator(folder), {})) : 0;
 }
 
+TEST(CommandLine, NoLanesComputesLimbsOneAfterTheOther) {
+  const support::TemporaryFolder folder;
+  const auto text_of = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> command = {"compile", "models/quadruped.toml", "-o", folder.path()};
+    command.insert(command.end(), options.begin(), options.end());
+    expect(jourdain(command), 0, "read back");
+    return support::read_file(folder.path() + "/quadruped_kernels.hpp");
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(text_of({}), "detail::Lanes<4, Real>"));
+  EXPECT_FALSE(has(text_of({"--no-lanes"}), "detail::Lanes"));
+  expect(jourdain({"compile", "models/quadruped.toml", "-o", folder.path(), "--explain"}), 0,
+         "lanes (operations that go with those of limbs that are alike)");
+}
+
 TEST(CommandLine, ExitStatusSaysWhoIsWrong) {
   const support::TemporaryFolder folder;
   expect(jourdain({"compile", "models/nothing.toml", "-o", folder.path()}), 3, "models/nothing.toml");

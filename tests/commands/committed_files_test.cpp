@@ -97,6 +97,15 @@ TEST_F(Against, NothingAndWhatIsNoManifest) {
   EXPECT_THAT(result.output, HasSubstr("c.json:1:"));
 }
 
+/// A folder's name may turn the direction of text, which a terminal would obey.
+TEST_F(Against, NamesOfFoldersAreMadePrintable) {
+  const support::ProcessResult result = jourdain({"check", kPendulum, "--against", "no\xe2\x80\xaesuch\x1b"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.output, HasSubstr("no?such?/pendulum.hpp: error: missing"));
+  EXPECT_THAT(result.output, Not(HasSubstr("\x1b")));
+  EXPECT_THAT(result.output, Not(HasSubstr("\xe2\x80\xae")));
+}
+
 TEST_F(Against, SeveralModelsOfOneDescriptionAreToldApartByName) {
   make({"--name", "left"});
   make({"--name", "right", "--clock"});

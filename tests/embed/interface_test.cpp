@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -366,6 +367,38 @@ void expect_copies_go_on(const jourdain_interface& table, void* self) {
   expect_starts(table, self);
 }
 
+/// Shapes, and which functions the inputs are nothing to, as the table has them.
+void expect_functions_as_declared(const jourdain_interface& table) {
+  Instance instance(table);
+  const std::vector<double> zdot(size(table.velocity_count), 0.5), ones(size(table.input_count), 1.0);
+  for (int k = 0; k < table.function_count; ++k) {
+    const jourdain_function& function = table.functions[k];
+    SCOPED_TRACE(function.name);
+    for (int i = 0; i < function.result_count; ++i) {
+      const jourdain_argument& result = function.results[i];
+      EXPECT_TRUE(result.dimensions == 2 || result.columns == 1);
+      EXPECT_TRUE(result.dimensions > 0 || result.rows == 1);
+    }
+    const std::string name = function.name;
+    const std::map<std::string, int> known = {
+        {"mass_matrix", 2}, {"forward_dynamics", 1}, {"kinetic_energy", 0}};
+    if (const auto found = known.find(name); found != known.end()) {
+      EXPECT_EQ(function.results[0].dimensions, found->second);
+    }
+    if (table.input_count == 0 || function.result_count == 0) continue;
+    const std::vector<double> before = results_of(function, instance.self, zdot);
+    EXPECT_EQ(table.set_inputs(instance.self, ones.data()), JOURDAIN_OK);
+    if (!function.takes_inputs) {
+      EXPECT_EQ(results_of(function, instance.self, zdot), before);
+    }
+    if (name == "forward_dynamics") {
+      EXPECT_TRUE(function.takes_inputs);
+      EXPECT_NE(results_of(function, instance.self, zdot), before);
+    }
+    EXPECT_EQ(table.set_inputs(instance.self, std::vector<double>(ones.size(), 0.0).data()), JOURDAIN_OK);
+  }
+}
+
 void expect_all_of(const std::string& model, bool is_float) {
   SCOPED_TRACE(model + (is_float ? " in float" : ""));
   const Loaded loaded(model, is_float);
@@ -395,6 +428,7 @@ void expect_all_of(const std::string& model, bool is_float) {
     functions.emplace_back(function.name);
     EXPECT_EQ(function.operations, loaded.manifest["operations"][function.name]["arithmetic"].get<long>());
     EXPECT_FALSE(std::string(function.description).empty());
+    EXPECT_EQ(std::string(function.description).find('?'), std::string::npos) << function.description;
   }
   for (int k = 0; k < table.stepper_count; ++k) {
     const jourdain_stepper& stepper = table.steppers[k];
@@ -417,6 +451,7 @@ void expect_all_of(const std::string& model, bool is_float) {
     if (table.functions[k].result_count > 0) {
       EXPECT_FALSE(results_of(table.functions[k], instance.self, zdot).empty()) << table.functions[k].name;
     }
+  expect_functions_as_declared(table);
   expect_misuse_is_refused(table, instance.self);
   expect_independence(table, instance.self);
   expect_copies_go_on(table, instance.self);

@@ -108,8 +108,8 @@ struct Printed {
 class OwnSinesInBoth : public testing::Test {
  protected:
   void SetUp() override {
-    emit_model("double_pendulum", folder_.path(), {"--own-sines"});
-    emit_model("double_pendulum", folder_.path(), {"--own-sines", "--language", "c"});
+    emit_model("double_pendulum", folder_.path(), {});
+    emit_model("double_pendulum", folder_.path(), {"--language", "c"});
     for (const char* ending : {".c", ".cpp"})
       support::write_file(folder_.path() + "/angles" + ending, kAngles);
   }

@@ -141,7 +141,7 @@ struct Printed {
 class OwnSines : public testing::Test {
  protected:
   void SetUp() override {
-    emit_model("double_pendulum", folder_.path(), {"--own-sines"});
+    emit_model("double_pendulum", folder_.path(), {});
     std::string text = kAngles;
     text.replace(text.find("{HARD}"), 6, fmt::format("{{{}}}", kHard));
     support::write_file(folder_.path() + "/angles.cpp", text);
@@ -186,12 +186,6 @@ TEST_F(OwnSines, HaveTheSameBitsFromEveryCompiler) {
     }
 }
 
-TEST_F(OwnSines, AreRefusedWhereSumsMayBeReordered) {
-  const support::ProcessResult result = compile("g++", folder_.path(), "angles", {"-ffast-math"});
-  EXPECT_NE(result.status, 0);
-  EXPECT_NE(result.output.find("emitted with --own-sines"), std::string::npos) << result.output;
-}
-
 /// Velocities of NAME, with the library's sines, and of NAME_own over 200 steps; prints the largest difference over
 /// 1 + size.
 constexpr const char* kBeside = R"(
@@ -224,9 +218,9 @@ TEST(OwnSinesOfModels, MoveThemAsTheLibraryDoes) {
   for (const std::string model : {"double_pendulum", "panda", "quadrotor", "four_bar", "shaking_cart"})
     for (const bool packs : {false, true}) {
       const support::TemporaryFolder folder;
-      std::vector<std::string> options = {"--own-sines", "--name", model + "_own"};
+      std::vector<std::string> options = {"--name", model + "_own"};
       if (packs) options.emplace_back("--packs");
-      emit_model(model, folder.path(), {});
+      emit_model(model, folder.path(), {"--libm"});
       emit_model(model, folder.path(), options);
       std::string text = kBeside;
       for (std::size_t at = 0; (at = text.find("NAME", at)) != std::string::npos;) text.replace(at, 4, model);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "embed/emitted_sines.hpp"
+
 namespace jourdain::tests {
 
 /// Four values side by side.
@@ -35,16 +37,16 @@ struct Pack {
     return each([&](std::size_t i) { return -a.v[i]; });
   }
   friend Pack sin(const Pack& a) {
-    return each([&](std::size_t i) { return std::sin(a.v[i]); });
+    return each([&](std::size_t i) { return emitted_sine(a.v[i]); });
   }
   friend Pack cos(const Pack& a) {
-    return each([&](std::size_t i) { return std::cos(a.v[i]); });
+    return each([&](std::size_t i) { return emitted_cosine(a.v[i]); });
   }
   friend Pack sqrt(const Pack& a) {
     return each([&](std::size_t i) { return std::sqrt(a.v[i]); });
   }
   friend Pack atan2(const Pack& a, const Pack& b) {
-    return each([&](std::size_t i) { return std::atan2(a.v[i], b.v[i]); });
+    return each([&](std::size_t i) { return emitted_arctangent(a.v[i], b.v[i]); });
   }
 };
 

@@ -20,7 +20,7 @@ std::string text(const Statements& body) { return cpp::statements_text(body, {},
 TEST(SineBlocks, TakeFourThenTwoAndLeaveTheLast) {
   Statements body;
   for (int i = 0; i < 7; ++i) add_pair(body, y(i), "s" + std::to_string(i), "c" + std::to_string(i));
-  EXPECT_EQ(text(in_sine_blocks(body)),
+  EXPECT_EQ(text(in_sine_blocks(body).value()),
             "Real s0, c0, s1, c1, s2, c2, s3, c3;\n"
             "detail::sine_cosine4(y[0], s0, c0, y[1], s1, c1, y[2], s2, c2, y[3], s3, c3);\n"
             "Real s4, c4, s5, c5;\n"
@@ -35,7 +35,7 @@ TEST(SineBlocks, ComeAfterTheSumsOfTheirAnglesAndBeforeTheRest) {
   body.push_back(constant("t", name("s0") * name("c0")));
   body.push_back(constant("sum", y(0) + y(1)));
   add_pair(body, name("sum"), "s1", "c1");
-  EXPECT_EQ(text(in_sine_blocks(body)),
+  EXPECT_EQ(text(in_sine_blocks(body).value()),
             "const Real sum = y[0] + y[1];\n"
             "Real s0, c0, s1, c1;\n"
             "detail::sine_cosine2(y[0], s0, c0, sum, s1, c1);\n"
@@ -48,7 +48,7 @@ TEST(SineBlocks, LeaveAnglesThatFollowFromSinesFromTimeOrFromWhatIsWritten) {
     add_pair(body, y(0), "s0", "c0");
     body.push_back(set(name("r")[0], name("s0")));
     add_pair(body, angle, "s1", "c1");
-    EXPECT_EQ(text(in_sine_blocks(body)), text(body));
+    EXPECT_FALSE(in_sine_blocks(body));
   }
 }
 
@@ -56,7 +56,7 @@ TEST(SineBlocks, LeaveWhatRunsInALoop) {
   Statements inner, body;
   for (int i = 0; i < 4; ++i) add_pair(inner, y(i), "s" + std::to_string(i), "c" + std::to_string(i));
   body.push_back(loop("i", 3, inner));
-  EXPECT_EQ(text(in_sine_blocks(body)), text(body));
+  EXPECT_FALSE(in_sine_blocks(body));
 }
 
 }  // namespace

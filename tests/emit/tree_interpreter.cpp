@@ -1,5 +1,6 @@
 #include "emit/tree_interpreter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 
@@ -120,6 +121,7 @@ class TreeInterpreter::Frame {
       case Kind::kPositionCount:
       case Kind::kVelocityCount:
       case Kind::kOperation:
+      case Kind::kLanes:
       case Kind::kToReal:
       case Kind::kToAngle:
         break;
@@ -143,7 +145,12 @@ class TreeInterpreter::Frame {
       case Kind::kToAngle:
         return evaluate(e.operands[0]);
       case Kind::kOperation:
-        return of(operation(e));
+        return operation(e);
+      case Kind::kLanes: {
+        Value all;
+        for (std::size_t k = 0; k < e.operands.size(); ++k) all.entries[long(k)] = evaluate(e.operands[k]);
+        return all;
+      }
       case Kind::kName:
       case Kind::kMember:
       case Kind::kEntry:
@@ -154,9 +161,20 @@ class TreeInterpreter::Frame {
     return *place(e).value;
   }
 
-  double operation(const Expression& e) {
-    const double a = evaluate(e.operands[0]).number;
-    const double b = e.operands.size() > 1 ? evaluate(e.operands[1]).number : 0;
+  /// Lane by lane where one of the operands has several; a number goes with all of them.
+  Value operation(const Expression& e) {
+    const Value a = evaluate(e.operands[0]), b = e.operands.size() > 1 ? evaluate(e.operands[1]) : Value();
+    const std::size_t lanes = std::max(a.entries.size(), b.entries.size());
+    if (lanes == 0) return of(operation(e, a.number, b.number));
+    const auto lane = [](const Value& value, long k) {
+      return value.entries.empty() ? value.number : value.entries.at(k).number;
+    };
+    Value all;
+    for (long k = 0; k < long(lanes); ++k) all.entries[k] = of(operation(e, lane(a, k), lane(b, k)));
+    return all;
+  }
+
+  static double operation(const Expression& e, double a, double b) {
     switch (e.operation) {
       case ir::Op::kNegate:
         return -a;

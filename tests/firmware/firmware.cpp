@@ -82,27 +82,31 @@ std::string file_of(const std::string& machine, const Motion& motion, const std:
 }
 
 /// Of the program and the model.
-Command model_objects(const std::string& machine, const Command& cxx, const Command& c,
-                      const Motion& motion) {
+Command model_objects(const std::string& machine, const Command& cxx, const Command& c, const Motion& motion,
+                      bool own_sines) {
+  const std::string kind = own_sines ? "_own" : "";
+  const Command sines = own_sines ? Command{} : Command{"-DJOURDAIN_LIBRARY_SINES"};
   if (motion.is_c) {
-    const std::string program = file_of(machine, motion, "_c.o"), model = file_of(machine, motion, "_text.o");
+    const std::string program = file_of(machine, motion, "_c.o"),
+                      model = file_of(machine, motion, kind + "_text.o");
     make(program, joined({c, kStrict, kCalled, c_model_options(motion), {"-c", kPrograms + "motion.c"}}));
-    make(model, joined({c, kStrict, kCalled, {"-c", c_folder(motion) + "/" + prefix_of(motion) + ".c"}}));
+    make(model,
+         joined({c, kStrict, kCalled, sines, {"-c", c_folder(motion) + "/" + prefix_of(motion) + ".c"}}));
     return {program, model};
   }
-  const std::string program = file_of(machine, motion, ".o");
-  make(program, joined({cxx, kStrict, kCalled, model_options(motion), {"-c", kPrograms + "motion.cpp"}}));
+  const std::string program = file_of(machine, motion, kind + ".o");
+  make(program,
+       joined({cxx, kStrict, kCalled, sines, model_options(motion), {"-c", kPrograms + "motion.cpp"}}));
   return {program};
 }
 
-/// The model's objects and that of the sines; kernel.c must define what the compiler takes for its own.
+/// The model's objects and that of disturbed sines.
 Command objects(const std::string& machine, const Command& cxx, const Command& c, const Motion& motion,
                 Sines sines) {
-  Command linked = model_objects(machine, cxx, c, motion);
-  if (sines == Sines::kLibrary) return linked;
-  const std::string name = sines == Sines::kKernel ? "kernel" : "wobble";
-  linked.push_back(fmt::format("{}/{}_{}.o", firmware_folder(), machine, name));
-  make(linked.back(), joined({c, kStrict, kCalled, {"-c", kPrograms + name + ".c"}}));
+  Command linked = model_objects(machine, cxx, c, motion, sines == Sines::kOwn);
+  if (sines != Sines::kWobbling) return linked;
+  linked.push_back(fmt::format("{}/{}_wobble.o", firmware_folder(), machine));
+  make(linked.back(), joined({c, kStrict, kCalled, {"-c", kPrograms + "wobble.c"}}));
   return linked;
 }
 
@@ -128,7 +132,7 @@ std::vector<Line> read_lines(const std::string& output) {
 /// Names the firmware of a motion in its folder.
 std::string firmware_name(const Target& target, const Motion& motion, Sines sines) {
   return fmt::format("{}_{}_{}_{}_{}", target.name, motion.model, motion.real, motion.is_c ? "c" : "cpp",
-                     sines == Sines::kKernel ? "kernel" : "library");
+                     sines == Sines::kOwn ? "own" : "library");
 }
 
 void build_firmware(const Target& target, const Motion& motion, Sines sines) {

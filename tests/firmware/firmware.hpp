@@ -15,8 +15,8 @@ void require_tools(const commands::Target& target);
 
 /// What sines, cosines and arctangents are.
 enum class Sines {
-  kLibrary,   ///< the C library's
-  kKernel,    ///< programs/kernel.c: the same bits everywhere
+  kOwn,       ///< those of the emitted text
+  kLibrary,   ///< the C library's, by JOURDAIN_LIBRARY_SINES
   kWobbling,  ///< programs/wobble.c: the C library's, a unit in the last place beside; on the host alone
 };
 

@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Models, Firmware, testing::ValuesIn(cases()), name_of);
 
 /// The target's numbers are those of the host's C++, bit for bit.
 void expect_same_bits(const Target& target, const Motion& motion, const std::vector<Line>& here) {
-  const std::vector<Line> there = target_motion(target, motion, Sines::kKernel);
+  const std::vector<Line> there = target_motion(target, motion, Sines::kOwn);
   ASSERT_EQ(here.size(), there.size());
   ASSERT_GE(here.size(), 11u * 5u);  // ten times 20 steps
   for (std::size_t i = 0; i < here.size(); ++i)
@@ -58,16 +58,16 @@ void expect_same_bits(const Target& target, const Motion& motion, const std::vec
   EXPECT_NE(here.front().bits, here[here.size() * 10 / 11].bits) << "nothing moves";
 }
 
-TEST_P(Firmware, HasTheHostsBitsWithTheSameSines) {
+TEST_P(Firmware, HasTheHostsBits) {
   const auto& [target, motion] = GetParam();
-  expect_same_bits(target, motion, host_motion(motion, Sines::kKernel));
+  expect_same_bits(target, motion, host_motion(motion, Sines::kOwn));
 }
 
 TEST_P(Firmware, HasTheSameBitsInC) {
   const auto& [target, motion] = GetParam();
   Motion in_c = motion;
   in_c.is_c = true;
-  expect_same_bits(target, in_c, host_motion(motion, Sines::kKernel));
+  expect_same_bits(target, in_c, host_motion(motion, Sines::kOwn));
 }
 
 // The libraries' sines are off by less than a unit in the last place, as fdlibm's, from which newlib's and picolibc's
@@ -76,7 +76,7 @@ TEST_P(Firmware, HasTheSameBitsInC) {
 // disturbance cancels by luck another need not, hence the floor.
 constexpr double kOtherPattern = 4, kFloor = 4;
 
-TEST_P(Firmware, WithTheShippedLibraryIsAsNearAsItsSinesAre) {
+TEST_P(Firmware, WithTheLibrarysSinesIsAsNearAsTheseAre) {
   const auto& [target, motion] = GetParam();
   const std::vector<Line> here = host_motion(motion, Sines::kLibrary);
   const std::vector<Line> there = target_motion(target, motion, Sines::kLibrary);
@@ -118,8 +118,9 @@ TEST(FloatFirmware, LinksNothingOfDouble) {
     for (const bool is_c : {false, true}) {
       Motion motion = motion_of(model, "float");
       motion.is_c = is_c;
-      EXPECT_THAT(double_functions(firmware_symbols(target, motion, Sines::kLibrary)), testing::IsEmpty())
-          << model << (is_c ? " in C" : " in C++");
+      for (const Sines sines : {Sines::kOwn, Sines::kLibrary})
+        EXPECT_THAT(double_functions(firmware_symbols(target, motion, sines)), testing::IsEmpty())
+            << model << (is_c ? " in C" : " in C++");
     }
   // The same in double has them all.
   EXPECT_THAT(double_functions(firmware_symbols(target, motion_of("pendulum", "double"), Sines::kLibrary)),

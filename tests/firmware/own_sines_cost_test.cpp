@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "commands/tool.hpp"
@@ -12,6 +13,16 @@
 
 namespace jourdain::tests {
 namespace {
+
+/// The model with its first coordinate beginning `turns` turns further on, which closes its loops as before.
+std::string turned(const std::string& model, int turns) {
+  std::string text = support::read_file(fmt::format("{}/models/{}.toml", JOURDAIN_SOURCE_DIR, model));
+  constexpr std::string_view kKey = "initial_position = ";
+  const std::size_t begin = text.find(kKey) + kKey.size(), end = text.find('\n', begin);
+  std::string value = text.substr(begin, end - begin);
+  value.erase(std::remove(value.begin(), value.end(), '"'), value.end());
+  return text.replace(begin, end - begin, fmt::format("\"{} + {}*pi\"", value, 2 * turns));
+}
 
 /// The model with every coordinate beginning at `angle`.
 std::string with_angles(const std::string& model, const std::string& angle) {
@@ -25,11 +36,11 @@ std::string with_angles(const std::string& model, const std::string& angle) {
   return result;
 }
 
-long step_instructions(const std::string& model, const std::string& angle, const char* option) {
+long step_instructions(const std::string& model, const std::string& text, const char* option) {
   const support::TemporaryFolder folder;
   const std::string file = fmt::format("{}/{}.toml", folder.path(), model),
                     output = folder.path() + "/cost.json";
-  support::write_file(file, with_angles(model, angle));
+  support::write_file(file, text);
   std::vector<std::string> command = {JOURDAIN_BINARY, "cost", file, "--target", "cortex-m4",
                                       "--methods",     "rk4",  "-o", output};
   if (*option) command.emplace_back(option);
@@ -45,11 +56,24 @@ long step_instructions(const std::string& model, const std::string& angle, const
 TEST(OwnSinesCost, IsTheSameAtEveryAngle) {
   require_tools(*commands::find_target("cortex-m4"));
   for (const std::string model : {"pendulum", "panda"}) {
-    const long first = step_instructions(model, "0", "--own-sines");
+    const auto instructions = [&](const char* angle, const char* option) {
+      return step_instructions(model, with_angles(model, angle), option);
+    };
+    const long first = instructions("0", "");
     EXPECT_GT(first, 100);
     for (const char* angle : {"0.3", "0.79", "2", "-50", "300", "1e5", "1.07e9", "1e30"})
-      EXPECT_EQ(step_instructions(model, angle, "--own-sines"), first) << model << " at " << angle;
-    EXPECT_GT(step_instructions(model, "300", ""), 5 * step_instructions(model, "0.3", "")) << model;
+      EXPECT_EQ(instructions(angle, ""), first) << model << " at " << angle;
+    EXPECT_GT(instructions("300", "--libm"), 5 * instructions("0.3", "--libm")) << model;
+  }
+}
+
+TEST(OwnSinesCost, IsTheSameWithClosedLoops) {
+  require_tools(*commands::find_target("cortex-m4"));
+  for (const std::string model : {"four_bar", "squeezer"}) {
+    const long first = step_instructions(model, turned(model, 0), "");
+    EXPECT_GT(first, 1000);
+    for (const int turns : {-1, 1, 30, 1000})
+      EXPECT_EQ(step_instructions(model, turned(model, turns), ""), first) << model << " after " << turns;
   }
 }
 

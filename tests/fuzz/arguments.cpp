@@ -46,10 +46,12 @@ const Options& declared() {
 const std::map<std::string, std::vector<std::string>>& usual_values() {
   static const std::map<std::string, std::vector<std::string>> values = {
       {"--output", {"out", "out", "deep/er/out", "-", "/dev/null/x", "/dev/full", "model.toml", ".", ""}},
-      {"--name", {"arm", "class", "a__b", "_a", "1a", "std", "Model", "jourdain", "sin"}},
+      {"--name", {"arm", "class", "lambda", "json", "a__b", "_a", "1a", "std", "Model", "jourdain", "sin"}},
       {"--root", {"fixed", "free", "Free"}},
       {"--lock", {"hinge", "slide", "crank,rocker", "nothing", "", ",", "root"}},
       {"--derivatives", {"all", "applied", "none"}},
+      {"--for", {"casadi", "simulink", "matlab", ""}},
+      {"--fmi", {"2", "3", "2.0", "1"}},
       {"--functions",
        {"mass_matrix", "k_bar,q_bar", "linearize", "rodas4_step,rk5_step", "forward_dynamics_derivatives",
         "outputs", "inverse_dynamics", "euler_step,heun_step", "ros34pw2_step", "close_loops", "project",
@@ -115,6 +117,8 @@ void keep_short(const std::string& command, std::vector<std::string>& arguments)
   if (command == "cost") add("--warm", "10"), add("--cold", "1");
   if (command == "bench") add("--functions", "mass_matrix"), add("--blocks", "2"), add("--states", "2");
   if (command == "cost" || command == "report") add("--methods", "rk4");
+  if (command == "fmu" && !has("--sources-only")) arguments.push_back("--sources-only");
+  if (command == "wrap") add("--for", "simulink");
   if (command != "report") return;
   add("--effort", "0.01");
   add("--halvings", "1");
@@ -124,9 +128,10 @@ void keep_short(const std::string& command, std::vector<std::string>& arguments)
 }
 
 std::string random_command(Random& random) {
-  static const std::vector<std::string> kCheap = {"compile", "compile", "compile",
-                                                  "check",   "info",    "equations"};
-  static const std::vector<std::string> kCompiling = {"simulate", "simulate", "cost", "bench", "report"};
+  static const std::vector<std::string> kCheap = {"compile", "compile",   "compile", "check",
+                                                  "info",    "equations", "wrap",    "fmu"};
+  static const std::vector<std::string> kCompiling = {"simulate", "simulate", "cost",
+                                                      "bench",    "report",   "python"};
   if (random.chance(0.02)) return hostile_name(random);
   return random.chance(0.04) ? one_of(kCompiling, random) : one_of(kCheap, random);
 }
@@ -139,7 +144,8 @@ std::vector<std::string> random_arguments(const std::string& model, Random& rand
   const auto known = declared().find(command);
   const std::vector<OptionText>& options = (known == declared().end() ? declared().begin() : known)->second;
   for (std::size_t i = random.below(4); i > 0; --i) add_option(arguments, one_of(options, random), random);
-  if (command == "compile" && random.chance(0.95)) arguments.insert(arguments.end(), {"-o", "out"});
+  if ((command == "compile" || command == "python" || command == "wrap") && random.chance(0.95))
+    arguments.insert(arguments.end(), {"-o", "out"});
   keep_short(command, arguments);
   if (random.chance(0.97)) {
     const bool first = random.chance(0.7);

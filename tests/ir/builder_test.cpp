@@ -22,6 +22,12 @@ TEST(Builder, SharesProductsAcrossOutputs) {
             "q[1] := %2\n");
 }
 
+TEST(Builder, KnowsThatALiteralTimesItsReciprocalIsOne) {
+  Builder b;
+  const Signed number = b.literal(0.7), one = b.multiply(number, b.divide(b.literal(1), number));
+  EXPECT_TRUE(b.is_literal(one, 1));
+}
+
 TEST(Builder, MovesSignsOutward) {
   Builder b;
   const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1);

@@ -23,6 +23,14 @@ const std::string& installation() {
   return folder.path();
 }
 
+std::string command_folder() {
+#ifdef JOURDAIN_SANITIZED
+  return build_folder();
+#else
+  return installation() + "/bin";
+#endif
+}
+
 support::ProcessResult run_script(const std::string& folder, const std::string& script,
                                   const std::vector<std::string>& settings) {
   std::vector<std::string> command = {"env", "-C", folder};

@@ -15,6 +15,9 @@ std::string build_folder();
 /// What `cmake --install` puts into a folder, once for all tests.
 const std::string& installation();
 
+/// Where the command lies for who uses it: as installed, but for the build with sanitizers, which is not.
+std::string command_folder();
+
 /// Runs a script with `sh -e` in a folder. `settings` are variables of the environment, "NAME=VALUE".
 support::ProcessResult run_script(const std::string& folder, const std::string& script,
                                   const std::vector<std::string>& settings = {});

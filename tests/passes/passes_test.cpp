@@ -88,6 +88,54 @@ TEST(GroupConstants, KnowsThatAValueTimesItsReciprocalIsOne) {
   EXPECT_EQ(values[2], 2);
 }
 
+TEST(Settled, KeepsTheFirstOfTwoProgramsThatBecomeEachOther) {
+  Program both[2];
+  for (const unsigned first : {0u, 1u}) {
+    Builder b;
+    const Signed x = b.leaf(LeafKind::kPosition, first), y = b.leaf(LeafKind::kPosition, 1 - first);
+    b.output("r", 0, -1, b.add(x, y));
+    both[first] = b.finish("p");
+  }
+  ASSERT_FALSE(same_operations(both[0], both[1]));
+  for (const Program& program : both) {
+    int runs = 0;
+    const Program kept = settled(program, [&](const Program& p) {
+      ++runs;
+      return same_operations(p, both[0]) ? both[1] : both[0];
+    });
+    EXPECT_EQ(print(kept), print(program));
+    EXPECT_EQ(runs, 2);
+  }
+}
+
+TEST(GroupConstants, AddsConstantsToEachOtherFirst) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), p = b.leaf(LeafKind::kParameter, 0);
+  b.output("r", 0, -1, b.add(b.subtract(b.add(x, b.literal(1.5)), p), b.literal(2.5)));
+  EXPECT_EQ(print(group_constants(b.finish("p"))),
+            "program p\n%0 = y[0]\n%1 = parameter[0]\n%2 = 4\n%3 = sub %1 %2\n%4 = sub %0 %3\nr[0] := %4\n");
+}
+
+TEST(GroupConstants, KeepsAPartialSumThatIsUsedElsewhere) {
+  Builder b;
+  const Signed sum = b.add(b.leaf(LeafKind::kPosition, 0), b.literal(1.5));
+  b.output("r", 0, -1, b.add(sum, b.literal(2.5)));
+  b.output("r", 1, -1, sum);
+  EXPECT_EQ(operations(group_constants(b.finish("p"))), 2u);
+}
+
+TEST(GroupConstants, DividesInsteadOfMultiplyingWithAReciprocalUsedOnce) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0), d = b.leaf(LeafKind::kPosition, 1);
+  const Signed e = b.leaf(LeafKind::kPosition, 2), inverse = b.divide(b.literal(1), e);
+  b.output("r", 0, -1, b.multiply(x, b.divide(b.literal(1), d)));
+  b.output("r", 1, -1, b.multiply(x, inverse));
+  b.output("r", 2, -1, b.multiply(d, inverse));
+  const Program grouped = group_constants(b.finish("p"));
+  EXPECT_EQ(ir::count_operations(grouped).divide, 2u) << print(grouped);
+  EXPECT_EQ(operations(grouped), 4u) << print(grouped);
+}
+
 TEST(GroupConstants, NeverAddsOperationsAndKeepsValuesToRounding) {
   for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
     const Program before = random_program(seed), after = group_constants(before);

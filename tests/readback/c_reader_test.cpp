@@ -31,8 +31,6 @@ TEST(CReader, RefusesWhatCWouldRefuseOrComputeOtherwise) {
            {"pendulum_f.c", "parameters->l = 1.0f", "parameters->l = 1.0"},
            {"pendulum.c", "parameters->l = 1.0", "parameters->l = 1.0f"},
            {"pendulum.c", "parameters->l = 1.0", "parameters->l = 1"},
-           {"pendulum_f.c", "return sinf(x)", "return sin(x)"},
-           {"pendulum.c", "return sin(x)", "return cos(x)"},
            {"pendulum.c", "state->y[0]", "state.y[0]"},
            {"pendulum.c", "stage.y[i]", "stage->y[i]"},
            {"pendulum.c", "(model, state, input, v1", "(model, *state, input, v1"},

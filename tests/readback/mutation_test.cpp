@@ -165,6 +165,7 @@ TEST(TextMutation, IsRefusedOrMeansTheSame) {
   suite.plant("quadrotor", every_function());
   suite.plant("spring_four_bar", {"initial_state", "linearize", "ros34pw2_step"});
   suite.plant("crane", {"initial_state", "rk4_step"}, {ir::Language::kCpp, true, true, true});
+  suite.plant("quadruped", {"mass_matrix"});
 }
 
 TEST(TextMutation, OfCIsRefusedOrMeansTheSame) {

@@ -52,6 +52,8 @@ CExpressions::Text CExpressions::print(const Expression& e) const {
       return {whole(e, 0) + (is_pointer(e.operands[0]) ? "->" : ".") + e.name};
     case Kind::kEntry:
       return {fmt::format("{}[{}]", whole(e, 0), whole(e, 1))};
+    case Kind::kLanes:
+      break;  // of C++
     case Kind::kFrom:
       return {fmt::format("{} + {}", whole(e, 0), whole(e, 1)), Strength::kSum};
     case Kind::kOperation:

@@ -113,6 +113,24 @@ class Interface {
     return function.stepper && (function.stepper->history > 0 || function.stepper->implicit);
   }
 
+  /// Remembered rates are those of equal steps.
+  static bool keeps_rates(const FunctionInfo& function) {
+    return function.stepper && function.stepper->history > 0;
+  }
+  static std::string length_name(const FunctionInfo& function) { return function.stepper->name + "_length"; }
+
+  /// What a step does not go on from: what others remember of earlier ones, rates at steps of another length.
+  std::string forget(const FunctionInfo& step) const {
+    std::string text;
+    for (const FunctionInfo& other : functions_)
+      if (remembers(other) && other.stepper != step.stepper)
+        text += fmt::format("  self->{}.count = 0;\n", memory_name(other));
+    if (keeps_rates(step))
+      text += fmt::format("  if (self->{0} != h) self->{1}.count = 0;\n  self->{0} = h;\n", length_name(step),
+                          memory_name(step));
+    return text;
+  }
+
   std::string memories() const {
     std::string text;
     for (const FunctionInfo& function : functions_)
@@ -122,6 +140,9 @@ class Interface {
                                 ? global("accelerations")
                                 : global(fmt::format("rate_history{}", function.stepper->history)),
                             memory_name(function));
+    for (const FunctionInfo& function : functions_)
+      if (keeps_rates(function))
+        text += fmt::format("  double {}; /* its length of steps */\n", length_name(function));
     return text;
   }
 
@@ -228,7 +249,7 @@ class Interface {
   std::string step(const FunctionInfo& function) const {
     std::string call = calls_.arguments(function) + fmt::format(", ({})h", names_.real());
     if (remembers(function)) call += ", &self->" + memory_name(function);
-    return passage("step", {{"STEP", function.name}, {"ARGUMENTS", call}});
+    return passage("step", {{"STEP", function.name}, {"ARGUMENTS", call}, {"FORGET", forget(function)}});
   }
 
   std::string stepper_row(const FunctionInfo& function) const {
@@ -236,8 +257,9 @@ class Interface {
     for (const StepRecord& record : step_records(scene_, functions_, module_))
       if (record.stepper == function.stepper) operations = record.operations;
     return fmt::format("  {{\"{0}\", {1}, {2}, {3}, {4}L, step_{0}}},\n", function.name,
-                       c_string(function.comment), function.stepper->order_with(scene_.all_derivatives),
-                       remembers(function) ? 1 : 0, operations);
+                       c_string(in_one_line(function.comment)),
+                       function.stepper->order_with(scene_.all_derivatives), remembers(function) ? 1 : 0,
+                       operations);
   }
 
   std::string table() const {

@@ -17,11 +17,11 @@ using programs::Shape;
 using PassedArray = InterfaceCalls::PassedArray;
 
 PassedArray passed(const std::string& name, const std::vector<std::size_t>& extents) {
-  return {name, extents[0], extents.size() > 1 ? extents[1] : 1, extents.size() > 1};
+  return {name, extents[0], extents.size() > 1 ? extents[1] : 1, static_cast<int>(extents.size())};
 }
 
 std::string write_array(const PassedArray& array, const std::string& from, std::size_t result) {
-  if (!array.is_matrix)
+  if (!array.is_matrix())
     return fmt::format("  write_numbers(results[{}], {}, {});\n", result, from, array.rows);
   return fmt::format("  for (i = 0; i < {}; ++i) write_numbers(results[{}] + i * {}, {}[i], {});\n",
                      array.rows, result, array.columns, from, array.columns);
@@ -30,8 +30,8 @@ std::string write_array(const PassedArray& array, const std::string& from, std::
 std::string argument_rows(const std::vector<PassedArray>& list) {
   std::string text;
   for (const PassedArray& array : list)
-    text +=
-        fmt::format("{}{{\"{}\", {}, {}}}", text.empty() ? "" : ", ", array.name, array.rows, array.columns);
+    text += fmt::format("{}{{\"{}\", {}, {}, {}}}", text.empty() ? "" : ", ", array.name, array.rows,
+                        array.columns, array.dimensions);
   return text;
 }
 
@@ -73,7 +73,8 @@ std::vector<InterfaceCalls::PassedArray> InterfaceCalls::results(const FunctionI
 
 std::string InterfaceCalls::call(const FunctionInfo& function) const {
   const std::vector<PassedArray> list = results(function);
-  const bool loops = std::any_of(list.begin(), list.end(), [](const PassedArray& a) { return a.is_matrix; });
+  const bool loops =
+      std::any_of(list.begin(), list.end(), [](const PassedArray& a) { return a.is_matrix(); });
   std::string locals, after, finite, call = arguments(function);
   if (function.takes_acceleration) {
     locals += fmt::format("  {} zdot[{}];\n", names_.real(), scene_.velocities.size());
@@ -96,7 +97,7 @@ std::string InterfaceCalls::call(const FunctionInfo& function) const {
     for (std::size_t k = 0; k < list.size(); ++k) {
       const PassedArray& array = list[k];
       locals += fmt::format("  {} {}_result[{}]{};\n", names_.real(), array.name, array.rows,
-                            array.is_matrix ? fmt::format("[{}]", array.columns) : "");
+                            array.is_matrix() ? fmt::format("[{}]", array.columns) : "");
       invocation += fmt::format(", {}_result", array.name);
       after += write_array(array, array.name + "_result", k);
     }
@@ -151,10 +152,10 @@ std::string InterfaceCalls::argument_arrays() const {
 std::string InterfaceCalls::row(const FunctionInfo& function) const {
   const std::size_t count = results(function).size();
   const ir::Program* program = ir::find_program(module_, function.name);
-  return fmt::format("  {{\"{0}\", {1}, {2}, {3}, {4}, {5}, {6}L, call_{0}}},\n", function.name,
-                     c_string(comment_of(function, scene_)), function.takes_acceleration ? 1 : 0, count,
-                     function.takes_acceleration ? function.name + "_given" : "NULL",
-                     count > 0 ? function.name + "_results" : "NULL",
+  return fmt::format("  {{\"{0}\", {1}, {2}, {3}, {4}, {5}, {6}, {7}L, call_{0}}},\n", function.name,
+                     c_string(in_one_line(comment_of(function, scene_))), function.takes_acceleration ? 1 : 0,
+                     count, function.takes_acceleration ? function.name + "_given" : "NULL",
+                     count > 0 ? function.name + "_results" : "NULL", function.takes_input ? 1 : 0,
                      program ? ir::count_operations(*program).arithmetic() : 0);
 }
 

@@ -17,8 +17,9 @@ class InterfaceCalls {
   struct PassedArray {
     std::string name;
     std::size_t rows = 1, columns = 1;
-    bool is_matrix = false;
+    int dimensions = 0;  ///< 0: a number, 1: a vector, 2: a matrix
 
+    bool is_matrix() const { return dimensions == 2; }
     std::size_t numbers() const { return rows * columns; }
   };
 

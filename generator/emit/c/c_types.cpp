@@ -18,7 +18,10 @@ CType of(const Type& type) {
       return {CType::Kind::kInteger};
     case Type::Kind::kStruct:
       return {CType::Kind::kStruct, type.name};
+    case Type::Kind::kLanes:
+      break;
   }
+  JD_CHECK(false, "C has no lanes");
   return {};
 }
 
@@ -43,6 +46,7 @@ const CVariable* CScope::find(const std::string& name) const {
 CType CScope::type_of(const Expression& expression) const {
   switch (expression.kind) {
     case Kind::kReal:
+    case Kind::kLanes:
     case Kind::kToReal:
       return {};
     case Kind::kInteger:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "emit/unique_names.hpp"
@@ -61,6 +62,11 @@ std::string c_string(const std::string& text) {
     safe += c;
   }
   return "\"" + safe + "\"";
+}
+
+std::string in_one_line(std::string comment) {
+  std::replace(comment.begin(), comment.end(), '\n', ' ');
+  return comment;
 }
 
 std::string variable_tables(const ModelText& model, const ir::Module& module) {

@@ -34,6 +34,7 @@ std::string CNames::type(const Type& type) const {
     case Type::Kind::kInteger:
       return "int";
     case Type::Kind::kStruct:
+    case Type::Kind::kLanes:
       break;
   }
   if (type.name == "Outputs") return global("output_values");  // `outputs` is the function that fills it

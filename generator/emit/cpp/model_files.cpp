@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "emit/cpp/comments.hpp"
@@ -61,7 +62,8 @@ class Emitter {
         {"SINE_COSINE", if_any(true, packs() ? "packs_sine.in" : "sine_cosine.in")},
         {"SINES", if_any(true, own_sines() ? "own_sines.in" : "library_sines.in")},
         {"FLOAT_SINES", if_any(!own_sines(), "library_sines_float.in")},
-        {"SINE_BLOCKS", if_any(own_sines(), "sine_blocks.in")},
+        {"SINE_BLOCKS", if_any(has_blocks_, "sine_blocks.in") + if_any(has_blocks_, "own_sine_blocks.in")},
+        {"LANES", if_any(has_lanes(), "lanes.in")},
         {"STATE_DOC", state_doc()},
         {"STATE", state_members()},
         {"NG", guard_limits(model_)},
@@ -70,7 +72,8 @@ class Emitter {
         {"OUTPUTS_ALIAS", alias(!scene_.outputs.empty(), "Outputs")},
         {"LINEARIZATION", linearization_struct(functions_, scene_)},
         {"LINEARIZATION_ALIAS", alias(linearizes(functions_), "Linearization")},
-        {"ARCTANGENT", if_any(ir::has_arctangent(module_), "arctangent.in")},
+        {"ARCTANGENT",
+         if_any(ir::has_arctangent(module_), own_sines() ? "own_arctangent.in" : "arctangent.in")},
         {"ANGLE", if_any(code_.has_angle, "angle.in") + if_any(code_.has_angle && packs(), "packs_angle.in")},
         {"STEP_SUPPORT", support_text(code_.support, !scene_.inputs.empty())},
         {"HISTORY", memories()},
@@ -101,16 +104,28 @@ class Emitter {
 
  private:
   bool packs() const { return model_.choices.packs; }
-  bool own_sines() const { return model_.choices.own_sines; }
+  bool own_sines() const { return model_.choices.own_sines && ir::has_angles(module_); }
+
+  bool has_lanes() const {
+    return std::any_of(module_.functions.begin(), module_.functions.end(),
+                       [](const ir::Program& program) { return !program.lanes.empty(); });
+  }
 
   /// In functions of the state; steps evaluate them.
   void gather_sines() {
     for (std::size_t k = 0; k < functions_.size(); ++k) {
       if (functions_[k].stepper) continue;
       CutFunction& cut = code_.functions[k];
-      cut.function.body = in_sine_blocks(cut.function.body);
-      for (Function& part : cut.parts) part.body = in_sine_blocks(part.body);
+      gather_sines(cut.function.body);
+      for (Function& part : cut.parts) gather_sines(part.body);
     }
+  }
+
+  void gather_sines(Statements& body) {
+    const std::optional<Statements> gathered = in_sine_blocks(body);
+    if (!gathered) return;
+    body = *gathered;
+    has_blocks_ = true;
   }
 
   /// For packs every conversion to Real is a call of what they can customize.
@@ -246,6 +261,7 @@ class Emitter {
   const programs::SceneFacts& scene_;
   ModelCode code_;
   std::vector<StepRecord> steps_;
+  bool has_blocks_ = false;  ///< angles are taken side by side
 };
 
 }  // namespace

@@ -24,9 +24,20 @@ struct Text {
   Strength strength = Strength::kAtom;
 };
 
+std::string lanes_type(std::size_t count, const std::string& real) {
+  return fmt::format("detail::Lanes<{}, {}>", count, real);
+}
+
 class ExpressionPrinter {
  public:
   explicit ExpressionPrinter(const Place& place) : place_(place) {}
+
+  /// The numbers of lanes: `{a, b}`.
+  std::string list(const Expression& e) const {
+    std::string text;
+    for (std::size_t i = 0; i < e.operands.size(); ++i) text += (i == 0 ? "" : ", ") + whole(e, i);
+    return "{" + text + "}";
+  }
 
   Text print(const Expression& e) const {
     switch (e.kind) {
@@ -48,6 +59,8 @@ class ExpressionPrinter {
         return {fmt::format("{} + {}", whole(e, 0), whole(e, 1)), Strength::kSum};
       case Kind::kOperation:
         return operation(e);
+      case Kind::kLanes:
+        return {lanes_type(e.operands.size(), "Real") + list(e)};
       case Kind::kToReal:
         return {fmt::format("Real({})", whole(e, 0))};
       case Kind::kToAngle:
@@ -162,6 +175,8 @@ class StatementPrinter {
   const char* prefix(bool is_support) const { return is_support && !place_.in_detail ? "detail::" : ""; }
 
   std::string initial(const Variable& variable) const {
+    if (variable.value && variable.value->kind == Kind::kLanes)
+      return " = " + ExpressionPrinter(place_).list(*variable.value);
     if (variable.value) return " = " + of(*variable.value);
     if (variable.entries.empty()) return "";
     std::string list;
@@ -205,6 +220,8 @@ std::string type_text(const Type& type, const std::string& real, const Place& pl
       return fmt::format("detail::Angle<{}>", real);
     case Type::Kind::kInteger:
       return "int";
+    case Type::Kind::kLanes:
+      return lanes_type(static_cast<std::size_t>(type.depth), real);
     case Type::Kind::kStruct:
       return fmt::format("{}{}<{}{}>", type.is_support && !place.in_detail ? "detail::" : "", type.name,
                          type.depth > 0 ? fmt::format("{}, ", type.depth) : "", real);

@@ -1,0 +1,13 @@
+// Arguments in messages.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace jourdain::commands {
+
+/// For a terminal: arguments and paths, which messages name, may hold anything. Control characters, those that change
+/// the direction of text and what is no UTF-8 become '?'; line ends stay.
+std::string printable(std::string_view text);
+
+}  // namespace jourdain::commands

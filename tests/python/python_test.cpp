@@ -1,0 +1,238 @@
+// `jourdain python`: its modules, by Debian's Python with numpy, and the page about them.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "package/project.hpp"
+#include "support/files.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using support::ProcessResult;
+using testing::HasSubstr;
+
+const std::string kSource = JOURDAIN_SOURCE_DIR;
+constexpr const char* kPython = "/usr/bin/python3";
+
+ProcessResult make(const std::string& model, const std::string& folder,
+                   const std::vector<std::string>& options = {}) {
+  std::vector<std::string> command = {command_folder() + "/jourdain", "python", model, "-o", folder};
+  command.insert(command.end(), options.begin(), options.end());
+  return support::run_process(command);
+}
+
+/// A folder with the modules of some models, for all tests.
+const std::string& modules() {
+  static const support::TemporaryFolder folder;
+  static const bool done = [] {
+    for (const char* model : {"cart_pole", "crane", "panda", "quadrotor", "squeezer", "ur5"}) {
+      const ProcessResult made = make(fmt::format("{}/models/{}.toml", kSource, model), folder.path());
+      EXPECT_EQ(made.status, 0) << made.output;
+    }
+    return true;
+  }();
+  (void)done;
+  return folder.path();
+}
+
+/// A script of tests/python, or `-c` and statements, with the modules on its path. Warnings are errors.
+ProcessResult run_python(std::vector<std::string> arguments, const std::string& path) {
+  std::vector<std::string> command = {
+      "env", "PYTHONPATH=" + path, "PYTHONDONTWRITEBYTECODE=1", kPython, "-W", "error"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return support::run_process(command);
+}
+
+/// Blocks of a language in the page, from the first.
+std::vector<std::string> blocks(const std::string& language) {
+  const std::string page = support::read_file(kSource + "/runtime/python.md"),
+                    fence = "```" + language + "\n";
+  std::vector<std::string> list;
+  for (std::size_t at = page.find(fence); at != std::string::npos; at = page.find(fence, at)) {
+    at += fence.size();
+    list.push_back(page.substr(at, page.find("\n```", at) + 1 - at));
+  }
+  return list;
+}
+
+/// The number behind a text.
+double number_behind(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + words.size()));
+}
+
+TEST(PythonPage, ItsCommandsBalanceAPole) {
+  const support::TemporaryFolder folder;
+  const ProcessResult result = run_script(
+      kSource, blocks("sh").at(0),
+      {"BUILD=" + command_folder(), "PROJECT=" + folder.path() + "/balance", "PYTHONDONTWRITEBYTECODE=1"});
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_LT(number_behind(result.output, "closed loop:"), -0.5);
+  EXPECT_LT(std::fabs(number_behind(result.output, "leans by")), 0.02);  // from 0.2 rad
+}
+
+TEST(PythonPage, ItsBatchIsRunInOneCall) {
+  const ProcessResult result = run_python({"-c", blocks("python").at(1)}, modules());
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("10000 runs of 100 steps"));
+  EXPECT_LT(std::fabs(number_behind(result.output, "at the end:")), 0.1);
+}
+
+TEST(PythonPage, ItsQuadrotorIsTrimmed) {
+  const ProcessResult result = run_python({"-c", blocks("python").at(2)}, modules());
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_LT(number_behind(result.output, "accelerations left:"), 1e-9);
+  // Drag against weight: tan = 0.02 * 3 / (0.028 * 9.81).
+  EXPECT_NEAR(number_behind(result.output, "pitch:"), 12.32, 0.01);
+}
+
+TEST(Python, ModulesDoWhatTheyPromise) {
+  const ProcessResult result = run_python({kSource + "/tests/python/checks.py"}, modules());
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, testing::ContainsRegex("Ran 2[0-9] tests"));
+}
+
+struct Run {
+  const char* model;
+  const char* duration;
+  const char* step;
+  const char* every;
+  const char* method;
+  int columns;
+};
+
+class Runs : public testing::TestWithParam<Run> {};
+
+TEST_P(Runs, HaveTheNumbersOfTheCommand) {
+  const auto& [model, duration, step, every, method, columns] = GetParam();
+  const support::TemporaryFolder folder;
+  const std::string csv = folder.path() + "/run.csv";
+  const ProcessResult simulated = support::run_process(
+      {command_folder() + "/jourdain", "simulate", fmt::format("{}/models/{}.toml", kSource, model),
+       "--duration", duration, "--step", step, "--every", every, "--method", method, "--output", csv});
+  ASSERT_EQ(simulated.status, 0) << simulated.output;
+  const ProcessResult compared = run_python(
+      {kSource + "/tests/python/compare.py", model, csv, duration, step, every, method}, modules());
+  EXPECT_EQ(compared.status, 0) << compared.output;
+  EXPECT_THAT(compared.output, HasSubstr(fmt::format("{} columns of 101 rows", columns)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Runs,
+                         testing::Values(Run{"panda", "1", "0.001", "10", "rk4", 14},
+                                         Run{"quadrotor", "1", "0.001", "10", "rk5", 25},
+                                         Run{"squeezer", "0.01", "0.00001", "10", "rk4", 20},
+                                         Run{"crane", "5", "0.01", "5", "adams_bashforth3", 32}),
+                         [](const auto& run) { return run.param.model; });
+
+TEST(Python, TextsOfADescriptionAreNoStatements) {
+  const support::TemporaryFolder folder;
+  support::write_file(folder.path() + "/odd.toml", R"toml(
+[model]
+name = "odd \"\"\"\nimport sys; sys.exit(3) # \\"
+[parameters]
+lambda = { value = 2, unit = "kg", description = "a \"quoted\" \\ mass" }
+[[body]]
+name = "b"
+mass = "lambda"
+center_of_mass = [1, 0, 0]
+inertia = [1, 1, 1]
+[[joint]]
+name = "j"
+type = "revolute"
+parent = "world"
+child = "b"
+axis = [0, 0, 1]
+motion = "sin(t)"
+[[output]]
+name = "needed"
+kind = "drive"
+joint = "j"
+)toml");
+  const ProcessResult made = make(folder.path() + "/odd.toml", folder.path(), {"--name", "odd"});
+  ASSERT_EQ(made.status, 0) << made.output;
+  const ProcessResult result = run_python(
+      {"-c",
+       "import ast, odd\nast.parse(open(odd.__file__ + 'i').read())\nmodel = odd.Model(**{'lambda': 4})\n"
+       "state = model.initial_state()\nmodel.rk4_step(state, None, 0.5)\n"
+       "print(state.y.size, state.t, model.outputs(state)['needed'], model.parameters)"},
+      folder.path());
+  EXPECT_THAT(result.output, HasSubstr("0 0.5 -")) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("Parameters(lambda=4.0)"));
+}
+
+TEST(Python, TheSameFilesAreMadeEveryTime) {
+  const support::TemporaryFolder folder;
+  std::vector<std::string> texts;
+  for (const char* name : {"/a", "/b"}) {
+    const ProcessResult made = make(kSource + "/models/pendulum.toml", folder.path() + name);
+    ASSERT_EQ(made.status, 0) << made.output;
+    for (const char* file : {"/pendulum.py", "/pendulum.pyi", "/libpendulum.so"})
+      texts.push_back(support::read_file(folder.path() + name + file));
+  }
+  ASSERT_EQ(texts.size(), 6u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(texts[k], texts[k + 3]) << k;
+}
+
+TEST(Python, WhatCannotBeMadeIsSaidAndNothingIsWritten) {
+  const support::TemporaryFolder folder;
+  const std::string pendulum = kSource + "/models/pendulum.toml";
+  const struct {
+    std::vector<std::string> options;
+    int status;
+    const char* words;
+  } cases[] = {{{"--name", "lambda"},
+                2,
+                "'lambda' is a word of Python and no name of a module; choose another with --name"},
+               {{"--name", "json"}, 2, "a module 'json' would hide Python's own module"},
+               {{"--name", "numpy"}, 2, "a module 'numpy' would hide"},
+               {{"--functions", "forwrd"}, 2, "no function 'forwrd'"},
+               {{"--compiler", "no-such-compiler"}, 3, "cannot run 'no-such-compiler'"},
+               {{"--flags", "--no-such-flag"}, 3, "'cc' fails"}};
+  for (const auto& [options, status, words] : cases) {
+    const ProcessResult made = make(pendulum, folder.path() + "/module", options);
+    EXPECT_EQ(made.status, status) << made.output;
+    EXPECT_THAT(made.output, HasSubstr(words));
+    EXPECT_FALSE(fs::exists(folder.path() + "/module")) << words;
+  }
+}
+
+TEST(Python, LibrariesCompileWithoutAWarning) {
+  const support::TemporaryFolder folder;
+  for (const char* model : {"pendulum", "squeezer"})
+    for (const char* compiler : {"gcc", "clang"}) {
+      const ProcessResult made = make(
+          fmt::format("{}/models/{}.toml", kSource, model), folder.path(),
+          {"--compiler", compiler, "--flags", "-O1 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"});
+      EXPECT_EQ(made.status, 0) << made.output;
+    }
+}
+
+TEST(Python, FunctionsAndFramesAreThoseAskedFor) {
+  const support::TemporaryFolder folder;
+  const ProcessResult made =
+      make(kSource + "/tests/data/robots/rail_arm.urdf", folder.path(),
+           {"--functions", "forward_dynamics", "--frame", "tool=tool:pose,jacobian,velocity"});
+  ASSERT_EQ(made.status, 0) << made.output;
+  const ProcessResult result =
+      run_python({"-c",
+                  "import numpy as np, rail_arm\nmodel = rail_arm.Model()\nstate = model.initial_state()\n"
+                  "state.z = np.arange(1.0, 1 + state.z.size)\nposition, rotation = model.tool_pose(state)\n"
+                  "assert position.shape == (3,) and np.allclose(rotation @ rotation.T, np.eye(3))\n"
+                  "assert np.allclose(model.tool_jacobian(state) @ state.z, model.tool_velocity(state))\n"
+                  "print([name for name in dir(model) if name[0] != '_'])"},
+                 folder.path());
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output,
+              HasSubstr("['forward_dynamics', 'initial_state', 'parameters', 'simulate', 'tool_jacobian', "
+                        "'tool_pose', 'tool_velocity']"));
+}
+
+}  // namespace
+}  // namespace jourdain::tests
