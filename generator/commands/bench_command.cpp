@@ -17,7 +17,7 @@ namespace jourdain::commands {
 
 namespace {
 
-struct Arguments {
+struct BenchArguments {
   ModelArguments model;
   std::vector<std::string> functions;
   std::string real = "double";
@@ -43,7 +43,7 @@ std::vector<std::string> with_states(std::vector<std::string> functions) {
   return functions;
 }
 
-int run(Arguments arguments) {
+int run(BenchArguments arguments) {
   BenchChoices& choices = arguments.choices;
   choices.is_float = arguments.real == "float";
   choices.compiler = arguments.compiler.empty() ? machine_compiler() : words_of(arguments.compiler);
@@ -77,7 +77,7 @@ int run(Arguments arguments) {
 }  // namespace
 
 void add_bench(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand(
       "bench", "times, instructions and code of every emitted function: jourdain bench arm.toml");
   BenchChoices& choices = arguments->choices;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "model/coordinates.hpp"
 #include "programs/entries.hpp"
@@ -11,7 +12,6 @@ namespace jourdain::commands {
 
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kNearLoops = 0.1, kNearStart = 0.5;
 
 /// Where an entry of y is drawn; quaternions are made of unit length afterwards.
@@ -25,7 +25,7 @@ std::array<double, 2> range_of(const model::Mechanism& mechanism, const programs
   if (coordinate && coordinate->range && std::isfinite((*coordinate->range)[0]) &&
       std::isfinite((*coordinate->range)[1]))
     return *coordinate->range;
-  if (coordinate && coordinate->angular) return {-kPi, kPi};
+  if (coordinate && coordinate->angular) return {-std::numbers::pi, std::numbers::pi};
   return {entry.initial - kNearStart, entry.initial + kNearStart};
 }
 

@@ -22,7 +22,7 @@ namespace jourdain::commands {
 
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   ModelArguments model;
   EmissionArguments emission;
   std::string folder;              ///< whose files are compared; empty: none
@@ -35,9 +35,9 @@ struct Arguments {
 };
 
 /// `given` with the options that a manifest holds. Throws CLI::ParseError where one is not known.
-Arguments with_recorded(const Arguments& given, const RecordedModel& recorded) {
+CheckArguments with_recorded(const CheckArguments& given, const RecordedModel& recorded) {
   CLI::App command;
-  Arguments arguments;
+  CheckArguments arguments;
   arguments.add_to(command);
   std::vector<std::string> words = recorded.words;
   words.push_back(given.model.path);
@@ -52,7 +52,7 @@ Arguments with_recorded(const Arguments& given, const RecordedModel& recorded) {
 
 /// What to compile for a comparison: options that are given are all, otherwise those that the folder was made with
 /// hold. Nothing where that cannot be known, which is said.
-std::optional<Arguments> completed(const Arguments& given) {
+std::optional<CheckArguments> completed(const CheckArguments& given) {
   if (given.folder.empty()) return given;
   const std::string description = std::filesystem::path(given.model.path).filename().string();
   const std::vector<RecordedModel> recorded = recorded_models(given.folder, description, given.model.name);
@@ -71,13 +71,13 @@ std::optional<Arguments> completed(const Arguments& given) {
                  printable(given.folder), recorded.front().name, printable(error.what()));
       return std::nullopt;
     }
-  Arguments named = given;
+  CheckArguments named = given;
   named.model.name = recorded.front().name;
   return named;
 }
 
 /// Says how the files of the folder differ from those that were compiled; the status to exit with.
-int compare(const Arguments& arguments, const CompiledModel& compiled) {
+int compare(const CheckArguments& arguments, const CompiledModel& compiled) {
   const std::vector<std::string> texts = differences(arguments.folder, compiled.files);
   for (const std::string& text : texts) fmt::print(stderr, "{}", text);
   if (texts.empty()) {
@@ -95,8 +95,8 @@ int compare(const Arguments& arguments, const CompiledModel& compiled) {
   return kModelWrong;
 }
 
-int run(const Arguments& given) {
-  const std::optional<Arguments> arguments = completed(given);
+int run(const CheckArguments& given) {
+  const std::optional<CheckArguments> arguments = completed(given);
   if (!arguments) return kUsage;
   std::optional<LoadedMechanism> loaded = load(arguments->model);
   if (!loaded) return kModelWrong;
@@ -120,7 +120,7 @@ int run(const Arguments& given) {
 }  // namespace
 
 void add_check(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command =
       app.add_subcommand("check", "read, derive and validate; write nothing: jourdain check arm.toml");
   arguments->add_to(*command);

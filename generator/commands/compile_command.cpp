@@ -15,7 +15,7 @@ namespace jourdain::commands {
 
 namespace {
 
-struct Arguments {
+struct CompileArguments {
   ModelArguments model;
   EmissionArguments emission;
   std::string folder;
@@ -34,7 +34,7 @@ std::string check_pass(const std::string& pass) {
   return fmt::format("no pass '{}'; there are {}", pass, fmt::join(known, ", "));
 }
 
-int run(const Arguments& arguments, const CLI::App& command) {
+int run(const CompileArguments& arguments, const CLI::App& command) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
   if (const std::string wrong = arguments.emission.apply(*loaded); !wrong.empty()) {
@@ -68,7 +68,7 @@ int run(const Arguments& arguments, const CLI::App& command) {
 }  // namespace
 
 void add_compile(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CompileArguments>();
   CLI::App* command =
       app.add_subcommand("compile", "emit C++ or C for a model: jourdain compile arm.toml -o src/arm");
   arguments->model.add_to(*command);

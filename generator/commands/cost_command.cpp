@@ -20,7 +20,7 @@ namespace jourdain::commands {
 
 namespace {
 
-struct Arguments {
+struct CostArguments {
   RunArguments run;
   studies::StepCostOptions steps;
   std::vector<std::string> methods;
@@ -28,7 +28,7 @@ struct Arguments {
   std::string target;  ///< empty: this machine
 };
 
-studies::ReportHead head_of(const Arguments& arguments, const LoadedMechanism& loaded,
+studies::ReportHead head_of(const CostArguments& arguments, const LoadedMechanism& loaded,
                             const std::string& compiler) {
   return {loaded.options.name,
           loaded.mechanism.description,
@@ -41,7 +41,7 @@ studies::ReportHead head_of(const Arguments& arguments, const LoadedMechanism& l
 }
 
 /// Makes the report and prints it; the exit status.
-int report_on(const Arguments& arguments, const RunModel& model, const CompiledModel& compiled,
+int report_on(const CostArguments& arguments, const RunModel& model, const CompiledModel& compiled,
               ProgressBar& bar) {
   const std::string& name = model.loaded.options.name;
   const NumberType number = number_type(arguments.run.real);
@@ -78,7 +78,7 @@ bool closes(const RunModel& model, const CompiledModel& compiled) {
 }
 
 /// The same of a target; nothing is timed.
-int report_on_target(const Arguments& arguments, const RunModel& model, const CompiledModel& compiled,
+int report_on_target(const CostArguments& arguments, const RunModel& model, const CompiledModel& compiled,
                      ProgressBar& bar) {
   const Target& target = *find_target(arguments.target);
   const NumberType number = number_type(arguments.run.real);
@@ -96,7 +96,7 @@ int report_on_target(const Arguments& arguments, const RunModel& model, const Co
   return kSuccess;
 }
 
-int run(Arguments arguments) {
+int run(CostArguments arguments) {
   const programs::DerivativeTerms terms = arguments.run.model.derivatives == "applied"
                                               ? programs::DerivativeTerms::kApplied
                                               : programs::DerivativeTerms::kAll;
@@ -128,7 +128,7 @@ int run(Arguments arguments) {
 }
 
 /// Floating-point units of single precision take float, unless the user says otherwise.
-void choose_number_type(const CLI::App& command, Arguments& arguments) {
+void choose_number_type(const CLI::App& command, CostArguments& arguments) {
   const Target* target = find_target(arguments.target);
   if (target && target->usually_float && command.get_option("--real")->count() == 0)
     arguments.run.real = "float";
@@ -137,7 +137,7 @@ void choose_number_type(const CLI::App& command, Arguments& arguments) {
 }  // namespace
 
 void add_cost(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CostArguments>();
   CLI::App* command = app.add_subcommand(
       "cost", "operations, stack, code and measured times of single steps: jourdain cost arm.toml");
   arguments->run.add_to(*command);

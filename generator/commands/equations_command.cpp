@@ -12,12 +12,12 @@ namespace jourdain::commands {
 
 namespace {
 
-struct Arguments {
+struct EquationsArguments {
   ModelArguments model;
   bool latex = false;
 };
 
-int run(const Arguments& arguments) {
+int run(const EquationsArguments& arguments) {
   const std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
   fmt::print("{}", equations_text(loaded->mechanism, arguments.latex));
@@ -27,7 +27,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_equations(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<EquationsArguments>();
   CLI::App* command = app.add_subcommand(
       "equations", "print M, k_bar and q_bar of M zdot = k_bar - q_bar: jourdain equations arm.toml --latex");
   arguments->model.add_to(*command);

@@ -24,7 +24,7 @@ namespace {
 
 using support::FileText;
 
-struct Arguments {
+struct FmuArguments {
   ModelArguments model;
   std::string output;
   int fmi = 2;
@@ -79,7 +79,7 @@ std::vector<FileText> text_files(const FmuScene& scene, FmiVersion version,
 }
 
 /// The library as binaries/PLATFORM/NAME.so.
-FileText library(const FmuScene& scene, const Arguments& arguments, const std::vector<FileText>& files) {
+FileText library(const FmuScene& scene, const FmuArguments& arguments, const std::vector<FileText>& files) {
   const std::vector<std::string> compiler = arguments.compiler_words();
   const std::string platform = platform_of(compiler, arguments.version());
   const support::TemporaryFolder folder;
@@ -95,7 +95,7 @@ FileText library(const FmuScene& scene, const Arguments& arguments, const std::v
   return {fmt::format("binaries/{}/{}", platform, name), support::read_file(folder.path() + "/" + name)};
 }
 
-int run(const Arguments& arguments) {
+int run(const FmuArguments& arguments) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
   const CompileOptions& options = loaded->options;
@@ -128,7 +128,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_fmu(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<FmuArguments>();
   CLI::App* command =
       app.add_subcommand("fmu", "write a unit for simulators (FMI): jourdain fmu arm.toml -o arm.fmu");
   arguments->model.add_to(*command);

@@ -54,11 +54,11 @@ std::string tables(const std::string& only) {
 }  // namespace
 
 void add_keys(CLI::App& app, int& status) {
-  struct Arguments {
+  struct KeysArguments {
     std::string section;
     bool markdown = false, schema = false;
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<KeysArguments>();
   CLI::App* command =
       app.add_subcommand("keys", "print what a TOML model may hold: jourdain keys, jourdain keys joint");
   std::vector<std::string> names;

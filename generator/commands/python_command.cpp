@@ -24,7 +24,7 @@ namespace {
 using ir::FunctionId;
 using support::FileText;
 
-struct Arguments {
+struct PythonArguments {
   ModelArguments model;
   std::string folder;
   std::vector<std::string> functions, frames;
@@ -41,7 +41,7 @@ std::vector<std::string> usual_functions(const LoadedMechanism& loaded) {
   return functions;
 }
 
-std::string choose(const Arguments& arguments, LoadedMechanism& loaded) {
+std::string choose(const PythonArguments& arguments, LoadedMechanism& loaded) {
   EmissionArguments emission;
   emission.functions = arguments.functions.empty() ? usual_functions(loaded) : arguments.functions;
   // The module asks whether a state closes its loops, and says how it is closed.
@@ -57,7 +57,7 @@ std::string choose(const Arguments& arguments, LoadedMechanism& loaded) {
 }
 
 /// The library, NAME.py and NAME.pyi, compiled where nobody sees it.
-std::vector<FileText> module_files(const Arguments& arguments, const LoadedMechanism& loaded,
+std::vector<FileText> module_files(const PythonArguments& arguments, const LoadedMechanism& loaded,
                                    const CompiledModel& compiled) {
   const CompileOptions& options = loaded.options;
   const std::string& name = options.name;
@@ -78,7 +78,7 @@ std::vector<FileText> module_files(const Arguments& arguments, const LoadedMecha
           {name + ".pyi", stub_text(compiled, loaded.mechanism.name)}};
 }
 
-int run(const Arguments& arguments) {
+int run(const PythonArguments& arguments) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
   if (const std::string wrong = choose(arguments, *loaded); !wrong.empty()) {
@@ -100,7 +100,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_python(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<PythonArguments>();
   CLI::App* command =
       app.add_subcommand("python", "write a module for Python and numpy: jourdain python arm.toml -o arm");
   arguments->model.add_to(*command);

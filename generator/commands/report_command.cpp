@@ -31,7 +31,7 @@ constexpr double kMostSteps = 2e7;  ///< of the shortest length
 constexpr long kLargeScene =
     5000;  ///< operations of forward dynamics beyond which 50 digits must be asked for
 
-struct Arguments {
+struct ReportArguments {
   RunArguments run;
   studies::StudyOptions study;
   std::vector<std::string> methods;
@@ -47,7 +47,7 @@ studies::ReferenceKind reference_kind(const std::string& name) {
   return studies::ReferenceKind::kAutomatic;
 }
 
-studies::ReportHead head_of(const Arguments& arguments, const LoadedMechanism& loaded,
+studies::ReportHead head_of(const ReportArguments& arguments, const LoadedMechanism& loaded,
                             const std::string& scenario) {
   return {loaded.options.name,
           loaded.mechanism.description,
@@ -67,8 +67,8 @@ struct LoadedModels {
   std::optional<studies::LoadedModel> precise;
 };
 
-LoadedModels build_models(const Arguments& arguments, const std::string& name, const CompiledModel& compiled,
-                          ProgressBar& bar) {
+LoadedModels build_models(const ReportArguments& arguments, const std::string& name,
+                          const CompiledModel& compiled, ProgressBar& bar) {
   bar.show("compiling the emitted code", 0);
   LoadedModels models{build_model(name, compiled, number_type(arguments.run.real)), {}};
   const bool large = models.working.table().dynamics_operations > kLargeScene;
@@ -91,7 +91,7 @@ bool check_steps(const studies::StudyOptions& options) {
   return false;
 }
 
-programs::DerivativeTerms terms_of(const Arguments& arguments) {
+programs::DerivativeTerms terms_of(const ReportArguments& arguments) {
   return arguments.run.model.derivatives == "applied" ? programs::DerivativeTerms::kApplied
                                                       : programs::DerivativeTerms::kAll;
 }
@@ -103,7 +103,7 @@ bool print_conflict(const std::string& conflict) {
 }
 
 /// Settles what the options leave open; false after a message.
-bool settle(Arguments& arguments) {
+bool settle(ReportArguments& arguments) {
   if (!check_steps(arguments.study)) return false;
   if (arguments.run.real != "double") {
     if (arguments.reference == "cvode") {
@@ -127,7 +127,7 @@ struct FreeModel {
 
 /// Compiles the scene as free bodies while other work goes on. Nothing where there is no such scene, or it is
 /// too large.
-std::future<std::optional<FreeModel>> build_free_bodies(const Arguments& arguments,
+std::future<std::optional<FreeModel>> build_free_bodies(const ReportArguments& arguments,
                                                         const LoadedMechanism& loaded) {
   constexpr std::size_t kMostBodies = 8;  // of which g++ does not take longer than of the rest
   const auto nothing = [] {
@@ -157,7 +157,7 @@ studies::EmittedFreeBodies emitted(const FreeModel& free, const studies::Inputs&
   return {free.mechanism, flow};
 }
 
-studies::Study make_study(const Arguments& arguments, const RunModel& model, const RunInputs& inputs,
+studies::Study make_study(const ReportArguments& arguments, const RunModel& model, const RunInputs& inputs,
                           const model::Tangent& tangent, const studies::Flow<double>& flow,
                           const jourdain_model_table* long_table, const std::optional<FreeModel>& free,
                           ProgressBar& bar) {
@@ -176,9 +176,9 @@ studies::Study make_study(const Arguments& arguments, const RunModel& model, con
 }
 
 /// Writes the files and prints what they say.
-void write_report(const Arguments& arguments, const std::string& folder, const studies::ReportHead& head,
-                  const studies::Flow<double>& flow, const studies::Study& study,
-                  const report::Figure& figure, ProgressBar& bar) {
+void write_report(const ReportArguments& arguments, const std::string& folder,
+                  const studies::ReportHead& head, const studies::Flow<double>& flow,
+                  const studies::Study& study, const report::Figure& figure, ProgressBar& bar) {
   std::vector<support::FileText> files = studies::report_csv(head, flow.table(), study);
   files.push_back({"report.json", studies::report_json(head, flow.table(), study)});
   if (arguments.plots) {
@@ -194,7 +194,7 @@ void write_report(const Arguments& arguments, const std::string& folder, const s
   fmt::print("\n");
 }
 
-int run(Arguments arguments) {
+int run(ReportArguments arguments) {
   if (!settle(arguments)) return kUsage;
   int status = kSuccess;
   const std::optional<RunModel> model = read_run(arguments.run, status);
@@ -257,7 +257,7 @@ std::string read_time(std::string& text) {
 }  // namespace
 
 void add_report(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand(
       "report",
       "error against run time, and where the error comes from: jourdain report arm.toml --tolerance 1e-6");

@@ -31,7 +31,7 @@ using studies::Point;
 
 constexpr double kLongestRun = 1e9;  ///< steps
 
-struct Arguments {
+struct SimulateArguments {
   RunArguments run;
   double duration = 10, step = 1e-3;
   long every = 10;
@@ -67,7 +67,7 @@ struct Trajectory {
 class Simulation {
  public:
   /// `guard` may be null.
-  Simulation(const Flow<double>& flow, const Arguments& arguments, bool conserves_energy,
+  Simulation(const Flow<double>& flow, const SimulateArguments& arguments, bool conserves_energy,
              const Signals& signals, const Selection& selection, const LoopGuard* guard)
       : flow_(flow),
         signals_(signals),
@@ -154,7 +154,7 @@ class Simulation {
   const Selection& selection_;
   bool with_outputs_ = false;
   const jourdain_model_table& table_;
-  const Arguments& arguments_;
+  const SimulateArguments& arguments_;
   RunBounds bounds_;
   const LoopGuard* guard_;
   Trajectory state_;
@@ -165,7 +165,7 @@ std::string coordinate_text(double value) {
   return std::fabs(value) < 1e7 ? fmt::format("{:.6f}", value) : fmt::format("{:.6g}", value);
 }
 
-void print_summary(const RunModel& model, const RunInputs& inputs, const Arguments& arguments,
+void print_summary(const RunModel& model, const RunInputs& inputs, const SimulateArguments& arguments,
                    const jourdain_model_table& table, const Trajectory& result, long steps) {
   const double microseconds = result.stepping_time / static_cast<double>(steps) * 1e6;
   const std::string driven = inputs.what.empty() ? "" : ", " + inputs.what;
@@ -196,7 +196,7 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Argumen
                coordinate_text(x[static_cast<std::size_t>(ny) + static_cast<std::size_t>(i)]));
 }
 
-int run(const Arguments& arguments) {
+int run(const SimulateArguments& arguments) {
   const double exact_steps = arguments.duration / arguments.step;
   if (!(exact_steps >= 1 && exact_steps <= kLongestRun)) {
     fmt::print(stderr,
@@ -267,7 +267,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_simulate(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command =
       app.add_subcommand("simulate", "compile, step, write CSV: jourdain simulate arm.toml --duration 5");
   arguments->run.add_to(*command);

@@ -18,7 +18,7 @@ namespace jourdain::commands {
 
 namespace {
 
-struct Arguments {
+struct WrapArguments {
   std::string tool;
   ModelArguments model;
   std::string folder;
@@ -31,7 +31,7 @@ int refuse_arguments(const std::string& why) {
   return kUsage;
 }
 
-int run(const Arguments& arguments) {
+int run(const WrapArguments& arguments) {
   const Wrapper& wrapper = *find_wrapper(arguments.tool);
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
@@ -62,7 +62,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_wrap(CLI::App& app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<WrapArguments>();
   CLI::App* command =
       app.add_subcommand("wrap", "emit C for another tool: jourdain wrap arm.toml --for casadi -o arm");
   arguments->model.add_to(*command);

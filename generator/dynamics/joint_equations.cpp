@@ -11,7 +11,6 @@ namespace jourdain::dynamics {
 
 using kinematics::kGround;
 using kinematics::Link;
-using kinematics::LinkKind;
 
 namespace {
 
@@ -19,8 +18,6 @@ std::string named(const std::string& quantity, std::size_t i) { return fmt::form
 std::string named(const std::string& quantity, std::size_t j, std::size_t i) {
   return fmt::format("{}{}_{}", quantity, j, i);
 }
-
-bool turns(const Scene& scene, std::size_t i) { return scene.tree.links[i].kind == LinkKind::kTurn; }
 
 /// Links beside link i, outward: their rates are those of link i and of their joints.
 std::vector<std::size_t> links_beside(const Scene& scene, std::size_t i) {
@@ -67,7 +64,7 @@ class JointMasses {
     Ex with = own;
     std::size_t i = scene_.tree.links[j].parent;
     for (std::size_t k = j; i != kGround; k = i, i = scene_.tree.links[i].parent) {
-      const bool beside = scene_.tree.turns_beside_parent(k) && turns(scene_, i);
+      const bool beside = scene_.tree.turns_beside_parent(k) && scene_.turns(i);
       with = beside ? scene_.statements.bind(named("lMj", j, i), with + M_[j][i]) : M_[j][i];
       set(j, i, with);
       if (k == j) seen_[j] = with;
@@ -100,7 +97,7 @@ std::vector<Ex> link_loads(const Scene& scene, const std::vector<Wrench>& on_lin
   }
   for (std::size_t i = on_link.size(); i-- > 0;) {
     const Link& link = scene.tree.links[i];
-    result[i] = turns(scene, i) ? moment[i] : dot(force[i], scene.frames.direction(i));
+    result[i] = scene.turns(i) ? moment[i] : dot(force[i], scene.frames.direction(i));
     if (link.parent == kGround) continue;
     const Vector3 push = scene.frames.to_parent(i, force[i], named("lfp", i));
     force[link.parent] = scene.statements.bind(named("lf", i), force[link.parent] + push);
@@ -195,7 +192,7 @@ std::vector<Ex> link_inverse_dynamics(const Scene& scene, const LinkEquations& e
 Ex link_kinetic_energy(const Scene& scene, const LinkEquations& equations) {
   std::vector<Ex> rates;
   for (std::size_t i = 0; i < scene.link_count(); ++i)
-    rates.push_back(turns(scene, i) ? scene.omega.own[i][2] : scene.states[i].rate);
+    rates.push_back(scene.turns(i) ? scene.omega.own[i][2] : scene.states[i].rate);
   Ex energy = 0;
   for (std::size_t j = 0; j < rates.size(); ++j) {
     const Ex half = scene.statements.bind(named("lTh", j), equations.M[j][j] / 2);

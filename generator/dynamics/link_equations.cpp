@@ -12,26 +12,24 @@ using kinematics::LinkKind;
 
 namespace {
 
-std::string named(const char* quantity, std::size_t i) { return fmt::format("{}{}", quantity, i); }
-std::string named(const char* quantity, std::size_t j, std::size_t i) {
-  return i == kGround ? named(quantity, j) : fmt::format("{}{}_{}", quantity, j, i);
+std::string link_named(const char* quantity, std::size_t i) { return fmt::format("{}{}", quantity, i); }
+std::string link_named(const char* quantity, std::size_t j, std::size_t i) {
+  return i == kGround ? link_named(quantity, j) : fmt::format("{}{}_{}", quantity, j, i);
 }
-
-bool turns(const Scene& scene, std::size_t i) { return scene.tree.links[i].kind == LinkKind::kTurn; }
 
 /// Angles of links against links inward of them, or against what their run stands in (kGround).
 class Angles {
  public:
   explicit Angles(const Scene& scene) : scene_(scene), angle_(scene.link_count()) {
     for (std::size_t j = 0; j < scene.link_count(); ++j)
-      if (turns(scene, j)) add(j);
+      if (scene.turns(j)) add(j);
   }
 
   Ex cosine(std::size_t j, std::size_t i) const {
-    return scene_.statements.bind(named("c", j, i), kinematics::cosine(angle_[j].at(i)));
+    return scene_.statements.bind(link_named("c", j, i), kinematics::cosine(angle_[j].at(i)));
   }
   Ex sine(std::size_t j, std::size_t i) const {
-    return scene_.statements.bind(named("s", j, i), kinematics::sine(angle_[j].at(i)));
+    return scene_.statements.bind(link_named("s", j, i), kinematics::sine(angle_[j].at(i)));
   }
 
  private:
@@ -41,11 +39,11 @@ class Angles {
     std::size_t first = j;
     for (; scene_.tree.turns_beside_parent(first); first = scene_.tree.links[first].parent) {
       const std::size_t i = scene_.tree.links[first].parent, p = scene_.tree.links[j].parent;
-      angle_[j][i] = p == i ? own : scene_.statements.bind(named("angle", j, i), angle_[p].at(i) + own);
+      angle_[j][i] = p == i ? own : scene_.statements.bind(link_named("angle", j, i), angle_[p].at(i) + own);
     }
     const Ex& start = scene_.states[first].position;
     angle_[j][kGround] =
-        first == j ? own : scene_.statements.bind(named("angle", j), start + angle_[j].at(first));
+        first == j ? own : scene_.statements.bind(link_named("angle", j), start + angle_[j].at(first));
   }
 
   const Scene& scene_;
@@ -73,15 +71,15 @@ class Derivation {
   LinkEquations derive() {
     for (std::size_t i = 0; i < count_; ++i) {
       const Ex& rate = scene_.omega.own[i][2];
-      square_.push_back(turns(scene_, i) ? statements_.bind(named("lww", i), rate * rate) : Ex(0));
+      square_.push_back(scene_.turns(i) ? statements_.bind(link_named("lww", i), rate * rate) : Ex(0));
     }
     for (std::size_t i = 0; i < count_; ++i)
-      if (turns(scene_, i))
+      if (scene_.turns(i))
         turn(i);
       else
         slide(i);
     for (std::size_t i = 0; i < count_; ++i)
-      result_.inertia[i] = statements_.bind(named("lk", i), result_.inertia[i]);
+      result_.inertia[i] = statements_.bind(link_named("lk", i), result_.inertia[i]);
     return std::move(result_);
   }
 
@@ -92,17 +90,17 @@ class Derivation {
       const kinematics::MassMoments& own = scene_.tree.links[i].moments;
       mass_[i] = own.mass;
       first_[i] = own.first;
-      polar_[i] = statements_.bind(named("lJ", i), own.second[0][0] + own.second[1][1]);
+      polar_[i] = statements_.bind(link_named("lJ", i), own.second[0][0] + own.second[1][1]);
     }
     for (std::size_t i = count_; i-- > 0;) {
       const Link& link = scene_.tree.links[i];
       if (link.parent == kGround) continue;
-      mass_[link.parent] = statements_.bind(named("lm", i), mass_[link.parent] + mass_[i]);
+      mass_[link.parent] = statements_.bind(link_named("lm", i), mass_[link.parent] + mass_[i]);
       if (!scene_.tree.turns_beside_parent(i)) continue;
-      const Vector3 mr = statements_.bind(named("lmr", i), mass_[i] * link.r_PL);
-      first_[link.parent] = statements_.bind(named("lh", i), first_[link.parent] + mr);
+      const Vector3 mr = statements_.bind(link_named("lmr", i), mass_[i] * link.r_PL);
+      first_[link.parent] = statements_.bind(link_named("lh", i), first_[link.parent] + mr);
       polar_[link.parent] = statements_.bind(
-          named("lJc", i), polar_[link.parent] + (mr[0] * link.r_PL[0] + mr[1] * link.r_PL[1]));
+          link_named("lJc", i), polar_[link.parent] + (mr[0] * link.r_PL[0] + mr[1] * link.r_PL[1]));
     }
   }
 
@@ -113,13 +111,13 @@ class Derivation {
     for (std::size_t i = 0; i < count_; ++i) {
       const std::size_t p = scene_.tree.links[i].parent;
       root[i] = p == kGround ? i : root[p];
-      if (turns(scene_, i)) unit[root[i]] = polar_[i].is_zero() ? kGround : i;  // a rotor alone may resist
+      if (scene_.turns(i)) unit[root[i]] = polar_[i].is_zero() ? kGround : i;  // a rotor alone may resist
     }
     for (std::size_t i = 0; i < count_; ++i) {
       const std::size_t u = unit[root[i]];
       if (u == kGround) continue;
       result_.scale[i] =
-          i == root[i] ? statements_.bind(named("lone", i), 1 / polar_[u]) : result_.scale[root[i]];
+          i == root[i] ? statements_.bind(link_named("lone", i), 1 / polar_[u]) : result_.scale[root[i]];
       if (u == i) result_.M[i][i] = 1;
     }
   }
@@ -131,20 +129,20 @@ class Derivation {
   /// Entry [j][i] is along cos(angle) + across sin(angle); its slope acts on both with squares of rates.
   void couple(std::size_t j, std::size_t i, std::size_t against, const Ex& along, const Ex& across) {
     const Ex c = angles_.cosine(j, against), s = angles_.sine(j, against);
-    const Ex a = scaled(i, named("lc", j, i), along), b = scaled(i, named("ls", j, i), across);
-    const Ex ac = statements_.bind(named("lac", j, i), a * c),
-             as = statements_.bind(named("las", j, i), a * s);
-    const Ex bc = statements_.bind(named("lbc", j, i), b * c),
-             bs = statements_.bind(named("lbs", j, i), b * s);
-    result_.M[j][i] = statements_.bind(named("lM", j, i), ac + bs);
-    const Ex slope = statements_.bind(named("lD", j, i), as - bc);
+    const Ex a = scaled(i, link_named("lc", j, i), along), b = scaled(i, link_named("ls", j, i), across);
+    const Ex ac = statements_.bind(link_named("lac", j, i), a * c),
+             as = statements_.bind(link_named("las", j, i), a * s);
+    const Ex bc = statements_.bind(link_named("lbc", j, i), b * c),
+             bs = statements_.bind(link_named("lbs", j, i), b * s);
+    result_.M[j][i] = statements_.bind(link_named("lM", j, i), ac + bs);
+    const Ex slope = statements_.bind(link_named("lD", j, i), as - bc);
     result_.inertia[i] = result_.inertia[i] + slope * square_[j];
-    if (turns(scene_, i)) result_.inertia[j] = result_.inertia[j] - slope * square_[i];
+    if (scene_.turns(i)) result_.inertia[j] = result_.inertia[j] - slope * square_[i];
   }
 
   void turn(std::size_t j) {
     const Vector3& h = first_[j];
-    if (result_.M[j][j].is_zero()) result_.M[j][j] = scaled(j, named("lM", j, j), polar_[j]);
+    if (result_.M[j][j].is_zero()) result_.M[j][j] = scaled(j, link_named("lM", j, j), polar_[j]);
     std::size_t k = j;
     for (; scene_.tree.turns_beside_parent(k); k = scene_.tree.links[k].parent) {
       const std::size_t i = scene_.tree.links[k].parent;
@@ -156,18 +154,18 @@ class Derivation {
       couple(j, s, kGround, d[1] * h[0] - d[0] * h[1], -(d[0] * h[0] + d[1] * h[1]));
     }
     const Vector3 g = gravity(k);
-    const Ex a = scaled(j, named("lgc", j), h[0] * g[1] - h[1] * g[0]);
-    const Ex b = scaled(j, named("lgs", j), h[0] * g[0] + h[1] * g[1]);
+    const Ex a = scaled(j, link_named("lgc", j), h[0] * g[1] - h[1] * g[0]);
+    const Ex b = scaled(j, link_named("lgs", j), h[0] * g[0] + h[1] * g[1]);
     result_.weight[j] =
-        statements_.bind(named("lg", j), a * angles_.cosine(j, kGround) - b * angles_.sine(j, kGround));
+        statements_.bind(link_named("lg", j), a * angles_.cosine(j, kGround) - b * angles_.sine(j, kGround));
     result_.weight_alone[j] =
-        statements_.bind(named("lga", j), a * scene_.frames.cosine(j) - b * scene_.frames.sine(j));
+        statements_.bind(link_named("lga", j), a * scene_.frames.cosine(j) - b * scene_.frames.sine(j));
   }
 
   void slide(std::size_t j) {
     for (std::size_t s = j; s != kGround; s = scene_.tree.links[s].parent)
-      result_.M[j][s] = scaled(j, named("lM", j, s), mass_[j] * along_slide(s, j)[2]);
-    result_.weight[j] = scaled(j, named("lg", j), mass_[j] * gravity(j)[2]);
+      result_.M[j][s] = scaled(j, link_named("lM", j, s), mass_[j] * along_slide(s, j)[2]);
+    result_.weight[j] = scaled(j, link_named("lg", j), mass_[j] * gravity(j)[2]);
     result_.weight_alone[j] = result_.weight[j];
   }
 
@@ -175,13 +173,13 @@ class Derivation {
   Vector3 along_slide(std::size_t s, std::size_t link) const {
     if (s == link) return scene_.frames.direction(s);
     return scene_.frames.from_parent(link, along_slide(s, scene_.tree.links[link].parent),
-                                     named("ld", link, s));
+                                     link_named("ld", link, s));
   }
 
   Vector3 gravity(std::size_t link) const {
     const std::size_t p = scene_.tree.links[link].parent;
     return scene_.frames.from_parent(link, p == kGround ? scene_.tree.gravity : gravity(p),
-                                     named("lgw", link));
+                                     link_named("lgw", link));
   }
 
   const Scene& scene_;
@@ -204,7 +202,7 @@ bool has_link_equations(const Scene& scene) {
     const bool is_plain = link.kind == LinkKind::kTurn || link.kind == LinkKind::kSlide;
     if (!is_plain || !scene.states[i].entry) return false;
     if (!scene.tree.turns_beside_parent(i) && !on_slides) return false;
-    any = any || turns(scene, i);
+    any = any || scene.turns(i);
   }
   return any;
 }

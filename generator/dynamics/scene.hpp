@@ -31,6 +31,7 @@ struct Scene {
   std::vector<std::vector<Column>> columns;  ///< by link
 
   std::size_t link_count() const { return tree.links.size(); }
+  bool turns(std::size_t link) const { return tree.links[link].kind == kinematics::LinkKind::kTurn; }
   /// The link that a scalar coordinate of a joint belongs to.
   std::size_t link_of(model::JointIndex joint, std::size_t coordinate) const;
 

@@ -11,9 +11,9 @@ namespace jourdain::emit {
 
 namespace {
 
-using Names = std::set<std::string>;
+using Taken = std::set<std::string>;
 
-void add_names(const Expression& expression, Names& names) {
+void add_names(const Expression& expression, Taken& names) {
   if (expression.kind == Expression::Kind::kName) names.insert(expression.name);
   for (const Expression& operand : expression.operands) add_names(operand, names);
 }
@@ -42,7 +42,7 @@ class Beginning {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < end_; ++i)
       if (const auto* pair = std::get_if<SineCosine>(&body_[i].is); pair && declared_.count(pair->sine)) {
-        Names needed;
+        Taken needed;
         if (!is_known(pair->angle, needed)) continue;
         early_.insert(needed.begin(), needed.end());
         found.push_back(i);
@@ -61,9 +61,9 @@ class Beginning {
   }
 
  private:
-  bool is_known(const Expression& expression, Names& needed) const {
+  bool is_known(const Expression& expression, Taken& needed) const {
     if (is_of_time(expression)) return false;
-    Names names;
+    Taken names;
     add_names(expression, names);
     return std::all_of(names.begin(), names.end(), [&](const std::string& variable) {
       if (written_.count(variable)) return false;
@@ -81,7 +81,7 @@ class Beginning {
   const Statements& body_;
   std::size_t end_ = 0;
   std::map<std::string, std::size_t> declared_;
-  Names written_, early_;
+  Taken written_, early_;
 };
 
 void add_block(Statements& to, const Statements& body, const std::vector<std::size_t>& pairs,

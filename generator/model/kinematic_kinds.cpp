@@ -80,7 +80,7 @@ struct AxesRow {
   std::string_view text;
 };
 
-constexpr auto kAxes = std::to_array<AxesRow>({
+constexpr auto kAxesRows = std::to_array<AxesRow>({
     {Axes::kWorldAligned, "world_aligned",
      "Of the frame's origin, in world axes (Pinocchio: LOCAL_WORLD_ALIGNED; the geometric Jacobian)."},
     {Axes::kFrame, "frame",
@@ -90,7 +90,7 @@ constexpr auto kAxes = std::to_array<AxesRow>({
     {Axes::kWorld, "world",
      "Spatial: of the point of the body that is at the world's origin, in world axes (Pinocchio: WORLD)."},
 });
-static_assert(support::is_complete(kAxes, &AxesRow::axes), "a row for each Axes, in their order");
+static_assert(support::is_complete(kAxesRows, &AxesRow::axes), "a row for each Axes, in their order");
 
 }  // namespace
 
@@ -111,11 +111,11 @@ std::optional<KinematicQuantity> quantity_named(std::string_view name) {
 }
 
 const std::vector<std::string>& axes_names() {
-  static const std::vector<std::string> names = support::names_of(kAxes);
+  static const std::vector<std::string> names = support::names_of(kAxesRows);
   return names;
 }
 
-std::string_view axes_text(Axes axes) { return kAxes[static_cast<std::size_t>(axes)].text; }
+std::string_view axes_text(Axes axes) { return kAxesRows[static_cast<std::size_t>(axes)].text; }
 
 std::optional<std::size_t> kinematic_function_named(const Mechanism& mechanism, std::string_view name) {
   for (std::size_t k = 0; k < mechanism.kinematics.size(); ++k)

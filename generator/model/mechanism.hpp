@@ -267,6 +267,8 @@ struct ImportedFile {
   std::string prefix;  ///< of the names that it declares
 };
 
+inline constexpr double kStandardGravity = 9.81;  ///< m/s²
+
 struct Mechanism : ForceElements {
   std::string name;  ///< as the user wrote it; see `cpp_name`
   std::string description;

@@ -7,20 +7,22 @@ namespace jourdain::model {
 namespace {
 
 using Clock = OutputClock;
-using Shape = MemberShape;
 using Subject = OutputSubject;
 
-constexpr OutputMemberKind kPose[] = {{"position", Shape::kVector, "m"}, {"rotation", Shape::kRotation, "1"}};
-constexpr OutputMemberKind kVelocity[] = {{"v", Shape::kVector, "m/s"}, {"omega", Shape::kVector, "rad/s"}};
-constexpr OutputMemberKind kAcceleration[] = {{"a", Shape::kVector, "m/s^2"},
-                                              {"omega_dot", Shape::kVector, "rad/s^2"}};
+constexpr OutputMemberKind kPose[] = {{"position", MemberShape::kVector, "m"},
+                                      {"rotation", MemberShape::kRotation, "1"}};
+constexpr OutputMemberKind kVelocity[] = {{"v", MemberShape::kVector, "m/s"},
+                                          {"omega", MemberShape::kVector, "rad/s"}};
+constexpr OutputMemberKind kAcceleration[] = {{"a", MemberShape::kVector, "m/s^2"},
+                                              {"omega_dot", MemberShape::kVector, "rad/s^2"}};
 constexpr OutputMemberKind kJacobian[] = {
-    {"J_t", Shape::kPerVelocity},       {"J_r", Shape::kPerVelocity},
-    {"v_bar", Shape::kVector, "m/s"},   {"omega_bar", Shape::kVector, "rad/s"},
-    {"a_bar", Shape::kVector, "m/s^2"}, {"zeta_bar", Shape::kVector, "rad/s^2"}};
-constexpr OutputMemberKind kReaction[] = {{"force", Shape::kVector, "N"}, {"moment", Shape::kVector, "N m"}};
-constexpr OutputMemberKind kDrive[] = {{"", Shape::kScalar, kForceOnCoordinate}};
-constexpr OutputMemberKind kEnergy[] = {{"", Shape::kScalar, "J"}};
+    {"J_t", MemberShape::kPerVelocity},       {"J_r", MemberShape::kPerVelocity},
+    {"v_bar", MemberShape::kVector, "m/s"},   {"omega_bar", MemberShape::kVector, "rad/s"},
+    {"a_bar", MemberShape::kVector, "m/s^2"}, {"zeta_bar", MemberShape::kVector, "rad/s^2"}};
+constexpr OutputMemberKind kReaction[] = {{"force", MemberShape::kVector, "N"},
+                                          {"moment", MemberShape::kVector, "N m"}};
+constexpr OutputMemberKind kDrive[] = {{"", MemberShape::kScalar, kForceOnCoordinate}};
+constexpr OutputMemberKind kEnergy[] = {{"", MemberShape::kScalar, "J"}};
 constexpr OutputMemberKind kNumber[] = {{""}};
 
 constexpr auto kKinds = std::to_array<OutputKindRow>({

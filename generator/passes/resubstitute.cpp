@@ -36,9 +36,9 @@ bool is_operation(Op op) {
   return false;
 }
 
-class Search {
+class Substitution {
  public:
-  Search(const Program& program, std::vector<Fingerprint> fingerprints)
+  Substitution(const Program& program, std::vector<Fingerprint> fingerprints)
       : program_(program),
         equal_(program, std::move(fingerprints)),
         rounding_(program),
@@ -233,7 +233,7 @@ Program resubstitute(const Program& program) {
   for (;;) {
     std::optional<std::vector<Fingerprint>> found = fingerprints(best);
     if (!found) return best;
-    std::optional<Program> next = Search(best, std::move(*found)).run();
+    std::optional<Program> next = Substitution(best, std::move(*found)).run();
     if (!next) return best;
     best = std::move(*next);
   }

@@ -12,6 +12,7 @@
 #include "programs/closed_system.hpp"
 #include "programs/loop_outputs.hpp"
 #include "support/check.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::programs {
 
@@ -24,7 +25,7 @@ using ir::Signed;
 
 namespace {
 
-std::size_t subscript(int i) { return static_cast<std::size_t>(i); }
+using support::subscript;
 
 /// One program under construction.
 class LoopProgram {

@@ -20,7 +20,7 @@ struct LibraryFunction {
 };
 
 /// <math.h> for double and float; another number type brings functions of the plain names.
-constexpr LibraryFunction kLibrary[] = {
+constexpr LibraryFunction kMathFunctions[] = {
     {"sin", NumberType::kDouble, ir::Op::kSin},     {"sinf", NumberType::kFloat, ir::Op::kSin},
     {"cos", NumberType::kDouble, ir::Op::kCos},     {"cosf", NumberType::kFloat, ir::Op::kCos},
     {"sqrt", NumberType::kDouble, ir::Op::kSqrt},   {"sqrtf", NumberType::kFloat, ir::Op::kSqrt},
@@ -187,7 +187,7 @@ Value Interpreter::call_c_library(const Expression& expression, const std::vecto
   const std::string& name = unit_.symbols.text(expression.a->name);
   const bool is_global = expression.a->global;
   if (expression.a->type) refuse_at(expression.place, fmt::format("no function '{}'", name));
-  for (const LibraryFunction& function : kLibrary) {
+  for (const LibraryFunction& function : kMathFunctions) {
     const bool is_own =
         number_type_ == NumberType::kOwn && !is_global && function.type == NumberType::kDouble;
     if (name != function.name || !(is_own || (is_global && number_type_ == function.type))) continue;

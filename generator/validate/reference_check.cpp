@@ -9,7 +9,7 @@ using ir::LeafKind;
 
 namespace {
 
-using Reference = reference::Reference<ScaledReal>;
+using ExactReference = reference::Reference<ScaledReal>;
 
 std::vector<ScaledReal> entries(const ExactMatrix& M) { return {M.data(), M.data() + M.size()}; }
 
@@ -18,7 +18,7 @@ std::vector<ScaledReal> entries(const ExactMatrix& M) { return {M.data(), M.data
 void compare_with_reference(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                             const ir::LeafValues<ScaledReal>& leaves, const TreeOracle& symbolic,
                             Agreement& agreement) {
-  const Reference reference(mechanism, leaves[LeafKind::kParameter]);
+  const ExactReference reference(mechanism, leaves[LeafKind::kParameter]);
   const reference::State<ScaledReal> state = {leaves[LeafKind::kTime][0],
                                               to_exact(leaves[LeafKind::kPosition]),
                                               to_exact(leaves[LeafKind::kVelocity])};

@@ -6,6 +6,7 @@
 #include "dynamics/outputs.hpp"
 #include "model/coordinates.hpp"
 #include "model/kinematic_kinds.hpp"
+#include "support/matrix_index.hpp"
 #include "validate/kinematic_arrays.hpp"
 
 namespace jourdain::validate {
@@ -19,7 +20,7 @@ using kinematics::Ex;
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 ExactVector evaluated(const dynamics::HighPrecision& exact, const std::vector<Ex>& expressions) {
   return to_exact(exact.values(expressions));

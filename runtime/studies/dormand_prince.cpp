@@ -29,7 +29,7 @@ constexpr double kSafety = 0.9, kLeastFactor = 0.2, kGreatestFactor = 5;
 constexpr double kStretch = 1.01;  ///< of the last step
 constexpr double kExponent = 0.2;  ///< 1 over the order
 constexpr int kMostAttempts = 50;
-constexpr double kShortest = 16 * 0x1p-52;  ///< step over |t|
+constexpr double kShortestStep = 16 * 0x1p-52;  ///< step over |t|
 
 /// Σ weights[s] k[s][i] over the first `count` stages.
 template <class Stages>
@@ -105,7 +105,7 @@ bool DormandPrince::step() {
   double greatest = kGreatestFactor;
   for (int i = 0; i < kMostAttempts; ++i) {
     const double h = kStretch * h_ < end_ - t_ ? h_ : end_ - t_;  // no tiny step is left at the end
-    if (!(h > kShortest * std::fabs(t_))) return false;
+    if (!(h > kShortestStep * std::fabs(t_))) return false;
     const double error = attempt(h);
     const double factor = std::isfinite(error) ? kSafety * std::pow(error, -kExponent) : kLeastFactor;
     h_ = h * std::clamp(factor, kLeastFactor, greatest);

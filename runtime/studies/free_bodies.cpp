@@ -18,7 +18,7 @@ using model::Expression;
 using model::Joint;
 using model::JointType;
 using model::Mechanism;
-using Vector = std::array<double, 3>;
+using Vector3 = std::array<double, 3>;
 
 bool is_rewritten(const Joint& joint) {
   const model::JointKind& kind = model::joint_kind(joint);
@@ -31,9 +31,9 @@ bool only_turns(const Joint& joint) {
   return motion && motion->kind == model::MotionKind::kTurn;
 }
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Vector unit(const Vector& axis) {
+Vector3 unit(const Vector3& axis) {
   const double length = std::sqrt(dot(axis, axis));
   return {axis[0] / length, axis[1] / length, axis[2] / length};
 }
@@ -162,7 +162,7 @@ class Rewriting {
   }
 
   static Expression spin_along(const Joint& joint, model::FrameIndex frame) {
-    const Vector n = unit(joint.axis);
+    const Vector3 n = unit(joint.axis);
     Expression spin;
     for (std::size_t i = 0; i < 3; ++i)
       spin =
@@ -171,7 +171,7 @@ class Rewriting {
   }
 
   void load(const Joint& joint, model::FrameIndex frame, const Expression& effort) {
-    const Vector n = unit(joint.axis);
+    const Vector3 n = unit(joint.axis);
     model::Load load;
     load.name = fmt::format("{}_{}", joint.name, free_.loads.size());
     load.frame = frame;

@@ -113,16 +113,16 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
 
 std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double sampling, long wanted,
                                           const Progress& progress) {
-  constexpr std::size_t kFiner = 8;
-  const double interval = sampling / kFiner;
-  const long count = wanted * static_cast<long>(kFiner);
+  constexpr std::size_t kFinerSamples = 8;
+  const double interval = sampling / kFinerSamples;
+  const long count = wanted * static_cast<long>(kFinerSamples);
   progress("reference by CVODE", 0);
   auto points = solved_by_cvode(flow, flow.start(), interval, count, kCvodeTolerance);
   auto looser = solved_by_cvode(flow, flow.start(), interval, count, kLooserCvodeTolerance);
   if (!points || !looser) return {};
-  const std::size_t samples = samples_together(*points, kFiner, *looser, kFiner);
+  const std::size_t samples = samples_together(*points, kFinerSamples, *looser, kFinerSamples);
   if (samples < kFewestSamples) return {};
-  points->resize(1 + samples * kFiner);
+  points->resize(1 + samples * kFinerSamples);
   looser->resize(points->size());
   ReferenceSolution solution;
   solution.method = "CVODE (Adams) in double";

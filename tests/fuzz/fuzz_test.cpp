@@ -7,6 +7,7 @@
 #include "fuzz/tally.hpp"
 #include "fuzz/toml_mutation.hpp"
 #include "model/read/read.hpp"
+#include "properties/effort.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -14,16 +15,11 @@
 namespace jourdain::tests {
 namespace {
 
-#ifdef JOURDAIN_SANITIZED
-constexpr const char* kCases = "300";
-#else
-constexpr const char* kCases = "10000";
-#endif
-
 TEST(Fuzz, EveryCaseEndsAsItMay) {
-  const support::ProcessResult run = support::run_process({JOURDAIN_FUZZ, "--seed", "1", "--cases", kCases});
+  const std::string count = std::to_string(cases(10000));
+  const support::ProcessResult run = support::run_process({JOURDAIN_FUZZ, "--seed", "1", "--cases", count});
   EXPECT_EQ(run.status, 0) << run.output;
-  EXPECT_NE(run.output.find(std::string(kCases) + " cases: "), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find(count + " cases: "), std::string::npos) << run.output;
 }
 
 /// A folder with an empty one for the case and one for temporary files.

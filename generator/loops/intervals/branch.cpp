@@ -7,6 +7,7 @@
 #include "ir/jacobian.hpp"
 #include "passes/rewrite.hpp"
 #include "reference/decompositions.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -16,6 +17,8 @@ using ir::LeafKind;
 
 namespace {
 
+using support::at;
+
 constexpr int kNewtonSteps = 12;
 /// Of a unit of x: Newton's last step in double precision.
 constexpr double kConverged = 1e-9;
@@ -24,8 +27,6 @@ constexpr int kInflations = 4;
 constexpr double kInflation = 1.25;
 /// So that the branch is well inside of X: of a unit of x, and of how far x moves over the box.
 constexpr double kLeastWidth = 1e-15, kLeastShare = 1e-3;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 Intervals point(const VectorXd& x) {
   Intervals result;

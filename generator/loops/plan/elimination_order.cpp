@@ -2,16 +2,18 @@
 
 #include <cmath>
 
+#include "support/matrix_index.hpp"
+
 namespace jourdain::loops {
 
 namespace {
+
+using support::at;
 
 /// Of the largest entry left, rows and columns scaled: smaller ones are no pivots at the start, …
 constexpr long double kLarge = 0.7L;
 /// … and nowhere else.
 constexpr long double kLeast = 1e-2L;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 Matrix scaled(Matrix A) {
   for (Eigen::Index j = 0; j < A.cols(); ++j) A.col(j) /= A.col(j).cwiseAbs().maxCoeff();

@@ -6,6 +6,7 @@
 
 #include "reference/decompositions.hpp"
 #include "reference/massless.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -13,12 +14,12 @@ using support::shown;
 
 namespace {
 
+using support::at;
+
 /// Configurations at which a motion must be without inertia to be so everywhere.
 constexpr std::size_t kConfigurations = 4;
 /// Of the term sum of a motion's inertia, and of the largest inertia of all: below is rounding in long double.
 constexpr long double kRounding = 1e-13L, kSmallest = 1e-18L;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// Motions that keep the loops closed, orthonormal columns.
 Matrix free_motions(const Matrix& G) { return reference::null_space<long double>(G, kRankTolerance); }

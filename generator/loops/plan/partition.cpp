@@ -7,13 +7,14 @@
 #include "loops/rows/regular_rows.hpp"
 #include "reference/decompositions.hpp"
 #include "support/check.hpp"
+#include "support/matrix_index.hpp"
 #include "support/uniform.hpp"
 
 namespace jourdain::loops {
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 /// A preferred partition may be conditioned this much worse.
 constexpr double kPreference = 4;

@@ -19,6 +19,7 @@
 #include "loops/rows/regular_rows.hpp"
 #include "model/loop_kinds.hpp"
 #include "model/time_dependence.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -27,10 +28,10 @@ using support::shown;
 
 namespace {
 
+using support::at;
+
 /// Configurations at which rows, freedom and conditioning are judged.
 constexpr std::size_t kConfigurations = 48;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 class Planner {
  public:

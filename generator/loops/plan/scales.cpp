@@ -8,16 +8,17 @@
 #include "model/loop_kinds.hpp"
 #include "reference/decompositions.hpp"
 #include "reference/minimal.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
 namespace {
 
+using support::at;
+
 /// Regularisation as a share of the largest entry of G M⁻¹ Gᵀ at the start, of rows with lengths: what
 /// rounding allows, and what keeps multipliers bounded where singular configurations are passed again and again.
 constexpr double kLeast = 1e-10, kBounding = 1e-7;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 Matrix rows_of(const Matrix& G, const std::vector<std::size_t>& rows) {
   Matrix part(at(rows.size()), G.cols());

@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "loops/plan/sharing_rows.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 }  // namespace
 

@@ -4,11 +4,13 @@
 
 #include "loops/rows/regular_rows.hpp"
 #include "reference/decompositions.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
 namespace {
 
+using support::at;
 using Rows = std::vector<std::size_t>;
 
 /// What is held as well everywhere to this share needs no other rows.
@@ -18,8 +20,6 @@ constexpr long double kBetter = 1.2L;
 /// Of the least singular value that counts the next one may be so much, or numbers that disagree tell what is
 /// independent.
 constexpr long double kClear = 1e-2L;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 Rows without(Rows rows, std::size_t row) {
   std::erase(rows, row);

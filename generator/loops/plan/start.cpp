@@ -10,6 +10,7 @@
 #include "model/coordinates.hpp"
 #include "model/joint_kinds.hpp"
 #include "reference/minimal.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -18,12 +19,12 @@ using support::SourceRange;
 
 namespace {
 
+using support::at;
+
 /// Velocities that agree to this share of the largest are written with too few digits.
 constexpr long double kRounded = 1e-6L;
 /// ġ below this share of the largest velocity counts as zero.
 constexpr long double kAgrees = 1e-10L;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// Where the description gives initial values, by velocity of the tree; line 0 where it does not.
 struct GivenValues {

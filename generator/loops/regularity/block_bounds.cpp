@@ -8,6 +8,7 @@
 #include "loops/rows/loop_system.hpp"
 #include "passes/rewrite.hpp"
 #include "reference/decompositions.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -16,6 +17,9 @@ using Eigen::VectorXd;
 using ir::LeafKind;
 
 namespace {
+
+using support::at;
+using support::subscript;
 
 /// What each block may be off by after its iterations, and the share of the radius that blocks before it may
 /// move it by.
@@ -29,10 +33,6 @@ constexpr double kContraction = 0.75, kSmall = 0.65;
 constexpr double kCancelled = 1e-12;
 /// Makes good the rounding of sums of bounds.
 constexpr double kOutward = 1 + 1e-9;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-std::size_t subscript(int i) { return static_cast<std::size_t>(i); }
 
 /// By elimination, pivots chosen in double precision.
 Interval determinant(const MatrixXd& A) {

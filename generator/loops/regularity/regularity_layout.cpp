@@ -8,6 +8,7 @@
 #include "ir/compose.hpp"
 #include "loops/rows/timeless.hpp"
 #include "passes/rewrite.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -16,7 +17,7 @@ using ir::Program;
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 class Layout {
  public:

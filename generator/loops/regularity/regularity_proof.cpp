@@ -14,12 +14,15 @@
 #include "loops/rows/timeless.hpp"
 #include "model/angular_entries.hpp"
 #include "reference/decompositions.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
 using Eigen::VectorXd;
 
 namespace {
+
+using support::at;
 
 constexpr double kPi = std::numbers::pi;
 /// Of the dependent blocks: beyond it a configuration counts as singular. Of a pin 1e-3 rad from a dead position.
@@ -31,8 +34,6 @@ constexpr int kMostTurns = 4;  ///< of an angle until the others are where they 
 /// A margin below this where a proof ends: the reason is a singular configuration nearby.
 constexpr double kNearlySingular = 0.03;
 constexpr double kCircleSlack = 1e-9;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// A solution at a point on the branch: the only one in a small box.
 struct Anchor {

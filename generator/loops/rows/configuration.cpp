@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/decompositions.hpp"
+#include "support/matrix_index.hpp"
 #include "support/uniform.hpp"
 
 namespace jourdain::loops {
@@ -12,8 +13,7 @@ using ir::LeafKind;
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-Eigen::Index at(int i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 Matrix columns_of(const Matrix& A, const std::vector<bool>& moving) {
   Matrix B = A;

@@ -2,6 +2,7 @@
 
 #include "ir/compose.hpp"
 #include "lowering/cheapest_elimination.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -11,7 +12,7 @@ using ir::Signed;
 
 namespace {
 
-std::size_t subscript(int i) { return static_cast<std::size_t>(i); }
+using support::subscript;
 
 ir::LeafValue with(LeafKind kind, const Column& values) {
   return [kind, &values](LeafKind leaf, std::size_t i) {

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <limits>
 
+#include "support/matrix_index.hpp"
+
 namespace jourdain::loops {
 
 namespace {
 
+using support::at;
+
 /// An earlier row may be this much worse.
 constexpr long double kPreference = 0.3L;
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// The rows of one Jacobian, and directions of those that were taken.
 class Rows {

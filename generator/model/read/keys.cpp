@@ -10,8 +10,6 @@ namespace jourdain::model {
 
 namespace {
 
-constexpr const char* kRequired = "";
-
 KeySection model_section() {
   return {"model",
           "[model]",

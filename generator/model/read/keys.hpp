@@ -17,6 +17,8 @@ struct Key {
   const char* meaning;
 };
 
+inline constexpr const char* kRequired = "";  ///< standard of a key that must be there
+
 /// One kind of table. Its example is a fragment; those of all sections, in order, are one model of models/.
 struct KeySection {
   const char* name;     ///< "joint"

@@ -2,12 +2,6 @@
 
 namespace jourdain::model {
 
-namespace {
-
-constexpr const char* kRequired = "";
-
-}  // namespace
-
 KeySection import_section() {
   return {"import",
           "[[import]]",

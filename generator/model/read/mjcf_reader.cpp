@@ -19,7 +19,6 @@ namespace {
 using support::Diagnostics;
 using support::shown;
 
-constexpr double kStandardGravity = 9.81;
 constexpr std::size_t kMaximumElements = 50'000;
 
 /// What <option> says of forces.

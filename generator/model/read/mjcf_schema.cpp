@@ -29,7 +29,7 @@ Names split(std::string_view text) {
 /// tendons of other sections have that before theirs.
 const Names* attributes_of(const std::string& element) {
   static const std::string kTurn = "quat axisangle euler xyaxes zaxis ";
-  static const std::string kActuator =
+  static const std::string kOfActuators =
       "name class group nsample interp delay ctrllimited forcelimited ctrlrange forcerange lengthrange gear "
       "damping armature cranklength user joint jointinparent tendon slidersite cranksite site refsite body "
       "actlimited actrange actdim actearly inheritrange ";
@@ -63,10 +63,10 @@ const Names* attributes_of(const std::string& element) {
       {"equality connect", split(kEquality + "body1 body2 anchor site1 site2")},
       {"equality weld", split(kEquality + "body1 body2 relpose anchor torquescale site1 site2")},
       {"equality joint", split(kEquality + "joint1 joint2 polycoef")},
-      {"actuator general", split(kActuator + "dyntype gaintype biastype dynprm gainprm biasprm")},
-      {"actuator motor", split(kActuator)},
-      {"actuator position", split(kActuator + "kp kv dampratio timeconst")},
-      {"actuator velocity", split(kActuator + "kv")},
+      {"actuator general", split(kOfActuators + "dyntype gaintype biastype dynprm gainprm biasprm")},
+      {"actuator motor", split(kOfActuators)},
+      {"actuator position", split(kOfActuators + "kp kv dampratio timeconst")},
+      {"actuator velocity", split(kOfActuators + "kv")},
   };
   const auto found = table.find(element);
   return found == table.end() ? nullptr : &found->second;

@@ -20,10 +20,10 @@ using support::shown;
 const std::vector<std::string> kCommonKeys{"name", "type", "parent", "child", "position", "rpy"};
 
 /// Keys that a joint of this kind has beside the common ones.
-std::vector<std::string> keys_of(const JointKind& kind) {
+std::vector<std::string> own_keys_of(const JointKind& kind) {
   std::vector<std::string> keys;
   const std::span<const JointMotion> coordinates = kind.coordinates();
-  if (coordinates.size() == 1) keys = model::keys_of("coordinate");
+  if (coordinates.size() == 1) keys = keys_of("coordinate");
   if (coordinates.size() > 1)
     for (const JointMotion& motion : coordinates) keys.emplace_back(motion.suffix);
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
@@ -33,7 +33,7 @@ std::vector<std::string> keys_of(const JointKind& kind) {
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys = kCommonKeys;
   for (std::size_t type = 0; type < joint_type_names().size(); ++type)
-    for (const std::string& key : keys_of(joint_kind(static_cast<JointType>(type))))
+    for (const std::string& key : own_keys_of(joint_kind(static_cast<JointType>(type))))
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   return keys;
 }
@@ -45,7 +45,7 @@ std::vector<std::string> shown_keys(const toml::table& table) {
   const auto known =
       type == types.end() ? JointType::kRevolute : static_cast<JointType>(type - types.begin());
   std::vector<std::string> keys = kCommonKeys;
-  for (const std::string& key : keys_of(joint_kind(known))) keys.push_back(key);
+  for (const std::string& key : own_keys_of(joint_kind(known))) keys.push_back(key);
   return keys;
 }
 
@@ -164,7 +164,7 @@ class JointReader {
 
   void refuse_foreign_keys(const Joint& joint) {
     const JointKind& kind = joint_kind(joint);
-    const std::vector<std::string> own = keys_of(kind);
+    const std::vector<std::string> own = own_keys_of(kind);
     for (const std::string& key : all_keys()) {
       const bool common = std::find(kCommonKeys.begin(), kCommonKeys.end(), key) != kCommonKeys.end();
       if (common || !table_.has(key) || std::find(own.begin(), own.end(), key) != own.end()) continue;
@@ -181,7 +181,7 @@ class JointReader {
       const toml::table* section = table_.table(suffix);
       if (!section) continue;
       const TomlTable table(file_, *section, fmt::format("'{}' of {}", suffix, table_.what()),
-                            table_.where(suffix), model::keys_of("coordinate"));
+                            table_.where(suffix), keys_of("coordinate"));
       read_coordinate(file_, table, coordinate_needs(joint, c), joint.coordinates[c]);
     }
   }
@@ -253,7 +253,7 @@ void change_joint(TomlFile& file, const toml::table& table, SourceRange where, J
     return keys;
   };
   std::vector<std::string> own = kCommonKeys;
-  for (const std::string& key : keys_of(joint_kind(joint))) own.push_back(key);
+  for (const std::string& key : own_keys_of(joint_kind(joint))) own.push_back(key);
   JointReader(file, table, joint.name, where, changeable(all_keys()), changeable(own)).read_over(joint);
 }
 

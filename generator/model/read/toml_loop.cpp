@@ -18,7 +18,7 @@ namespace {
 using support::shown;
 
 const std::vector<std::string> kTreatments{"explicit", "partitioned", "multipliers"};
-const std::vector<std::string> kCommonKeys{"name", "type"};
+const std::vector<std::string> kKeysOfAll{"name", "type"};
 const std::vector<std::string> kOwnKeys{"from", "to", "axis", "to_axis", "length", "residual"};
 constexpr int kMostIterations = 20;
 
@@ -29,11 +29,11 @@ std::vector<std::string> joined(std::vector<std::string> first, const Keys& seco
 }
 
 /// Those of a loop whose type can be read, or of a ball.
-std::vector<std::string> shown_keys(const toml::table& table) {
+std::vector<std::string> keys_of_type(const toml::table& table) {
   const auto type =
       std::find(loop_type_names().begin(), loop_type_names().end(), table["type"].value_or(std::string()));
   const auto index = type == loop_type_names().end() ? 0 : type - loop_type_names().begin();
-  return joined(kCommonKeys, loop_kind(static_cast<LoopType>(index)).keys);
+  return joined(kKeysOfAll, loop_kind(static_cast<LoopType>(index)).keys);
 }
 
 /// The general scope, in which what is no position is refused.
@@ -65,7 +65,7 @@ class LoopReader {
       : file_(file),
         name_(name_or_number(file, table, "loop", number)),
         table_(file, table, fmt::format("loop '{}'", shown(name_)), file.range(table.source()),
-               joined(kCommonKeys, kOwnKeys), shown_keys(table)) {}
+               joined(kKeysOfAll, kOwnKeys), keys_of_type(table)) {}
 
   /// Nothing after a diagnostic.
   std::optional<Loop> read(Mechanism& mechanism) {
@@ -171,7 +171,7 @@ std::optional<ScalarCoordinate> find_independent(TomlFile& file, const toml::nod
 class OptionsReader {
  public:
   OptionsReader(TomlFile& file, const toml::table& section, SourceRange where)
-      : file_(file), table_(file, section, "[loops]", where, model::keys_of("loops")) {}
+      : file_(file), table_(file, section, "[loops]", where, keys_of("loops")) {}
 
   LoopOptions read(const Mechanism& mechanism) {
     if (table_.has("treatment"))

@@ -15,7 +15,7 @@ namespace {
 using support::shown;
 
 /// Keys that an output about such a thing needs beside its name and kind.
-std::vector<std::string> keys_of(OutputSubject subject) {
+std::vector<std::string> keys_of_subject(OutputSubject subject) {
   switch (subject) {
     case OutputSubject::kNone:
       return {};
@@ -54,7 +54,7 @@ bool read_joint(TomlFile& file, const TomlTable& table, Output& output, const Me
 bool read_content(TomlFile& file, const TomlTable& table, Output& output, const Scope& scope,
                   Mechanism& mechanism) {
   const OutputKindRow& kind = output_kind(output.kind);
-  const std::vector<std::string> keys = keys_of(kind.subject);
+  const std::vector<std::string> keys = keys_of_subject(kind.subject);
   for (const char* key : {"frame", "joint", "coordinate", "value"})
     if (table.has(key) && std::find(keys.begin(), keys.end(), key) == keys.end())
       table.error(key, fmt::format("an output of kind '{}' has no '{}'", kind.name, key));

@@ -20,8 +20,6 @@ namespace {
 
 using support::Diagnostics;
 
-constexpr double kStandardGravity = 9.81;
-
 /// Tables that a file may have any number of, and that [[repeat]] may hold.
 const std::vector<std::string> kLists{"import",   "override",   "body",  "joint",  "frame",
                                       "actuator", "input",      "force", "spring", "bushing",

@@ -61,11 +61,11 @@ std::optional<std::string> UrdfFile::name(const XmlElement& where) {
 }
 
 std::vector<UrdfFile::Word> UrdfFile::words(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r\n";
+  constexpr const char* kSpaces = " \t\r\n";
   std::vector<Word> result;
-  for (std::size_t i = text.find_first_not_of(kBlanks); i != std::string::npos;
-       i = text.find_first_not_of(kBlanks, i)) {
-    const std::size_t end = std::min(text.find_first_of(kBlanks, i), text.size());
+  for (std::size_t i = text.find_first_not_of(kSpaces); i != std::string::npos;
+       i = text.find_first_not_of(kSpaces, i)) {
+    const std::size_t end = std::min(text.find_first_of(kSpaces, i), text.size());
     result.push_back({i, text.substr(i, end - i)});
     i = end;
   }

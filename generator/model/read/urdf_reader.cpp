@@ -20,8 +20,6 @@ namespace {
 using support::Diagnostics;
 using support::shown;
 
-constexpr double kStandardGravity = 9.81;
-
 class UrdfReader {
  public:
   UrdfReader(UrdfFile& file, const ReadOptions& options) : file_(file), options_(options) {}

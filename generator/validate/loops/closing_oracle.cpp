@@ -5,6 +5,7 @@
 
 #include "loops/plan/schur_solution.hpp"
 #include "loops/rows/dense_solver.hpp"
+#include "support/matrix_index.hpp"
 #include "validate/tree_oracle.hpp"
 
 namespace jourdain::validate {
@@ -13,7 +14,7 @@ using ir::LeafKind;
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 using State = ir::LeafValues<ScaledReal>;
 

@@ -1,3 +1,4 @@
+#include "support/matrix_index.hpp"
 #include "validate/loops/loop_oracle.hpp"
 #include "validate/tree_oracle.hpp"
 
@@ -7,7 +8,7 @@ using ir::LeafKind;
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 class Evaluation {
  public:

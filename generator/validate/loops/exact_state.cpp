@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "support/matrix_index.hpp"
 #include "validate/tree_oracle.hpp"
 
 namespace jourdain::validate {
@@ -10,7 +11,7 @@ using ir::LeafKind;
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 }  // namespace
 

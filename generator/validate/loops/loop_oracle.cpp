@@ -6,6 +6,7 @@
 #include "loops/plan/schur_solution.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "model/kinematic_kinds.hpp"
+#include "support/matrix_index.hpp"
 #include "validate/kinematic_arrays.hpp"
 #include "validate/tree_oracle.hpp"
 
@@ -18,9 +19,9 @@ using ir::LeafKind;
 
 namespace {
 
-constexpr const char* kAccelerations = "the accelerations of the constrained system";
+using support::at;
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+constexpr const char* kAccelerations = "the accelerations of the constrained system";
 
 /// J_t, J_r, v̄, ω̄, ā, ζ̄ of the tree in terms of the independent velocities.
 void reduce(std::vector<ExactMatrix>& jacobian, const ExactMotion& e) {

@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "model/time_dependence.hpp"
+#include "support/matrix_index.hpp"
 #include "support/uniform.hpp"
 
 namespace jourdain::validate {
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 }  // namespace
 

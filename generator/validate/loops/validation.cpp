@@ -10,6 +10,7 @@
 #include "ir/function_id.hpp"
 #include "programs/scene_facts.hpp"
 #include "reference/minimal.hpp"
+#include "support/matrix_index.hpp"
 #include "support/uniform.hpp"
 #include "validate/loops/closing_oracle.hpp"
 #include "validate/loops/rays.hpp"
@@ -22,7 +23,7 @@ using ir::LeafKind;
 
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+using support::at;
 
 constexpr std::size_t kStates = 8, kLarge = 24;  ///< velocities from which on two states must do
 constexpr std::size_t kOpened = 2;               ///< states beside which open ones are compared
