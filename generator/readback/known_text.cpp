@@ -218,7 +218,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(sines());
     list.push_back(known("detail", "", own_sine_blocks()));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
-    list.push_back(known("detail", kLanes, lanes_text()));
+    list.push_back(known("detail", kLanesType, lanes_text()));
     return list;
   }();
   static const std::vector<KnownText> of_packs = [] {
@@ -228,7 +228,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(sines());
     list.push_back(known("detail", "", own_sine_blocks()));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
-    list.push_back(known("detail", kLanes, lanes_text()));
+    list.push_back(known("detail", kLanesType, lanes_text()));
     list.push_back(known("", "", kNumbers));
     list.push_back(known("", "", kNumberOfTime));
     list.push_back(known("detail", "", kNumberOfAngle));

@@ -13,7 +13,7 @@
 namespace jourdain::readback {
 
 /// The type of numbers that are computed with at once.
-inline constexpr const char* kLanes = "Lanes";
+inline constexpr const char* kLanesType = "Lanes";
 
 struct KnownText {
   std::string_view scope;  ///< namespace within the outer one, or empty

@@ -126,7 +126,7 @@ const Type* TypeTable::resolve(const TypeName& name, const Lookup& lookup) {
   if (unit_.numbers.count(last) && name.arguments.size() == 1 &&
       resolve(name.arguments[0].type, lookup) == &number_)
     return &sum_;
-  if (unit_.numbers.count(last) && unit_.symbols.text(last) == kLanes && name.arguments.size() == 2 &&
+  if (unit_.numbers.count(last) && unit_.symbols.text(last) == kLanesType && name.arguments.size() == 2 &&
       name.arguments[0].value && resolve(name.arguments[1].type, lookup) == &number_)
     return lanes(integer_of_(*name.arguments[0].value, lookup));
   const Struct* syntax = find_struct(name.path, lookup);
@@ -206,7 +206,7 @@ std::string TypeTable::text(const Type* type) const {
     case Type::Kind::kArray:
       return fmt::format("{}[{}]", text(type->element), type->extent);
     case Type::Kind::kLanes:
-      return fmt::format("{}<{}, Real>", kLanes, type->extent);
+      return fmt::format("{}<{}, Real>", kLanesType, type->extent);
     case Type::Kind::kFunction:
       return "function";
   }

@@ -48,10 +48,10 @@ std::string extremes_text(const std::vector<ExtremeSweep>& sweeps) {
   std::string text =
       "\n  accelerations far from the usual, against 50 digits: worst errors in units of rounding, and at "
       "which factor\n";
-  constexpr const char* kRow = "  {:<18} {:<22} {:>18} {:>18}  {}\n";
-  text += fmt::format(kRow, "swept", "range", "backward", "forward", "not finite at");
+  constexpr const char* kExtremesRow = "  {:<18} {:<22} {:>18} {:>18}  {}\n";
+  text += fmt::format(kExtremesRow, "swept", "range", "backward", "forward", "not finite at");
   for (const std::vector<std::string>& row : extremes_rows(sweeps))
-    text += fmt::format(kRow, row[0], row[1], row[2], row[3], row[4]);
+    text += fmt::format(kExtremesRow, row[0], row[1], row[2], row[3], row[4]);
   return text;
 }
 
