@@ -8,7 +8,7 @@ namespace jourdain::studies {
 
 namespace {
 
-constexpr const char* kRow = "  {:<23} {:>12} {:>9} {:>7} {:>8} {:>10} {:>9} {:>15} {:>6}\n";
+constexpr const char* kAlternativesRow = "  {:<23} {:>12} {:>9} {:>7} {:>8} {:>10} {:>9} {:>15} {:>6}\n";
 
 std::string setting_text(const Alternative& row) {
   if (row.h) return "h = " + time_text(*row.h);
@@ -81,7 +81,7 @@ std::vector<std::string> alternatives_remarks(const jourdain_model_table& table,
 std::string alternatives_text(const jourdain_model_table& table, const Study& study) {
   if (study.alternatives.rows.empty()) return "";
   const auto line = [](const std::vector<std::string>& c) {
-    return fmt::format(kRow, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]);
+    return fmt::format(kAlternativesRow, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]);
   };
   std::string text =
       "\n  other integrators on the same right-hand side, at equal error\n" + line(alternatives_head());
