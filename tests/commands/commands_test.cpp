@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "commands/run_jourdain.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
@@ -17,18 +18,6 @@ namespace jourdain::tests {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Runs `jourdain` from the project's root.
-support::ProcessResult jourdain(std::vector<std::string> arguments) {
-  std::vector<std::string> command = {"env", "-C", JOURDAIN_SOURCE_DIR, JOURDAIN_BINARY};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  return support::run_process(command);
-}
-
-void expect(const support::ProcessResult& result, int status, const std::string& part) {
-  EXPECT_EQ(result.status, status) << result.output;
-  EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
-}
 
 std::size_t files_in(const fs::path& folder) {
   return fs::exists(folder) ? std::size_t(std::distance(fs::directory_iterator(folder), {})) : 0;

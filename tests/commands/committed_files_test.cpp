@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "commands/run_jourdain.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -16,11 +17,6 @@ using testing::HasSubstr;
 using testing::Not;
 
 const std::string kPendulum = JOURDAIN_SOURCE_DIR "/models/pendulum.toml";
-
-support::ProcessResult jourdain(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), JOURDAIN_BINARY);
-  return support::run_process(arguments);
-}
 
 class Against : public testing::Test {
  protected:

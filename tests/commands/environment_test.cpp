@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "commands/run_jourdain.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
@@ -12,21 +13,6 @@ namespace jourdain::tests {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Runs `jourdain` from the project's root with settings like "CXX=g++" in its environment.
-support::ProcessResult jourdain(const std::vector<std::string>& settings,
-                                const std::vector<std::string>& arguments) {
-  std::vector<std::string> command = {"env", "-C", JOURDAIN_SOURCE_DIR};
-  command.insert(command.end(), settings.begin(), settings.end());
-  command.emplace_back(JOURDAIN_BINARY);
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  return support::run_process(command);
-}
-
-void expect(const support::ProcessResult& result, int status, const std::string& part) {
-  EXPECT_EQ(result.status, status) << result.output;
-  EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
-}
 
 /// A program in `folder` that calls the compiler named by its first argument with the others, and leaves a file behind.
 std::string launcher(const support::TemporaryFolder& folder) {

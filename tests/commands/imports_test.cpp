@@ -4,17 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "commands/run_jourdain.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {
 namespace {
-
-support::ProcessResult jourdain(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), JOURDAIN_BINARY);
-  return support::run_process(arguments);
-}
 
 const std::string kPart =
     "[[body]]\nname = \"bob\"\nmass = 1\ncenter_of_mass = [0, 0, -1]\n\n[[joint]]\nname = \"hinge\"\ntype = "

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "commands/run_jourdain.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -49,11 +50,6 @@ class DrivenRuns : public testing::Test {
 
   support::TemporaryFolder folder_;
 };
-
-void expect(const support::ProcessResult& result, int status, const std::string& part) {
-  EXPECT_EQ(result.status, status) << result.output;
-  EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
-}
 
 TEST_F(DrivenRuns, InputsFromATableChangeLinearly) {
   const std::string table = write("u.csv", "time,push\n0,0\n1,6\n");

@@ -7,23 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "commands/run_jourdain.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {
 namespace {
-
-support::ProcessResult jourdain(std::vector<std::string> arguments) {
-  std::vector<std::string> command = {"env", "-C", JOURDAIN_SOURCE_DIR, JOURDAIN_BINARY};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  return support::run_process(command);
-}
-
-void expect(const support::ProcessResult& result, int status, const std::string& part) {
-  EXPECT_EQ(result.status, status) << result.output;
-  EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
-}
 
 /// The slider-crank with a tunable radius of its crank (m), in a file of `folder`.
 std::string tunable_slider_crank(const std::string& folder, const std::string& parameter,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "commands/run_jourdain.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -24,11 +25,6 @@ class RobotFiles : public testing::Test {
  private:
   support::TemporaryFolder folder_;
 };
-
-void expect(const support::ProcessResult& result, int status, const std::string& part) {
-  EXPECT_EQ(result.status, status) << result.output;
-  EXPECT_NE(result.output.find(part), std::string::npos) << "no '" << part << "' in\n" << result.output;
-}
 
 /// A pendulum about that axis with a moment −0.1 kg m² about x, placed with that pitch.
 std::string pendulum(const std::string& axis, const std::string& pitch = "0",
