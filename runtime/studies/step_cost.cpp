@@ -249,7 +249,7 @@ Quantiles quantiles_of(std::vector<double> samples) {
 }
 
 std::size_t evicting_bytes() {
-  constexpr std::size_t kUsual = std::size_t(64) << 20, kMost = std::size_t(1) << 30;
+  constexpr std::size_t kUsual = std::size_t(64) << 20, kMost = std::size_t(384) << 20;
   const std::size_t cache = last_cache();
   return cache == 0 ? kUsual : std::min(2 * cache, kMost);
 }

@@ -21,7 +21,7 @@ Quantiles quantiles_of(std::vector<double> samples);
 struct StepCost {
   std::size_t method = 0;
   Quantiles warm;  ///< one after the other along the motion
-  Quantiles cold;  ///< each after data of twice the last cache's size was read and written
+  Quantiles cold;  ///< each after data of twice the last cache's size, at most 384 MiB, was read and written
   /// Medians of steps from changed states over that from a state along the motion. Velocities whose products
   /// are subnormal:
   double subnormal = 0;
