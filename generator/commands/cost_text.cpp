@@ -114,14 +114,18 @@ std::string warm_remark(const CostReport& report, const StepCost& step) {
 }
 
 std::string cold_remark(const CostReport& report, const StepCost& step) {
+  const std::size_t last = studies::last_cache(), read = studies::evicting_bytes();
+  const std::string stayed =
+      read < 2 * last
+          ? fmt::format("data may have stayed in a last-level cache that the system says has {} MiB, ",
+                        last >> 20)
+          : "";
   return fmt::format(
-      "a {} step that finds its data in no cache took {} in the median of {}, {} at most: plan with that "
-      "where a step "
-      "runs once per period among other work. {} MiB were read and written before each; code may have stayed "
-      "in "
-      "the first-level instruction cache. Measured; it is no bound",
+      "a {} step whose data was evicted from caches took {} in the median of {}, {} at most: plan with that "
+      "where a step runs once per period among other work. {} MiB were read and written before each; {}code "
+      "may have stayed in the first-level instruction cache. Measured; it is no bound",
       name_of(report, step), time_text(step.cold.median), step.cold.count, time_text(step.cold.worst),
-      studies::evicting_bytes() >> 20);
+      read >> 20, stayed);
 }
 
 /// The largest of a ratio over the methods, with the method: "1.21 (rk4)".

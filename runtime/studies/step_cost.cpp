@@ -217,7 +217,8 @@ void compare_states(Stepping plain, const Flow<double>& flow, const std::vector<
   cost.million = times[4] / times[0];
 }
 
-/// Bytes of the last-level cache that this processor uses; 0: the system does not tell.
+}  // namespace
+
 std::size_t last_cache() {
   std::size_t kilobytes = 0;
   std::ifstream("/sys/devices/system/cpu/cpu0/cache/index3/size") >> kilobytes;
@@ -225,8 +226,6 @@ std::size_t last_cache() {
   const long bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
   return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
 }
-
-}  // namespace
 
 double clock_tick() {
   double least = 1;

@@ -38,7 +38,11 @@ struct StepCostOptions {
 /// Least time that the clock tells from none, s.
 double clock_tick();
 
-/// Bytes read and written to evict a state, twice the last-level cache; of a usual one where the system does not tell.
+/// Bytes of the last-level cache as the system tells; 0: it does not.
+std::size_t last_cache();
+
+/// Bytes read and written to evict a state: twice the last-level cache, of a usual one where the system does not tell,
+/// but at most 384 MiB, after which a larger cache may still hold it.
 std::size_t evicting_bytes();
 
 /// Velocity (rad/s, m/s) whose square is subnormal in numbers of that unit roundoff: 1e-160 in double, 1e-20 in float.
