@@ -29,11 +29,19 @@ std::string bytes_cells(const CodeCost* code) {
   return code ? fmt::format("{:>7} {:>7}", code->stack, code->code) : fmt::format("{:>7} {:>7}", "-", "-");
 }
 
+/// Behind a row: what few models have.
+std::string others(const ir::Operations& c) {
+  std::string text;
+  if (c.functions > 0) text += fmt::format("  and {} of exp, log, sinh, cosh, tanh, pow", c.functions);
+  if (c.selections > 0) text += fmt::format("  and {} selections", c.selections);
+  return text;
+}
+
 std::string program_row(const CostReport& report, const std::string& label, const std::string& name,
                         const ir::Operations& c) {
-  return fmt::format("  {:<28} {:>6} {:>6} {:>6} {:>6} {:>4} {:>4} {:>4} {:>4} {:>4} {:>5} {}\n", label,
+  return fmt::format("  {:<28} {:>6} {:>6} {:>6} {:>6} {:>4} {:>4} {:>4} {:>4} {:>4} {:>5} {}{}\n", label,
                      c.arithmetic(), c.multiply, c.add, c.subtract, c.divide, c.sqrt, c.negate, c.sin, c.cos,
-                     c.atan2, bytes_cells(code_of(report, name)));
+                     c.atan2, bytes_cells(code_of(report, name)), others(c));
 }
 
 std::string functions_table(const CostReport& report) {
@@ -181,7 +189,9 @@ Json operations_json(const ir::Operations& c) {
           {"neg", c.negate},
           {"sin", c.sin},
           {"cos", c.cos},
-          {"atan2", c.atan2}};
+          {"atan2", c.atan2},
+          {"functions", c.functions},
+          {"selections", c.selections}};
 }
 
 void add_bytes(Json& entry, const CodeCost* code) {

@@ -117,10 +117,18 @@ class EquationPrinter {
         return {fmt::format("{}sin({})", function, a(0)), 2};
       case Op::kCos:
         return {fmt::format("{}cos({})", function, a(0)), 2};
-      case Op::kAtan2:
-        return {fmt::format("{}({}, {})", latex_ ? "\\operatorname{atan2}" : "atan2", a(0), b(0)), 2};
+      default:
+        return call(node.op, a(0), ir::operand_count(node.op) == 2 ? ", " + b(0) : "");
     }
-    return {};
+  }
+
+  Text call(Op op, const std::string& first, const std::string& more) const {
+    std::string name = ir::op_name(op);
+    if (latex_) {
+      for (std::size_t at = 0; (at = name.find('_', at)) != std::string::npos; at += 2) name.insert(at, "\\");
+      name = "\\operatorname{" + name + "}";
+    }
+    return {fmt::format("{}({}{})", name, first, more), 2};
   }
 
   const ir::Program& program_;

@@ -9,9 +9,11 @@ namespace jourdain::commands {
 namespace {
 
 std::string operations_row(const std::string& name, const ir::Operations& c) {
-  return fmt::format("  {:<18} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} | {:>5} {:>5} {:>5}{}\n", name,
+  return fmt::format("  {:<18} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} | {:>5} {:>5} {:>5}{}{}{}\n", name,
                      c.arithmetic(), c.multiply, c.add, c.subtract, c.divide, c.sqrt, c.negate, c.sin, c.cos,
-                     c.atan2 == 0 ? "" : fmt::format("  and {} atan2", c.atan2));
+                     c.atan2 == 0 ? "" : fmt::format("  and {} atan2", c.atan2),
+                     c.functions == 0 ? "" : fmt::format("  and {} exp, log, …", c.functions),
+                     c.selections == 0 ? "" : fmt::format("  and {} selections", c.selections));
 }
 
 }  // namespace
@@ -29,9 +31,9 @@ std::string operations_table(const ir::Module& module) {
 std::string verdict_text(const validate::Verdict& v) {
   return fmt::format(
       "  validated at {} states: algebra agrees to {:g}; in double backward error {:.1e}, others {:.1e} of "
-      "their scale; cond(M) up to {}\n",
+      "their scale; cond(M) up to {}\n{}",
       v.states, static_cast<double>(validate::kAlgebra), v.backward_error, v.entry_error,
-      validate::condition_text(v));
+      validate::condition_text(v), v.kinks.count == 0 ? "" : "  " + validate::in_words(v.kinks) + "\n");
 }
 
 std::string oracles_text(const validate::Verdict& verdict) {

@@ -75,6 +75,7 @@ std::vector<std::string> validation_sentences(const validate::Verdict& verdict) 
       "of the sum of absolute terms, other errors are {:.1e} of their scale; cond(M) up to {}",
       verdict.states, static_cast<double>(validate::kAlgebra), verdict.backward_error, verdict.entry_error,
       validate::condition_text(verdict))};
+  if (verdict.kinks.count > 0) list.push_back(validate::in_words(verdict.kinks));
   std::string equations;
   for (const validate::Compared& c : verdict.compared)
     if (c.oracle == validate::kReference) equations += (equations.empty() ? "" : ", ") + c.function;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "dynamics/high_precision.hpp"
+#include "kinematics/function_calls.hpp"
 #include "kinematics/numbers.hpp"
 #include "support/check.hpp"
 
@@ -88,6 +89,10 @@ class Expansion {
       return total;
     }
     if (is_ex_the_function(e, GiNaC::sin) || is_ex_the_function(e, GiNaC::cos)) return trigonometric(e);
+    if (const auto function = kinematics::function_in(e)) {
+      const Ex first = only_constant(value(e.op(0))), last = only_constant(value(e.op(e.nops() - 1)));
+      return Harmonics(kinematics::applied(*function, first, last));
+    }
     JD_CHECK(is_a<GiNaC::power>(e), "neither sum nor product");
     return power(value(e.op(0)), e.op(1));
   }

@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "kinematics/function_calls.hpp"
 #include "support/check.hpp"
+#include "support/function_derivatives.hpp"
 
 namespace jourdain::dynamics {
 
@@ -58,6 +60,65 @@ GradientReal sin(const GradientReal& a) { return {sin(a.value), combined(a.slope
 
 GradientReal cos(const GradientReal& a) { return {cos(a.value), combined(a.slopes, -sin(a.value), {}, 0)}; }
 
+namespace {
+
+struct Partials {
+  ScaledReal value, by_a, by_b;
+};
+
+/// Of what is taken from `a` as it is, or from `b`, or from neither: the value and which.
+Partials chosen(support::Function function, const ScaledReal& a, const ScaledReal& b) {
+  using support::Function;
+  const bool is_negative = a < ScaledReal(0);
+  const ScaledReal value = value_of(function, a, b);
+  switch (function) {
+    case Function::kAbs:
+      return {value, is_negative ? -1 : 1, 0};
+    case Function::kMin:
+      return b < a ? Partials{value, 0, 1} : Partials{value, 1, 0};
+    case Function::kMax:
+      return a < b ? Partials{value, 0, 1} : Partials{value, 1, 0};
+    case Function::kWhereNegative:
+      return {value, 0, is_negative ? 1 : 0};
+    case Function::kWhereNotNegative:
+      return {value, 0, is_negative ? 0 : 1};
+    default:
+      return {value, 0, 0};
+  }
+}
+
+Partials partials_of(support::Function function, const ScaledReal& a, const ScaledReal& b, bool b_moves) {
+  const support::FunctionFacts& facts = support::facts_of(function);
+  if (facts.has_kinks) return chosen(function, a, b);
+  if (facts.operands == 1) {
+    const auto curve = support::curve_of(function, a, ScaledReal(1));
+    return {curve.value, curve.slope, 0};
+  }
+  if (function == support::Function::kPower && !b_moves) {
+    const auto curve = support::power_of(a, b, ScaledReal(1));
+    return {curve.value, curve.slope, 0};
+  }
+  const auto surface = support::surface_of(function, a, b, ScaledReal(1));
+  return {surface.value, surface.by_a, surface.by_b};
+}
+
+/// A derivative is selected, never multiplied by zero: it need not exist where the value is not taken.
+bool is_taken(const ScaledReal& partial) { return partial != ScaledReal(0); }
+
+}  // namespace
+
+SlopeReal value_of(support::Function function, const SlopeReal& a, const SlopeReal& b) {
+  const Partials f = partials_of(function, a.value, b.value, b.first != ScaledReal(0));
+  const ScaledReal from_a = is_taken(f.by_a) ? f.by_a * a.first : ScaledReal(0);
+  return {f.value, is_taken(f.by_b) ? from_a + f.by_b * b.first : from_a};
+}
+
+GradientReal value_of(support::Function function, const GradientReal& a, const GradientReal& b) {
+  const Partials f = partials_of(function, a.value, b.value, !b.slopes.empty());
+  return {f.value, combined(is_taken(f.by_a) ? a.slopes : Slopes(), f.by_a,
+                            is_taken(f.by_b) ? b.slopes : Slopes(), f.by_b)};
+}
+
 template <class Number>
 Evaluation<Number>::Evaluation(const kinematics::Statements& statements, const LeafValue& leaf) {
   for (const kinematics::Leaf& l : statements.leaves()) values_[l.symbol] = leaf(l.kind, l.index);
@@ -82,6 +143,10 @@ Number Evaluation<Number>::value(const Ex& e) const {
   if (is_a<GiNaC::power>(e)) return power(e.op(0), e.op(1));
   if (is_ex_the_function(e, GiNaC::sin)) return sin(value(e.op(0)));
   if (is_ex_the_function(e, GiNaC::cos)) return cos(value(e.op(0)));
+  if (const auto function = kinematics::function_in(e)) {
+    using support::value_of;
+    return value_of(*function, value(e.op(0)), value(e.op(e.nops() - 1)));
+  }
   JD_CHECK(false, "cannot evaluate '{}'", (std::ostringstream() << e).str());
   return {};
 }

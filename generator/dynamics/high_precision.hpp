@@ -35,6 +35,7 @@ struct SlopeReal {
   }
   friend SlopeReal sin(const SlopeReal& a) { return {sin(a.value), cos(a.value) * a.first}; }
   friend SlopeReal cos(const SlopeReal& a) { return {cos(a.value), -(sin(a.value) * a.first)}; }
+  friend SlopeReal value_of(support::Function function, const SlopeReal& a, const SlopeReal& b);
 };
 
 /// A number with its first derivatives by several variables, of which it depends on few.
@@ -53,6 +54,7 @@ struct GradientReal {
   friend GradientReal sqrt(const GradientReal& a);
   friend GradientReal sin(const GradientReal& a);
   friend GradientReal cos(const GradientReal& a);
+  friend GradientReal value_of(support::Function function, const GradientReal& a, const GradientReal& b);
 };
 
 /// The statements evaluated at one state. No lowering, no pass, no program takes part.

@@ -36,9 +36,10 @@ std::vector<bool> angles_of_time(const Program& program) {
   for (std::size_t i = n; i-- > 0;) {
     const Op op = program.nodes[i].op;
     const bool turns = op == Op::kSin || op == Op::kCos;
-    if (turns || (is_angle[i] && op != Op::kSqrt && op != Op::kAtan2))
+    const bool is_of_reals = op == Op::kSqrt || ir::is_function(op);
+    if (turns || (is_angle[i] && !is_of_reals))
       operands(i, [&](std::size_t operand) { is_angle[operand] = is_angle[operand] || depends[operand]; });
-    if (turns || op == Op::kSqrt || op == Op::kAtan2) is_angle[i] = false;
+    if (turns || is_of_reals) is_angle[i] = false;
   }
   return is_angle;
 }
@@ -343,7 +344,8 @@ class BodyBuilder {
       return node.leaf == ir::LeafKind::kTime ? to_angle(place) : place;
     }
     const bool turns = node.op == Op::kSin || node.op == Op::kCos;
-    const bool of_angles = turns || (is_angle_[id.value] && node.op != Op::kSqrt && node.op != Op::kAtan2);
+    const bool of_angles =
+        turns || (is_angle_[id.value] && node.op != Op::kSqrt && !ir::is_function(node.op));
     std::vector<Expression> operands;
     for (int k = 0; k < ir::operand_count(node.op); ++k) {
       const ValueId operand = k == 0 ? node.a : node.b;

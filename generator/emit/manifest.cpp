@@ -29,9 +29,11 @@ std::string files_array(const std::vector<support::FileHash>& files) {
 
 std::string operations_object(const ir::Operations& count) {
   return fmt::format(
-      R"({{"arithmetic": {}, "add": {}, "sub": {}, "mul": {}, "div": {}, "sqrt": {}, "neg": {}, "sin": {}, "cos": {}{}}})",
+      R"({{"arithmetic": {}, "add": {}, "sub": {}, "mul": {}, "div": {}, "sqrt": {}, "neg": {}, "sin": {}, "cos": {}{}{}{}}})",
       count.arithmetic(), count.add, count.subtract, count.multiply, count.divide, count.sqrt, count.negate,
-      count.sin, count.cos, count.atan2 == 0 ? "" : fmt::format(R"(, "atan2": {})", count.atan2));
+      count.sin, count.cos, count.atan2 == 0 ? "" : fmt::format(R"(, "atan2": {})", count.atan2),
+      count.functions == 0 ? "" : fmt::format(R"(, "functions": {})", count.functions),
+      count.selections == 0 ? "" : fmt::format(R"(, "selections": {})", count.selections));
 }
 
 std::string ranges_object(const std::vector<loops::ProvenRange>& ranges,

@@ -79,9 +79,11 @@ std::string proven_sentence() {
 }
 
 std::string operations_sentence(const ir::Operations& count) {
-  return fmt::format("{} operations ({} mul, {} add and sub, {} div), {} sin and cos{}.", count.arithmetic(),
-                     count.multiply, count.add + count.subtract, count.divide, count.sin + count.cos,
-                     count.atan2 == 0 ? "" : fmt::format(", {} atan2", count.atan2));
+  return fmt::format("{} operations ({} mul, {} add and sub, {} div), {} sin and cos{}{}{}.",
+                     count.arithmetic(), count.multiply, count.add + count.subtract, count.divide,
+                     count.sin + count.cos, count.atan2 == 0 ? "" : fmt::format(", {} atan2", count.atan2),
+                     count.functions == 0 ? "" : fmt::format(", {} other functions", count.functions),
+                     count.selections == 0 ? "" : fmt::format(", {} selections", count.selections));
 }
 
 }  // namespace jourdain::emit

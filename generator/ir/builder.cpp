@@ -135,6 +135,27 @@ Signed Builder::atan2(Signed a, Signed b) {
   return {intern({.op = Op::kAtan2, .a = opposite, .b = adjacent}), false};
 }
 
+Signed Builder::function(support::Function function, Signed a, Signed b) {
+  using support::Function;
+  if (function == Function::kAtan2) return atan2(a, b);
+  const bool takes = function == Function::kWhereNegative || function == Function::kWhereNotNegative;
+  if (takes) {
+    const bool is_negative = is_literal(a) && cln::minusp(literal_of(a));
+    if (is_literal(a)) return is_negative == (function == Function::kWhereNegative) ? b : literal(0);
+    if (is_literal(b, 0)) return b;
+    const ValueId condition = with_its_sign(a);
+    return {intern({.op = op_of(function), .a = condition, .b = b.value}), b.negative};
+  }
+  if (support::facts_of(function).operands == 1) {
+    const bool is_odd = function == Function::kSinh || function == Function::kTanh;
+    const bool is_even = function == Function::kCosh || function == Function::kAbs;
+    const ValueId argument = is_odd || is_even ? a.value : with_its_sign(a);
+    return {intern({.op = op_of(function), .a = argument}), is_odd && a.negative};
+  }
+  const ValueId first = with_its_sign(a), second = with_its_sign(b);
+  return {intern({.op = op_of(function), .a = first, .b = second}), false};
+}
+
 Signed Builder::unary(Op op, Signed a) {
   switch (op) {
     case Op::kNegate:
@@ -153,7 +174,7 @@ Signed Builder::unary(Op op, Signed a) {
     case Op::kSubtract:
     case Op::kMultiply:
     case Op::kDivide:
-    case Op::kAtan2:
+    default:
       break;
   }
   JD_CHECK(false, "{} is not unary", op_name(op));
@@ -181,10 +202,9 @@ Signed Builder::apply(const Node& node, Signed a, Signed b) {
     case Op::kSin:
     case Op::kCos:
       return unary(node.op, a);
-    case Op::kAtan2:
-      return atan2(a, b);
+    default:
+      return function(function_of(node.op), a, b);
   }
-  return a;
 }
 
 void Builder::label(ValueId value, const std::string& name) {

@@ -32,6 +32,9 @@ class Builder {
   /// The angle of (b, a). Signs stay inside: atan2(−a, b) is not −atan2(a, b) where a = 0 and b < 0. Of literals only
   /// atan2(0, b > 0) = 0 is folded: the others' last digit is the machine's.
   Signed atan2(Signed a, Signed b);
+  /// f(a, b), or f(a). Of what is taken where a sign says so the sign moves outward; else only what literals decide is
+  /// simplified.
+  Signed function(support::Function function, Signed a, Signed b);
 
   /// The operation of `node` on operands of this builder.
   Signed apply(const Node& node, Signed a, Signed b);

@@ -93,6 +93,65 @@ Interval angle(Interval a, Interval b) {
                 kFunctionUnits);
 }
 
+Interval rising(Interval a, double (*function)(double)) {
+  return around({function(a.low), function(a.high)}, kFunctionUnits);
+}
+
+/// What is taken where a sign says so, or zero.
+Interval taken(bool may_be, bool must_be, Interval value) {
+  if (must_be) return value;
+  return may_be ? Interval{std::min(value.low, 0.0), std::max(value.high, 0.0)} : Interval::point(0);
+}
+
+/// Where they exist.
+Interval function_of(Op op, Interval a, Interval b) {
+  const auto size = [&a] {
+    const double largest = std::max(std::fabs(a.low), std::fabs(a.high));
+    return Interval{a.contains(0) ? 0 : std::min(std::fabs(a.low), std::fabs(a.high)), largest};
+  };
+  switch (op) {
+    case Op::kExp: {
+      const Interval value = rising(a, [](double x) { return std::exp(x); });
+      return {std::max(value.low, 0.0), value.high};
+    }
+    case Op::kLog:
+      return a.high < 0 ? Interval::line()
+                        : rising({std::max(a.low, 0.0), a.high}, [](double x) { return std::log(x); });
+    case Op::kSinh:
+      return rising(a, [](double x) { return std::sinh(x); });
+    case Op::kCosh: {
+      const Interval value = rising(size(), [](double x) { return std::cosh(x); });
+      return {std::max(value.low, 1.0), value.high};
+    }
+    case Op::kTanh: {
+      const Interval value = rising(a, [](double x) { return std::tanh(x); });
+      return {std::max(value.low, -1.0), std::min(value.high, 1.0)};
+    }
+    case Op::kPower: {
+      if (a.high < 0) return Interval::line();
+      const double low = std::max(a.low, 0.0);
+      const Interval value = around(
+          {std::pow(low, b.low), std::pow(low, b.high), std::pow(a.high, b.low), std::pow(a.high, b.high)},
+          kFunctionUnits);  // the logarithm is bilinear in b and log a
+      return {std::max(value.low, 0.0), value.high};
+    }
+    case Op::kAbs:
+      return size();
+    case Op::kFloor:
+      return {std::floor(a.low), std::floor(a.high)};
+    case Op::kMin:
+      return {std::min(a.low, b.low), std::min(a.high, b.high)};
+    case Op::kMax:
+      return {std::max(a.low, b.low), std::max(a.high, b.high)};
+    case Op::kWhereNegative:
+      return taken(a.low < 0, a.high < 0, b);
+    case Op::kWhereNotNegative:
+      return taken(a.high >= 0, a.low >= 0, b);
+    default:
+      return Interval::line();
+  }
+}
+
 bool undefined(const Node& node, Interval a, Interval b) {
   switch (node.op) {
     case Op::kSqrt:
@@ -101,6 +160,10 @@ bool undefined(const Node& node, Interval a, Interval b) {
       return b.contains(0);
     case Op::kAtan2:
       return a.contains(0) && b.contains(0);
+    case Op::kLog:
+      return a.low <= 0;
+    case Op::kPower:
+      return a.low < 0 || (a.contains(0) && b.low <= 0);
     case Op::kLiteral:
     case Op::kLeaf:
     case Op::kNegate:
@@ -109,6 +172,7 @@ bool undefined(const Node& node, Interval a, Interval b) {
     case Op::kMultiply:
     case Op::kSin:
     case Op::kCos:
+    default:
       break;
   }
   return false;
@@ -137,6 +201,8 @@ Interval evaluated(const Node& node, Interval a, Interval b) {
       return wave(a, cosine, 0);
     case Op::kAtan2:
       return angle(a, b);
+    default:
+      return function_of(node.op, a, b);
   }
   return Interval::point(node.literal);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "ir/function_partials.hpp"
+
 namespace jourdain::ir {
 
 namespace {
@@ -96,11 +98,11 @@ class Graph {
       case Op::kCos:
         if (by_a) from_a(-builder_.unary(Op::kSin, a));
         break;
-      case Op::kAtan2: {
+      default: {
         if (!by_a && !by_b) break;
-        const Signed square = builder_.add(builder_.multiply(a, a), builder_.multiply(b, b));
-        if (by_a) from_a(builder_.divide(b, square));
-        if (by_b) connect(node.b.value, i, -builder_.divide(a, square));
+        const auto [of_a, of_b] = partials(builder_, function_of(node.op), a, b, value, by_b);
+        if (by_a) from_a(of_a);
+        if (by_b) connect(node.b.value, i, of_b);
         break;
       }
     }
@@ -117,7 +119,7 @@ class Graph {
       const Signed outer = operands_[user].at(v);
       operands_[user].erase(v);
       for (const auto& [operand, inner] : operands_[v]) {
-        const Signed partial = builder_.multiply(outer, inner);
+        const Signed partial = product(outer, inner);
         if (!builder_.is_literal(partial, 0)) connect(operand, user, partial);
       }
     }
@@ -126,7 +128,67 @@ class Graph {
     users_[v].clear();
   }
 
+  /// Zero times what has no value would have none: where a factor is only taken where a sign says so, and the other
+  /// need not exist, the product is taken as a whole.
+  Signed product(Signed a, Signed b) {
+    look_at_new_values();
+    const bool exists_a = exists_[a.value.value], exists_b = exists_[b.value.value];
+    if (is_taken_[a.value.value] && !exists_b) return inside(a, b);
+    if (is_taken_[b.value.value] && !exists_a) return inside(b, a);
+    return builder_.multiply(a, b);
+  }
+
+  /// `taken` times `factor`, which goes where no more signs decide.
+  Signed inside(Signed taken, Signed factor) {
+    const Node node = builder_.program()[taken.value];
+    const Signed a{node.a}, b{node.b};
+    Signed result;
+    switch (node.op) {
+      case Op::kNegate:
+        result = -product(a, factor);
+        break;
+      case Op::kAdd:
+        result = builder_.add(product(a, factor), product(b, factor));
+        break;
+      case Op::kSubtract:
+        result = builder_.subtract(product(a, factor), product(b, factor));
+        break;
+      case Op::kMultiply:
+        result = is_taken_[node.a.value] ? builder_.multiply(product(a, factor), b)
+                                         : builder_.multiply(a, product(b, factor));
+        break;
+      default:
+        result = builder_.function(function_of(node.op), a, product(b, factor));
+    }
+    return taken.negative ? -result : result;
+  }
+
+  /// Which values are finite for all finite variables (parameters are taken to be such that what follows from them
+  /// alone is), and which consist of what is taken where a sign says so.
+  void look_at_new_values() {
+    const std::vector<Node>& nodes = builder_.program().nodes;
+    for (std::size_t i = exists_.size(); i < nodes.size(); ++i) {
+      const Node& node = nodes[i];
+      const int operands = operand_count(node.op);
+      const auto holds = [&](const std::vector<bool>& of, bool otherwise) {
+        if (operands == 0) return otherwise;
+        return of[node.a.value] && (operands == 1 || of[node.b.value]);
+      };
+      const bool is_parameter = node.leaf == LeafKind::kParameter || node.leaf == LeafKind::kConstant;
+      fixed_.push_back(holds(fixed_, node.op == Op::kLiteral || is_parameter));
+      const bool may_fail = (node.op == Op::kDivide && !fixed_[node.b.value]) || node.op == Op::kSqrt ||
+                            (is_function(node.op) && !is_selection(node.op) && node.op != Op::kTanh);
+      exists_.push_back(fixed_[i] || (holds(exists_, true) && !may_fail));
+      const bool is_sum_or_product = node.op == Op::kAdd || node.op == Op::kSubtract ||
+                                     node.op == Op::kMultiply || node.op == Op::kNegate;
+      is_taken_.push_back(
+          node.op == Op::kWhereNegative || node.op == Op::kWhereNotNegative ||
+          (is_sum_or_product && (is_taken_[node.a.value] || (operands == 2 && is_taken_[node.b.value]))));
+    }
+  }
+
   Builder& builder_;
+  std::vector<bool> exists_, fixed_, is_taken_;  ///< of the values so far
   std::size_t count_, columns_ = 0, rows_;
   std::vector<std::map<std::size_t, Signed>> operands_;  // of each vertex, with the partial derivative by it
   std::vector<std::set<std::size_t>> users_;

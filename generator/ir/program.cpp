@@ -23,10 +23,10 @@ int operand_count(Op op) {
     case Op::kSubtract:
     case Op::kMultiply:
     case Op::kDivide:
-    case Op::kAtan2:
       return 2;
+    default:
+      return support::facts_of(function_of(op)).operands;
   }
-  return 0;
 }
 
 const char* op_name(Op op) {
@@ -51,10 +51,9 @@ const char* op_name(Op op) {
       return "sin";
     case Op::kCos:
       return "cos";
-    case Op::kAtan2:
-      return "atan2";
+    default:
+      return support::facts_of(function_of(op)).name.data();
   }
-  return "";
 }
 
 const char* leaf_name(LeafKind kind) {
@@ -112,6 +111,9 @@ Operations count_operations(const Program& program) {
       case Op::kAtan2:
         ++count.atan2;
         break;
+      default:
+        ++(is_selection(node.op) ? count.selections : count.functions);
+        break;
     }
   return count;
 }
@@ -163,7 +165,7 @@ Real literal_value(const Node& node) {
 
 template <class Real>
 std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leaves) {
-  using std::atan2, std::cos, std::sin, std::sqrt;
+  using std::cos, std::sin, std::sqrt;
   std::vector<Real> v;
   v.reserve(program.nodes.size());
   for (const Node& node : program.nodes) {
@@ -201,8 +203,8 @@ std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leav
       case Op::kCos:
         v.push_back(cos(a()));
         break;
-      case Op::kAtan2:
-        v.push_back(atan2(a(), b()));
+      default:
+        v.push_back(support::value_of(function_of(node.op), a(), b()));
         break;
     }
   }

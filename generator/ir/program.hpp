@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/check.hpp"
+#include "support/elementary_functions.hpp"
 #include "support/index.hpp"
 #include "support/leaf_kind.hpp"
 #include "support/scaled_real.hpp"
@@ -26,8 +27,33 @@ enum class Op : std::uint8_t {
   kSqrt,
   kSin,
   kCos,
-  kAtan2  ///< atan2(a, b): the angle of (b, a), in (−π, π]
+  kAtan2,  ///< atan2(a, b): the angle of (b, a), in (−π, π]
+  // The other functions, in their order.
+  kExp,
+  kLog,
+  kSinh,
+  kCosh,
+  kTanh,
+  kPower,
+  kAbs,
+  kFloor,
+  kMin,
+  kMax,
+  kWhereNegative,
+  kWhereNotNegative
 };
+
+constexpr Op op_of(support::Function function) {
+  return static_cast<Op>(static_cast<std::uint8_t>(Op::kAtan2) + static_cast<std::uint8_t>(function));
+}
+constexpr bool is_function(Op op) { return op >= Op::kAtan2; }
+/// Of an op with is_function(op).
+constexpr support::Function function_of(Op op) {
+  return static_cast<support::Function>(static_cast<std::uint8_t>(op) -
+                                        static_cast<std::uint8_t>(Op::kAtan2));
+}
+/// Takes one of its operands, or a part of one, as it is: costs about as much as a sum.
+constexpr bool is_selection(Op op) { return is_function(op) && support::facts_of(function_of(op)).has_kinks; }
 
 using support::kLeafKinds;
 using support::LeafKind;
@@ -79,8 +105,10 @@ struct Program {
 struct Operations {
   std::size_t add = 0, subtract = 0, multiply = 0, divide = 0, sqrt = 0, negate = 0, sin = 0, cos = 0,
               atan2 = 0;
+  std::size_t functions = 0;   ///< exp, log, sinh, cosh, tanh and powers with real exponents
+  std::size_t selections = 0;  ///< abs, floor, min, max and what is taken where a sign says so
 
-  /// add + subtract + multiply + divide + sqrt; negations and sin, cos, atan2 are counted apart.
+  /// add + subtract + multiply + divide + sqrt; the others are counted apart.
   std::size_t arithmetic() const { return add + subtract + multiply + divide + sqrt; }
   friend bool operator==(const Operations&, const Operations&) = default;
 };

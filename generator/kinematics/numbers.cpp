@@ -5,7 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "kinematics/function_calls.hpp"
 #include "support/check.hpp"
+#include "support/function_derivatives.hpp"
 
 namespace jourdain::kinematics {
 
@@ -61,6 +63,9 @@ struct Symbolic {
   friend Symbolic sqrt(const Symbolic& a) { return a.bound(square_root(a.value)); }
   friend Symbolic sin(const Symbolic& a) { return a.bound(sine(a.value)); }
   friend Symbolic cos(const Symbolic& a) { return a.bound(cosine(a.value)); }
+  friend Symbolic value_of(support::Function function, const Symbolic& a, const Symbolic& b) {
+    return a.bound(applied(function, a.value, b.value));
+  }
 };
 
 /// A Taylor with the functions that Expression::evaluate looks up by argument.
@@ -111,12 +116,33 @@ struct Jet {
     const Ex c = a.statements->bind("c", cosine(a.at.value));
     return a.chained(c, -s, -c);
   }
+  friend Jet value_of(support::Function function, const Jet& a, const Jet& b) {
+    using support::Function;
+    const support::FunctionFacts& facts = support::facts_of(function);
+    JD_CHECK(!facts.has_kinks, "{} is not differentiated here", facts.name);
+    const auto symbolic = [&a](const Ex& value) { return Symbolic{value, a.statements}; };
+    const Symbolic x = symbolic(a.at.value), y = symbolic(b.at.value), one = symbolic(1);
+    const bool is_curve = facts.operands == 1 ||
+                          (function == Function::kPower && b.at.first.is_zero() && b.at.second.is_zero());
+    if (is_curve) {
+      const support::Curve<Symbolic> f =
+          facts.operands == 1 ? support::curve_of(function, x, one) : support::power_of(x, y, one);
+      return a.chained(f.value.value, f.slope.value, f.curvature.value);
+    }
+    const support::Surface<Symbolic> f = support::surface_of(function, x, y, one);
+    const Symbolic da = symbolic(a.at.first), db = symbolic(b.at.first), mixed = f.by_ab * da * db;
+    const Symbolic square = f.by_aa * (da * da) + (mixed + mixed) + f.by_bb * (db * db);
+    return a.bound(f.value.value, f.by_a.value * a.at.first + f.by_b.value * b.at.first,
+                   square.value + f.by_a.value * a.at.second + f.by_b.value * b.at.second);
+  }
 };
 
 }  // namespace
 
 Ex square_root(const Ex& value) {
   if (!is_number(value)) return GiNaC::sqrt(value);
+  if (ex_to<numeric>(value).is_negative())
+    return applied(support::Function::kPower, value, GiNaC::numeric(1, 2));  // has no value
   Ex exact_root = GiNaC::sqrt(value);
   if (is_number(exact_root)) return exact_root;
   return numeric_function(value, [](const cln::cl_F& x) { return cln::sqrt(x); });

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "ir/builder.hpp"
+#include "kinematics/function_calls.hpp"
 
 namespace jourdain::lowering {
 
@@ -107,8 +108,20 @@ class Lowering {
       const bool odd = e.op(1).info(GiNaC::info_flags::odd);
       return {fmt::format("(^{} {:a})", argument.text, to_double(e.op(1))), odd && argument.negative};
     }
+    if (const auto function = kinematics::function_in(e)) return function_key(*function, e);
     const bool is_sine = is_ex_the_function(e, GiNaC::sin);
     return {fmt::format("({}{})", is_sine ? "sin" : "cos", argument.text), is_sine && argument.negative};
+  }
+
+  /// Signs inside belong to the function.
+  Key function_key(support::Function function, const Ex& e) {
+    Key call{fmt::format("({}", support::facts_of(function).name)};
+    for (std::size_t i = 0; i < e.nops(); ++i) {
+      const Key operand = key(e.op(i));
+      call.text += (operand.negative ? " -" : " ") + operand.text;
+    }
+    call.text += ")";
+    return call;
   }
 
   /// Not through `symbol`: that would number leaves in GiNaC's order.
@@ -176,6 +189,10 @@ class Lowering {
     if (is_a<GiNaC::power>(e)) return power(e.op(0), e.op(1));
     if (is_ex_the_function(e, GiNaC::sin)) return builder_.unary(Op::kSin, lower(e.op(0)));
     if (is_ex_the_function(e, GiNaC::cos)) return builder_.unary(Op::kCos, lower(e.op(0)));
+    if (const auto function = kinematics::function_in(e)) {
+      const Signed first = lower(e.op(0));
+      return builder_.function(*function, first, e.nops() == 1 ? first : lower(e.op(1)));
+    }
     JD_CHECK(false, "cannot lower '{}'", (std::ostringstream() << e).str());
     return {};
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <numeric>
 #include <utility>
@@ -175,6 +176,13 @@ Measure Measure::over(const Measure& other) const {
 }
 
 Measure Measure::power(int exponent) const { return scaled(exponent, 1); }
+
+Measure Measure::power(double exponent) const {
+  const double scaled_exponent = exponent * kScale;
+  if (scaled_exponent != std::floor(scaled_exponent) || std::fabs(scaled_exponent) > kLargest)
+    return is_pure() ? *this : open();
+  return scaled(static_cast<int>(scaled_exponent), kScale);
+}
 
 Measure Measure::square_root() const { return scaled(1, 2); }
 

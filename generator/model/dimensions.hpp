@@ -85,6 +85,8 @@ class Measure {
   Measure times(const Measure& other) const;
   Measure over(const Measure& other) const;
   Measure power(int exponent) const;
+  /// Open where an exponent is no whole 64th any more.
+  Measure power(double exponent) const;
   Measure square_root() const;
   /// Of a sum or difference; nothing where the dimensions are known and differ.
   std::optional<Measure> plus(const Measure& other) const;

@@ -48,12 +48,16 @@ double folded(const std::vector<Node>& nodes, const Node& operation) {
       return std::sin(value(operation.left));
     case Op::kCos:
       return std::cos(value(operation.left));
+    case Op::kFunction:
+      return support::value_of(operation.function, value(operation.left), value(operation.right));
   }
   JD_CHECK(false, "operation {}", static_cast<int>(operation.op));
 }
 
-int operand_count(Op op) {
+int operand_count(const Node& node) {
+  const Op op = node.op;
   if (op == Op::kLiteral || op == Op::kParameter || op == Op::kVariable) return 0;
+  if (op == Op::kFunction) return support::facts_of(node.function).operands;
   return op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply || op == Op::kDivide ? 2 : 1;
 }
 
@@ -79,16 +83,19 @@ template <class Replacement>
 Expression Expression::with_leaves(const Replacement& replacement) const {
   std::vector<Expression> values;
   for (const Node& node : nodes_) {
-    switch (operand_count(node.op)) {
+    switch (operand_count(node)) {
       case 0:
         values.push_back(node.op == Op::kLiteral ? Expression(node.value) : replacement(node));
         break;
       case 1:
-        values.push_back(node.op == Op::kPower ? power(values[node.left], node.exponent)
-                                               : unary(node.op, values[node.left]));
+        values.push_back(node.op == Op::kPower      ? power(values[node.left], node.exponent)
+                         : node.op == Op::kFunction ? function(node.function, values[node.left])
+                                                    : unary(node.op, values[node.left]));
         break;
       default:
-        values.push_back(binary(node.op, values[node.left], values[node.right]));
+        values.push_back(node.op == Op::kFunction
+                             ? function(node.function, values[node.left], values[node.right])
+                             : binary(node.op, values[node.left], values[node.right]));
     }
   }
   return values.back();
@@ -167,6 +174,79 @@ Expression Expression::power(const Expression& base, int exponent) {
   if (base.is_constant()) return Expression(folded(result.nodes_, node));
   result.nodes_.push_back(node);
   return result;
+}
+
+Expression Expression::function(support::Function function, const Expression& operand) {
+  JD_CHECK(support::facts_of(function).operands == 1, "{}", support::facts_of(function).name);
+  Expression result;
+  result.nodes_.clear();
+  const std::size_t value = append(result.nodes_, operand);
+  const Node node{.op = Op::kFunction, .function = function, .left = value, .right = value};
+  if (operand.is_constant()) return Expression(folded(result.nodes_, node));
+  result.nodes_.push_back(node);
+  return result;
+}
+
+Expression Expression::function(support::Function function, const Expression& left, const Expression& right) {
+  JD_CHECK(support::facts_of(function).operands == 2, "{}", support::facts_of(function).name);
+  using support::Function;
+  const bool selects = function == Function::kWhereNegative || function == Function::kWhereNotNegative;
+  if (selects && left.is_constant())
+    return (left.constant() < 0) == (function == Function::kWhereNegative) ? right : Expression(0.0);
+  if (selects && right.is_zero()) return right;
+  Expression result;
+  result.nodes_.clear();
+  Node node{.op = Op::kFunction, .function = function};
+  node.left = append(result.nodes_, left);
+  node.right = append(result.nodes_, right);
+  if (left.is_constant() && right.is_constant()) return Expression(folded(result.nodes_, node));
+  result.nodes_.push_back(node);
+  return result;
+}
+
+Expression Expression::composed(std::span<const Expression> operands, const std::vector<Node>& nodes) {
+  Expression result;
+  result.nodes_.clear();
+  std::vector<std::size_t> place;
+  for (const Expression& operand : operands) place.push_back(append(result.nodes_, operand));
+  for (Node node : nodes) {
+    if (operand_count(node) > 0) {
+      node.left = place.at(node.left);
+      node.right = place.at(node.right);
+    }
+    place.push_back(result.nodes_.size());
+    result.nodes_.push_back(node);
+  }
+  const bool constant =
+      std::all_of(operands.begin(), operands.end(), [](const Expression& e) { return e.is_constant(); });
+  return constant ? Expression(result.evaluate<double>({})) : result;
+}
+
+bool Expression::has_undefined_part(std::span<const double> parameters) const {
+  std::vector<Node> known = nodes_;
+  std::vector<bool> moves;
+  for (Node& node : known) {
+    const int operands = operand_count(node);
+    moves.push_back(node.op == Op::kVariable || (operands >= 1 && moves[node.left]) ||
+                    (operands == 2 && moves[node.right]));
+    if (moves.back()) continue;
+    if (node.op == Op::kParameter) node.value = parameters[node.parameter.value];
+    if (operands > 0) node.value = folded(known, node);
+    if (!std::isfinite(node.value)) return true;
+  }
+  return false;
+}
+
+bool Expression::has_kinks() const {
+  return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
+    return node.op == Op::kFunction && support::facts_of(node.function).has_kinks;
+  });
+}
+
+bool Expression::calls(support::Function function) const {
+  return std::any_of(nodes_.begin(), nodes_.end(), [function](const Node& node) {
+    return node.op == Op::kFunction && node.function == function;
+  });
 }
 
 Expression Expression::tangent(const Expression& operand) {

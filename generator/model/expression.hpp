@@ -14,6 +14,7 @@
 
 #include "model/dimensions.hpp"
 #include "support/check.hpp"
+#include "support/elementary_functions.hpp"
 #include "support/index.hpp"
 
 namespace jourdain::model {
@@ -57,7 +58,8 @@ class Expression {
     kPower,
     kSqrt,
     kSin,
-    kCos
+    kCos,
+    kFunction  ///< `function`, of one operand or two
   };
   struct Node {
     Op op = Op::kLiteral;
@@ -65,7 +67,8 @@ class Expression {
     ParameterIndex parameter = {};  ///< kParameter
     Variable variable = {};         ///< kVariable
     int exponent = 0;               ///< kPower: integer exponent
-    std::size_t left = 0;           ///< operand (unary) or left operand
+    support::Function function = support::Function::kExp;
+    std::size_t left = 0;  ///< operand (unary) or left operand
     std::size_t right = 0;
   };
 
@@ -77,6 +80,11 @@ class Expression {
   static Expression unary(Op op, const Expression& operand);
   static Expression binary(Op op, const Expression& left, const Expression& right);
   static Expression power(const Expression& base, int exponent);
+  static Expression function(support::Function function, const Expression& operand);
+  static Expression function(support::Function function, const Expression& left, const Expression& right);
+  /// `nodes` on top of operands that are there once: an operand of a node is one of those, or after them an earlier
+  /// node. The last node is the value.
+  static Expression composed(std::span<const Expression> operands, const std::vector<Node>& nodes);
   /// sin/cos of one shared operand, so that nested tangents do not grow exponentially.
   static Expression tangent(const Expression& operand);
 
@@ -90,12 +98,19 @@ class Expression {
   bool has_no_variable() const;
   /// The value of an expression without parameters and variables.
   double constant() const;
+  /// Some part without variables has no finite value at these parameters.
+  bool has_undefined_part(std::span<const double> parameters) const;
+  /// Value or derivative may jump where a variable or a parameter moves on: see support::FunctionFacts.
+  bool has_kinks() const;
+  /// Calls `function`.
+  bool calls(support::Function function) const;
   bool is_zero() const { return is_constant() && constant() == 0; }
   const std::vector<Node>& nodes() const { return nodes_; }
 
   /// Value in the arithmetic of `T` (double, long double, GiNaC::ex, …) with the given parameter values; `sqrt`,
-  /// `sin`, `cos` are found by argument-dependent lookup (the standard ones for built-in types). `literal` turns a
-  /// double into a T, `variable` a Variable.
+  /// `sin`, `cos` and, of the functions, `value_of` are found by argument-dependent lookup (the standard ones for
+  /// built-in types, support::value_of where a type has no own). `literal` turns a double into a T, `variable` a
+  /// Variable.
   template <class T, class Literal, class VariableValue>
   T evaluate(std::span<const T> parameters, Literal&& literal, VariableValue&& variable) const;
   /// Without variables.
@@ -149,11 +164,11 @@ struct MeasuredExpression {
   Measure measure;
 };
 
-/// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), sqrt, sin, cos, tan and the given names. `^` binds
-/// tighter than unary minus and takes integer exponents (or 0.5) only. Text over kMaximumExpressionLength or nested
-/// deeper than kMaximumExpressionDepth, or with more than kMaximumExpressionSize operations where tangents,
-/// sin(x)/cos(x) each, are written out, unknown names (with "did you mean"), NaN or infinity are errors, and
-/// so are sums and functions of what has the wrong dimensions (see dimensions.hpp).
+/// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), the functions of expression_functions.hpp, if(a < b, x, y) and
+/// the given names. `^` binds tighter than unary minus. Text over kMaximumExpressionLength or nested deeper than
+/// kMaximumExpressionDepth, or with more than kMaximumExpressionSize operations where functions that are made of
+/// others are written out, unknown names (with "did you mean"), NaN or infinity are errors, and so are sums and
+/// functions of what has the wrong dimensions (see dimensions.hpp).
 std::variant<MeasuredExpression, ExpressionError> parse_expression(
     std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope = {});
 
@@ -162,6 +177,7 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal, Variabl
   using std::cos;
   using std::sin;
   using std::sqrt;
+  using support::value_of;
   std::vector<T> values;
   values.reserve(nodes_.size());
   for (const Node& node : nodes_) {
@@ -206,6 +222,9 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal, Variabl
         break;
       case Op::kCos:
         values.push_back(T(cos(values[node.left])));
+        break;
+      case Op::kFunction:
+        values.push_back(T(value_of(node.function, values[node.left], values[node.right])));
         break;
     }
   }

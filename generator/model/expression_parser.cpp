@@ -1,10 +1,12 @@
 // Recursive descent with a bounded depth; the grammar, loosest binding first:
 //   sum := product (('+'|'-') product)*      product := signed (('*'|'/') signed)*
 //   signed := ('+'|'-') signed | power       power := primary ('^' signed)?
-//   primary := number | name | function '(' sum ')' | '(' sum ')'
+//   primary := number | name | function '(' sum (',' sum)* ')' | '(' sum ')'
+//            | 'if' '(' sum ('<' | '<=' | '>' | '>=') sum ',' sum ',' sum ')'
 // Dimensions are inferred beside; the first that do not agree are an error where the syntax has none and a
 // parameter with a unit stands in the expression.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,8 +14,9 @@
 #include <optional>
 
 #include "model/expression.hpp"
+#include "model/expression_functions.hpp"
+#include "model/expression_text.hpp"
 #include "support/diagnostics.hpp"
-#include "support/utf8.hpp"
 
 namespace jourdain::model {
 
@@ -23,15 +26,12 @@ using Op = Expression::Op;
 
 constexpr int kMaximumExponent = 64;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool starts_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-
 using Term = MeasuredExpression;
 
-class Parser {
+class Parser : ExpressionText {
  public:
   Parser(std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope)
-      : text_(text), parameters_(parameters), scope_(scope) {}
+      : ExpressionText(text), parameters_(parameters), scope_(scope) {}
 
   Term parse() {
     Term result = sum(0);
@@ -39,9 +39,12 @@ class Parser {
     const std::size_t begin = position_;
     if (text_[begin] == ')') fail(begin, 1, "')' without '('");
     const bool operand = is_digit(text_[begin]) || starts_name(text_[begin]) || text_[begin] == '(';
+    const bool compares = text_[begin] == '<' || text_[begin] == '>';
     fail(begin, operand ? 1 : character(begin),
          fmt::format("expected an operator, found '{}'", rest_of_word(begin)),
-         operand ? "a product needs '*'" : "");
+         operand    ? "a product needs '*'"
+         : compares ? "numbers are compared in if(a < b, x, y)"
+                    : "");
   }
 
   /// A parameter with a unit stands in the expression.
@@ -50,48 +53,6 @@ class Parser {
   const std::optional<ExpressionError>& mismatch() const { return mismatch_; }
 
  private:
-  [[noreturn]] void fail(std::size_t offset, std::size_t length, std::string message,
-                         std::string hint = "") const {
-    throw ExpressionError{offset, std::max<std::size_t>(1, length), std::move(message), std::move(hint)};
-  }
-
-  bool at_end() {
-    while (position_ < text_.size() &&
-           std::string_view(" \t\r\n").find(text_[position_]) != std::string_view::npos)
-      ++position_;
-    return position_ == text_.size();
-  }
-
-  bool next_is(char c) { return !at_end() && text_[position_] == c; }
-
-  bool accept(char c) {
-    if (!next_is(c)) return false;
-    ++position_;
-    return true;
-  }
-
-  std::size_t character(std::size_t offset) const { return support::utf8_at(text_, offset).bytes; }
-
-  std::string_view name_at(std::size_t begin) const {
-    std::size_t end = begin;
-    while (end < text_.size() && (starts_name(text_[end]) || is_digit(text_[end]))) ++end;
-    return text_.substr(begin, end - begin);
-  }
-
-  /// With a member after one dot.
-  std::string_view dotted_name_at(std::size_t begin) const {
-    const std::string_view word = name_at(begin);
-    const std::size_t dot = begin + word.size();
-    if (word.empty() || dot + 1 >= text_.size() || text_[dot] != '.' || !starts_name(text_[dot + 1]))
-      return word;
-    return text_.substr(begin, word.size() + 1 + name_at(dot + 1).size());
-  }
-
-  std::string rest_of_word(std::size_t begin) const {
-    const std::string_view name = name_at(begin);
-    return support::shown(name.empty() ? text_.substr(begin, character(begin)) : name);
-  }
-
   /// Checks what an operation written at `begin` gave.
   Expression finite(Expression value, std::size_t begin) const {
     if (value.is_constant() && !std::isfinite(value.constant()))
@@ -143,21 +104,10 @@ class Parser {
     }
   }
 
-  /// Without the blanks at its end.
-  std::string_view written(std::size_t begin, std::size_t end) const {
-    const std::string_view part = text_.substr(begin, end - begin);
-    return part.substr(0, part.find_last_not_of(" \t\r\n") + 1);
-  }
-
   /// Of what begins at `begin` and was read last.
   void note_mismatch(std::size_t begin, std::string message) {
     if (!mismatch_)
       mismatch_ = {begin, std::max<std::size_t>(1, written(begin, position_).size()), std::move(message), ""};
-  }
-
-  std::size_t skip_blanks() {
-    at_end();
-    return position_;
   }
 
   Term signed_power(int depth) {
@@ -172,24 +122,28 @@ class Parser {
     Term base = primary(depth);
     if (!accept('^')) return base;
     const std::size_t where = skip_blanks();
-    const Expression exponent = signed_power(depth + 1).expression;
+    const Term exponent = signed_power(depth + 1);
     Term result = raised(base, exponent, begin, where);
     result.expression = finite(std::move(result.expression), begin);
     return result;
   }
 
-  Term raised(const Term& base, const Expression& exponent, std::size_t begin, std::size_t where) const {
-    const std::size_t length = position_ - where;
-    if (!exponent.is_constant()) fail(where, length, "an exponent must not depend on parameters");
-    const double value = exponent.constant();
+  Term raised(const Term& base, const Term& exponent, std::size_t begin, std::size_t where) {
+    if (!exponent.measure.fits(needed::kPure))
+      note_mismatch(where, fmt::format("an exponent is a pure number, but '{}' is in {}",
+                                       support::shown(written(where, position_)), exponent.measure.unit()));
+    const Measure measure = measure_of_power(base.measure, exponent.expression, exponent.measure);
+    if (!exponent.expression.is_constant()) {
+      check_pure("a power whose exponent is no number", base.measure, begin, where);
+      return {real_power(base.expression, exponent.expression), measure};
+    }
+    const double value = exponent.expression.constant();
     if (base.expression.is_zero() && value < 0) fail(begin, position_ - begin, "division by zero");
-    if (value == 0.5) return {square_root(base.expression, begin), base.measure.square_root()};
-    if (value != std::floor(value) || std::abs(value) > kMaximumExponent)
-      fail(where, length,
-           fmt::format("exponent {} is neither 0.5 nor an integer between {} and {}", value,
-                       -kMaximumExponent, kMaximumExponent));
-    const int power = static_cast<int>(value);
-    return {Expression::power(base.expression, power), base.measure.power(power)};
+    if (value == 0.5) return {square_root(base.expression, begin), measure};
+    if (std::abs(value) > kMaximumExponent)
+      fail(where, position_ - where,
+           fmt::format("exponent {} is not between {} and {}", value, -kMaximumExponent, kMaximumExponent));
+    return {real_power(base.expression, value), measure};
   }
 
   Expression square_root(const Expression& operand, std::size_t begin) const {
@@ -244,10 +198,10 @@ class Parser {
     if (variable != scope_.end()) return {Expression::variable(variable->variable), variable->measure};
     if (word == "pi") return {Expression(std::numbers::pi), Measure::count()};
     if (word == "deg") return {Expression(std::numbers::pi / 180), Measure::degree()};
-    if (next_is('(')) return function(word, begin, depth);
-    if (word == "sqrt" || word == "sin" || word == "cos" || word == "tan")
+    if (next_is('(')) return word == "if" ? selection(depth) : function(word, begin, depth);
+    if (const NamedFunction* function = find_function(word))
       fail(begin, word.size(), fmt::format("function '{}' needs an argument", word),
-           fmt::format("write {}(...)", word));
+           fmt::format("write {}({})", word, function->count == 1 ? "..." : function->arguments));
     std::vector<std::string> known;
     for (const DeclaredParameter& parameter : parameters_) known.push_back(parameter.name);
     known.insert(known.end(), {"pi", "deg"});
@@ -261,33 +215,122 @@ class Parser {
   }
 
   Term function(std::string_view word, std::size_t begin, int depth) {
-    const bool known = word == "sqrt" || word == "sin" || word == "cos" || word == "tan";
-    if (!known)
+    const NamedFunction* function = find_function(word);
+    if (!function)
       fail(begin, word.size(), fmt::format("unknown function '{}'", support::shown(word)),
-           "known are sqrt, sin, cos, tan");
+           close_function(word));
     const std::size_t bracket = position_;
     accept('(');
     const std::size_t inside = skip_blanks();
-    const Term argument = sum(depth + 1);
-    check_argument(word, argument.measure, inside);
+    std::vector<Expression> arguments;
+    std::optional<Measure> common;
+    for (std::size_t i = 0; i < function->count; ++i) {
+      if (i > 0 && !accept(','))
+        fail(begin, position_ - begin, fmt::format("function '{}' needs {} arguments", word, function->count),
+             fmt::format("write {}({})", word, function->arguments));
+      const std::size_t at = skip_blanks();
+      const Term argument = sum(depth + 1);
+      arguments.push_back(argument.expression);
+      if (function->dimensions == NamedFunction::Dimensions::kPower && i == 1)
+        return power(*common, arguments, argument, begin, at);
+      check_argument(*function, argument.measure, at);
+      common = i == 0 ? argument.measure : in_common(*common, argument.measure, inside, word);
+    }
+    close(bracket, word, function->arguments);
+    return {called(*function, arguments, begin), measure_of(function->dimensions, *common)};
+  }
+
+  static std::string close_function(std::string_view word) {
+    const std::vector<std::string> known = function_names();
+    const std::string close = support::nearest(word, known);
+    return close.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
+                         : fmt::format("did you mean '{}'?", close);
+  }
+
+  /// pow(x, p), as x^p.
+  Term power(const Measure& measure, const std::vector<Expression>& arguments, const Term& exponent,
+             std::size_t begin, std::size_t where) {
+    Term result = raised({arguments[0], measure}, exponent, begin, where);
+    close(begin, "pow", "x, exponent");
+    result.expression = finite(std::move(result.expression), begin);
+    return result;
+  }
+
+  Expression called(const NamedFunction& function, const std::vector<Expression>& arguments,
+                    std::size_t begin) const {
+    if (function.dimensions == NamedFunction::Dimensions::kRoot) return square_root(arguments[0], begin);
+    return finite(function.of(arguments), begin);
+  }
+
+  static Measure measure_of(NamedFunction::Dimensions dimensions, const Measure& argument) {
+    if (dimensions == NamedFunction::Dimensions::kRoot) return argument.square_root();
+    const bool is_same =
+        dimensions == NamedFunction::Dimensions::kKept || dimensions == NamedFunction::Dimensions::kCommon;
+    return is_same ? argument : Measure::ratio_of(argument);
+  }
+
+  /// if(a < b, x, y)
+  Term selection(int depth) {
+    const std::size_t bracket = position_;
+    accept('(');
+    const std::size_t inside = skip_blanks();
+    const Term left = sum(depth + 1);
+    const bool less = next_is('<');
+    if (!less && !next_is('>'))
+      fail(inside, position_ - inside, "'if' needs a comparison by <, <=, > or >=", "write if(a < b, x, y)");
+    ++position_;
+    const bool or_equal = position_ < text_.size() && text_[position_] == '=';
+    position_ += or_equal ? 1 : 0;
+    const Term right = sum(depth + 1);
+    in_common(left.measure, right.measure, inside, "'if'");
+    comma(inside);
+    const std::size_t first = skip_blanks();
+    const Term taken = sum(depth + 1);
+    comma(inside);
+    const Term otherwise = sum(depth + 1);
+    const Measure measure = in_common(taken.measure, otherwise.measure, first, "'if'");
+    close(bracket, "if", "a < b, x, y");
+    return {where_less(less ? left.expression : right.expression, less ? right.expression : left.expression,
+                       or_equal, taken.expression, otherwise.expression),
+            measure};
+  }
+
+  void comma(std::size_t begin) {
+    if (!accept(',')) fail(begin, position_ - begin, "'if' needs three arguments", "write if(a < b, x, y)");
+  }
+
+  void close(std::size_t bracket, std::string_view function, std::string_view arguments) {
+    if (next_is(','))
+      fail(position_, 1, fmt::format("function '{}' has an argument too many", function),
+           fmt::format("write {}({})", function, arguments));
     if (!accept(')')) fail(bracket, 1, "'(' is not closed");
-    if (word == "sqrt") return {square_root(argument.expression, begin), argument.measure.square_root()};
-    const Measure measure = Measure::ratio_of(argument.measure);
-    if (word == "tan") return {finite(Expression::tangent(argument.expression), begin), measure};
-    const Op op = word == "sin" ? Op::kSin : Op::kCos;
-    return {finite(Expression::unary(op, argument.expression), begin), measure};
   }
 
-  void check_argument(std::string_view function, const Measure& argument, std::size_t begin) {
-    if (function == "sqrt" || argument.fits(needed::kAngle)) return;
-    note_mismatch(begin, fmt::format("{} needs rad, but '{}' is in {}", function,
-                                     support::shown(written(begin, position_)), argument.unit()));
+  /// Of arguments of one dimension, written from `begin` on.
+  Measure in_common(const Measure& a, const Measure& b, std::size_t begin, std::string_view function) {
+    const std::optional<Measure> measure = a.plus(b);
+    if (!measure)
+      note_mismatch(begin, fmt::format("{} needs arguments of one unit, but '{}' are in {} and {}", function,
+                                       support::shown(written(begin, position_)), a.unit(), b.unit()));
+    return measure.value_or(Measure::open());
   }
 
-  std::string_view text_;
+  void check_argument(const NamedFunction& function, const Measure& argument, std::size_t begin) {
+    if (function.dimensions == NamedFunction::Dimensions::kAngle && !argument.fits(needed::kAngle))
+      note_mismatch(begin, fmt::format("{} needs rad, but '{}' is in {}", function.name,
+                                       support::shown(written(begin, position_)), argument.unit()));
+    if (function.dimensions == NamedFunction::Dimensions::kPure)
+      check_pure(function.name, argument, begin, position_);
+  }
+
+  void check_pure(std::string_view what, const Measure& measure, std::size_t begin, std::size_t end) {
+    if (!measure.fits(needed::kPure))
+      note_mismatch(begin, fmt::format("{} needs a pure number, but '{}' is in {}", what,
+                                       support::shown(written(begin, end)), measure.unit()));
+  }
+
   const std::vector<DeclaredParameter>& parameters_;
   const Scope& scope_;
-  std::size_t position_ = 0;
   std::optional<ExpressionError> mismatch_;
   bool strict_ = false;
 };
@@ -317,9 +360,10 @@ std::variant<MeasuredExpression, ExpressionError> parse_expression(
     if (written_out(result.expression) > kMaximumExpressionSize)
       return ExpressionError{
           0, text.size(),
-          fmt::format("the expression has more than {} operations where tangents are written out",
+          fmt::format("the expression has more than {} operations where functions are written out",
                       kMaximumExpressionSize),
-          "tan(x) is sin(x)/cos(x): each one around another doubles what is inside"};
+          "some are made of others, as tan(x) is sin(x)/cos(x): each one around another doubles what is "
+          "inside"};
     if (parser.is_strict() && parser.mismatch()) return *parser.mismatch();
     if (!parser.is_strict()) result.measure = result.measure.times(Measure::open());
     return result;

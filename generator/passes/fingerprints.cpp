@@ -70,13 +70,12 @@ Fingerprint evaluated(const Node& node, const Fingerprint& a, const Fingerprint&
       return quotient(a, b);
     case Op::kSqrt:
       return random_element(seed_of(node.op, a));
-    case Op::kAtan2:
-      return random_element(seed_of(node.op, a, seed_of(node.op, b)));
     case Op::kSin:
     case Op::kCos:
-      break;
+      return sine_or_cosine(node.op, a);
+    default:
+      return random_element(seed_of(node.op, a, ir::operand_count(node.op) == 2 ? seed_of(node.op, b) : 0));
   }
-  return sine_or_cosine(node.op, a);
 }
 
 }  // namespace

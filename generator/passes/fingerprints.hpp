@@ -12,7 +12,7 @@ namespace jourdain::passes {
 
 /// A value at random points. Leaves are independent random residues, literals the numbers that they stand for. The
 /// sine and cosine of an angle are 2t/(1 + t²) and (1 − t²)/(1 + t²) with a random t, opposite angles having opposite
-/// t; roots and angles of atan2 are random, the same for equal arguments. So nothing is known of functions but
+/// t; roots and other functions are random, the same for equal arguments. So nothing is known of functions but
 /// sin² + cos² = 1, sin(−x) = −sin x and cos(−x) = cos x, and nothing is assumed of leaves: quaternions have any
 /// length, loops are open.
 ///

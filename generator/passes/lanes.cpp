@@ -286,7 +286,8 @@ class Building {
       case Op::kDivide:
         return {operation(op, a.value, b.value, label), a.negative != b.negative};
       default:
-        return {operation(op, exactly(a, false), op == Op::kAtan2 ? exactly(b, false) : ValueId(), label)};
+        return {operation(op, exactly(a, false), ir::operand_count(op) == 2 ? exactly(b, false) : ValueId(),
+                          label)};
     }
   }
 

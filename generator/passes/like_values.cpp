@@ -158,8 +158,8 @@ class Search {
   /// Computed one by one: what has no operation on several numbers, and angles.
   bool is_alone(ValueId value) const {
     const Op op = program_[value].op;
-    return angles_[value.value] || op == Op::kSin || op == Op::kCos || op == Op::kSqrt || op == Op::kAtan2 ||
-           op == Op::kNegate;
+    return angles_[value.value] || op == Op::kSin || op == Op::kCos || op == Op::kSqrt ||
+           ir::is_function(op) || op == Op::kNegate;
   }
 
   void map(const Tuple& tuple) {
@@ -214,7 +214,7 @@ class Search {
     if (group.op != like.op || group.terms.size() != like.terms.size()) return {};
     std::vector<Term> result(group.terms.size());
     std::vector<bool> done(group.terms.size()), used(group.terms.size());
-    const bool is_ordered = group.op == Op::kDivide || group.op == Op::kAtan2;
+    const bool is_ordered = group.op == Op::kDivide || ir::is_function(group.op);
     const auto assign = [&](std::size_t i, const auto& fits) -> bool {
       for (std::size_t j = 0; j < like.terms.size(); ++j)
         if (!used[j] && (!is_ordered || i == j) && fits(like.terms[j].value)) {

@@ -30,7 +30,7 @@ bool is_operation(Op op) {
     case Op::kNegate:
     case Op::kSin:
     case Op::kCos:
-    case Op::kAtan2:
+    default:
       break;
   }
   return false;

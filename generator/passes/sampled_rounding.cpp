@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "passes/scramble.hpp"
+#include "support/function_derivatives.hpp"
 
 namespace jourdain::passes {
 
@@ -90,11 +91,21 @@ SampledRounding::Estimate SampledRounding::evaluated(const Node& node, Estimate 
       return result(std::sin(a.value), a, std::cos(a.value), {}, 0);
     case Op::kCos:
       return result(std::cos(a.value), a, std::sin(a.value), {}, 0);
-    case Op::kAtan2:
-      break;
+    default:
+      return of_function(ir::function_of(node.op), a, b);
   }
-  const double square = a.value * a.value + b.value * b.value;
-  return result(std::atan2(a.value, b.value), a, b.value / square, b, a.value / square);
+}
+
+SampledRounding::Estimate SampledRounding::of_function(support::Function function, Estimate a, Estimate b) {
+  using support::Function;
+  // Of the size, as roots: then few samples are lost.
+  const bool is_of_size = function == Function::kLog || function == Function::kPower;
+  const double x = is_of_size ? std::fabs(a.value) : a.value, value = support::value_of(function, x, b.value);
+  const support::FunctionFacts& facts = support::facts_of(function);
+  if (facts.has_kinks) return result(value, a, 1, b, 1);
+  if (facts.operands == 1) return result(value, a, support::curve_of(function, x, 1.0).slope, {}, 0);
+  const auto surface = support::surface_of(function, x, b.value, 1.0);
+  return result(value, a, surface.by_a, b, surface.by_b);
 }
 
 SampledRounding::SampledRounding(const ir::Program& program) : program_(program) {

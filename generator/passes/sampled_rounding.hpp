@@ -33,6 +33,7 @@ class SampledRounding {
   static Estimate number(double value, bool is_rounded);
   static Estimate result(double value, Estimate a, double by_a, Estimate b, double by_b);
   static Estimate evaluated(const ir::Node& node, Estimate a, Estimate b, std::size_t sample);
+  static Estimate of_function(support::Function function, Estimate a, Estimate b);
   Estimate own(const ir::Node& node, std::size_t sample) const;
   Estimate defined(const ir::Node& node, const Definition& definition, std::size_t sample) const;
   const Estimate& at(ir::ValueId id, std::size_t sample) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "readback/expression_parser.hpp"
+#include "readback/function_texts.hpp"
 
 namespace jourdain::readback {
 
@@ -33,8 +34,6 @@ constexpr std::array<SumOperation, 9> kSumOperations = {
 /// Functions of angles, and those of numbers that compute the same.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOfAngles = {
     {{"angle_sine_cosine", "sine_cosine"}, {"angle_sine", "sine"}, {"angle_cosine", "cosine"}}};
-
-constexpr std::array<std::string_view, 4> kLibrary = {"sin", "cos", "sqrt", "atan2"};
 
 }  // namespace
 
@@ -114,7 +113,8 @@ const Expression* ExpressionParser::c_name() {
   } else {
     if (known_.c->is_float && !text.ends_with('f')) refuse_here("a function for float");
     if (known_.c->is_float) text.remove_suffix(1);
-    if (std::find(kLibrary.begin(), kLibrary.end(), text) == kLibrary.end())
+    if (std::none_of(library_names().begin(), library_names().end(),
+                     [text](const LibraryName& known) { return known.name == text; }))
       refuse_here("a function that is known");
   }
   expect_name();

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "readback/function_texts.hpp"
+
 namespace jourdain::readback {
 
 namespace {
@@ -153,6 +155,11 @@ const std::deque<CKnownText>& CKnownTexts::all() const { return texts_; }
 CKnownTexts::CKnownTexts(const CText& c) {
   for (const CPassage& passage : kPassages) add(passage, c);
   add_own_sines(c);
+  for (const ChoosingText& text : choosing_texts()) {
+    CKnownText& made = add({text.name, text.c}, c);
+    made.meaning_text = filled(text.c_meaning, c);
+    made.meaning = tokenize(made.name, made.meaning_text);
+  }
 }
 
 CKnownText& CKnownTexts::add(const CPassage& passage, const CText& c) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "readback/function_texts.hpp"
 #include "readback/interpreter.hpp"
 #include "readback/tokens.hpp"
 
@@ -12,19 +13,6 @@ namespace jourdain::readback {
 namespace {
 
 constexpr std::size_t kDeepest = 64;  ///< calls within each other
-
-struct LibraryFunction {
-  const char* name;
-  NumberType type;
-  ir::Op op;
-};
-
-/// <math.h> for double and float; another number type brings functions of the plain names.
-constexpr LibraryFunction kMathFunctions[] = {
-    {"sin", NumberType::kDouble, ir::Op::kSin},     {"sinf", NumberType::kFloat, ir::Op::kSin},
-    {"cos", NumberType::kDouble, ir::Op::kCos},     {"cosf", NumberType::kFloat, ir::Op::kCos},
-    {"sqrt", NumberType::kDouble, ir::Op::kSqrt},   {"sqrtf", NumberType::kFloat, ir::Op::kSqrt},
-    {"atan2", NumberType::kDouble, ir::Op::kAtan2}, {"atan2f", NumberType::kFloat, ir::Op::kAtan2}};
 
 }  // namespace
 
@@ -187,10 +175,13 @@ Value Interpreter::call_c_library(const Expression& expression, const std::vecto
   const std::string& name = unit_.symbols.text(expression.a->name);
   const bool is_global = expression.a->global;
   if (expression.a->type) refuse_at(expression.place, fmt::format("no function '{}'", name));
-  for (const LibraryFunction& function : kMathFunctions) {
-    const bool is_own =
-        number_type_ == NumberType::kOwn && !is_global && function.type == NumberType::kDouble;
-    if (name != function.name || !(is_own || (is_global && number_type_ == function.type))) continue;
+  // <math.h> for double and float; another number type brings functions of the plain names.
+  const bool is_own = number_type_ == NumberType::kOwn;
+  const std::string plain =
+      number_type_ == NumberType::kFloat && name.ends_with("f") ? name.substr(0, name.size() - 1) : name;
+  for (const LibraryName& function : library_names()) {
+    if (plain != function.name || is_global == is_own) continue;
+    if (number_type_ == NumberType::kFloat && plain == name) continue;
     std::vector<Number> numbers;
     for (const Value& argument : arguments) {
       const Value value = load(argument, expression);

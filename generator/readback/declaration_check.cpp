@@ -25,9 +25,11 @@ std::string words(const std::string& comment) {
 }
 
 std::string operations_sentence(const ir::Operations& count) {
-  return fmt::format("{} operations ({} mul, {} add and sub, {} div), {} sin and cos{}.", count.arithmetic(),
-                     count.multiply, count.add + count.subtract, count.divide, count.sin + count.cos,
-                     count.atan2 == 0 ? "" : fmt::format(", {} atan2", count.atan2));
+  return fmt::format("{} operations ({} mul, {} add and sub, {} div), {} sin and cos{}{}{}.",
+                     count.arithmetic(), count.multiply, count.add + count.subtract, count.divide,
+                     count.sin + count.cos, count.atan2 == 0 ? "" : fmt::format(", {} atan2", count.atan2),
+                     count.functions == 0 ? "" : fmt::format(", {} other functions", count.functions),
+                     count.selections == 0 ? "" : fmt::format(", {} selections", count.selections));
 }
 
 /// The comment must end with the sentence (a step's may go on), and state operations nowhere else.

@@ -29,8 +29,9 @@ std::size_t* counter(ir::Operations& count, ir::Op op) {
       return &count.cos;
     case ir::Op::kAtan2:
       return &count.atan2;
+    default:
+      return ir::is_selection(op) ? &count.selections : &count.functions;
   }
-  return nullptr;
 }
 
 }  // namespace

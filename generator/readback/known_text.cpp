@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "readback/function_texts.hpp"
 #include "readback/lanes_text.hpp"
 #include "readback/own_sines.hpp"
 
@@ -202,6 +203,12 @@ KnownText known(const char* scope, const char* type, const std::string& text, co
   return made;
 }
 
+void add_choosing_texts(std::vector<KnownText>& list, bool packs) {
+  list.push_back(known("detail", "", choice()));
+  for (const ChoosingText& text : choosing_texts())
+    list.push_back(known("detail", "", packs ? for_packs(text.cpp) : text.cpp, text.cpp_meaning.c_str()));
+}
+
 KnownText sines() {
   KnownText made = known("detail", "", own_sines(), library_sines());
   made.is_own_sines = true;
@@ -219,6 +226,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(known("detail", "", own_sine_blocks()));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
     list.push_back(known("detail", kLanesType, lanes_text()));
+    add_choosing_texts(list, false);
     return list;
   }();
   static const std::vector<KnownText> of_packs = [] {
@@ -233,6 +241,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(known("", "", kNumberOfTime));
     list.push_back(known("detail", "", kNumberOfAngle));
     list.push_back(known("detail", "", kPackSines, kSines));
+    add_choosing_texts(list, true);
     return list;
   }();
   return packs ? of_packs : plain;

@@ -161,6 +161,8 @@ class ManifestCheck {
                {"sin", count.sin},
                {"cos", count.cos}};
       if (count.atan2 > 0) entry["atan2"] = count.atan2;
+      if (count.functions > 0) entry["functions"] = count.functions;
+      if (count.selections > 0) entry["selections"] = count.selections;
     }
     expect("operations", wanted);
   }

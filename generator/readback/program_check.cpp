@@ -4,6 +4,7 @@
 #include <map>
 
 #include "readback/api.hpp"
+#include "readback/function_texts.hpp"
 #include "readback/interpreter.hpp"
 #include "readback/tokens.hpp"
 
@@ -273,10 +274,15 @@ void check_library(const Unit& unit, NumberType type, Findings& findings) {
     expect("sine_cosine", run.number(sine), table.operate(ir::Op::kSin, a));
     expect("sine_cosine", run.number(cosine), table.operate(ir::Op::kCos, a));
   }
-  if (!is_defined("arctangent2")) return;
-  const std::vector<Value> arguments = {Interpreter::as_const(x), Interpreter::as_const(y)};
-  expect("arctangent2", run.number(run.call("detail", "arctangent2", arguments)),
-         table.operate(ir::Op::kAtan2, a, b));
+  for (const auto& [given, op] : emitted_names()) {
+    const std::string name(given);
+    if (!is_defined(name)) continue;
+    const bool is_unary = ir::operand_count(op) == 1;
+    std::vector<Value> arguments = {Interpreter::as_const(x)};
+    if (!is_unary) arguments.push_back(Interpreter::as_const(y));
+    expect(name.c_str(), run.number(run.call("detail", name, arguments)),
+           table.operate(op, a, is_unary ? Number(0) : b));
+  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "readback/function_texts.hpp"
+
 namespace jourdain::readback {
 
 namespace {
@@ -12,7 +14,7 @@ class ScopeCheck {
       : unit_(unit), findings_(findings), count_(unit.symbols.size(), 0) {
     for (const Function* function : unit.functions)
       functions_.insert({function->scope, unit.symbols.text(function->name)});
-    for (const char* name : {"sin", "cos", "sqrt", "atan2"}) functions_.insert({"", name});
+    for (const LibraryName& known : library_names()) functions_.insert({"", std::string(known.name)});
   }
 
   void check(const Function& function, const Struct* inside) {

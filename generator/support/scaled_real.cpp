@@ -149,4 +149,63 @@ ScaledReal atan2(const ScaledReal& y, const ScaledReal& x) {
   return {angle, std::max(size_of(angle), turn)};
 }
 
+namespace {
+
+/// Beyond it powers of e are infinite, or nothing, in every type of number that a model may have.
+constexpr long double kLargestExponent = 12000;
+
+}  // namespace
+
+ScaledReal exp(const ScaledReal& a) {
+  if (!a.is_number()) return a;
+  if (size_of(a.value_) > kLargestExponent)
+    return cln::minusp(a.value_) ? ScaledReal(0) : ScaledReal::not_a_number();
+  const cln::cl_LF value = to_long(cln::exp(a.value_));
+  return {value, std::max(size_of(value), a.scale_ * size_of(value))};
+}
+
+ScaledReal log(const ScaledReal& a) {
+  if (!a.is_number() || !cln::plusp(a.value_)) return ScaledReal::not_a_number();
+  const cln::cl_LF value = to_long(cln::ln(a.value_));
+  return {value, std::max(size_of(value), a.scale_ / size_of(a.value_))};
+}
+
+ScaledReal sinh(const ScaledReal& a) {
+  if (a.is_nothing() || !a.is_number()) return a;
+  if (size_of(a.value_) > kLargestExponent) return ScaledReal::not_a_number();
+  const cln::cl_LF value = to_long(cln::sinh(a.value_));
+  return {value, std::max(size_of(value), a.scale_ * size_of(to_long(cln::cosh(a.value_))))};
+}
+
+ScaledReal cosh(const ScaledReal& a) {
+  if (!a.is_number()) return a;
+  if (size_of(a.value_) > kLargestExponent) return ScaledReal::not_a_number();
+  const cln::cl_LF value = to_long(cln::cosh(a.value_));
+  return {value, std::max(size_of(value), a.scale_ * size_of(to_long(cln::sinh(a.value_))))};
+}
+
+ScaledReal tanh(const ScaledReal& a) {
+  constexpr long double kSaturated = 200;  // 1 − tanh is 1e-173
+  if (a.is_nothing() || !a.is_number()) return a;
+  if (size_of(a.value_) > kSaturated) return cln::minusp(a.value_) ? -1 : 1;
+  const cln::cl_LF value = to_long(cln::tanh(a.value_)), slope = to_long(1 - cln::square(value));
+  return {value, std::max(size_of(value), a.scale_ * size_of(slope))};
+}
+
+ScaledReal pow(const ScaledReal& a, const ScaledReal& b) {
+  if (!a.is_number() || !b.is_number()) return ScaledReal::not_a_number();
+  if (cln::zerop(b.value_)) return 1;
+  if (cln::zerop(a.value_)) return cln::plusp(b.value_) ? ScaledReal(0) : ScaledReal::not_a_number();
+  const bool is_negative = cln::minusp(a.value_), is_whole = cln::zerop(b.value_ - cln::ffloor(b.value_));
+  if (is_negative && !is_whole) return ScaledReal::not_a_number();
+  const ScaledReal size = {cln::abs(a.value_), a.scale_}, power = exp(b * log(size));
+  const bool is_odd = is_whole && cln::oddp(cln::floor1(b.value_));
+  return is_negative && is_odd ? -power : power;
+}
+
+ScaledReal floor(const ScaledReal& a) {
+  if (!a.is_number()) return a;
+  return ScaledReal(cln::cl_R(cln::floor1(a.value_)));
+}
+
 }  // namespace jourdain::support

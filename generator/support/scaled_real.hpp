@@ -48,6 +48,13 @@ class ScaledReal {
   friend ScaledReal sin(const ScaledReal& a);
   friend ScaledReal cos(const ScaledReal& a);
   friend ScaledReal atan2(const ScaledReal& y, const ScaledReal& x);
+  friend ScaledReal exp(const ScaledReal& a);
+  friend ScaledReal log(const ScaledReal& a);
+  friend ScaledReal sinh(const ScaledReal& a);
+  friend ScaledReal cosh(const ScaledReal& a);
+  friend ScaledReal tanh(const ScaledReal& a);
+  friend ScaledReal pow(const ScaledReal& a, const ScaledReal& b);
+  friend ScaledReal floor(const ScaledReal& a);
   friend ScaledReal abs(const ScaledReal& a) { return {cln::abs(a.value_), a.scale_}; }
   friend ScaledReal fabs(const ScaledReal& a) { return abs(a); }
   friend bool isfinite(const ScaledReal& a) { return std::isfinite(a.scale_); }

@@ -95,33 +95,56 @@ reference::VectorX<long double> to_vector(const std::vector<double>& values) {
   return v;
 }
 
+namespace {
+
+/// Positions, velocities and inputs of these sizes; angles go round once. Parameters within a tenth of their values, or
+/// as they are.
+Sample drawn(const model::Mechanism& mechanism, bool is_varied, double length, double speed, double input,
+             Uniform& uniform, Uniform& directions) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  const std::vector<bool> angular = model::angular_positions(mechanism);
+  Sample sample;
+  sample.t = is_varied ? uniform(0, 2) : 0.0;
+  for (const model::Parameter& parameter : mechanism.parameters) {
+    const double value = parameter.value * (is_varied ? uniform(0.9, 1.1) : 1.0);
+    sample.parameters.push_back(std::isfinite(value) ? value : parameter.value);
+  }
+  for (std::size_t i = 0; i < layout.position_count(); ++i)
+    sample.y.push_back(uniform(-1, 1) * (angular[i] ? 3.14 : length));
+  for (std::size_t i = 0; i < layout.velocity_count(); ++i) {
+    sample.z.push_back(speed * uniform(-2, 2));
+    sample.zdot.push_back(uniform(-5, 5));
+  }
+  for (std::size_t i = 0; i < layout.input_count(); ++i) sample.u.push_back(input * uniform(-5, 5));
+  for (const std::size_t q : layout.quaternions) normalise(&sample.y[q]);
+  draw_direction(directions, sample);
+  return sample;
+}
+
+}  // namespace
+
 std::vector<Sample> draw_samples(const model::Mechanism& mechanism, std::size_t count) {
   Uniform uniform(kSeed), directions(kSeed);
   std::vector<Sample> samples;
-  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
-  const std::vector<bool> angular = model::angular_positions(mechanism);
   for (std::size_t k = 0; k < count; ++k) {
-    Sample sample;
-    sample.t = k == 0 ? 0.0 : uniform(0, 2);
-    for (const model::Parameter& parameter : mechanism.parameters) {
-      const double drawn = parameter.value * (k == 0 ? 1.0 : uniform(0.9, 1.1));
-      sample.parameters.push_back(std::isfinite(drawn) ? drawn : parameter.value);
-    }
-    for (std::size_t i = 0; i < layout.position_count(); ++i)
-      sample.y.push_back(uniform(-1, 1) * (angular[i] ? 3.14 : 1.0));
-    for (std::size_t i = 0; i < layout.velocity_count(); ++i) {
-      sample.z.push_back(uniform(-2, 2));
-      sample.zdot.push_back(uniform(-5, 5));
-    }
-    for (std::size_t i = 0; i < layout.input_count(); ++i) sample.u.push_back(uniform(-5, 5));
-    for (const std::size_t q : layout.quaternions) normalise(&sample.y[q]);
-    draw_direction(directions, sample);
+    Sample sample = drawn(mechanism, k > 0, 1.0, 1.0, 1.0, uniform, directions);
     if (k == 0) start(mechanism, sample);
     for (int i = 0; k > 0 && i < kTries && !is_defined(mechanism, sample); ++i)
       move_to_start(mechanism, sample);
     samples.push_back(sample);
   }
   return samples;
+}
+
+FarSamples::FarSamples(const model::Mechanism& mechanism) : mechanism_(mechanism), uniform_(kSeed + 1) {}
+
+std::optional<Sample> FarSamples::draw() {
+  const auto size = [this] { return std::pow(10.0, std::floor(uniform_(-3, 3))); };
+  const double length = size(), speed = size(), input = size();
+  Uniform directions = uniform_;
+  Sample sample = drawn(mechanism_, true, length, speed, input, uniform_, directions);
+  if (is_defined(mechanism_, sample)) return sample;
+  return {};
 }
 
 }  // namespace jourdain::validate

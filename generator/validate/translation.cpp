@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "dynamics/outputs.hpp"
 #include "model/coordinates.hpp"
@@ -94,6 +96,29 @@ std::size_t affordable_states(const model::Mechanism& mechanism, std::size_t wan
   return std::clamp<std::size_t>(static_cast<std::size_t>(kAffordable / std::max(each, 1.0)), 1, wanted);
 }
 
+/// Without those too near to a kink, and with more that show sides of kinks that were not seen yet.
+std::vector<Sample> on_both_sides(const model::Mechanism& mechanism, std::vector<Sample> samples,
+                                  KinkSurvey& survey) {
+  constexpr std::size_t kFarDraws = 200;
+  if (!survey.has_kinks()) return samples;
+  const auto is_left_out = [&](const Sample& sample) {
+    const KinkSurvey::Look look = survey.look(point_at(mechanism, sample).exact);
+    survey.take(look);
+    return look.is_near;
+  };
+  std::erase_if(samples, is_left_out);
+  FarSamples far(mechanism);
+  for (std::size_t i = 0; i < kFarDraws && !survey.is_complete(); ++i) {
+    const std::optional<Sample> sample = far.draw();
+    if (!sample) continue;
+    const KinkSurvey::Look look = survey.look(point_at(mechanism, *sample).exact);
+    if (!look.is_new || look.is_near) continue;
+    survey.take(look);
+    samples.push_back(*sample);
+  }
+  return samples;
+}
+
 }  // namespace
 
 std::string condition_text(const Verdict& verdict) {
@@ -114,9 +139,13 @@ Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::
   Verdict verdict;
   Agreement agreement;
   verdict.states = affordable_states(mechanism, states);
-  const std::vector<Sample> samples = draw_samples(mechanism, verdict.states);
+  KinkSurvey survey(module);
+  const std::vector<Sample> samples =
+      on_both_sides(mechanism, draw_samples(mechanism, verdict.states), survey);
+  verdict.states = samples.size();
   for (std::size_t i = samples.size(); i-- > 0;)  // the initial state last, see Agreement::same
     TreeComparison(mechanism, equations, load, module, samples[i], verdict, agreement).run();
+  verdict.kinks = survey.kinks();
   conclude(agreement, verdict);
   return verdict;
 }

@@ -9,6 +9,7 @@
 #include "ir/module.hpp"
 #include "model/mechanism.hpp"
 #include "validate/agreement.hpp"
+#include "validate/kinks.hpp"
 
 namespace jourdain::validate {
 
@@ -23,6 +24,7 @@ struct Verdict {
   std::vector<Compared> compared;     ///< what with what, in the order of comparison
   std::vector<std::string> failures;  ///< sentences; empty: accepted
   std::size_t overflows = 0;          ///< of the failures: numbers that double has no room for
+  Kinks kinks;
 
   bool accepted() const { return failures.empty(); }
 };
@@ -34,7 +36,7 @@ std::string condition_text(const Verdict& verdict);
 void conclude(const Agreement& agreement, Verdict& verdict);
 
 /// Compares at `states` seeded random states; the first is the initial state, and tunable parameters are varied by up
-/// to a tenth from the second on. Fewer states where each takes long.
+/// to a tenth from the second on. Fewer states where each takes long, more where that shows another side of a kink.
 /// Derivatives are compared along a random direction at each state. Where derivatives of the residual hold
 /// those of applied forces alone, `load` are the equations without gravity, whose q̄ they belong to.
 Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::Equations& equations,

@@ -2,57 +2,92 @@
 // A number of at least 50 decimal digits for emitted code, by CLN: include NAME_kernels.hpp and use
 // NAME::Model<jourdain::LongReal>. Link with -lcln.
 //
-// A literal keeps its double value. CLN's numbers are no use where results overflow, where a root of a negative number
-// is taken or where a number is not finite: it throws, and emitted functions are noexcept. Not for use by two
-// threads at once.
+// A literal keeps its double value. What has no value (a root or a logarithm of a negative number, a division by
+// zero, a double that is not finite) is not a number, and so is what follows from it. CLN's numbers are no use where
+// results overflow: it throws, and emitted functions are noexcept. Not for use by two threads at once.
 #pragma once
 
 #include <cln/float.h>
+#include <cln/integer.h>
 #include <cln/lfloat.h>
 #include <cln/real.h>
+
+#include <cmath>
 
 namespace jourdain {
 
 class LongReal {
  public:
   LongReal() : value_(zero()) {}
-  explicit LongReal(double value) : value_(of(value)) {}
+  explicit LongReal(double value)
+      : value_(std::isfinite(value) ? of(value) : zero()), exists_(std::isfinite(value)) {}
   explicit LongReal(const cln::cl_LF& value) : value_(value) {}
 
-  explicit operator double() const { return cln::double_approx(value_); }
+  bool is_number() const { return exists_; }
+  explicit operator double() const { return exists_ ? cln::double_approx(value_) : NAN; }
 
   /// The number as a sum of `count` doubles, each the rounding of what the earlier ones leave; 4 hold all digits.
   void split(double* parts, int count) const {
     cln::cl_LF rest = value_;
     for (int i = 0; i < count; ++i) {
-      parts[i] = cln::double_approx(rest);
-      if (i + 1 < count) rest = rest - of(parts[i]);
+      parts[i] = exists_ ? cln::double_approx(rest) : NAN;
+      if (exists_ && i + 1 < count) rest = rest - of(parts[i]);
     }
   }
 
   /// The sum of `count` doubles.
   static LongReal joined(const double* parts, int count) {
-    cln::cl_LF sum = of(parts[0]);
+    LongReal sum(parts[0]);
     for (int i = 1; i < count; ++i)
-      if (parts[i] != 0) sum = sum + of(parts[i]);
-    return LongReal(sum);
+      if (parts[i] != 0) sum = sum + LongReal(parts[i]);
+    return sum;
   }
 
-  friend LongReal operator+(const LongReal& a, const LongReal& b) { return LongReal(a.value_ + b.value_); }
-  friend LongReal operator-(const LongReal& a, const LongReal& b) { return LongReal(a.value_ - b.value_); }
-  friend LongReal operator*(const LongReal& a, const LongReal& b) { return LongReal(a.value_ * b.value_); }
-  friend LongReal operator/(const LongReal& a, const LongReal& b) { return LongReal(a.value_ / b.value_); }
-  friend LongReal operator-(const LongReal& a) { return LongReal(-a.value_); }
-  friend bool operator<(const LongReal& a, const LongReal& b) { return a.value_ < b.value_; }
+  friend LongReal operator+(const LongReal& a, const LongReal& b) { return made(a.value_ + b.value_, a, b); }
+  friend LongReal operator-(const LongReal& a, const LongReal& b) { return made(a.value_ - b.value_, a, b); }
+  friend LongReal operator*(const LongReal& a, const LongReal& b) { return made(a.value_ * b.value_, a, b); }
+  friend LongReal operator/(const LongReal& a, const LongReal& b) {
+    return cln::zerop(b.value_) ? nothing() : made(a.value_ / b.value_, a, b);
+  }
+  friend LongReal operator-(const LongReal& a) { return made(-a.value_, a, a); }
+  friend bool operator<(const LongReal& a, const LongReal& b) {
+    return a.exists_ && b.exists_ && a.value_ < b.value_;
+  }
+  friend bool operator==(const LongReal& a, const LongReal& b) {
+    return a.exists_ && b.exists_ && a.value_ == b.value_;
+  }
 
-  friend LongReal sqrt(const LongReal& a) { return LongReal(cln::sqrt(a.value_)); }
+  friend LongReal sqrt(const LongReal& a) {
+    return cln::minusp(a.value_) ? nothing() : made(cln::sqrt(a.value_), a, a);
+  }
   /// Emitted code asks for the sine and the cosine of an angle one after the other: CLN has both at the price of one.
-  friend LongReal sin(const LongReal& a) { return long_float(both(a.value_).sin); }
-  friend LongReal cos(const LongReal& a) { return long_float(both(a.value_).cos); }
+  friend LongReal sin(const LongReal& a) { return rounded(both(a.value_).sin, a, a); }
+  friend LongReal cos(const LongReal& a) { return rounded(both(a.value_).cos, a, a); }
   /// The angle of (x, y), in (−π, π]; 0 for (0, 0).
   friend LongReal atan2(const LongReal& y, const LongReal& x) {
-    if (cln::zerop(x.value_) && cln::zerop(y.value_)) return LongReal();
-    return long_float(cln::atan(x.value_, y.value_));
+    if (cln::zerop(x.value_) && cln::zerop(y.value_)) return made(zero(), y, x);
+    return rounded(cln::atan(x.value_, y.value_), y, x);
+  }
+  friend LongReal exp(const LongReal& a) { return rounded(cln::exp(a.value_), a, a); }
+  friend LongReal log(const LongReal& a) {
+    return cln::plusp(a.value_) ? rounded(cln::ln(a.value_), a, a) : nothing();
+  }
+  friend LongReal sinh(const LongReal& a) { return rounded(cln::sinh(a.value_), a, a); }
+  friend LongReal cosh(const LongReal& a) { return rounded(cln::cosh(a.value_), a, a); }
+  friend LongReal tanh(const LongReal& a) { return rounded(cln::tanh(a.value_), a, a); }
+  /// Of a negative number where b is a whole number.
+  friend LongReal pow(const LongReal& a, const LongReal& b) {
+    if (cln::zerop(b.value_)) return made(of(1), a, b);
+    if (cln::zerop(a.value_)) return cln::plusp(b.value_) ? made(zero(), a, b) : nothing();
+    const LongReal size = fabs(a), power = exp(b * log(size));
+    if (!cln::minusp(a.value_)) return power;
+    const cln::cl_I whole = cln::floor1(b.value_);
+    if (!(b.value_ == cln::cl_float(whole, format()))) return nothing();
+    return cln::oddp(whole) ? -power : power;
+  }
+  friend LongReal fabs(const LongReal& a) { return cln::minusp(a.value_) ? -a : a; }
+  friend LongReal floor(const LongReal& a) {
+    return rounded(cln::cl_R(cln::cl_I(cln::floor1(a.value_))), a, a);
   }
 
  private:
@@ -78,12 +113,24 @@ class LongReal {
     }
     return values;
   }
+  static LongReal nothing() {
+    LongReal result;
+    result.exists_ = false;
+    return result;
+  }
+  /// What follows from a and b.
+  static LongReal made(const cln::cl_LF& value, const LongReal& a, const LongReal& b) {
+    LongReal result(value);
+    result.exists_ = a.exists_ && b.exists_;
+    return result;
+  }
   /// Functions of numbers near zero may come as exact numbers.
-  static LongReal long_float(const cln::cl_R& value) {
-    return LongReal(to_long(cln::cl_float(value, format())));
+  static LongReal rounded(const cln::cl_R& value, const LongReal& a, const LongReal& b) {
+    return made(to_long(cln::cl_float(value, format())), a, b);
   }
 
   cln::cl_LF value_;
+  bool exists_ = true;
 };
 
 }  // namespace jourdain

@@ -1,7 +1,10 @@
 // Numbers that carry a bound of what was added up through Expression::evaluate.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+
+#include "support/elementary_functions.hpp"
 
 namespace jourdain::reference {
 
@@ -43,6 +46,52 @@ struct Bounded {
     using std::cos;
     const Scalar cosine = cos(a.value);
     return {cosine, size(cosine) + a.scale};
+  }
+  /// A relative change of a by 1 moves a smooth function by its slope times a's scale.
+  friend Bounded value_of(support::Function function, const Bounded& a, const Bounded& b) {
+    using std::cosh, std::exp, std::log, std::sinh;
+    using support::Function, support::value_of;
+    const Scalar value = value_of(function, a.value, b.value), one = Scalar(1);
+    Scalar moved = Scalar(0);
+    switch (function) {
+      case Function::kAtan2: {
+        const Scalar square = a.value * a.value + b.value * b.value;
+        if (square > Scalar(0)) moved = (size(b.value) * a.scale + size(a.value) * b.scale) / square;
+        break;
+      }
+      case Function::kExp:
+        moved = value * a.scale;
+        break;
+      case Function::kLog:
+        moved = a.scale / a.value;
+        break;
+      case Function::kSinh:
+        moved = cosh(a.value) * a.scale;
+        break;
+      case Function::kCosh:
+        moved = size(sinh(a.value)) * a.scale;
+        break;
+      case Function::kTanh:
+        moved = (one - value * value) * a.scale;
+        break;
+      case Function::kPower:
+        if (size(a.value) > Scalar(0))
+          moved =
+              size(value) * (size(b.value) * a.scale / size(a.value) + b.scale * size(log(size(a.value))));
+        break;
+      case Function::kAbs:
+      case Function::kFloor:
+        moved = a.scale;
+        break;
+      case Function::kMin:
+      case Function::kMax:
+        moved = std::max(a.scale, b.scale);
+        break;
+      case Function::kWhereNegative:
+      case Function::kWhereNotNegative:
+        return {value, (a.value < Scalar(0)) == (function == Function::kWhereNegative) ? b.scale : Scalar(0)};
+    }
+    return {value, size(value) + moved};
   }
 
  private:

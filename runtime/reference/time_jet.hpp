@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "support/elementary_functions.hpp"
+
 namespace jourdain::reference::descriptor {
 
 /// x(τ) = value + rate τ + ½ acceleration τ² + …, τ being time from now on; units of x, x/s, x/s². Operations follow
@@ -66,6 +68,40 @@ struct TimeJet {
     const Scalar moment = x.value * y.acceleration - y.value * x.acceleration;
     return {atan2(y.value, x.value), slope, (moment - slope * square_rate) / square};
   }
+  friend TimeJet exp(const TimeJet& a) {
+    using std::exp;
+    const Scalar value = exp(a.value);
+    return {value, value * a.rate, value * (a.acceleration + a.rate * a.rate)};
+  }
+  friend TimeJet log(const TimeJet& a) {
+    using std::log;
+    const Scalar slope = a.rate / a.value;
+    return {log(a.value), slope, a.acceleration / a.value - slope * slope};
+  }
+  friend TimeJet sinh(const TimeJet& a) {
+    using std::cosh, std::sinh;
+    const Scalar s = sinh(a.value), c = cosh(a.value);
+    return {s, c * a.rate, c * a.acceleration + s * a.rate * a.rate};
+  }
+  friend TimeJet cosh(const TimeJet& a) {
+    using std::cosh, std::sinh;
+    const Scalar s = sinh(a.value), c = cosh(a.value);
+    return {c, s * a.rate, s * a.acceleration + c * a.rate * a.rate};
+  }
+  friend TimeJet tanh(const TimeJet& a) { return sinh(a) / cosh(a); }
+  friend TimeJet pow(const TimeJet& a, const TimeJet& b) {
+    using std::pow;
+    if (b.rate != 0 || b.acceleration != 0) return exp(b * log(a));
+    const Scalar slope = b.value * pow(a.value, b.value - 1);
+    return {pow(a.value, b.value), slope * a.rate,
+            slope * a.acceleration + b.value * (b.value - 1) * pow(a.value, b.value - 2) * a.rate * a.rate};
+  }
+  friend TimeJet fabs(const TimeJet& a) { return a.value < 0 ? -a : a; }
+  friend TimeJet floor(const TimeJet& a) {
+    using std::floor;
+    return floor(a.value);
+  }
+  friend bool operator<(const TimeJet& a, const TimeJet& b) { return a.value < b.value; }
 };
 
 }  // namespace jourdain::reference::descriptor

@@ -197,6 +197,11 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
   list.push_back(
       fmt::format("nearby trajectories separate by a factor of {:.2g} within {}, {:.2g}/s in the exponent",
                   growth, time_text(followed), study.divergence.exponent));
+  if (study.has_kinks)
+    list.push_back(
+        "forces have kinks (if, abs, sign, min, max, floor): a step across one is off in velocity by a share "
+        "of h where "
+        "the force jumps, of h^2 where its slope does, whatever the order of the method");
   double failing = INFINITY;  // shortest of the steps at which nothing works
   for (const double h : study.steps) {
     const bool works = std::any_of(study.work.points.begin(), study.work.points.end(),

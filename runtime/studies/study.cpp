@@ -179,6 +179,9 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
                 const Progress& progress) {
   Study study;
   study.options = options;
+  study.has_kinks = model::any_force_element(mechanism, [](auto element) {
+    return std::ranges::any_of(element.expressions(), [](const auto* e) { return e->has_kinks(); });
+  });
   Flow<double> flow = given;
   if (options.hold_inputs) flow.hold_inputs();
   for (int i = 0; i <= options.halvings; ++i) study.steps.push_back(std::ldexp(options.longest_step, -i));

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "agreement/shared_data.hpp"
+#include "cart_stops/cart_stops_kernels.hpp"
 #include "flyball_governor/flyball_governor_kernels.hpp"
 #include "hoop_bead/hoop_bead_kernels.hpp"
 #include "lagrange_top/lagrange_top_kernels.hpp"
@@ -229,6 +230,39 @@ TEST(ClosedForms, RungeKuttaKeepsOrderFourOnADrivenScene) {
     previous = error;
   }
   EXPECT_LT(previous, 1e-7);
+}
+
+/// Freely from stop to stop, and half a period of an oscillator at each; with a damper there it leaves a stop with
+/// exp(−D π/√(1 − D²)) of its speed if the damper may pull, faster as it is.
+TEST(ClosedForms, CartBouncesBetweenItsStops) {
+  cart_stops::Parameters<> parameters;
+  parameters.static_friction = parameters.sliding_friction = 0;
+  parameters.stop_damping = 0;
+  const cart_stops::Model<> model(parameters);
+  const double w = std::sqrt(parameters.stop_stiffness / parameters.cart_mass), speed = 1;
+  const double period = 4 * parameters.reach / speed + 2 * pi / w;
+  double previous = 0;
+  for (const long steps : {4000L, 16000L, 64000L}) {
+    const auto end = stepped(model, initial_state(model), period / double(steps), steps);
+    const double error = std::fabs(end.y[0]) + std::fabs(end.z[0] - speed);
+    fmt::print("h = {:.1e} s: error {:.1e}\n", period / double(steps), error);
+    EXPECT_LE(error, 1e-3 * std::pow(period / double(steps) * w, 2));  // a kink costs h² of the speed
+    previous = error;
+  }
+  EXPECT_LT(previous, 1e-10);
+
+  parameters.stop_damping = 60;
+  const cart_stops::Model<> damped(parameters);
+  const double D = parameters.stop_damping / (2 * parameters.cart_mass * w), v = w * std::sqrt(1 - D * D);
+  // In contact from 0 on until the force is zero: x = s e^(−D w t) sin(v t)/v, k x + c x' = 0.
+  const double leaves = (pi - std::atan(2 * D * std::sqrt(1 - D * D) / (1 - 2 * D * D))) / v;
+  const auto rate = [&](double t) {
+    return std::exp(-D * w * t) * (std::cos(v * t) - D * w / v * std::sin(v * t));
+  };
+  auto state = initial_state(damped);
+  const double duration = (parameters.reach + 0.2) / speed + leaves;
+  state = stepped(damped, state, duration / 40000, 40000);
+  EXPECT_NEAR(state.z[0], rate(leaves), 1e-4);
 }
 
 TEST(ClosedForms, DrivesPayForWhatTheyMove) {

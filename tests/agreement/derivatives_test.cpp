@@ -14,6 +14,7 @@
 #include "dynamics/outputs.hpp"
 #include "kinematics/numbers.hpp"
 #include "properties/effort.hpp"
+#include "properties/random_laws.hpp"
 #include "properties/random_scene.hpp"
 
 namespace jourdain::tests {
@@ -22,7 +23,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-const std::uint64_t kScenes = cases(60);
+const std::uint64_t kScenes = cases(60), kScenesWithLaws = cases(24);
 // Normwise; the derivatives of accelerations are solved with M, whose condition number is up to 1e8 in random scenes.
 constexpr double kRelative = 1e-11, kOverCondition = 1e-14;
 
@@ -161,10 +162,10 @@ TEST(Derivatives, OfEveryModelAgreeWithDifferencesInSixtyDigits) {
   }
 }
 
-TEST(Derivatives, OfRandomScenesAgreeWithDifferencesInSixtyDigits) {
+void expect_derivatives(model::Mechanism (*draw)(std::uint64_t seed), std::uint64_t scenes) {
   Errors worst;
-  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
-    const Derived derived = derive(random_scene(seed));
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    const Derived derived = derive(draw(seed));
     if (derived.equations.zdot.empty()) continue;
     const Errors errors = errors_of(derived, random_sample(derived.mechanism, seed));
     EXPECT_LE(errors.residual, kRelative) << seed;
@@ -176,8 +177,16 @@ TEST(Derivatives, OfRandomScenesAgreeWithDifferencesInSixtyDigits) {
   fmt::print(
       "{} scenes: residual {:.1e}, by time {:.1e}, accelerations {:.1e} ({:.1e} over cond(M)), outputs "
       "{:.1e} over it\n",
-      kScenes, worst.residual, worst.time, worst.zdot, worst.zdot_over_condition,
+      scenes, worst.residual, worst.time, worst.zdot, worst.zdot_over_condition,
       worst.outputs_over_condition);
+}
+
+TEST(Derivatives, OfRandomScenesAgreeWithDifferencesInSixtyDigits) {
+  expect_derivatives(random_scene, kScenes);
+}
+
+TEST(Derivatives, OfLawsAgreeWithDifferencesInSixtyDigits) {
+  expect_derivatives(random_scene_with_laws, kScenesWithLaws);
 }
 
 TEST(Derivatives, OfAppliedForcesAreThoseOfTheEquationsWithoutWeightAndInertia) {

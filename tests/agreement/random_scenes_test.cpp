@@ -11,6 +11,7 @@
 #include "compile/compile.hpp"
 #include "emit/body.hpp"
 #include "properties/effort.hpp"
+#include "properties/random_laws.hpp"
 #include "properties/random_scene.hpp"
 #include "properties/to_toml.hpp"
 #include "reference/descriptor.hpp"
@@ -20,9 +21,11 @@ namespace {
 
 using Vector = reference::VectorX<long double>;
 
-const std::uint64_t kScenes = cases(520);
+const std::uint64_t kScenes = draws_all_cases() ? 520 : cases(260), kScenesWithLaws = cases(500);
 // As for random trees: backward error in double, forward error over cond(M), entries of their term sum.
 constexpr double kBackward = 1e-13, kForward = 1e-14, kEntries = 1e-12;
+// Laws have a condition of their own: what rounds their arguments moves a force by its slope.
+constexpr double kForwardWithLaws = 1e-13;
 // The descriptor form solves a larger system in long double, with joint forces as constraint forces; over cond(M).
 constexpr double kDescriptor = 1e-13;
 
@@ -134,10 +137,12 @@ const char* group(const model::Mechanism& mechanism) {
   return moved && free ? "free, motion" : moved ? "motion" : free ? "free" : "others";
 }
 
-TEST(RandomScenes, AgreeInInterpreterReferencesAndSixtyDigits) {
+using Draw = model::Mechanism (*)(std::uint64_t seed);
+
+void expect_agreement(Draw draw, std::uint64_t scenes, double forward) {
   std::map<std::string, Worst> worst;
-  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
-    const Derived derived = derive(random_scene(seed));
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    const Derived derived = derive(draw(seed));
     const Sample sample = random_sample(derived.mechanism, seed);
     const Comparison compare(derived, sample);
     Worst& w = worst[group(derived.mechanism)];
@@ -149,20 +154,28 @@ TEST(RandomScenes, AgreeInInterpreterReferencesAndSixtyDigits) {
     };
     if (!derived.equations.zdot.empty()) {
       check(w.backward, compare.backward(derived.module), kBackward, "backward");
-      check(w.forward, compare.forward(derived.module), kForward, "forward");
+      check(w.forward, compare.forward(derived.module), forward, "forward");
       check(w.entries, compare.entries(derived.module), kEntries, "entries");
       check(w.reference, compare.reference(), kForward, "reference");
     }
     check(w.outputs, compare.outputs(derived.module), kEntries, "outputs");
     check(w.descriptor, compare.descriptor(), kDescriptor, "descriptor");
     w.condition = std::max(w.condition, compare.condition());
-    ASSERT_FALSE(HasFailure());
+    ASSERT_FALSE(testing::Test::HasFailure());
   }
   fmt::print("{:<13} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9}\n", "scenes", "", "backward",
              "fwd/cond", "entries", "outputs", "reference", "descriptor", "cond(M)");
   for (const auto& [name, w] : worst)
     fmt::print("{:<13} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>10.1e} {:>9.1e}\n", name,
                w.scenes, w.backward, w.forward, w.entries, w.outputs, w.reference, w.descriptor, w.condition);
+}
+
+TEST(RandomScenes, AgreeInInterpreterReferencesAndSixtyDigits) {
+  expect_agreement(random_scene, kScenes, kForward);
+}
+
+TEST(RandomScenes, WithLawsOfAllFunctionsAgree) {
+  expect_agreement(random_scene_with_laws, kScenesWithLaws, kForwardWithLaws);
 }
 
 TEST(RandomScenes, GiveTheSameOutputsWithEverySimplificationOff) {
@@ -188,8 +201,10 @@ TEST(RandomScenes, GiveTheSameOutputsWithEverySimplificationOff) {
 
 TEST(RandomScenes, AreAcceptedByTheCompiler) {
   for (std::uint64_t seed = 0; seed < cases(40); ++seed) {
-    const CompiledModel compiled = compile(random_scene(seed), {});
-    EXPECT_TRUE(compiled.verdict.accepted()) << seed << ": " << compiled.verdict.failures.front();
+    for (const Draw draw : {random_scene, random_scene_with_laws}) {
+      const CompiledModel compiled = compile(draw(seed), {});
+      EXPECT_TRUE(compiled.verdict.accepted()) << seed << ": " << compiled.verdict.failures.front();
+    }
   }
 }
 
@@ -208,13 +223,13 @@ void expect_same(const std::vector<double>& found, const std::vector<double>& wa
     EXPECT_NEAR(found[i], wanted[i], kRoundedAngles * largest) << name;
 }
 
-TEST(RandomScenes, CompiledCodeAgreesBitByBitWithTheInterpreter) {
+void expect_same_bits(Draw draw) {
   for (const std::string compiler : {"g++", "clang++"}) {
     ASSERT_TRUE(have_compiler(compiler)) << "no " << compiler;
     std::vector<Derived> derived;
     std::vector<EmittedModel> models;
     for (std::uint64_t seed = compiler == "g++" ? 0 : 100; models.size() < cases(12); ++seed) {
-      derived.push_back(derive(random_scene(seed)));
+      derived.push_back(derive(draw(seed)));
       models.push_back(emit_model(derived.back(), fmt::format("scene{}", seed)));
     }
     const CompiledBatch batch(models, compiler, "double", kAsInterpreted);
@@ -241,6 +256,10 @@ TEST(RandomScenes, CompiledCodeAgreesBitByBitWithTheInterpreter) {
     }
   }
 }
+
+TEST(RandomScenes, CompiledCodeAgreesBitByBitWithTheInterpreter) { expect_same_bits(random_scene); }
+
+TEST(RandomScenes, CompiledLawsAgreeBitByBitWithTheInterpreter) { expect_same_bits(random_scene_with_laws); }
 
 }  // namespace
 }  // namespace jourdain::tests

@@ -45,6 +45,18 @@ struct Pack {
   friend Pack sqrt(const Pack& a) {
     return each([&](std::size_t i) { return std::sqrt(a.v[i]); });
   }
+  friend Pack exp(const Pack& a) {
+    return each([&](std::size_t i) { return std::exp(a.v[i]); });
+  }
+  friend Pack tanh(const Pack& a) {
+    return each([&](std::size_t i) { return std::tanh(a.v[i]); });
+  }
+  friend std::array<bool, 4> operator<(const Pack& a, const Pack& b) {
+    return {a.v[0] < b.v[0], a.v[1] < b.v[1], a.v[2] < b.v[2], a.v[3] < b.v[3]};
+  }
+  friend Pack select(const std::array<bool, 4>& mask, const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return mask[i] ? a.v[i] : b.v[i]; });
+  }
   friend Pack atan2(const Pack& a, const Pack& b) {
     return each([&](std::size_t i) { return emitted_arctangent(a.v[i], b.v[i]); });
   }

@@ -15,11 +15,14 @@ inline Vector cos(Vector x) {
   return Vector{jourdain::tests::emitted_cosine(x[0]), jourdain::tests::emitted_cosine(x[1])};
 }
 inline Vector sqrt(Vector x) { return Vector{std::sqrt(x[0]), std::sqrt(x[1])}; }
+inline Vector exp(Vector x) { return Vector{std::exp(x[0]), std::exp(x[1])}; }
+inline Vector tanh(Vector x) { return Vector{std::tanh(x[0]), std::tanh(x[1])}; }
 inline Vector atan2(Vector y, Vector x) {
   return Vector{jourdain::tests::emitted_arctangent(y[0], x[0]),
                 jourdain::tests::emitted_arctangent(y[1], x[1])};
 }
 
+#include "cart_stops_packs/cart_stops_packs_kernels.hpp"
 #include "crane_packs/crane_packs_kernels.hpp"
 #include "embed/pack.hpp"
 #include "four_bar_packs/four_bar_packs_kernels.hpp"
@@ -139,6 +142,37 @@ TEST(Packs, OfTheStandardLibraryTakeDoubles) {
 TEST(Packs, OfTheStandardLibraryTakeFloats) {
   using Floats = simd::fixed_size_simd<float, 4>;
   JOURDAIN_COMPARE_MODELS(Floats, float, 4, kOwnSinesOfFloats);
+}
+
+/// Some lanes are at a stop and others are not; with the scalar functions' bits where those are the lanes' own.
+template <class Real>
+void compare_at_stops(std::size_t lanes, double tolerance) {
+  namespace cart = cart_stops_packs;
+  const cart::Model<Real> model;
+  const cart::Model<double> scalars;
+  auto state = initial_state(model);
+  const auto place = [](std::size_t k) { return 0.3995 + 0.0005 * static_cast<double>(k); };
+  const auto speed = [](std::size_t k) { return 1.0 - 0.7 * static_cast<double>(k); };
+  for (std::size_t k = 0; k < lanes; ++k) {
+    set_lane(state.y[0], k, place(k));
+    set_lane(state.z[0], k, speed(k));
+  }
+  const typename cart::Model<Real>::Input none{{cart::detail::number<Real>(0.0)}};
+  for (int i = 0; i < 20; ++i) rk4_step(model, state, none, cart::detail::number<Real>(1e-4));
+  for (std::size_t k = 0; k < lanes; ++k) {
+    auto one = initial_state(scalars);
+    one.y[0] = place(k);
+    one.z[0] = speed(k);
+    for (int i = 0; i < 20; ++i) rk4_step(scalars, one, {}, 1e-4);
+    EXPECT_NEAR(lane(state.y[0], k), one.y[0], tolerance) << k;
+    EXPECT_NEAR(lane(state.z[0], k), one.z[0], 100 * tolerance) << k;
+  }
+}
+
+TEST(Packs, ChooseInEachLane) {
+  compare_at_stops<Pack>(4, kNone);
+  compare_at_stops<Vector>(2, kNone);
+  compare_at_stops<simd::fixed_size_simd<double, 4>>(4, kOwnSines);
 }
 
 TEST(Packs, BringTheirOwnLiteralsAndPairsOfSineAndCosine) {

@@ -197,6 +197,8 @@ class TreeInterpreter::Frame {
       case ir::Op::kLiteral:
       case ir::Op::kLeaf:
         break;
+      default:
+        return support::value_of(ir::function_of(e.operation), a, b);
     }
     JD_CHECK(false, "no operation");
     return 0;

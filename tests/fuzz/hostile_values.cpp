@@ -18,21 +18,30 @@ std::string operand(const std::vector<std::string>& names, Random& random) {
 
 /// What a slip of the hand makes of a text.
 std::string slipped(std::string text, Random& random) {
-  static const std::vector<std::string> kSlips = {"(", ")",   "+", "**", "^", ",",  " ",
-                                                  ".", "sin", "e", "\t", "µ", "\"", "="};
+  static const std::vector<std::string> kSlips = {"(",   ")", "+",  "**", "^",  ",", " ",   "<",   ".",
+                                                  "sin", "e", "\t", "µ",  "\"", "=", "if(", "max("};
   const std::size_t at = random.below(text.size() + 1);
   if (random.chance(0.5)) return text.insert(at, one_of(kSlips, random));
   return at < text.size() ? text.erase(at, 1 + random.below(3)) : text;
 }
 
 std::string grown(const std::vector<std::string>& names, int depth, Random& random) {
-  static const std::vector<std::string> kFunctions = {"sqrt", "sin", "cos", "tan", "-", ""};
+  static const std::vector<std::string> kFunctions = {"sqrt", "sin",  "cos",  "tan",  "-",    "",
+                                                      "exp",  "log",  "sinh", "cosh", "tanh", "asin",
+                                                      "acos", "atan", "abs",  "sign", "floor"};
+  static const std::vector<std::string> kOfTwo = {"atan2", "pow",        "min",         "max",
+                                                  "mod",   "smooth_abs", "smooth_sign", "smooth_step"};
   static const std::vector<std::string> kOperators = {" + ", " - ", "*", "/"};
   static const std::vector<std::string> kExponents = {"2",  "3",   "-1", "0",   "0.5",
                                                       "64", "-64", "65", "1.5", "x"};
   if (depth == 0 || random.chance(0.2)) return operand(names, random);
   const std::string left = grown(names, depth - 1, random);
   if (random.chance(0.3)) return fmt::format("{}({})", one_of(kFunctions, random), left);
+  if (random.chance(0.15))
+    return fmt::format("{}({}, {})", one_of(kOfTwo, random), left, grown(names, depth - 1, random));
+  if (random.chance(0.1))
+    return fmt::format("if({} {} {}, {}, {})", left, random.chance(0.5) ? "<" : ">=", operand(names, random),
+                       grown(names, depth - 1, random), grown(names, depth - 1, random));
   if (random.chance(0.15)) return fmt::format("({})^{}", left, one_of(kExponents, random));
   return fmt::format("({}{}{})", left, one_of(kOperators, random), grown(names, depth - 1, random));
 }

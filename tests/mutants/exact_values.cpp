@@ -43,6 +43,8 @@ std::optional<Exact> value(const Node& node, const std::vector<Exact>& values,
       return cln::cos(a);
     case Op::kAtan2:
       return cln::zerop(a) && cln::zerop(b) ? std::nullopt : std::optional<Exact>(cln::atan(b, a));
+    default:
+      return std::nullopt;  // no mutated scene has other functions
   }
   return {};
 }

@@ -43,6 +43,7 @@ Op other_operation(Op op) {
       return Op::kDivide;
     case Op::kLiteral:
     case Op::kLeaf:
+    default:
       break;
   }
   return op;

@@ -76,8 +76,18 @@ class Writer {
         return fmt::format("sin({})", side(node.left));
       case Expression::Op::kCos:
         return fmt::format("cos({})", side(node.left));
+      case Expression::Op::kFunction:
+        return call(node.function, side(node.left), side(node.right));
     }
     return "";
+  }
+
+  static std::string call(support::Function function, const std::string& a, const std::string& b) {
+    if (function == support::Function::kWhereNegative) return fmt::format("if({} < 0, {}, 0)", a, b);
+    if (function == support::Function::kWhereNotNegative) return fmt::format("if({} < 0, 0, {})", a, b);
+    const support::FunctionFacts& facts = support::facts_of(function);
+    return facts.operands == 1 ? fmt::format("{}({})", facts.name, a)
+                               : fmt::format("{}({}, {})", facts.name, a, b);
   }
 
   std::string variable(const model::Variable& v) const {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "emit/function_names.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::emit::c {
@@ -115,9 +116,9 @@ std::string CExpressions::angle_operation(const Expression& e) const {
     case ir::Op::kSqrt:
     case ir::Op::kSin:
     case ir::Op::kCos:
-    case ir::Op::kAtan2:
     case ir::Op::kLiteral:
     case ir::Op::kLeaf:
+    default:
       break;
   }
   JD_CHECK(false, "no operation of angles");
@@ -158,8 +159,8 @@ CExpressions::Text CExpressions::operation(const Expression& e) const {
       return {call(turns ? "angle_sine" : "sine", e)};
     case ir::Op::kCos:
       return {call(turns ? "angle_cosine" : "cosine", e)};
-    case ir::Op::kAtan2:
-      return {call("arctangent2", e)};
+    default:
+      return {call(function_name(ir::function_of(e.operation)), e)};
     case ir::Op::kLiteral:
     case ir::Op::kLeaf:
       break;

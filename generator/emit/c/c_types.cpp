@@ -83,7 +83,7 @@ CType CScope::type_of_member(const Expression& expression) const {
 
 CType CScope::type_of_operation(const Expression& expression) const {
   const ir::Op op = expression.operation;
-  if (op == ir::Op::kSqrt || op == ir::Op::kSin || op == ir::Op::kCos || op == ir::Op::kAtan2) return {};
+  if (op == ir::Op::kSqrt || op == ir::Op::kSin || op == ir::Op::kCos || ir::is_function(op)) return {};
   // Each operand is looked at once: sums are nested deeply.
   bool has_angle = false, has_time = false, has_real = false;
   for (const Expression& operand : expression.operands) {

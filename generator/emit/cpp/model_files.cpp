@@ -5,12 +5,15 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "emit/cpp/comments.hpp"
 #include "emit/cpp/definitions.hpp"
 #include "emit/cpp/index_constants.hpp"
 #include "emit/cpp/structs.hpp"
+#include "emit/function_names.hpp"
 #include "emit/layout.hpp"
 #include "emit/manifest.hpp"
 #include "emit/model_code.hpp"
@@ -74,6 +77,7 @@ class Emitter {
         {"LINEARIZATION_ALIAS", alias(linearizes(functions_), "Linearization")},
         {"ARCTANGENT",
          if_any(ir::has_arctangent(module_), own_sines() ? "own_arctangent.in" : "arctangent.in")},
+        {"FUNCTIONS", function_texts()},
         {"ANGLE", if_any(code_.has_angle, "angle.in") + if_any(code_.has_angle && packs(), "packs_angle.in")},
         {"STEP_SUPPORT", support_text(code_.support, !scene_.inputs.empty())},
         {"HISTORY", memories()},
@@ -105,6 +109,25 @@ class Emitter {
  private:
   bool packs() const { return model_.choices.packs; }
   bool own_sines() const { return model_.choices.own_sines && ir::has_angles(module_); }
+
+  /// Those that programs call, but the arctangent.
+  std::string function_texts() const {
+    std::set<std::string> called;
+    const auto gather = [&called](const ir::Program& program) {
+      for (const ir::Node& node : program.nodes)
+        if (ir::is_function(node.op)) called.insert(function_name(ir::function_of(node.op)));
+    };
+    gather(module_.constants);
+    for (const ir::Program& program : module_.functions) gather(program);
+    std::string texts, choice;
+    for (const auto& [name, text] : passages("functions.in")) {
+      if (name == "chosen") choice = text;
+      if (!called.count(name)) continue;
+      if (text.find("chosen(") != std::string::npos) texts += std::exchange(choice, "");
+      texts += text;
+    }
+    return texts;
+  }
 
   bool has_lanes() const {
     return std::any_of(module_.functions.begin(), module_.functions.end(),

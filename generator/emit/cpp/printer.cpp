@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "emit/function_names.hpp"
 #include "emit/layout.hpp"
 
 namespace jourdain::emit::cpp {
@@ -110,11 +111,11 @@ class ExpressionPrinter {
         return call(e, "sine");
       case ir::Op::kCos:
         return call(e, "cosine");
-      case ir::Op::kAtan2:
-        return call(e, "arctangent2");
       case ir::Op::kLiteral:
       case ir::Op::kLeaf:
         break;
+      default:
+        return call(e, function_name(ir::function_of(e.operation)));
     }
     return {};
   }

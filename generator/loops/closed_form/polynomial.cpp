@@ -198,13 +198,14 @@ class Expansion {
       case Op::kSqrt:
         if (!is_constant(a)) break;
         return {{kConstant, square_root(constant(a))}};
-      case Op::kAtan2:
-        if (!is_constant(a) || !is_constant(b)) break;
-        return {{kConstant, angle_of(constant(b), constant(a))}};
       case Op::kSin:
         return pair_of(node.a).sine;
       case Op::kCos:
         return pair_of(node.a).cosine;
+      default:
+        if (!is_constant(a) || (ir::operand_count(node.op) == 2 && !is_constant(b))) break;
+        return {{kConstant, applied(ir::function_of(node.op), constant(a),
+                                    ir::operand_count(node.op) == 2 ? constant(b) : constant(a))}};
     }
     return fail(fmt::format("a constraint has {} of {}", ir::op_name(node.op), unknown_names()));
   }

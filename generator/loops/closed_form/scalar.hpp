@@ -23,6 +23,11 @@ inline Scalar square_root(Scalar a) { return {a.builder, a.builder->unary(ir::Op
 inline Scalar sine(Scalar a) { return {a.builder, a.builder->unary(ir::Op::kSin, a.value)}; }
 inline Scalar cosine(Scalar a) { return {a.builder, a.builder->unary(ir::Op::kCos, a.value)}; }
 
+/// A function of one operand or two.
+inline Scalar applied(support::Function function, Scalar a, Scalar b) {
+  return {a.builder, a.builder->function(function, a.value, b.value)};
+}
+
 /// The angle of (x, y), in (−π, π].
 inline Scalar angle_of(Scalar x, Scalar y) { return {x.builder, x.builder->atan2(y.value, x.value)}; }
 

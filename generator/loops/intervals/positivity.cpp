@@ -40,7 +40,8 @@ class Proof {
     ir::Builder plain = builder;
     for (const ir::Signed value : values) plain.output("f", -1, -1, value);
     values_ = passes::remove_dead_code(plain.finish("values"));
-    JD_CHECK(ir::count_operations(values_).atan2 == 0, "a jump has no mean-value form");
+    const ir::Operations count = ir::count_operations(values_);
+    is_smooth_ = count.atan2 == 0 && count.selections == 0;
     ir::Builder slopes = builder;
     std::vector<ir::Seed> seeds;
     for (std::size_t k = 0; k < region.entries.size(); ++k)
@@ -132,7 +133,7 @@ class Proof {
       }
       if (!natural.maybe_undefined[j]) lows[j] = natural.values[j].low;
     }
-    raise_by_slopes(box, point, natural, central, lows);
+    if (is_smooth_) raise_by_slopes(box, point, natural, central, lows);
     return lows;
   }
 
@@ -163,6 +164,7 @@ class Proof {
   const Region& region_;
   Effort effort_;
   Program values_, slopes_;
+  bool is_smooth_ = true;                       ///< what may jump has no mean-value form
   std::vector<double> least_;                   ///< lower bounds over the boxes that are decided
   std::vector<double> seen_;                    ///< least values at middles
   std::vector<std::vector<double>> variation_;  ///< of each value over each side of the last box; 0: unknown

@@ -38,7 +38,8 @@ struct Effort {
 
 /// A lower bound of each value over the region, half of its least value or better as long as effort is left.
 /// The region is halved until on each part an enclosure of the values decides: the natural one, or f(m) + Σ
-/// ∂f/∂y (y − m) about its middle (mean-value form), whichever is narrower. The values may have no atan2, which jumps.
+/// ∂f/∂y (y − m) about its middle (mean-value form), whichever is narrower; the natural one alone where
+/// values may jump.
 std::variant<std::vector<double>, Counterexample> prove_bounds(const ir::Builder& builder,
                                                                const std::vector<Bound>& bounds,
                                                                const Region& region, Effort effort = {});

@@ -50,11 +50,19 @@ const Scope& time_scope() {
   return scope;
 }
 
+void refuse_kinks(const TomlTable& table, std::string_view key, const Expression& function) {
+  if (function.has_kinks())
+    table.error(key,
+                fmt::format("{} may have a kink, where velocities or accelerations jump", table.quoted(key)),
+                "it is differentiated twice; smooth_step, smooth_max and tanh have none");
+}
+
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
                               const Needed& needed, const Scope& scope) {
   const std::size_t mark = file.error_count();
   Expression function = table.function(key, needed, scope);
   if (file.error_count() != mark) return function;
+  refuse_kinks(table, key, function);
   std::vector<Taylor<double>> parameters;
   for (const double value : file.values()) parameters.push_back({value, 0, 0});
   const auto at_start = function.evaluate<Taylor<double>>(

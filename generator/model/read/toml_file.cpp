@@ -148,7 +148,12 @@ Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& p
                     "are written out",
                     place.what, kMaximumExpressionSize));
   Expression in_si_units = in_unit(*of_parameters, measure, range(text.source()), place);
-  if (!expression.has_no_variable()) return in_si_units;
+  if (!expression.has_no_variable()) {
+    if (in_si_units.has_undefined_part(values_))
+      return number_error(range(text.source()),
+                          "a part of it has no finite value at the parameters' default values");
+    return in_si_units;
+  }
   const double at_defaults = value(in_si_units);
   if (!std::isfinite(at_defaults))
     return number_error(range(text.source()),

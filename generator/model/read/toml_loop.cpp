@@ -144,6 +144,11 @@ class LoopReader {
       return table_.missing("residual", "an expression of t, coordinates and positions of frames");
     loop.residual =
         settled(table_.function("residual", needed::kAnything, residual_scope(mechanism)), mechanism);
+    refuse_kinks(table_, "residual", loop.residual);
+    if (loop.residual.calls(support::Function::kAtan2))
+      table_.error("residual",
+                   fmt::format("{} has an arctangent, which jumps by a turn", table_.quoted("residual")),
+                   "sines and cosines of angles, or products, can say the same");
   }
 
   TomlFile& file_;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/expression_functions.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/read.hpp"
 #include "model/read/toml_names.hpp"
@@ -14,12 +15,10 @@ namespace jourdain::model {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kExpressionWords{"pi", "deg", "sqrt", "sin", "cos", "tan"};
-
 void check_parameter_name(TomlFile& file, const Parameter& parameter) {
   const std::string& name = parameter.name;
   check_identifier(file, parameter.where, "parameter", name);
-  if (std::find(kExpressionWords.begin(), kExpressionWords.end(), name) != kExpressionWords.end())
+  if (name == "pi" || name == "deg" || name == "if" || find_function(name))
     file.error(parameter.where,
                fmt::format("parameter '{}' would hide what '{}' means in expressions", name, name));
   else if (is_reserved(name))

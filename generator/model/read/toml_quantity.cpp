@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 
+#include "model/expression_functions.hpp"
 #include "model/read/toml_table.hpp"
 
 namespace jourdain::model {
@@ -15,8 +15,7 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\n";
 
 bool is_expression_word(std::string_view word) {
-  constexpr std::array<std::string_view, 6> kWords{"pi", "deg", "sqrt", "sin", "cos", "tan"};
-  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+  return word == "pi" || word == "deg" || word == "if" || find_function(word) != nullptr;
 }
 
 bool starts_word(std::string_view text) {

@@ -39,6 +39,9 @@ CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate);
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
                      Coordinate& coordinate);
 
+/// An error where `function`, which is differentiated twice, may have a kink.
+void refuse_kinks(const TomlTable& table, std::string_view key, const Expression& function);
+
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values;
 /// zero after a diagnostic that it cannot be read or where it is missing. `scope` has t and names that it refuses.
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,

@@ -25,8 +25,8 @@ namespace {
 
 using support::at;
 
-constexpr std::size_t kStates = 8, kLarge = 24;  ///< velocities from which on two states must do
-constexpr std::size_t kOpened = 2;               ///< states beside which open ones are compared
+constexpr std::size_t kClosedStates = 8, kLarge = 24;  ///< velocities from which on two states must do
+constexpr std::size_t kOpened = 2;                     ///< states beside which open ones are compared
 
 bool closes(const ir::Program& program) {
   const std::optional<FunctionId> function = ir::function_named(program.name);
@@ -179,7 +179,7 @@ class LoopComparison {
 
 Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equations& equations,
                         const ir::Module& module, const loops::LoopPlan& plan) {
-  const std::size_t states = plan.z.size() >= kLarge ? 2 : kStates;
+  const std::size_t states = plan.z.size() >= kLarge ? 2 : kClosedStates;
   Verdict verdict = validate_translation(mechanism, equations, {}, states);
   verdict.condition = 0;  // that of the tree off the loops is nobody's
   dynamics::DerivationOptions options;
@@ -193,6 +193,7 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   const ExactClosure closure(mechanism, closures, plan);
   const LoopScene scene{mechanism, equations, plan, closure};
   Agreement agreement;
+  KinkSurvey survey(module);
   LoopComparison comparison(scene, module, agreement, verdict);
   const std::size_t output_numbers = programs::scene_facts(mechanism, &plan).output_numbers();
   const std::vector<Ray> rays = draw_rays(numeric, plan, mechanism, states);
@@ -202,9 +203,12 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
     if (plan.is_reduced() && !(opening(scene, point.exact) < ScaledReal(1e-50)))
       point = point_of(ray, parameters, closure);  // out of reach
     point.output_numbers = output_numbers;
-    comparison.compare(point, std::size_t(&ray - &rays[0]) < kOpened);
+    const KinkSurvey::Look look = survey.look(point.exact);
+    survey.take(look);
+    if (!look.is_near) comparison.compare(point, std::size_t(&ray - &rays[0]) < kOpened);
   }
-  verdict.states = rays.size();
+  verdict.kinks = survey.kinks();
+  verdict.states = rays.size() - verdict.kinks.left_out;
   conclude(agreement, verdict);
   return verdict;
 }

@@ -1,0 +1,110 @@
+#include "validate/kinks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace jourdain::validate {
+
+using ir::Op;
+using ir::ValueId;
+
+namespace {
+
+/// Of its scale: nearer to a kink than this rounding in double may choose the side, rounding in float surely.
+constexpr double kNear = 1e-9;
+
+ValueId appended(ir::Program& program, const ir::Node& node) {
+  program.nodes.push_back(node);
+  program.labels.emplace_back();
+  return ValueId(program.nodes.size() - 1);
+}
+
+/// How far an operand is beyond the kink of node `i`; of floor, the sine of π times that.
+ValueId distance(ir::Program& program, std::size_t i) {
+  const ir::Node node = program.nodes[i];
+  if (node.op == Op::kMin || node.op == Op::kMax)
+    return appended(program, {.op = Op::kSubtract, .a = node.a, .b = node.b});
+  if (node.op != Op::kFloor) return node.a;
+  const ValueId pi = appended(program, {.op = Op::kLiteral, .literal = 3.141592653589793});
+  const ValueId angle = appended(program, {.op = Op::kMultiply, .a = pi, .b = node.a});
+  return appended(program, {.op = Op::kSin, .a = angle});
+}
+
+}  // namespace
+
+std::string in_words(const Kinks& kinks) {
+  std::string text = fmt::format("{} kink{} of abs, min, max, floor and if, {} compared on both sides",
+                                 kinks.count, kinks.count == 1 ? "" : "s", kinks.on_both_sides);
+  if (std::isfinite(kinks.nearest))
+    text += fmt::format(", the nearest {:.0e} of its scale away", kinks.nearest);
+  if (kinks.left_out > 0) text += fmt::format("; {} states too near to one were left out", kinks.left_out);
+  return text;
+}
+
+KinkSurvey::KinkSurvey(const ir::Module& module)
+    : constants_(module.constants), nearest_(std::numeric_limits<double>::infinity()) {
+  for (ir::Program program : module.functions) {
+    program.outputs.clear();
+    const std::size_t count = program.nodes.size();
+    for (std::size_t i = 0; i < count; ++i)
+      if (ir::is_selection(program.nodes[i].op))
+        program.outputs.push_back({"distance", -1, -1, distance(program, i)});
+    seen_.resize(seen_.size() + program.outputs.size());
+    if (!program.outputs.empty()) programs_.push_back(std::move(program));
+  }
+}
+
+KinkSurvey::Look KinkSurvey::look(ir::LeafValues<ScaledReal> leaves) const {
+  Look look;
+  if (seen_.empty()) return look;
+  leaves[ir::LeafKind::kConstant] = ir::interpret(constants_, leaves);
+  for (const ir::Program& program : programs_)
+    for (const ScaledReal& value : ir::interpret(program, leaves)) look.distances.push_back(value);
+  const ScaledReal zero;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    const ScaledReal& d = look.distances[i];
+    const auto size = std::fabs(static_cast<long double>(d));
+    look.is_near = look.is_near || (size > 0 && size < kNear * d.scale());
+    look.is_new = look.is_new || (d < zero && !seen_[i].below) || (d > zero && !seen_[i].above);
+  }
+  return look;
+}
+
+void KinkSurvey::take(const Look& look) {
+  if (look.is_near) {
+    ++left_out_;
+    return;
+  }
+  const ScaledReal zero;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    const ScaledReal& d = look.distances[i];
+    seen_[i].distances.push_back(static_cast<double>(d));
+    seen_[i].below = seen_[i].below || d < zero;
+    seen_[i].above = seen_[i].above || d > zero;
+    const auto share = static_cast<double>(std::fabs(static_cast<long double>(d)) / d.scale());
+    if (share > 0) nearest_ = std::min(nearest_, share);
+  }
+}
+
+bool KinkSurvey::is_complete() const {
+  return std::all_of(seen_.begin(), seen_.end(), [](const Seen& kink) { return kink.below && kink.above; });
+}
+
+/// A kink that several functions have is one: their distances are the same at all states.
+Kinks KinkSurvey::kinks() const {
+  std::map<std::vector<double>, bool> distinct;
+  for (const Seen& kink : seen_) {
+    std::vector<double> sizes;
+    for (const double d : kink.distances) sizes.push_back(std::fabs(d));
+    distinct[sizes] = kink.below && kink.above;
+  }
+  Kinks kinks{distinct.size(), 0, nearest_, left_out_};
+  for (const auto& [sizes, both] : distinct) kinks.on_both_sides += both ? 1 : 0;
+  return kinks;
+}
+
+}  // namespace jourdain::validate

@@ -1,0 +1,56 @@
+// On which sides of their kinks the functions of a model were compared.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ir/module.hpp"
+
+namespace jourdain::validate {
+
+using support::ScaledReal;
+
+/// Where abs, min, max or `if` go over from one side to the other, or floor from one whole number to the next.
+struct Kinks {
+  std::size_t count = 0;
+  std::size_t on_both_sides = 0;  ///< of them, at the states compared
+  double nearest = 0;             ///< the least distance of all, over its scale, see ScaledReal
+  std::size_t left_out = 0;  ///< states so near to a kink that rounding may choose the side: not compared
+};
+
+/// "3 kinks, 2 of them compared on both sides, …"
+std::string in_words(const Kinks& kinks);
+
+class KinkSurvey {
+ public:
+  explicit KinkSurvey(const ir::Module& module);
+
+  struct Look {
+    std::vector<ScaledReal> distances;  ///< of every kink, positive on one side
+    bool is_near = false;               ///< to one, not on it: rounding may choose the side
+    bool is_new = false;                ///< some kink was not seen from this side
+  };
+  /// At a state; leaves without constants.
+  Look look(ir::LeafValues<ScaledReal> leaves) const;
+  /// The state is compared, or left out because it is near.
+  void take(const Look& look);
+
+  bool has_kinks() const { return !seen_.empty(); }
+  bool is_complete() const;
+  Kinks kinks() const;
+
+ private:
+  struct Seen {
+    std::vector<double> distances;  ///< at the states compared
+    bool below = false, above = false;
+  };
+
+  std::vector<ir::Program> programs_;  ///< of each function with kinks their distances
+  ir::Program constants_;
+  std::vector<Seen> seen_;
+  std::size_t left_out_ = 0;
+  double nearest_;
+};
+
+}  // namespace jourdain::validate

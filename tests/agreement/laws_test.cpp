@@ -1,0 +1,146 @@
+// Functions in force laws: which sides of kinks are compared, and that faults planted in them are refused.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "agreement/judge.hpp"
+#include "model/read/read.hpp"
+#include "validate/translation.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+using ir::Op;
+
+/// Two masses that slide, with this force on the first one.
+Derived with_law(const std::string& law, const std::string& more = "") {
+  const std::string text = fmt::format(R"([model]
+name = "masses"
+[parameters]
+a = 0.7
+[[body]]
+name = "b"
+mass = 1.2
+[[body]]
+name = "c"
+mass = 0.8
+[[joint]]
+name = "s"
+type = "prismatic"
+axis = [1, 0, 0]
+parent = "world"
+child = "b"
+[[joint]]
+name = "r"
+type = "prismatic"
+axis = [0, 0.6, 0.8]
+parent = "b"
+child = "c"
+{}
+[[input]]
+name = "u"
+[[force]]
+joint = "s"
+value = "{}"
+)",
+                                       more, law);
+  support::Diagnostics diagnostics("masses.toml", text);
+  const auto mechanism = model::read_mechanism(diagnostics);
+  EXPECT_EQ(diagnostics.format(), "");
+  return derive(mechanism.value());
+}
+
+validate::Verdict verdict_of(const Derived& derived) {
+  return validate::validate_translation(derived.mechanism, derived.equations, derived.module);
+}
+
+TEST(Laws, AreComparedOnBothSidesOfKinksFarAndNear) {
+  for (const char* law :
+       {"max(s - 0.4, 0)", "max(s - 80, 0)", "if(r.rate > 30, s, u)", "abs(s - 1e-3)", "floor(3*t)*s",
+        "if(s > 0, if(r > 0, 1, 2), if(r.rate > 0, 3, 4))", "min(max(s, -0.01), 0.01)*r.rate"}) {
+    const validate::Verdict verdict = verdict_of(with_law(law));
+    EXPECT_TRUE(verdict.accepted()) << law << ": " << verdict.failures.front();
+    EXPECT_GT(verdict.kinks.count, 0u) << law;
+    EXPECT_EQ(verdict.kinks.on_both_sides, verdict.kinks.count) << law << ": " << in_words(verdict.kinks);
+  }
+}
+
+TEST(Laws, SayWhatTheyWereNotComparedOn) {
+  const validate::Verdict verdict = verdict_of(with_law("max(s - 1e9, 0) + abs(r)"));
+  EXPECT_EQ(verdict.kinks.count, 2u);
+  EXPECT_EQ(verdict.kinks.on_both_sides, 1u);
+}
+
+/// The start is on a kink, or next to it by rounding, where a jump may go either way.
+TEST(Laws, MayStartOnAKink) {
+  for (const char* law :
+       {"if(s < 0, 5, -5)", "if(s - 0.1 - 0.2 < -0.3, 5, -5)", "floor(s/0.1 + 3*0.1 - 0.3)", "sign(s)"}) {
+    const validate::Verdict verdict = verdict_of(with_law(law));
+    EXPECT_TRUE(verdict.accepted()) << law << ": " << verdict.failures.front();
+    EXPECT_GE(verdict.states, 7u) << law;
+  }
+}
+
+std::vector<Op> others(Op op) {
+  switch (op) {
+    case Op::kExp:
+      return {Op::kSinh, Op::kCosh};
+    case Op::kLog:
+    case Op::kSinh:
+    case Op::kCosh:
+    case Op::kTanh:
+    case Op::kAbs:
+    case Op::kFloor:
+      return {Op::kExp, Op::kNegate, op == Op::kSinh ? Op::kTanh : Op::kSinh};
+    case Op::kMin:
+      return {Op::kMax};
+    case Op::kMax:
+      return {Op::kMin};
+    case Op::kWhereNegative:
+      return {Op::kWhereNotNegative, Op::kMultiply};
+    case Op::kWhereNotNegative:
+      return {Op::kWhereNegative, Op::kMultiply};
+    case Op::kPower:
+      return {Op::kMultiply, Op::kAtan2};
+    default:
+      return {};
+  }
+}
+
+TEST(Laws, WithPlantedFaultsAreRefused) {
+  const Derived correct = with_law(
+      "exp(-s^2) + sinh(a*s) + cosh(s.rate) - tanh(s*r) + log(1 + s^2) + pow(1 + r^2, 1.5) + (2 + sin(r))^a +"
+      " abs(s.rate)*s.rate + sign(r.rate) + min(s, r) + max(s, u) + mod(t, 0.7) + floor(2*r) + if(s > 0, "
+      "sqrt(s), 0) +"
+      " if(r.rate <= s.rate, r^2, -s)");
+  EXPECT_TRUE(verdict_of(correct).accepted());
+  int planted = 0;
+  for (std::size_t p = 0; p < correct.module.functions.size(); ++p)
+    for (std::size_t i = 0; i < correct.module.functions[p].nodes.size(); ++i) {
+      const ir::Node& node = correct.module.functions[p].nodes[i];
+      Derived mutant = correct;
+      ir::Node& changed = mutant.module.functions[p].nodes[i];
+      const auto refuse = [&](const char* what) {
+        ++planted;
+        EXPECT_FALSE(verdict_of(mutant).accepted()) << mutant.module.functions[p].name << " value " << i
+                                                    << ", " << ir::op_name(node.op) << " " << what;
+      };
+      for (const Op op : others(node.op)) {
+        changed.op = op;
+        refuse(ir::op_name(op));
+      }
+      if (!ir::is_function(node.op) || ir::operand_count(node.op) != 2 || node.op == Op::kMin ||
+          node.op == Op::kMax)
+        continue;
+      changed = node;
+      std::swap(changed.a, changed.b);
+      refuse("with operands exchanged");
+    }
+  EXPECT_GT(planted, 100);
+}
+
+}  // namespace
+}  // namespace jourdain::tests

@@ -1,0 +1,158 @@
+// Functions in programs: derivatives, enclosures, and that zero times what has no value is not taken.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "ir/interval.hpp"
+#include "ir/jacobian.hpp"
+#include "support/elementary_functions.hpp"
+#include "support/uniform.hpp"
+
+namespace jourdain::ir {
+namespace {
+
+using support::Function;
+using support::ScaledReal;
+
+std::vector<Function> all_functions() {
+  std::vector<Function> list;
+  for (std::size_t i = 0; i < support::kFunctions; ++i) list.push_back(static_cast<Function>(i));
+  return list;
+}
+
+/// f(y0, y1), and its two derivatives behind it.
+Program with_slopes(Function function, EliminationOrder order = {}) {
+  Builder builder;
+  const Signed a = builder.leaf(LeafKind::kPosition, 0), b = builder.leaf(LeafKind::kPosition, 1);
+  const Signed value = builder.function(function, a, b), one = builder.literal(1);
+  builder.output("f", 0, -1, value);
+  const JacobianEntries J = differentiate(builder, {value}, {{a, 0, one}, {b, 1, one}}, order);
+  for (std::size_t column = 0; column < 2; ++column) {
+    const auto it = J.find({0, column});
+    builder.output("J", 0, int(column), it == J.end() ? builder.literal(0) : it->second);
+  }
+  return builder.finish("f");
+}
+
+template <class Real>
+std::vector<Real> at(const Program& program, const Real& a, const Real& b) {
+  LeafValues<Real> leaves;
+  leaves[LeafKind::kPosition] = {a, b};
+  return interpret(program, leaves);
+}
+
+/// Away from kinks by more than the difference.
+bool is_smooth(Function function, double a, double b) {
+  const double near = function == Function::kMin || function == Function::kMax ? a - b
+                      : function == Function::kFloor                           ? a - std::round(a)
+                                                                               : a;
+  return !support::facts_of(function).has_kinks || std::fabs(near) > 1e-3;
+}
+
+TEST(Functions, HaveTheDerivativesOfDifferencesInSeventyDigits) {
+  support::Uniform uniform(7);
+  for (const Function function : all_functions()) {
+    const Program program = with_slopes(function);
+    int compared = 0;
+    for (int k = 0; k < 40; ++k) {
+      const bool is_positive = function == Function::kLog || function == Function::kPower;
+      const double a = is_positive ? uniform(0.1, 3) : uniform(-3, 3), b = uniform(-2, 2);
+      if (!is_smooth(function, a, b)) continue;
+      const ScaledReal h(1e-20);
+      const auto f = [&](const ScaledReal& x, const ScaledReal& y) { return at(program, x, y)[0]; };
+      const ScaledReal x(a), y(b);
+      const auto by_a = double((f(x + h, y) - f(x - h, y)) / (h + h)),
+                 by_b = double((f(x, y + h) - f(x, y - h)) / (h + h));
+      const std::vector<double> found = at(program, a, b);
+      EXPECT_NEAR(found[1], by_a, 4e-15 * (1 + std::fabs(by_a)))
+          << support::facts_of(function).name << " " << a << " " << b;
+      EXPECT_NEAR(found[2], by_b, 4e-15 * (1 + std::fabs(by_b)))
+          << support::facts_of(function).name << " " << a << " " << b;
+      ++compared;
+    }
+    EXPECT_GT(compared, 30) << support::facts_of(function).name;
+  }
+}
+
+TEST(Functions, AreEnclosed) {
+  support::Uniform uniform(11);
+  for (const Function function : all_functions()) {
+    Builder builder;
+    builder.output("f", 0, -1,
+                   builder.function(function, builder.leaf(LeafKind::kPosition, 0),
+                                    builder.leaf(LeafKind::kPosition, 1)));
+    const Program program = builder.finish("f");
+    for (int k = 0; k < 300; ++k) {
+      const double size = k % 3 == 0 ? 1e-3 : 1.0;
+      const auto side = [&] {
+        const double low = uniform(-2.5, 2.5);
+        return Interval{low, low + size * uniform(0, 2)};
+      };
+      const Interval a = side(), b = side();
+      const IntervalResults box = interpret_interval(program, [&] {
+        LeafValues<Interval> leaves;
+        leaves[LeafKind::kPosition] = {a, b};
+        return leaves;
+      }());
+      for (int i = 0; i < 20; ++i) {
+        const double x = i == 0   ? a.low
+                         : i == 1 ? a.high
+                                  : uniform(a.low, a.high),
+                     y = i == 0   ? b.high
+                         : i == 1 ? b.low
+                                  : uniform(b.low, b.high);
+        const ScaledReal exact = at(program, ScaledReal(x), ScaledReal(y))[0];
+        if (!exact.is_number()) {
+          EXPECT_TRUE(box.maybe_undefined[0]) << support::facts_of(function).name << " " << x << " " << y;
+          continue;
+        }
+        const auto value = static_cast<long double>(exact);
+        EXPECT_TRUE(box.values[0].low <= value && value <= box.values[0].high)
+            << support::facts_of(function).name << " at " << x << ", " << y << ": " << double(exact)
+            << " outside " << box.values[0].low << " " << box.values[0].high;
+      }
+    }
+  }
+}
+
+/// f = x where d < 0 else 0 for an x that has no value, nor derivatives, where it is not taken.
+TEST(Functions, TakeNothingOfDerivativesThatDoNotExist) {
+  for (const double share : {0.0, 0.3, 0.6, 1.0}) {
+    Builder b;
+    const Signed y = b.leaf(LeafKind::kPosition, 0), one = b.literal(1);
+    const Signed root = b.unary(Op::kSqrt, b.multiply(y, b.literal(3)));
+    const std::vector<Signed> values = {
+        b.function(Function::kWhereNegative, -y, root),
+        b.multiply(b.function(Function::kWhereNegative, -y, b.multiply(root, root)), b.literal(5)),
+        b.function(Function::kWhereNotNegative, y, b.function(Function::kLog, y, y)),
+        b.unary(Op::kSin, b.function(Function::kWhereNegative, -y, b.divide(one, root))),
+        b.multiply(b.add(b.function(Function::kWhereNegative, -y, b.multiply(root, y)),
+                         b.function(Function::kWhereNegative, b.subtract(one, y), b.divide(y, root))),
+                   b.add(y, b.unary(Op::kSin, y)))};
+    const JacobianEntries J = differentiate(b, values, {{y, 0, one}}, {share});
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      const auto it = J.find({row, 0});
+      b.output("J", int(row), 0, it == J.end() ? b.literal(0) : it->second);
+    }
+    const Program program = b.finish("J");
+    for (const double slope : at(program, -2.0, 0.0)) EXPECT_EQ(slope, 0) << share;
+    EXPECT_NEAR(at(program, 2.0, 0.0)[0], 0.5 * std::sqrt(3 / 2.0), 1e-15);
+  }
+}
+
+TEST(Functions, FollowTheirSignsAndLiterals) {
+  Builder b;
+  const Signed x = b.leaf(LeafKind::kPosition, 0);
+  const auto same = [](Signed p, Signed q) { return p.value == q.value && p.negative == q.negative; };
+  EXPECT_TRUE(same(b.function(Function::kTanh, -x, x), -b.function(Function::kTanh, x, x)));
+  EXPECT_TRUE(same(b.function(Function::kCosh, -x, x), b.function(Function::kCosh, x, x)));
+  EXPECT_TRUE(same(b.function(Function::kAbs, -x, x), b.function(Function::kAbs, x, x)));
+  EXPECT_FALSE(same(b.function(Function::kExp, -x, x), b.function(Function::kExp, x, x)));
+  EXPECT_TRUE(same(b.function(Function::kWhereNegative, b.literal(-1), x), x));
+  EXPECT_TRUE(b.is_literal(b.function(Function::kWhereNegative, b.literal(1), x), 0));
+  EXPECT_TRUE(same(b.function(Function::kWhereNegative, x, -x), -b.function(Function::kWhereNegative, x, x)));
+}
+
+}  // namespace
+}  // namespace jourdain::ir

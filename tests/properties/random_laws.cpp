@@ -1,0 +1,142 @@
+#include "properties/random_laws.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "model/coordinates.hpp"
+#include "model/expression_functions.hpp"
+#include "properties/arithmetic.hpp"
+#include "properties/random.hpp"
+#include "properties/random_scene.hpp"
+
+namespace jourdain::tests {
+
+namespace {
+
+using model::Expression;
+using model::Variable;
+using support::Function;
+
+Expression call(const char* name, const std::vector<Expression>& arguments) {
+  return model::find_function(name)->of(arguments);
+}
+
+class Laws {
+ public:
+  explicit Laws(std::uint64_t seed) : mechanism_(random_scene(seed)), random_(seed * 77 + 3) {}
+
+  model::Mechanism run() {
+    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
+      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c) add_to(j, c);
+    for (model::Spring& spring : mechanism_.springs) change(spring);
+    if (!mechanism_.loads.empty()) mechanism_.loads[0].force[0] = law(quantity(), quantity());
+    model::Output output;
+    output.name = "law";
+    output.kind = model::OutputKind::kExpression;
+    output.value = law(quantity(), quantity());
+    mechanism_.outputs.push_back(output);
+    return std::move(mechanism_);
+  }
+
+ private:
+  double number(double low, double high) { return random_.uniform(low, high); }
+
+  void add_to(std::size_t j, std::size_t c) {
+    model::Coordinate& coordinate = mechanism_.joints[j].coordinates[c];
+    if (coordinate.motion && random_.chance(0.7)) {
+      const Expression t = variable(Variable::Kind::kTime);
+      coordinate.motion = *coordinate.motion + number(-0.3, 0.3) * smooth(t, Expression(0.5) * t);
+    }
+    if (!random_.chance(0.6)) return;
+    model::CoordinateForce force;
+    force.name = fmt::format("law{}_{}", j, c);
+    force.joint = model::JointIndex(j);
+    force.coordinate = c;
+    const Expression own = variable(Variable::Kind::kPosition, j, c),
+                     rate = variable(Variable::Kind::kVelocity, j, c);
+    force.force = law(own, rate) + number(-1, 1) * law(rate, quantity());
+    mechanism_.coordinate_forces.push_back(force);
+  }
+
+  void change(model::Spring& spring) {
+    if (spring.potential) return;
+    const Expression length = variable(Variable::Kind::kArgument),
+                     rate = variable(Variable::Kind::kArgument, 0, 1);
+    spring.law = number(0.5, 3) * law(length, rate, length);
+  }
+
+  Expression quantity() {
+    std::vector<Expression> choice = {variable(Variable::Kind::kTime)};
+    const std::size_t inputs = mechanism_.actuators.size() + mechanism_.inputs.size();
+    if (inputs > 0) choice.push_back(variable(Variable::Kind::kInput, random_.below(inputs)));
+    if (!mechanism_.frames.empty()) {
+      const std::size_t frame = random_.below(mechanism_.frames.size()), axis = random_.below(3);
+      choice.push_back(variable(Variable::Kind::kFramePosition, frame, axis));
+      choice.push_back(variable(Variable::Kind::kFrameVelocity, frame, axis));
+    }
+    return choice[random_.below(choice.size())];
+  }
+
+  /// Of values in the size of one, with slopes in the size of one.
+  Expression smooth(const Expression& a, const Expression& b) {
+    const Expression one(1.0), square = one + a * a;
+    switch (random_.below(9)) {
+      case 0:
+        return call("exp", {sine(a)});
+      case 1:
+        return call("log", {square + b * b});
+      case 2:
+        return call("tanh", {a}) * b;
+      case 3:
+        return call("sinh", {sine(b)}) + call("cosh", {cosine(a)});
+      case 4:
+        return call("pow", {square, Expression(number(-1, 0.7))});
+      case 5:
+        return Expression::function(Function::kPower, one + sine(a) * sine(a), sine(b));
+      case 6:
+        return call("atan2", {a, one + b * b}) + call("atan", {b});
+      case 7:
+        return call("asin", {Expression(0.9) * sine(a)}) - call("acos", {Expression(0.8) * cosine(b)});
+      default:
+        return call("smooth_max", {a, b, Expression(0.2)}) - call("smooth_sign", {b, Expression(0.5)}) +
+               call("smooth_step", {a, Expression(0.3)});
+    }
+  }
+
+  /// Whole numbers follow from `clock`.
+  Expression law(const Expression& a, const Expression& b,
+                 const Expression& clock = variable(Variable::Kind::kTime)) {
+    const Expression zero(0.0), limit(number(-0.5, 0.5));
+    switch (random_.below(8)) {
+      case 0:
+        return call("abs", {a}) * b;
+      case 1:
+        return call("max", {a - limit, zero}) + call("min", {a, b});
+      case 2:
+        return call("sign", {b}) * smooth(a, b);
+      case 3:
+        return model::where_less(limit, a, random_.chance(0.5),
+                                 Expression::unary(Expression::Op::kSqrt, a - limit), zero) *
+               b;
+      case 4:
+        return model::where_less(a, b, random_.chance(0.5), smooth(a, b), a - b);
+      case 5:
+        return model::where_less(zero, a, false, call("log", {a + Expression(0.1)}),
+                                 call("pow", {zero - a, Expression(1.5)}));
+      case 6:
+        return call("mod", {clock, Expression(0.7)}) * a + call("floor", {Expression(2.3) * clock});
+      default:
+        return smooth(a, b);
+    }
+  }
+
+  model::Mechanism mechanism_;
+  Random random_;
+};
+
+}  // namespace
+
+model::Mechanism random_scene_with_laws(std::uint64_t seed) { return Laws(seed).run(); }
+
+}  // namespace jourdain::tests
