@@ -97,13 +97,13 @@ void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& inp
 template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   cart_mass = parameters.cart_mass;
+  sliding_friction = parameters.sliding_friction;
+  expression = sliding_friction - parameters.static_friction;
+  c1 = Real(1.0) / parameters.stribeck_speed;
+  c4 = Real(1.0) / parameters.smoothing_speed;
   reach = parameters.reach;
   stop_stiffness = parameters.stop_stiffness;
   stop_damping = parameters.stop_damping;
-  sliding_friction = parameters.sliding_friction;
-  expression = sliding_friction - parameters.static_friction;
-  c4 = Real(1.0) / parameters.stribeck_speed;
-  c7 = Real(1.0) / parameters.smoothing_speed;
   invD_0 = Real(1.0) / cart_mass;
   c9 = cart_mass * Real(0.5);
 }
@@ -130,87 +130,87 @@ void k_bar(const Model<Real>&, const State<Real>&, Real (&k)[1]) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept {
-  const Real expression = state.y[0] - model.reach;
-  const Real expression_2 = expression * model.stop_stiffness;
-  const Real expression_3 = state.z[0] * model.stop_damping;
-  const Real expression_4 = expression_2 + expression_3;
-  const Real expression_5 = detail::larger(expression_4, Real(0.0));
-  const Real expression_6 = detail::where_negative(-expression, expression_5);
-  const Real expression_7 = state.y[0] + model.reach;
-  const Real expression_8 = model.stop_stiffness * expression_7;
-  const Real expression_9 = expression_3 + expression_8;
-  const Real expression_10 = detail::larger(-expression_9, Real(0.0));
-  const Real expression_11 = detail::where_negative(expression_7, expression_10);
-  const Real push0_0 = expression_6 - expression_11;
-  const Real expression_12 = state.z[0] * model.c4;
-  const Real expression_13 = expression_12 * expression_12;
-  const Real expression_14 = detail::exponential(-expression_13);
-  const Real expression_15 = expression_14 * model.expression;
-  const Real expression_16 = expression_15 - model.sliding_friction;
-  const Real expression_17 = state.z[0] * model.c7;
-  const Real expression_18 = detail::hyperbolic_tangent(expression_17);
-  const Real expression_19 = expression_16 * expression_18;
-  const Real push0_0_2 = push0_0 - expression_19;
-  const Real push0_0_3 = push0_0_2 - input.u[0];
-  q[0] = push0_0_3;
+  const Real expression = state.z[0] * model.c1;
+  const Real expression_2 = expression * expression;
+  const Real expression_3 = detail::exponential(-expression_2);
+  const Real expression_4 = expression_3 * model.expression;
+  const Real expression_5 = expression_4 - model.sliding_friction;
+  const Real expression_6 = state.z[0] * model.c4;
+  const Real expression_7 = detail::hyperbolic_tangent(expression_6);
+  const Real expression_8 = expression_5 * expression_7;
+  const Real push0_0 = expression_8 + input.u[0];
+  const Real expression_9 = state.y[0] + model.reach;
+  const Real expression_10 = expression_9 * model.stop_stiffness;
+  const Real expression_11 = state.z[0] * model.stop_damping;
+  const Real expression_12 = expression_10 + expression_11;
+  const Real expression_13 = detail::larger(-expression_12, Real(0.0));
+  const Real expression_14 = detail::where_negative(expression_9, expression_13);
+  const Real expression_15 = state.y[0] - model.reach;
+  const Real expression_16 = model.stop_stiffness * expression_15;
+  const Real expression_17 = expression_11 + expression_16;
+  const Real expression_18 = detail::larger(expression_17, Real(0.0));
+  const Real expression_19 = detail::where_negative(-expression_15, expression_18);
+  const Real expression_20 = expression_14 - expression_19;
+  const Real push0_0_2 = push0_0 + expression_20;
+  q[0] = -push0_0_2;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept {
-  const Real expression = state.y[0] - model.reach;
-  const Real expression_2 = expression * model.stop_stiffness;
-  const Real expression_3 = state.z[0] * model.stop_damping;
-  const Real expression_4 = expression_2 + expression_3;
-  const Real expression_5 = detail::larger(expression_4, Real(0.0));
-  const Real expression_6 = detail::where_negative(-expression, expression_5);
-  const Real expression_7 = state.y[0] + model.reach;
-  const Real expression_8 = model.stop_stiffness * expression_7;
-  const Real expression_9 = expression_3 + expression_8;
-  const Real expression_10 = detail::larger(-expression_9, Real(0.0));
-  const Real expression_11 = detail::where_negative(expression_7, expression_10);
-  const Real push0_0 = expression_6 - expression_11;
-  const Real expression_12 = state.z[0] * model.c4;
-  const Real expression_13 = expression_12 * expression_12;
-  const Real expression_14 = detail::exponential(-expression_13);
-  const Real expression_15 = expression_14 * model.expression;
-  const Real expression_16 = expression_15 - model.sliding_friction;
-  const Real expression_17 = state.z[0] * model.c7;
-  const Real expression_18 = detail::hyperbolic_tangent(expression_17);
-  const Real expression_19 = expression_16 * expression_18;
-  const Real push0_0_2 = push0_0 - expression_19;
-  const Real push0_0_3 = push0_0_2 - input.u[0];
-  const Real y_0 = push0_0_3 * model.invD_0;
-  zdot[0] = -y_0;
+  const Real expression = state.z[0] * model.c1;
+  const Real expression_2 = expression * expression;
+  const Real expression_3 = detail::exponential(-expression_2);
+  const Real expression_4 = expression_3 * model.expression;
+  const Real expression_5 = expression_4 - model.sliding_friction;
+  const Real expression_6 = state.z[0] * model.c4;
+  const Real expression_7 = detail::hyperbolic_tangent(expression_6);
+  const Real expression_8 = expression_5 * expression_7;
+  const Real push0_0 = expression_8 + input.u[0];
+  const Real expression_9 = state.y[0] + model.reach;
+  const Real expression_10 = expression_9 * model.stop_stiffness;
+  const Real expression_11 = state.z[0] * model.stop_damping;
+  const Real expression_12 = expression_10 + expression_11;
+  const Real expression_13 = detail::larger(-expression_12, Real(0.0));
+  const Real expression_14 = detail::where_negative(expression_9, expression_13);
+  const Real expression_15 = state.y[0] - model.reach;
+  const Real expression_16 = model.stop_stiffness * expression_15;
+  const Real expression_17 = expression_11 + expression_16;
+  const Real expression_18 = detail::larger(expression_17, Real(0.0));
+  const Real expression_19 = detail::where_negative(-expression_15, expression_18);
+  const Real expression_20 = expression_14 - expression_19;
+  const Real push0_0_2 = push0_0 + expression_20;
+  const Real y_0 = push0_0_2 * model.invD_0;
+  zdot[0] = y_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
-  const Real expression = state.y[0] - model.reach;
-  const Real expression_2 = expression * model.stop_stiffness;
-  const Real expression_3 = state.z[0] * model.stop_damping;
-  const Real expression_4 = expression_2 + expression_3;
-  const Real expression_5 = detail::larger(expression_4, Real(0.0));
-  const Real expression_6 = detail::where_negative(-expression, expression_5);
-  const Real expression_7 = state.y[0] + model.reach;
-  const Real expression_8 = model.stop_stiffness * expression_7;
-  const Real expression_9 = expression_3 + expression_8;
-  const Real expression_10 = detail::larger(-expression_9, Real(0.0));
-  const Real expression_11 = detail::where_negative(expression_7, expression_10);
-  const Real push0_0 = expression_6 - expression_11;
-  const Real expression_12 = state.z[0] * model.c4;
-  const Real expression_13 = expression_12 * expression_12;
-  const Real expression_14 = detail::exponential(-expression_13);
-  const Real expression_15 = expression_14 * model.expression;
-  const Real expression_16 = expression_15 - model.sliding_friction;
-  const Real expression_17 = state.z[0] * model.c7;
-  const Real expression_18 = detail::hyperbolic_tangent(expression_17);
-  const Real expression_19 = expression_16 * expression_18;
-  const Real push0_0_2 = push0_0 - expression_19;
+  const Real expression = state.z[0] * model.c1;
+  const Real expression_2 = expression * expression;
+  const Real expression_3 = detail::exponential(-expression_2);
+  const Real expression_4 = expression_3 * model.expression;
+  const Real expression_5 = expression_4 - model.sliding_friction;
+  const Real expression_6 = state.z[0] * model.c4;
+  const Real expression_7 = detail::hyperbolic_tangent(expression_6);
+  const Real expression_8 = expression_5 * expression_7;
+  const Real expression_9 = state.y[0] + model.reach;
+  const Real expression_10 = expression_9 * model.stop_stiffness;
+  const Real expression_11 = state.z[0] * model.stop_damping;
+  const Real expression_12 = expression_10 + expression_11;
+  const Real expression_13 = detail::larger(-expression_12, Real(0.0));
+  const Real expression_14 = detail::where_negative(expression_9, expression_13);
+  const Real expression_15 = state.y[0] - model.reach;
+  const Real expression_16 = model.stop_stiffness * expression_15;
+  const Real expression_17 = expression_11 + expression_16;
+  const Real expression_18 = detail::larger(expression_17, Real(0.0));
+  const Real expression_19 = detail::where_negative(-expression_15, expression_18);
+  const Real expression_20 = expression_14 - expression_19;
+  const Real push0_0 = expression_8 + expression_20;
   const Real adf0t_z = zdot[0] * model.cart_mass;
-  const Real tau_0_0 = push0_0_2 + adf0t_z;
-  tau[0] = tau_0_0;
+  const Real tau_0_0 = push0_0 - adf0t_z;
+  tau[0] = -tau_0_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION

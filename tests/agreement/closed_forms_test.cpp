@@ -17,6 +17,7 @@
 #include "shaking_cart/shaking_cart_kernels.hpp"
 #include "spring_pendulum/spring_pendulum_kernels.hpp"
 #include "tumbling_body/tumbling_body_kernels.hpp"
+#include "tumbling_box/tumbling_box_kernels.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -263,6 +264,18 @@ TEST(ClosedForms, CartBouncesBetweenItsStops) {
   const double duration = (parameters.reach + 0.2) / speed + leaves;
   state = stepped(damped, state, duration / 40000, 40000);
   EXPECT_NEAR(state.z[0], rate(leaves), 1e-4);
+}
+
+TEST(ClosedForms, ABoxComesToRestOnAFaceAndStaysThere) {
+  const tumbling_box::Parameters<> parameters;
+  const tumbling_box::Model<> model(parameters);
+  const auto landed = stepped(model, initial_state(model), 1e-3, 8000);
+  const auto end = stepped(model, landed, 1e-3, 8000);
+  // Four corners carry its weight; no step closes the gap by less than rounding leaves of it.
+  EXPECT_NEAR(end.y[2], 0.05 - parameters.mass * 9.81 / (4 * parameters.ground_stiffness), 2e-6);
+  for (const double velocity : end.z) EXPECT_NEAR(velocity, 0, 1e-5);
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(end.y[i], landed.y[i], 1e-9);
+  for (int i = 3; i < 7; ++i) EXPECT_NEAR(end.y[i], landed.y[i], 1e-9);
 }
 
 TEST(ClosedForms, DrivesPayForWhatTheyMove) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/read/keys_of_contacts.hpp"
 #include "model/read/keys_of_imports.hpp"
 #include "model/read/keys_of_kinematics.hpp"
 #include "support/check.hpp"
@@ -371,10 +372,11 @@ frame = "small_end"
 
 std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
-      model_section(),      parameter_section(), body_section(),     joint_section(), coordinate_section(),
-      frame_section(),      actuator_section(),  input_section(),    force_section(), spring_section(),
-      bushing_section(),    loop_section(),      coupler_section(),  loops_section(), output_section(),
-      kinematics_section(), import_section(),    override_section(), repeat_section()};
+      model_section(),   parameter_section(), body_section(),       joint_section(),  coordinate_section(),
+      frame_section(),   actuator_section(),  input_section(),      force_section(),  spring_section(),
+      bushing_section(), stop_section(),      contact_section(),    loop_section(),   coupler_section(),
+      loops_section(),   output_section(),    kinematics_section(), import_section(), override_section(),
+      repeat_section()};
   return sections;
 }
 

@@ -21,9 +21,9 @@ namespace {
 using support::Diagnostics;
 
 /// Tables that a file may have any number of, and that [[repeat]] may hold.
-const std::vector<std::string> kLists{"import",   "override",   "body",  "joint",  "frame",
-                                      "actuator", "input",      "force", "spring", "bushing",
-                                      "output",   "kinematics", "loop",  "coupler"};
+const std::vector<std::string> kLists{"import", "override", "body",   "joint",   "frame",  "actuator",
+                                      "input",  "force",    "spring", "bushing", "output", "kinematics",
+                                      "loop",   "coupler",  "stop",   "contact"};
 
 class TomlReader {
  public:
@@ -54,6 +54,8 @@ class TomlReader {
     attach_imports(file_, imports, mechanism);
     read_inputs(file_, repeats_.tables("input"), mechanism);
     read_forces(file_, repeats_.tables("force"), mechanism);
+    read_stops(file_, repeats_.tables("stop"), mechanism);
+    read_contacts(file_, repeats_.tables("contact"), mechanism);
     read_springs(file_, repeats_.tables("spring"), mechanism);
     read_bushings(file_, repeats_.tables("bushing"), mechanism);
     read_outputs(file_, repeats_.tables("output"), mechanism);

@@ -52,6 +52,10 @@ const Scope& time_scope();
 /// The scalar coordinate of `joint` that the table's 'coordinate' names; nothing after a diagnostic.
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint);
 
+/// All [[stop]] tables: forces on coordinates; all [[contact]] tables: loads on frames.
+void read_stops(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_contacts(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+
 /// All [[kinematics]] tables; each makes one function per entry of its quantities.
 void read_kinematics(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 

@@ -1,0 +1,55 @@
+#include "model/read/keys_of_contacts.hpp"
+
+namespace jourdain::model {
+
+KeySection stop_section() {
+  return {"stop",
+          "[[stop]]",
+          "Elastic ends of a coordinate's way: beyond one it is pushed back by max(stiffness d + damping d', "
+          "0) at a "
+          "depth d, never pulled.",
+          {{"name", "text", "", "its number", "for messages"},
+           {"joint", "name", "", kRequired, "whose coordinate is stopped"},
+           {"coordinate", "word", "", "its only one", "of a joint with several"},
+           {"lower", "number", "rad, m", "none", "lower, upper or both"},
+           {"upper", "number", "rad, m", "none", ""},
+           {"stiffness", "number", "N m/rad, N/m", kRequired, "positive"},
+           {"damping", "number", "N m s/rad, N s/m", "0", "not negative"}},
+          R"([[stop]]
+joint = "piston"
+upper = 1.0
+stiffness = 1e5
+damping = 10
+)"};
+}
+
+KeySection contact_section() {
+  return {"contact",
+          "[[contact]]",
+          "A fixed plane against a frame's origin. At a depth d it pushes by N = max(stiffness d^exponent (1 "
+          "+ damping "
+          "d'), 0) along its normal (Hunt and Crossley), and by friction N v/sqrt(v^2 + slip_speed^2) "
+          "against the "
+          "velocity v along it; on a slope of angle a less than atan(friction) it creeps, with slip_speed "
+          "tan(a)/sqrt(friction^2 - tan(a)^2).",
+          {{"name", "text", "", "its number", "for messages"},
+           {"frame", "name", "", kRequired, "a [[frame]] or a body"},
+           {"point", "3 numbers", "m", "[0, 0, 0]", "of the plane, in the inertial frame"},
+           {"normal", "3 constants", "", "[0, 0, 1]", "out of the ground, in the inertial frame"},
+           {"stiffness", "number", "N/m", kRequired, "positive; N/m^exponent"},
+           {"exponent", "constant", "", "1", "between 1 and 10; of spheres 1.5"},
+           {"damping", "number", "s/m", "0", "not negative"},
+           {"friction", "number", "", "0", "coefficient"},
+           {"slip_speed", "number", "m/s", kRequired, "with friction: below it friction is smoothed"}},
+          R"([[contact]]
+frame = "small_end"
+point = [-1, 0, 0]
+normal = [1, 0, 0]
+stiffness = 1e4
+damping = 0.5
+friction = 0.3
+slip_speed = 0.01
+)"};
+}
+
+}  // namespace jourdain::model
