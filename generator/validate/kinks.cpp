@@ -34,6 +34,10 @@ ValueId distance(ir::Program& program, std::size_t i) {
   return appended(program, {.op = Op::kSin, .a = angle});
 }
 
+bool is_near_zero(const ScaledReal& distance) {
+  return std::fabs(static_cast<long double>(distance)) <= kNear * distance.scale();
+}
+
 }  // namespace
 
 std::string in_words(const Kinks& kinks) {
@@ -66,12 +70,18 @@ KinkSurvey::Look KinkSurvey::look(ir::LeafValues<ScaledReal> leaves) const {
     for (const ScaledReal& value : ir::interpret(program, leaves)) look.distances.push_back(value);
   const ScaledReal zero;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (seen_[i].is_stuck) continue;
     const ScaledReal& d = look.distances[i];
-    const auto size = std::fabs(static_cast<long double>(d));
-    look.is_near = look.is_near || (size > 0 && size < kNear * d.scale());
+    look.is_near = look.is_near || (d != zero && is_near_zero(d));
     look.is_new = look.is_new || (d < zero && !seen_[i].below) || (d > zero && !seen_[i].above);
   }
   return look;
+}
+
+void KinkSurvey::disregard_stuck(const std::vector<Look>& looks) {
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+    seen_[i].is_stuck = std::all_of(looks.begin(), looks.end(),
+                                    [i](const Look& look) { return is_near_zero(look.distances[i]); });
 }
 
 void KinkSurvey::take(const Look& look) {
@@ -91,7 +101,8 @@ void KinkSurvey::take(const Look& look) {
 }
 
 bool KinkSurvey::is_complete() const {
-  return std::all_of(seen_.begin(), seen_.end(), [](const Seen& kink) { return kink.below && kink.above; });
+  return std::all_of(seen_.begin(), seen_.end(),
+                     [](const Seen& kink) { return kink.is_stuck || (kink.below && kink.above); });
 }
 
 /// A kink that several functions have is one: their distances are the same at all states.
@@ -100,7 +111,7 @@ Kinks KinkSurvey::kinks() const {
   for (const Seen& kink : seen_) {
     std::vector<double> sizes;
     for (const double d : kink.distances) sizes.push_back(std::fabs(d));
-    distinct[sizes] = kink.below && kink.above;
+    distinct[sizes] = kink.below && kink.above && !kink.is_stuck;
   }
   Kinks kinks{distinct.size(), 0, nearest_, left_out_};
   for (const auto& [sizes, both] : distinct) kinks.on_both_sides += both ? 1 : 0;

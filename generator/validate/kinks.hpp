@@ -33,6 +33,8 @@ class KinkSurvey {
   };
   /// At a state; leaves without constants.
   Look look(ir::LeafValues<ScaledReal> leaves) const;
+  /// A kink that all of these states are near to, or on, is no reason to leave one out: nothing would be compared.
+  void disregard_stuck(const std::vector<Look>& looks);
   /// The state is compared, or left out because it is near.
   void take(const Look& look);
 
@@ -43,7 +45,7 @@ class KinkSurvey {
  private:
   struct Seen {
     std::vector<double> distances;  ///< at the states compared
-    bool below = false, above = false;
+    bool below = false, above = false, is_stuck = false;
   };
 
   std::vector<ir::Program> programs_;  ///< of each function with kinks their distances

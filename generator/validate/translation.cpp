@@ -101,8 +101,12 @@ std::vector<Sample> on_both_sides(const model::Mechanism& mechanism, std::vector
                                   KinkSurvey& survey) {
   constexpr std::size_t kFarDraws = 200;
   if (!survey.has_kinks()) return samples;
+  const auto look_at = [&](const Sample& sample) { return survey.look(point_at(mechanism, sample).exact); };
+  std::vector<KinkSurvey::Look> looks;
+  for (const Sample& sample : samples) looks.push_back(look_at(sample));
+  survey.disregard_stuck(looks);
   const auto is_left_out = [&](const Sample& sample) {
-    const KinkSurvey::Look look = survey.look(point_at(mechanism, sample).exact);
+    const KinkSurvey::Look look = look_at(sample);
     survey.take(look);
     return look.is_near;
   };
@@ -111,7 +115,7 @@ std::vector<Sample> on_both_sides(const model::Mechanism& mechanism, std::vector
   for (std::size_t i = 0; i < kFarDraws && !survey.is_complete(); ++i) {
     const std::optional<Sample> sample = far.draw();
     if (!sample) continue;
-    const KinkSurvey::Look look = survey.look(point_at(mechanism, *sample).exact);
+    const KinkSurvey::Look look = look_at(*sample);
     if (!look.is_new || look.is_near) continue;
     survey.take(look);
     samples.push_back(*sample);

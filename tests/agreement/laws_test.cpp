@@ -84,6 +84,16 @@ TEST(Laws, MayStartOnAKink) {
   }
 }
 
+/// A frame that never moves, but for rounding: its speed is on the kink in every state.
+TEST(Laws, MayStayOnAKink) {
+  const std::string frame = "[[frame]]\nname = \"tip\"\nbody = \"c\"\n";
+  for (const char* law : {"abs(tip.y*0.8 - tip.z*0.6)", "max(tip.y*0.8 - tip.z*0.6, 0) + min(s, 0)"}) {
+    const validate::Verdict verdict = verdict_of(with_law(law, frame));
+    EXPECT_TRUE(verdict.accepted()) << law << ": " << verdict.failures.front();
+    EXPECT_GE(verdict.states, 6u) << law;
+  }
+}
+
 std::vector<Op> others(Op op) {
   switch (op) {
     case Op::kExp:

@@ -15,6 +15,7 @@
 #include "properties/random_scene.hpp"
 #include "properties/to_toml.hpp"
 #include "reference/descriptor.hpp"
+#include "validate/kinks.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -137,6 +138,22 @@ const char* group(const model::Mechanism& mechanism) {
   return moved && free ? "free, motion" : moved ? "motion" : free ? "free" : "others";
 }
 
+/// Where rounding chooses the side, forces may jump.
+bool is_on_a_kink(const Derived& derived, const Sample& sample) {
+  ir::LeafValues<support::ScaledReal> leaves;
+  const auto take = [&](ir::LeafKind kind, const std::vector<double>& values) {
+    leaves[kind].assign(values.begin(), values.end());
+  };
+  take(ir::LeafKind::kParameter, sample.parameters);
+  take(ir::LeafKind::kPosition, sample.y);
+  take(ir::LeafKind::kVelocity, sample.z);
+  take(ir::LeafKind::kAcceleration, sample.zdot);
+  take(ir::LeafKind::kInput, sample.u);
+  take(ir::LeafKind::kTime, {sample.t});
+  const validate::KinkSurvey survey(derived.module);
+  return survey.look(leaves).is_near;
+}
+
 using Draw = model::Mechanism (*)(std::uint64_t seed);
 
 void expect_agreement(Draw draw, std::uint64_t scenes, double forward) {
@@ -144,6 +161,7 @@ void expect_agreement(Draw draw, std::uint64_t scenes, double forward) {
   for (std::uint64_t seed = 0; seed < scenes; ++seed) {
     const Derived derived = derive(draw(seed));
     const Sample sample = random_sample(derived.mechanism, seed);
+    if (is_on_a_kink(derived, sample)) continue;
     const Comparison compare(derived, sample);
     Worst& w = worst[group(derived.mechanism)];
     ++w.scenes;
@@ -163,6 +181,9 @@ void expect_agreement(Draw draw, std::uint64_t scenes, double forward) {
     w.condition = std::max(w.condition, compare.condition());
     ASSERT_FALSE(testing::Test::HasFailure());
   }
+  int compared = 0;
+  for (const auto& [name, w] : worst) compared += w.scenes;
+  EXPECT_GE(compared, 0.95 * double(scenes));
   fmt::print("{:<13} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9}\n", "scenes", "", "backward",
              "fwd/cond", "entries", "outputs", "reference", "descriptor", "cond(M)");
   for (const auto& [name, w] : worst)

@@ -298,7 +298,8 @@ void expect_independence(const jourdain_interface& table, void* self) {
         }
     }
   }
-  EXPECT_GE(changed * 3, named) << "of " << named << " dependences";
+  constexpr int kShare = 4;  // a box in the air does not feel the ground
+  EXPECT_GE(changed * kShare, named) << "of " << named << " dependences";
   set(start);
 }
 

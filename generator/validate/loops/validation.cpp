@@ -198,14 +198,21 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   const std::size_t output_numbers = programs::scene_facts(mechanism, &plan).output_numbers();
   const std::vector<Ray> rays = draw_rays(numeric, plan, mechanism, states);
   support::Uniform uniform(23);
+  std::vector<Point> points;
   for (const Ray& ray : rays) {
     Point point = point_of(ray, &ray == &rays[0] ? parameters : varied(mechanism, plan, uniform), closure);
     if (plan.is_reduced() && !(opening(scene, point.exact) < ScaledReal(1e-50)))
       point = point_of(ray, parameters, closure);  // out of reach
     point.output_numbers = output_numbers;
+    points.push_back(std::move(point));
+  }
+  std::vector<KinkSurvey::Look> looks;
+  for (const Point& point : points) looks.push_back(survey.look(point.exact));
+  survey.disregard_stuck(looks);
+  for (const Point& point : points) {
     const KinkSurvey::Look look = survey.look(point.exact);
     survey.take(look);
-    if (!look.is_near) comparison.compare(point, std::size_t(&ray - &rays[0]) < kOpened);
+    if (!look.is_near) comparison.compare(point, std::size_t(&point - points.data()) < kOpened);
   }
   verdict.kinks = survey.kinks();
   verdict.states = rays.size() - verdict.kinks.left_out;
