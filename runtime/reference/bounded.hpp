@@ -51,7 +51,7 @@ struct Bounded {
   friend Bounded value_of(support::Function function, const Bounded& a, const Bounded& b) {
     using std::cosh, std::exp, std::log, std::sinh;
     using support::Function, support::value_of;
-    const Scalar value = value_of(function, a.value, b.value), one = Scalar(1);
+    const Scalar result = value_of(function, a.value, b.value), one = Scalar(1);
     Scalar moved = Scalar(0);
     switch (function) {
       case Function::kAtan2: {
@@ -60,7 +60,7 @@ struct Bounded {
         break;
       }
       case Function::kExp:
-        moved = value * a.scale;
+        moved = result * a.scale;
         break;
       case Function::kLog:
         moved = a.scale / a.value;
@@ -72,12 +72,12 @@ struct Bounded {
         moved = size(sinh(a.value)) * a.scale;
         break;
       case Function::kTanh:
-        moved = (one - value * value) * a.scale;
+        moved = (one - result * result) * a.scale;
         break;
       case Function::kPower:
         if (size(a.value) > Scalar(0))
           moved =
-              size(value) * (size(b.value) * a.scale / size(a.value) + b.scale * size(log(size(a.value))));
+              size(result) * (size(b.value) * a.scale / size(a.value) + b.scale * size(log(size(a.value))));
         break;
       case Function::kAbs:
       case Function::kFloor:
@@ -89,9 +89,10 @@ struct Bounded {
         break;
       case Function::kWhereNegative:
       case Function::kWhereNotNegative:
-        return {value, (a.value < Scalar(0)) == (function == Function::kWhereNegative) ? b.scale : Scalar(0)};
+        return {result,
+                (a.value < Scalar(0)) == (function == Function::kWhereNegative) ? b.scale : Scalar(0)};
     }
-    return {value, size(value) + moved};
+    return {result, size(result) + moved};
   }
 
  private:
