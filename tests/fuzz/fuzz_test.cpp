@@ -17,7 +17,7 @@ namespace {
 
 TEST(Fuzz, EveryCaseEndsAsItMay) {
   // Each is a run of the whole command: fewer than of other random tests.
-  const std::string count = std::to_string(draws_all_cases() ? 10000 : cases(4000));
+  const std::string count = std::to_string(draws_all_cases() ? 10000 : cases(2800));
   const support::ProcessResult run = support::run_process({JOURDAIN_FUZZ, "--seed", "1", "--cases", count});
   EXPECT_EQ(run.status, 0) << run.output;
   EXPECT_NE(run.output.find(count + " cases: "), std::string::npos) << run.output;
