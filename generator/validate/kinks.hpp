@@ -22,6 +22,11 @@ struct Kinks {
 /// "3 kinks, 2 of them compared on both sides, …"
 std::string in_words(const Kinks& kinks);
 
+/// Why a model is refused whose states are all near to some kink.
+inline constexpr const char* kAllNearKinks =
+    "nothing was compared: every state that was drawn is within rounding of a kink of abs, min, max, floor "
+    "or if";
+
 class KinkSurvey {
  public:
   explicit KinkSurvey(const ir::Module& module);

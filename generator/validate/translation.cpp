@@ -150,6 +150,7 @@ Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::
   for (std::size_t i = samples.size(); i-- > 0;)  // the initial state last, see Agreement::same
     TreeComparison(mechanism, equations, load, module, samples[i], verdict, agreement).run();
   verdict.kinks = survey.kinks();
+  if (samples.empty()) verdict.failures.emplace_back(kAllNearKinks);
   conclude(agreement, verdict);
   return verdict;
 }

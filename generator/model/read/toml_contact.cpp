@@ -38,6 +38,7 @@ void refuse_negative(TomlFile& file, const TomlTable& table, std::string_view ke
 /// max(k d + c d′, 0) at a depth d > 0 beyond each limit (Kelvin and Voigt).
 void read_stop(TomlFile& file, const TomlTable& table, const std::string& name, Mechanism& mechanism) {
   const std::optional<std::string> joint_name = table.required_text("joint");
+  if (!joint_name) return;
   const auto joint = find_named(file, table.where("joint"), table.what() + " names", "joint", *joint_name,
                                 mechanism.joints, file.complete().structure);
   const std::size_t j = joint.value_or(0);

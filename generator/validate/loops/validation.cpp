@@ -216,6 +216,7 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   }
   verdict.kinks = survey.kinks();
   verdict.states = rays.size() - verdict.kinks.left_out;
+  if (verdict.states == 0) verdict.failures.emplace_back(kAllNearKinks);
   conclude(agreement, verdict);
   return verdict;
 }
