@@ -51,7 +51,7 @@ struct RoundingPoint {
 struct Study {
   StudyOptions options;
   bool has_kinks = false;  ///< of applied forces
-  double judged = 0;  ///< s: duration, or less where the reference solutions part
+  double judged = 0;       ///< s: duration, or less where the reference solutions part
   Divergence divergence;
   std::vector<double> steps;  ///< s, descending
   ReferenceSolution reference;
