@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
+
+#include "support/csv.hpp"
 
 namespace jourdain::commands {
 
 namespace {
 
-using support::SourceRange;
+using Field = support::CsvField;
 
 struct Row {
   double t = 0;
@@ -58,40 +58,16 @@ class InputTable : public studies::Inputs {
   std::vector<Row> rows_;
 };
 
-/// Fields of one line with their columns (1 is the first character).
-struct Field {
-  std::string text;
-  int column = 1;
-};
-
-std::vector<Field> fields_of(std::string_view line) {
-  std::vector<Field> fields;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    std::size_t first = begin, last = end;
-    while (first < last && (line[first] == ' ' || line[first] == '\t')) ++first;
-    while (last > first && (line[last - 1] == ' ' || line[last - 1] == '\t')) --last;
-    fields.push_back({std::string(line.substr(first, last - first)), static_cast<int>(first) + 1});
-    begin = end + 1;
-  }
-  return fields;
-}
-
 class TableReader {
  public:
   TableReader(support::Diagnostics& diagnostics, const std::vector<std::string>& names)
       : diagnostics_(diagnostics), names_(names) {}
 
   std::vector<Row> read() {
-    const std::string_view text = diagnostics_.text();
-    for (std::size_t begin = 0; begin < text.size();) {
-      std::size_t end = std::min(text.find('\n', begin), text.size());
-      std::string_view line = text.substr(begin, end - begin);
-      if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-      ++line_;
-      if (!line.empty()) columns_.empty() ? read_header(fields_of(line)) : read_row(fields_of(line));
+    for (const support::CsvRow& row : support::csv_rows(diagnostics_.text())) {
+      line_ = row.line;
+      columns_.empty() ? read_header(row.fields) : read_row(row.fields);
       if (diagnostics_.has_errors()) return {};
-      begin = end + 1;
     }
     if (rows_.empty())
       diagnostics_.error({}, "the file has no rows of numbers", "a header, then a row per time");
@@ -123,10 +99,7 @@ class TableReader {
   }
 
   std::optional<double> number(const Field& field) {
-    double value = 0;
-    const char* end = field.text.data() + field.text.size();
-    const auto [rest, code] = std::from_chars(field.text.data(), end, value);
-    if (code == std::errc() && rest == end && std::isfinite(value)) return value;
+    if (const std::optional<double> value = support::number_in(field)) return value;
     error(field, fmt::format("'{}' is not a finite number", support::shown(field.text)));
     return {};
   }

@@ -67,6 +67,8 @@ Json value_of(std::string_view type) {
   if (is_one_of({"integer"})) return {{"type", "integer"}};
   if (is_one_of({"true, false"})) return {{"type", "boolean"}};
   if (is_one_of({"list of names", "texts"})) return list_of({{"type", "string"}});
+  if (is_one_of({"list of constants"})) return list_of(number());
+  if (is_one_of({"list of numbers or lists"})) return list_of(any_of({number(), list_of(number())}));
   if (is_one_of({"table of numbers"})) return {{"type", "object"}, {"additionalProperties", number()}};
   JD_CHECK(false, "the schema knows no type '{}'", type);
 }

@@ -13,6 +13,15 @@ using model::Variable;
 
 namespace {
 
+/// Angular velocity of a frame in the axes of the inertial one.
+Vector3 world_spin(const Scene& scene, const kinematics::BodyPose& pose, const std::string& name) {
+  if (pose.link == kGround) return kinematics::zero_vector();
+  Vector3 w = scene.omega.own[pose.link];
+  for (std::size_t j = pose.link; j != kGround; j = scene.tree.links[j].parent)
+    w = scene.frames.to_parent(j, w, fmt::format("spin_{}_{}", name, j));
+  return w;
+}
+
 /// Position, velocity or spin of a frame, by component.
 Ex frame_value(const Scene& scene, const Variable& variable) {
   const model::Frame& frame = scene.mechanism.frames[variable.index];
@@ -22,6 +31,8 @@ Ex frame_value(const Scene& scene, const Variable& variable) {
     const Vector3 w = scene.frames.to_link(pose.link, scene.omega.own[pose.link], "spin_" + frame.name);
     return scene.statements.bind("spin_" + frame.name, (transpose(pose.R_LB) * w)[variable.component]);
   }
+  if (variable.kind == Variable::Kind::kFrameWorldSpin)
+    return world_spin(scene, pose, frame.name)[variable.component];
   const PointPath path = follow_point(scene, pose.link, pose.r_LB, kGround, frame.name);
   return variable.kind == Variable::Kind::kFramePosition ? path.position[variable.component]
                                                          : path.velocity[variable.component];
@@ -42,6 +53,7 @@ Ex variable_value(const Scene& scene, const Variable& variable, Inputs inputs) {
     case Variable::Kind::kFramePosition:
     case Variable::Kind::kFrameVelocity:
     case Variable::Kind::kFrameSpin:
+    case Variable::Kind::kFrameWorldSpin:
       return frame_value(scene, variable);
     case Variable::Kind::kArgument:
       break;

@@ -9,17 +9,6 @@ namespace {
 using Op = Expression::Op;
 using Node = Expression::Node;
 
-/// Appends the nodes of `expression`; the position of its value.
-std::size_t append(std::vector<Node>& nodes, const Expression& expression) {
-  const std::size_t shift = nodes.size();
-  for (Node node : expression.nodes()) {
-    node.left += shift;
-    node.right += shift;
-    nodes.push_back(node);
-  }
-  return nodes.size() - 1;
-}
-
 double folded(const std::vector<Node>& nodes, const Node& operation) {
   const auto value = [&](std::size_t i) { return nodes[i].value; };
   switch (operation.op) {
@@ -61,9 +50,97 @@ int operand_count(const Node& node) {
   return op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply || op == Op::kDivide ? 2 : 1;
 }
 
-bool is_number(const Expression& expression, double value) {
-  return expression.is_constant() && expression.constant() == value;
-}
+/// Nodes while an expression is built, each simplified as it comes: constants are folded, exact identities applied.
+class NodeList {
+ public:
+  /// The position of the expression's value.
+  std::size_t append(const Expression& expression) {
+    const std::size_t shift = nodes_.size();
+    for (Node node : expression.nodes()) {
+      node.left += shift;
+      node.right += shift;
+      nodes_.push_back(node);
+    }
+    return nodes_.size() - 1;
+  }
+
+  /// A leaf, or an operation on earlier nodes.
+  std::size_t add(const Node& node) {
+    const int operands = operand_count(node);
+    if (operands > 0 && is_literal(node.left) && (operands == 1 || is_literal(node.right)))
+      return push({.op = Op::kLiteral, .value = folded(nodes_, node)});
+    switch (node.op) {
+      case Op::kNegate:
+        return nodes_[node.left].op == Op::kNegate ? nodes_[node.left].left : push(node);
+      case Op::kAdd:
+        if (is(node.left, 0)) return node.right;
+        return is(node.right, 0) ? node.left : push(node);
+      case Op::kSubtract:
+        if (is(node.left, 0)) return add({.op = Op::kNegate, .left = node.right, .right = node.right});
+        return is(node.right, 0) ? node.left : push(node);
+      case Op::kMultiply:
+        if (is(node.left, 0) || is(node.right, 0)) return push({.op = Op::kLiteral});
+        if (is(node.left, 1)) return node.right;
+        return is(node.right, 1) ? node.left : push(node);
+      case Op::kDivide:
+        if (is(node.left, 0)) return push({.op = Op::kLiteral});
+        return is(node.right, 1) ? node.left : push(node);
+      case Op::kPower:
+        if (node.exponent == 0) return push({.op = Op::kLiteral, .value = 1});
+        return node.exponent == 1 ? node.left : push(node);
+      case Op::kFunction:
+        return function(node);
+      default:
+        return push(node);
+    }
+  }
+
+  /// What the value at `root` needs, in order.
+  std::vector<Node> finish(std::size_t root) const {
+    std::vector<bool> is_needed(nodes_.size());
+    is_needed[root] = true;
+    for (std::size_t i = root + 1; i-- > 0;) {
+      if (!is_needed[i]) continue;
+      const int operands = operand_count(nodes_[i]);
+      if (operands >= 1) is_needed[nodes_[i].left] = true;
+      if (operands == 2) is_needed[nodes_[i].right] = true;
+    }
+    std::vector<Node> result;
+    std::vector<std::size_t> place(nodes_.size());
+    for (std::size_t i = 0; i <= root; ++i) {
+      if (!is_needed[i]) continue;
+      Node node = nodes_[i];
+      if (operand_count(node) > 0) {
+        node.left = place[node.left];
+        node.right = operand_count(node) == 2 ? place[node.right] : node.left;
+      }
+      place[i] = result.size();
+      result.push_back(node);
+    }
+    return result;
+  }
+
+ private:
+  bool is_literal(std::size_t i) const { return nodes_[i].op == Op::kLiteral; }
+  bool is(std::size_t i, double value) const { return is_literal(i) && nodes_[i].value == value; }
+
+  std::size_t push(const Node& node) {
+    nodes_.push_back(node);
+    return nodes_.size() - 1;
+  }
+
+  /// What a choice does not take need not have a value.
+  std::size_t function(const Node& node) {
+    using support::Function;
+    const bool where_negative = node.function == Function::kWhereNegative;
+    if (!where_negative && node.function != Function::kWhereNotNegative) return push(node);
+    if (is_literal(node.left))
+      return (nodes_[node.left].value < 0) == where_negative ? node.right : push({.op = Op::kLiteral});
+    return is(node.right, 0) ? node.right : push(node);
+  }
+
+  std::vector<Node> nodes_;
+};
 
 }  // namespace
 
@@ -81,24 +158,19 @@ Expression Expression::variable(const Variable& variable) {
 
 template <class Replacement>
 Expression Expression::with_leaves(const Replacement& replacement) const {
-  std::vector<Expression> values;
-  for (const Node& node : nodes_) {
-    switch (operand_count(node)) {
-      case 0:
-        values.push_back(node.op == Op::kLiteral ? Expression(node.value) : replacement(node));
-        break;
-      case 1:
-        values.push_back(node.op == Op::kPower      ? power(values[node.left], node.exponent)
-                         : node.op == Op::kFunction ? function(node.function, values[node.left])
-                                                    : unary(node.op, values[node.left]));
-        break;
-      default:
-        values.push_back(node.op == Op::kFunction
-                             ? function(node.function, values[node.left], values[node.right])
-                             : binary(node.op, values[node.left], values[node.right]));
+  NodeList list;
+  std::vector<std::size_t> place;
+  for (Node node : nodes_) {
+    const int operands = operand_count(node);
+    if (operands == 0) {
+      place.push_back(node.op == Op::kLiteral ? list.add(node) : list.append(replacement(node)));
+      continue;
     }
+    node.left = place[node.left];
+    node.right = operands == 2 ? place[node.right] : node.left;
+    place.push_back(list.add(node));
   }
-  return values.back();
+  return Expression(list.finish(place.back()));
 }
 
 Expression Expression::substituted(const std::function<Expression(const Variable&)>& replacement) const {
@@ -125,101 +197,54 @@ double Expression::constant() const {
 Expression Expression::unary(Op op, const Expression& operand) {
   JD_CHECK(op == Op::kNegate || op == Op::kSqrt || op == Op::kSin || op == Op::kCos, "operation {}",
            static_cast<int>(op));
-  Expression result;
-  result.nodes_.clear();
-  const std::size_t value = append(result.nodes_, operand);
-  const Node node{.op = op, .left = value, .right = value};
-  if (operand.is_constant()) return Expression(folded(result.nodes_, node));
-  if (op == Op::kNegate && result.nodes_.back().op == Op::kNegate && result.nodes_.back().left == value - 1) {
-    result.nodes_.pop_back();
-    return result;
-  }
-  result.nodes_.push_back(node);
-  return result;
+  return with_operand({.op = op}, operand);
 }
 
 Expression Expression::binary(Op op, const Expression& left, const Expression& right) {
-  const bool add = op == Op::kAdd;
-  const bool subtract = op == Op::kSubtract;
-  const bool multiply = op == Op::kMultiply;
-  const bool divide = op == Op::kDivide;
-  JD_CHECK(add || subtract || multiply || divide, "operation {}", static_cast<int>(op));
-  const bool constant = left.is_constant() && right.is_constant();
-  if (!constant) {
-    if ((add || subtract) && right.is_zero()) return left;
-    if (add && left.is_zero()) return right;
-    if (subtract && left.is_zero()) return unary(Op::kNegate, right);
-    if (multiply && (left.is_zero() || right.is_zero())) return Expression(0.0);
-    if (divide && left.is_zero()) return Expression(0.0);
-    if ((multiply || divide) && is_number(right, 1)) return left;
-    if (multiply && is_number(left, 1)) return right;
-  }
-  Expression result;
-  result.nodes_.clear();
-  Node node{.op = op};
-  node.left = append(result.nodes_, left);
-  node.right = append(result.nodes_, right);
-  if (constant) return Expression(folded(result.nodes_, node));
-  result.nodes_.push_back(node);
-  return result;
+  JD_CHECK(op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply || op == Op::kDivide, "operation {}",
+           static_cast<int>(op));
+  return with_operands({.op = op}, left, right);
 }
 
 Expression Expression::power(const Expression& base, int exponent) {
-  if (exponent == 0) return Expression(1.0);
-  if (exponent == 1) return base;
-  Expression result;
-  result.nodes_.clear();
-  const std::size_t value = append(result.nodes_, base);
-  const Node node{.op = Op::kPower, .exponent = exponent, .left = value, .right = value};
-  if (base.is_constant()) return Expression(folded(result.nodes_, node));
-  result.nodes_.push_back(node);
-  return result;
+  return with_operand({.op = Op::kPower, .exponent = exponent}, base);
 }
 
 Expression Expression::function(support::Function function, const Expression& operand) {
   JD_CHECK(support::facts_of(function).operands == 1, "{}", support::facts_of(function).name);
-  Expression result;
-  result.nodes_.clear();
-  const std::size_t value = append(result.nodes_, operand);
-  const Node node{.op = Op::kFunction, .function = function, .left = value, .right = value};
-  if (operand.is_constant()) return Expression(folded(result.nodes_, node));
-  result.nodes_.push_back(node);
-  return result;
+  return with_operand({.op = Op::kFunction, .function = function}, operand);
 }
 
 Expression Expression::function(support::Function function, const Expression& left, const Expression& right) {
   JD_CHECK(support::facts_of(function).operands == 2, "{}", support::facts_of(function).name);
-  using support::Function;
-  const bool selects = function == Function::kWhereNegative || function == Function::kWhereNotNegative;
-  if (selects && left.is_constant())
-    return (left.constant() < 0) == (function == Function::kWhereNegative) ? right : Expression(0.0);
-  if (selects && right.is_zero()) return right;
-  Expression result;
-  result.nodes_.clear();
-  Node node{.op = Op::kFunction, .function = function};
-  node.left = append(result.nodes_, left);
-  node.right = append(result.nodes_, right);
-  if (left.is_constant() && right.is_constant()) return Expression(folded(result.nodes_, node));
-  result.nodes_.push_back(node);
-  return result;
+  return with_operands({.op = Op::kFunction, .function = function}, left, right);
+}
+
+Expression Expression::with_operand(Node node, const Expression& operand) {
+  NodeList list;
+  node.left = node.right = list.append(operand);
+  return Expression(list.finish(list.add(node)));
+}
+
+Expression Expression::with_operands(Node node, const Expression& left, const Expression& right) {
+  NodeList list;
+  node.left = list.append(left);
+  node.right = list.append(right);
+  return Expression(list.finish(list.add(node)));
 }
 
 Expression Expression::composed(std::span<const Expression> operands, const std::vector<Node>& nodes) {
-  Expression result;
-  result.nodes_.clear();
+  NodeList list;
   std::vector<std::size_t> place;
-  for (const Expression& operand : operands) place.push_back(append(result.nodes_, operand));
+  for (const Expression& operand : operands) place.push_back(list.append(operand));
   for (Node node : nodes) {
     if (operand_count(node) > 0) {
       node.left = place.at(node.left);
       node.right = place.at(node.right);
     }
-    place.push_back(result.nodes_.size());
-    result.nodes_.push_back(node);
+    place.push_back(list.add(node));
   }
-  const bool constant =
-      std::all_of(operands.begin(), operands.end(), [](const Expression& e) { return e.is_constant(); });
-  return constant ? Expression(result.evaluate<double>({})) : result;
+  return Expression(list.finish(place.back()));
 }
 
 bool Expression::has_undefined_part(std::span<const double> parameters) const {
@@ -237,6 +262,18 @@ bool Expression::has_undefined_part(std::span<const double> parameters) const {
   return false;
 }
 
+std::size_t Expression::written_out_size() const {
+  std::vector<std::size_t> sizes;
+  for (const Node& node : nodes_) {
+    const int operands = operand_count(node);
+    std::size_t size = 1;
+    if (operands >= 1) size += sizes[node.left];
+    if (operands == 2 && node.right != node.left) size += sizes[node.right];
+    sizes.push_back(std::min(size, kMaximumWrittenOutSize + 1));
+  }
+  return sizes.back();
+}
+
 bool Expression::has_kinks() const {
   return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
     return node.op == Op::kFunction && support::facts_of(node.function).has_kinks;
@@ -250,14 +287,10 @@ bool Expression::calls(support::Function function) const {
 }
 
 Expression Expression::tangent(const Expression& operand) {
-  if (operand.is_constant()) return Expression(std::sin(operand.constant()) / std::cos(operand.constant()));
-  Expression result;
-  result.nodes_.clear();
-  const std::size_t value = append(result.nodes_, operand);
-  result.nodes_.push_back(Node{.op = Op::kSin, .left = value, .right = value});
-  result.nodes_.push_back(Node{.op = Op::kCos, .left = value, .right = value});
-  result.nodes_.push_back(Node{.op = Op::kDivide, .left = value + 1, .right = value + 2});
-  return result;
+  const std::vector<Node> nodes = {{.op = Op::kSin, .left = 0, .right = 0},
+                                   {.op = Op::kCos, .left = 0, .right = 0},
+                                   {.op = Op::kDivide, .left = 1, .right = 2}};
+  return composed({&operand, 1}, nodes);
 }
 
 }  // namespace jourdain::model

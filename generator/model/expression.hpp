@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -24,13 +25,14 @@ using ParameterIndex = support::Index<struct ParameterTag>;
 /// A quantity that changes as the mechanism moves. What an expression may refer to depends on where it stands.
 struct Variable {
   enum class Kind {
-    kTime,           ///< t, s
-    kPosition,       ///< scalar coordinate `component` of joint `index`, prescribed ones too
-    kVelocity,       ///< its rate
-    kInput,          ///< u[index]
-    kFramePosition,  ///< component x, y, z of the origin of frame `index`, inertial frame, m
-    kFrameVelocity,  ///< its velocity, inertial frame, m/s
-    kFrameSpin,      ///< component of the frame's angular velocity, in its own axes, rad/s
+    kTime,            ///< t, s
+    kPosition,        ///< scalar coordinate `component` of joint `index`, prescribed ones too
+    kVelocity,        ///< its rate
+    kInput,           ///< u[index]
+    kFramePosition,   ///< component x, y, z of the origin of frame `index`, inertial frame, m
+    kFrameVelocity,   ///< its velocity, inertial frame, m/s
+    kFrameSpin,       ///< component of the frame's angular velocity, in its own axes, rad/s
+    kFrameWorldSpin,  ///< of the same, inertial frame
     kArgument  ///< `component` of what it is a function of: a curve's coordinate; a spring's length (0), rate (1)
   };
   Kind kind = Kind::kTime;
@@ -100,6 +102,8 @@ class Expression {
   double constant() const;
   /// Some part without variables has no finite value at these parameters.
   bool has_undefined_part(std::span<const double> parameters) const;
+  /// Operations and operands where shared operands count each time; no more than a little beyond the limit.
+  std::size_t written_out_size() const;
   /// Value or derivative may jump where a variable or a parameter moves on: see support::FunctionFacts.
   bool has_kinks() const;
   /// Calls `function`.
@@ -126,6 +130,9 @@ class Expression {
   }
 
  private:
+  explicit Expression(std::vector<Node> nodes) : nodes_(std::move(nodes)) {}
+  static Expression with_operand(Node node, const Expression& operand);
+  static Expression with_operands(Node node, const Expression& left, const Expression& right);
   /// The same expression with each leaf that is no number replaced.
   template <class Replacement>
   Expression with_leaves(const Replacement& replacement) const;
@@ -143,7 +150,8 @@ struct ExpressionError {
 
 inline constexpr std::size_t kMaximumExpressionLength = 2000;
 inline constexpr int kMaximumExpressionDepth = 100;
-inline constexpr std::size_t kMaximumExpressionSize = 5000;  ///< written out, see below
+inline constexpr std::size_t kMaximumExpressionSize = 5000;     ///< with derived parameters written out
+inline constexpr std::size_t kMaximumWrittenOutSize = 1000000;  ///< with what is used twice written twice
 
 /// A name that an expression may use for a variable; it may have one dot in it ("hinge.rate").
 struct ScopeEntry {
@@ -166,9 +174,9 @@ struct MeasuredExpression {
 
 /// Parses + - * / ^ ( ), numbers, `pi`, `deg` (π/180), the functions of expression_functions.hpp, if(a < b, x, y) and
 /// the given names. `^` binds tighter than unary minus. Text over kMaximumExpressionLength or nested deeper than
-/// kMaximumExpressionDepth, or with more than kMaximumExpressionSize operations where functions that are made of
-/// others are written out, unknown names (with "did you mean"), NaN or infinity are errors, and so are sums and
-/// functions of what has the wrong dimensions (see dimensions.hpp).
+/// kMaximumExpressionDepth, or with more than kMaximumExpressionSize operations, or kMaximumWrittenOutSize where
+/// functions that are made of others are written out, unknown names (with "did you mean"), NaN or infinity are errors,
+/// and so are sums and functions of what has the wrong dimensions (see dimensions.hpp).
 std::variant<MeasuredExpression, ExpressionError> parse_expression(
     std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope = {});
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "model/composition.hpp"
+
 namespace jourdain::model {
 
 namespace {
@@ -12,37 +14,6 @@ using support::Function;
 using Op = Expression::Op;
 using Arguments = std::span<const Expression>;
 using Dimensions = NamedFunction::Dimensions;
-
-/// Nodes on top of arguments that are there once: nested functions do not grow exponentially.
-class Composition {
- public:
-  explicit Composition(Arguments arguments) : arguments_(arguments) {}
-
-  std::size_t literal(double value) { return add({.op = Op::kLiteral, .value = value}); }
-  std::size_t operation(Op op, std::size_t a, std::size_t b) {
-    return add({.op = op, .left = a, .right = b});
-  }
-  std::size_t operation(Op op, std::size_t a) { return operation(op, a, a); }
-  std::size_t function(Function function, std::size_t a, std::size_t b) {
-    return add({.op = Op::kFunction, .function = function, .left = a, .right = b});
-  }
-  std::size_t function(Function of, std::size_t a) { return function(of, a, a); }
-  std::size_t hypotenuse(std::size_t a, std::size_t b) {
-    return operation(Op::kSqrt, operation(Op::kAdd, square(a), square(b)));
-  }
-  std::size_t square(std::size_t a) { return operation(Op::kMultiply, a, a); }
-
-  Expression finish() const { return Expression::composed(arguments_, nodes_); }
-
- private:
-  std::size_t add(const Expression::Node& node) {
-    nodes_.push_back(node);
-    return arguments_.size() + nodes_.size() - 1;
-  }
-
-  Arguments arguments_;
-  std::vector<Expression::Node> nodes_;
-};
 
 template <Op op>
 Expression unary(Arguments x) {
@@ -62,8 +33,7 @@ Expression arctangent(Arguments x) { return Expression::function(Function::kAtan
 /// sqrt((1 − x) (1 + x)), the other side of the triangle.
 std::size_t other_side(Composition& make) {
   const std::size_t one = make.literal(1);
-  return make.operation(Op::kSqrt, make.operation(Op::kMultiply, make.operation(Op::kSubtract, one, 0),
-                                                  make.operation(Op::kAdd, one, 0)));
+  return make.operation(Op::kSqrt, make.product(make.difference(one, 0), make.sum(one, 0)));
 }
 
 Expression arcsine(Arguments x) {
@@ -83,30 +53,30 @@ Expression sign(Arguments x) {
   const std::size_t below = make.function(Function::kWhereNegative, 0, make.literal(-1));
   const std::size_t above =
       make.function(Function::kWhereNegative, make.operation(Op::kNegate, 0), make.literal(1));
-  make.operation(Op::kAdd, below, above);
+  make.sum(below, above);
   return make.finish();
 }
 
 /// x − m floor(x/m), in [0, m) for m > 0.
 Expression modulo(Arguments x) {
   Composition make(x);
-  const std::size_t whole = make.function(Function::kFloor, make.operation(Op::kDivide, 0, 1));
-  make.operation(Op::kSubtract, 0, make.operation(Op::kMultiply, 1, whole));
+  const std::size_t whole = make.function(Function::kFloor, make.quotient(0, 1));
+  make.difference(0, make.product(1, whole));
   return make.finish();
 }
 
 /// x / sqrt(x² + w²)
 Expression smooth_sign(Arguments x) {
   Composition make(x);
-  make.operation(Op::kDivide, 0, make.hypotenuse(0, 1));
+  make.quotient(0, make.hypotenuse(0, 1));
   return make.finish();
 }
 
 /// (1 + x / sqrt(x² + w²)) / 2
 Expression smooth_step(Arguments x) {
   Composition make(x);
-  const std::size_t half = make.literal(0.5), slope = make.operation(Op::kDivide, 0, make.hypotenuse(0, 1));
-  make.operation(Op::kAdd, half, make.operation(Op::kMultiply, half, slope));
+  const std::size_t half = make.literal(0.5), slope = make.quotient(0, make.hypotenuse(0, 1));
+  make.sum(half, make.product(half, slope));
   return make.finish();
 }
 
@@ -121,9 +91,9 @@ Expression smooth_abs(Arguments x) {
 template <Op op>
 Expression smooth_extremum(Arguments x) {
   Composition make(x);
-  const std::size_t half = make.literal(0.5), sum = make.operation(Op::kAdd, 0, 1);
-  const std::size_t distance = make.hypotenuse(make.operation(Op::kSubtract, 0, 1), 2);
-  make.operation(Op::kMultiply, half, make.operation(op, sum, distance));
+  const std::size_t half = make.literal(0.5), sum = make.sum(0, 1);
+  const std::size_t distance = make.hypotenuse(make.difference(0, 1), 2);
+  make.product(half, make.operation(op, sum, distance));
   return make.finish();
 }
 
@@ -182,7 +152,7 @@ Expression where_less(const Expression& a, const Expression& b, bool or_equal, c
   const std::array<Expression, 3> arguments = {difference, x, y};
   Composition make(arguments);
   const std::size_t taken = make.function(where_x, 0, 1);
-  make.operation(Op::kAdd, taken, make.function(where_y, 0, 2));
+  make.sum(taken, make.function(where_y, 0, 2));
   return make.finish();
 }
 
@@ -195,6 +165,12 @@ Expression real_power(const Expression& base, const Expression& exponent) {
       return Expression::power(base, static_cast<int>(p));
   }
   return Expression::function(Function::kPower, base, exponent);
+}
+
+Measure measure_of(Dimensions dimensions, const Measure& argument) {
+  if (dimensions == Dimensions::kRoot) return argument.square_root();
+  const bool is_same = dimensions == Dimensions::kKept || dimensions == Dimensions::kCommon;
+  return is_same ? argument : Measure::ratio_of(argument);
 }
 
 Measure measure_of_power(const Measure& base, const Expression& exponent, const Measure& of_exponent) {

@@ -42,6 +42,8 @@ Expression where_less(const Expression& a, const Expression& b, bool or_equal, c
 /// x^p for real p.
 Expression real_power(const Expression& base, const Expression& exponent);
 
+/// Of a function of arguments of one dimension; not of a power.
+Measure measure_of(NamedFunction::Dimensions dimensions, const Measure& argument);
 /// Of x^p.
 Measure measure_of_power(const Measure& base, const Expression& exponent, const Measure& of_exponent);
 

@@ -2,7 +2,7 @@
 //   sum := product (('+'|'-') product)*      product := signed (('*'|'/') signed)*
 //   signed := ('+'|'-') signed | power       power := primary ('^' signed)?
 //   primary := number | name | function '(' sum (',' sum)* ')' | '(' sum ')'
-//            | 'if' '(' sum ('<' | '<=' | '>' | '>=') sum ',' sum ',' sum ')'
+//            | table '(' sum (',' sum)? ')' | 'if' '(' sum ('<' | '<=' | '>' | '>=') sum ',' sum ',' sum ')'
 // Dimensions are inferred beside; the first that do not agree are an error where the syntax has none and a
 // parameter with a unit stands in the expression.
 #include <fmt/format.h>
@@ -16,6 +16,7 @@
 #include "model/expression.hpp"
 #include "model/expression_functions.hpp"
 #include "model/expression_text.hpp"
+#include "model/lookup_table.hpp"
 #include "support/diagnostics.hpp"
 
 namespace jourdain::model {
@@ -30,8 +31,9 @@ using Term = MeasuredExpression;
 
 class Parser : ExpressionText {
  public:
-  Parser(std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope)
-      : ExpressionText(text), parameters_(parameters), scope_(scope) {}
+  Parser(std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope,
+         const std::vector<LookupTable>& tables)
+      : ExpressionText(text), parameters_(parameters), scope_(scope), tables_(tables) {}
 
   Term parse() {
     Term result = sum(0);
@@ -182,6 +184,9 @@ class Parser : ExpressionText {
     const std::size_t begin = position_;
     const std::string_view word = dotted_name_at(begin);
     position_ += word.size();
+    if (next_is('('))
+      for (const LookupTable& table : tables_)
+        if (table.name == word) return value_of(table, depth);
     const auto variable = std::find_if(scope_.begin(), scope_.end(),
                                        [word](const ScopeEntry& entry) { return entry.name == word; });
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -202,6 +207,8 @@ class Parser : ExpressionText {
     if (const NamedFunction* function = find_function(word))
       fail(begin, word.size(), fmt::format("function '{}' needs an argument", word),
            fmt::format("write {}({})", word, function->count == 1 ? "..." : function->arguments));
+    for (const LookupTable& table : tables_)
+      if (table.name == word) fail(begin, word.size(), fmt::format("table '{}' needs an argument", word));
     std::vector<std::string> known;
     for (const DeclaredParameter& parameter : parameters_) known.push_back(parameter.name);
     known.insert(known.end(), {"pi", "deg"});
@@ -240,8 +247,30 @@ class Parser : ExpressionText {
     return {called(*function, arguments, begin), measure_of(function->dimensions, *common)};
   }
 
-  static std::string close_function(std::string_view word) {
-    const std::vector<std::string> known = function_names();
+  Term value_of(const LookupTable& table, int depth) {
+    const std::size_t bracket = position_;
+    accept('(');
+    std::vector<Expression> arguments;
+    for (const LookupTable::Axis& axis : table.axes) {
+      if (!arguments.empty() && !accept(','))
+        fail(bracket, position_ - bracket, fmt::format("table '{}' needs two arguments", table.name),
+             fmt::format("write {}(x, y)", table.name));
+      const std::size_t at = skip_blanks();
+      const Term argument = sum(depth + 1);
+      if (!argument.measure.plus(axis.measure))
+        note_mismatch(at,
+                      fmt::format("table '{}' needs {}, but '{}' is in {}", table.name, axis.measure.unit(),
+                                  support::shown(written(at, position_)), argument.measure.unit()));
+      arguments.push_back(argument.expression);
+    }
+    close(bracket, table.name, table.axes.size() == 1 ? "x" : "x, y");
+    strict_ = strict_ || table.has_units();
+    return {looked_up(table, arguments), table.measure};
+  }
+
+  std::string close_function(std::string_view word) const {
+    std::vector<std::string> known = function_names();
+    for (const LookupTable& table : tables_) known.push_back(table.name);
     const std::string close = support::nearest(word, known);
     return close.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
                          : fmt::format("did you mean '{}'?", close);
@@ -260,13 +289,6 @@ class Parser : ExpressionText {
                     std::size_t begin) const {
     if (function.dimensions == NamedFunction::Dimensions::kRoot) return square_root(arguments[0], begin);
     return finite(function.of(arguments), begin);
-  }
-
-  static Measure measure_of(NamedFunction::Dimensions dimensions, const Measure& argument) {
-    if (dimensions == NamedFunction::Dimensions::kRoot) return argument.square_root();
-    const bool is_same =
-        dimensions == NamedFunction::Dimensions::kKept || dimensions == NamedFunction::Dimensions::kCommon;
-    return is_same ? argument : Measure::ratio_of(argument);
   }
 
   /// if(a < b, x, y)
@@ -331,39 +353,38 @@ class Parser : ExpressionText {
 
   const std::vector<DeclaredParameter>& parameters_;
   const Scope& scope_;
+  const std::vector<LookupTable>& tables_;
   std::optional<ExpressionError> mismatch_;
   bool strict_ = false;
 };
-
-/// Operations and operands where shared operands count each time; no more than a little beyond the limit.
-std::size_t written_out(const Expression& expression) {
-  std::vector<std::size_t> sizes;
-  for (const Expression::Node& node : expression.nodes()) {
-    const bool leaf = sizes.empty() || node.op == Expression::Op::kLiteral ||
-                      node.op == Expression::Op::kParameter || node.op == Expression::Op::kVariable;
-    const std::size_t both = leaf ? 0 : sizes[node.left] + (node.right == node.left ? 0 : sizes[node.right]);
-    sizes.push_back(std::min(1 + both, kMaximumExpressionSize + 1));
-  }
-  return sizes.back();
-}
 
 }  // namespace
 
 std::variant<MeasuredExpression, ExpressionError> parse_expression(
     std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope) {
+  return parse_expression(text, parameters, scope, {});
+}
+
+std::variant<MeasuredExpression, ExpressionError> parse_expression(
+    std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope,
+    const std::vector<LookupTable>& tables) {
   if (text.size() > kMaximumExpressionLength)
     return ExpressionError{
         0, 1, fmt::format("the expression is longer than {} characters", kMaximumExpressionLength), ""};
   try {
-    Parser parser(text, parameters, scope);
+    Parser parser(text, parameters, scope, tables);
     MeasuredExpression result = parser.parse();
-    if (written_out(result.expression) > kMaximumExpressionSize)
+    if (result.expression.written_out_size() > kMaximumWrittenOutSize)
       return ExpressionError{
           0, text.size(),
           fmt::format("the expression has more than {} operations where functions are written out",
-                      kMaximumExpressionSize),
+                      kMaximumWrittenOutSize),
           "some are made of others, as tan(x) is sin(x)/cos(x): each one around another doubles what is "
           "inside"};
+    if (result.expression.nodes().size() > kMaximumExpressionSize)
+      return ExpressionError{
+          0, text.size(), fmt::format("the expression has more than {} operations", kMaximumExpressionSize),
+          "a table has some for each of its points"};
     if (parser.is_strict() && parser.mismatch()) return *parser.mismatch();
     if (!parser.is_strict()) result.measure = result.measure.times(Measure::open());
     return result;

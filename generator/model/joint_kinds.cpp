@@ -29,6 +29,8 @@ constexpr JointMotion kCurve[] = {{Kind::kCurve}};
 constexpr JointMotion kGimbal[] = {{Kind::kTurn, Along::kFirstAxis, "first"},
                                    {Kind::kTurn, Along::kMiddleAxis, "second"},
                                    {Kind::kTurn, Along::kLastAxis, "third"}};
+constexpr JointMotion kPoint[] = {
+    {Kind::kSlide, Along::kX, "x"}, {Kind::kSlide, Along::kY, "y"}, {Kind::kSlide, Along::kZ, "z"}};
 
 constexpr std::string_view kAxis[] = {"axis"};
 constexpr std::string_view kAxisAndPitch[] = {"axis", "pitch"};
@@ -51,6 +53,7 @@ constexpr auto kKinds = std::to_array<JointKind>({
     {JointType::kFree, "free", kFree, kMoving},
     {JointType::kCurve, "curve", kCurve, kOnCurve},
     {JointType::kGimbal, "gimbal", kGimbal, kSequence, LoopType::kBall},
+    {JointType::kPoint, "point", kPoint, {}},
 });
 static_assert(support::is_complete(kKinds, &JointKind::type), "a row for each JointType, in their order");
 
@@ -120,6 +123,12 @@ std::array<double, 3> direction(const Joint& joint, const JointMotion& motion) {
       return unit_axis(joint.sequence[1]);
     case Along::kLastAxis:
       return unit_axis(joint.sequence[2]);
+    case Along::kX:
+      return unit_axis(0);
+    case Along::kY:
+      return unit_axis(1);
+    case Along::kZ:
+      return unit_axis(2);
     case Along::kNone:
       break;
   }

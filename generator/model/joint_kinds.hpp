@@ -32,7 +32,10 @@ enum class Along {
   kSecondInPlane,  ///< the second
   kFirstAxis,      ///< x, y or z, as the first of `Joint::sequence` says
   kMiddleAxis,     ///< the second
-  kLastAxis        ///< the third
+  kLastAxis,       ///< the third
+  kX,              ///< of the joint's frame
+  kY,
+  kZ
 };
 
 /// A joint is a chain of these: each moves the frame in which the next one is given.

@@ -94,8 +94,9 @@ enum class JointType {
                ///< child components
   kFree,       ///< parent is the world, no placement: position, quaternion; z: velocity of the child's origin
                ///< (inertial frame), ω (child components)
-  kCurve,  ///< the child's origin is at `curve`(y) in the joint frame; the child does not turn
-  kGimbal  ///< three angles, each about the axis of the frame turned so far that `sequence` names
+  kCurve,   ///< the child's origin is at `curve`(y) in the joint frame; the child does not turn
+  kGimbal,  ///< three angles, each about the axis of the frame turned so far that `sequence` names
+  kPoint    ///< displacements along x, y and z of the joint frame; the child does not turn
 };
 
 /// One scalar coordinate of a joint. Force on it: −stiffness (y − rest) − damping z − friction z/√(z² +

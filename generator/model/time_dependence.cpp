@@ -61,6 +61,7 @@ class OutputTime {
       case Variable::Kind::kFramePosition:
       case Variable::Kind::kFrameVelocity:
       case Variable::Kind::kFrameSpin:
+      case Variable::Kind::kFrameWorldSpin:
         return frame_depends(FrameIndex(variable.index));
       case Variable::Kind::kInput:
       case Variable::Kind::kArgument:

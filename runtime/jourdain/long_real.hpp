@@ -79,7 +79,7 @@ class LongReal {
   friend LongReal pow(const LongReal& a, const LongReal& b) {
     if (cln::zerop(b.value_)) return made(of(1), a, b);
     if (cln::zerop(a.value_)) return cln::plusp(b.value_) ? made(zero(), a, b) : nothing();
-    const LongReal size = fabs(a), power = exp(b * log(size));
+    LongReal power = exp(b * log(fabs(a)));
     if (!cln::minusp(a.value_)) return power;
     const cln::cl_I whole = cln::floor1(b.value_);
     if (!(b.value_ == cln::cl_float(whole, format()))) return nothing();

@@ -35,6 +35,8 @@ Scalar value(const model::Expression& expression, const Scene<Scalar>& scene,
         return scene.frames.at(i).v_F[component];
       case Variable::Kind::kFrameSpin:
         return scene.frames.at(i).omega[component];
+      case Variable::Kind::kFrameWorldSpin:
+        return scene.frames.at(i).R_WF.row(component).dot(scene.frames.at(i).omega);
       case Variable::Kind::kArgument:
         JD_CHECK(v.component < arguments.size(), "argument {} of {}", v.component, arguments.size());
         return arguments[v.component];

@@ -106,6 +106,10 @@ class Measuring {
         points_coincide();
         measure_gimbal();
         break;
+      case JointType::kPoint:
+        orientation_is_locked();
+        for (const T& component : p_JC_) add_coordinate(component);
+        break;
     }
     return std::move(result_);
   }
@@ -303,6 +307,8 @@ Pose<TimeJet<Scalar>> child_pose(const Joint<Scalar>& joint, const Pose<TimeJet<
       for (std::size_t k = 0; k < 3; ++k)
         frame.R_WF *= rotation_about<T>(Vector3<Scalar>::Unit(joint.sequence[k]).template cast<T>(), y[k]);
       return frame;
+    case JointType::kPoint:
+      return frame.moved(aligned, {y[0], y[1], y[2]});
     case JointType::kSpherical:
     case JointType::kFree:
       break;

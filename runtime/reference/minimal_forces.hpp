@@ -42,6 +42,8 @@ Bounded<Scalar> Reference<Scalar>::general(const model::Expression& expression, 
         const FrameMotion& f = at.frames[v.index];
         return {f.R.col(k).dot(f.omega), f.R.col(k).cwiseAbs().dot(f.omega_scale)};
       }
+      case Kind::kFrameWorldSpin:
+        return {at.frames[v.index].omega[k], at.frames[v.index].omega_scale[k]};
       case Kind::kArgument:
         break;
     }

@@ -117,6 +117,9 @@ typename Reference<Scalar>::FrameMotion Reference<Scalar>::child_motion(const Fr
       turn(2, axis);
       break;
     }
+    case JointType::kPoint:
+      for (std::size_t k = 0; k < 3; ++k) slide(k, Vector3<Scalar>::Unit(Eigen::Index(k)), 1);
+      break;
     case JointType::kCurve: {
       const Taylor<Scalar> q = coordinate(index, 0, state);
       Vector3<Scalar> place, slope, curvature;

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
+#include <vector>
 
 #include "agreement/shared_data.hpp"
 #include "cart_stops/cart_stops_kernels.hpp"
@@ -14,10 +16,12 @@
 #include "hoop_bead/hoop_bead_kernels.hpp"
 #include "lagrange_top/lagrange_top_kernels.hpp"
 #include "quadrotor/quadrotor_kernels.hpp"
+#include "rolling_ball/rolling_ball_kernels.hpp"
 #include "shaking_cart/shaking_cart_kernels.hpp"
 #include "spring_pendulum/spring_pendulum_kernels.hpp"
 #include "tumbling_body/tumbling_body_kernels.hpp"
 #include "tumbling_box/tumbling_box_kernels.hpp"
+#include "wind_turbine/wind_turbine_kernels.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -276,6 +280,56 @@ TEST(ClosedForms, ABoxComesToRestOnAFaceAndStaysThere) {
   for (const double velocity : end.z) EXPECT_NEAR(velocity, 0, 1e-5);
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(end.y[i], landed.y[i], 1e-9);
   for (int i = 3; i < 7; ++i) EXPECT_NEAR(end.y[i], landed.y[i], 1e-9);
+}
+
+/// Friction at the radius changes m v + I w/r by nothing, whatever its law is.
+TEST(ClosedForms, ABallRollsAtLastWithWhatItsThrowAndItsSpinGiveIt) {
+  const rolling_ball::Parameters<> parameters;
+  const rolling_ball::Model<> model(parameters);
+  const auto thrown = initial_state(model);
+  const auto rolling = stepped(model, thrown, 1e-4, 500000);
+  const double r = parameters.radius, last = (thrown.z[0] + 0.4 * r * thrown.z[4]) / 1.4;
+  EXPECT_LT(last, -1);
+  EXPECT_NEAR(rolling.z[0], last, 1e-8);
+  EXPECT_NEAR(r * rolling.z[4], last, 1e-8);
+  EXPECT_NEAR(rolling.z[2], 0, 1e-6);
+  const double depth = std::pow(parameters.mass * 9.81 / parameters.ground_stiffness, 1 / 1.5);
+  EXPECT_NEAR(rolling.y[2], r - depth, 1e-7);
+}
+
+/// In a steady wind the generator takes what the wind gives: the torque of the coefficients' table, interpolated here,
+/// and the generator's law, of which its table has points.
+TEST(ClosedForms, AWindTurbineSettlesWhereItsTablesMeet) {
+  const wind_turbine::Parameters<> parameters;
+  const wind_turbine::Model<> model(parameters);
+  const std::vector<double> ratios = {2, 4, 6, 7, 8, 9, 10, 12, 14};
+  const std::vector<double> at_0_deg = {0.0075, 0.0350, 0.0626, 0.0645, 0.0600,
+                                        0.0513, 0.0404, 0.0163, -0.0065};
+  const std::vector<double> at_5_deg = {0.0085, 0.0281, 0.0430, 0.0444, 0.0430,
+                                        0.0397, 0.0353, 0.0253, 0.0157};
+  for (const double wind : {9.5, 10.0}) {
+    auto state = initial_state(model);
+    const double pitch = 2 * pi / 180;
+    for (int i = 0; i < 60000; ++i) rk4_step(model, state, {{wind, pitch}}, 0.01);
+    const double rate = state.z[0], ratio = parameters.radius * rate / wind;
+    const auto k =
+        static_cast<std::size_t>(std::upper_bound(ratios.begin(), ratios.end(), ratio) - ratios.begin());
+    ASSERT_TRUE(k > 0 && k < ratios.size()) << ratio;
+    const auto mixed = [&](std::size_t i) { return at_0_deg[i] + 0.4 * (at_5_deg[i] - at_0_deg[i]); };
+    const double share = (ratio - ratios[k - 1]) / (ratios[k] - ratios[k - 1]);
+    const double coefficient = mixed(k - 1) + share * (mixed(k) - mixed(k - 1));
+    const double torque =
+        parameters.density / 2 * pi * std::pow(parameters.radius, 3) * wind * wind * coefficient;
+    wind_turbine::Outputs<> results;
+    outputs(model, state, {{wind, pitch}}, results);
+    EXPECT_NEAR(results.power / (torque * rate), 1, 1e-9);
+    const double rpm = parameters.gear * rate * 30 / pi;
+    ASSERT_TRUE(rpm > 871 && rpm < 1100) << rpm;
+    EXPECT_NEAR(results.power / (parameters.gear * rate * 0.0255764 * rpm * rpm), 1, 2e-3);
+    EXPECT_NEAR(state.y[1], -parameters.gear * results.power / (parameters.gear * rate) / 8.67637e8, 1e-12);
+    fmt::print("wind {} m/s: tip speed ratio {:.3f}, {:.0f} rpm, {:.2f} MW\n", wind, ratio, rpm,
+               results.power / 1e6);
+  }
 }
 
 TEST(ClosedForms, DrivesPayForWhatTheyMove) {

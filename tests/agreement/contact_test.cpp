@@ -177,6 +177,35 @@ TEST(Stops, PushBackAtBothEnds) {
   EXPECT_EQ(force(-0.5, 9), 0);
 }
 
+TEST(Springs, PullOnlyOrPushOnly) {
+  const std::string spring =
+      "[[spring]]\nfrom = \"world\"\nto = \"ball\"\nstiffness = 100\nfree_length = 1\n";
+  const auto force = [&](const Derived& derived, double x, double rate) {
+    return 2 * interpreted<double>(derived.module, "forward_dynamics", at({x, 0, 0}, {rate, 0, 0}))[0];
+  };
+  const Derived rope = particle(spring + "damping = 3\nacts = \"pulling\"\n");
+  EXPECT_EQ(force(rope, 0.8, 5), 0);
+  EXPECT_NEAR(force(rope, 1.2, 0.5), -(100 * 0.2 + 3 * 0.5), 1e-12);
+  EXPECT_EQ(force(rope, 1.2, -7), 0);
+  const Derived gap = particle(spring + "damping = 3\nacts = \"pushing\"\n");
+  EXPECT_EQ(force(gap, 1.2, -5), 0);
+  EXPECT_NEAR(force(gap, 0.9, -0.5), 100 * 0.1 + 3 * 0.5, 1e-12);
+  EXPECT_EQ(force(gap, 0.9, 4), 0);
+  const Derived elastic = particle(spring + "acts = \"pulling\"\n");
+  EXPECT_TRUE(elastic.mechanism.springs[0].conserves_energy());
+  EXPECT_FALSE(rope.mechanism.springs[0].conserves_energy());
+  const auto energy = [&](double length) {
+    return elastic.mechanism.springs[0].potential.value().evaluate<double>(
+        {}, [](double v) { return v; }, [&](const model::Variable&) { return length; });
+  };
+  EXPECT_EQ(energy(0.7), 0);
+  EXPECT_NEAR(energy(1.3), 50 * 0.09, 1e-14);
+  // It comes back from the rope with the speed that it had.
+  const Sample end = moved(elastic, at({0.999999, 0, 0}, {2, 0, 0}), 1e-4,
+                           [](const Sample& s) { return s.z[0] < 0 && s.y[0] < 0.99; });
+  EXPECT_NEAR(end.z[0], -2, 1e-6);
+}
+
 /// The second reference, which takes bodies one by one, moves likewise.
 TEST(Contact, MovesAsTheSecondReferenceSays) {
   const Derived derived = particle(

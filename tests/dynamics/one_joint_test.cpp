@@ -167,6 +167,18 @@ TEST(OneJoint, AGimbalIsThreeHingesWithNothingBetween) {
   }
 }
 
+TEST(OneJoint, APointIsAMassThatDoesNotTurn) {
+  const EquationsAt e =
+      equations_at(one_body(kBody, "type = \"point\"\nrpy = [0.5, 0, 0]\nx = { stiffness = 3 }"),
+                   {{0.1, 0.2, 0.3}, {5, 6, 7}});
+  EXPECT_THAT(e.M[0], ElementsAre(near(m), near(0), near(0)));
+  EXPECT_THAT(e.M[1], ElementsAre(near(0), near(m), near(0)));
+  EXPECT_THAT(e.M[2], ElementsAre(near(0), near(0), near(m)));
+  EXPECT_THAT(e.k_bar, ElementsAre(near(0), near(0), near(0)));
+  EXPECT_THAT(e.q_bar, ElementsAre(near(3 * 0.1), near(m * g * std::sin(0.5)), near(m * g * std::cos(0.5))));
+  EXPECT_NEAR(e.kinetic_energy, m * (25 + 36 + 49) / 2.0, kRounding);
+}
+
 // m v̇ = m g, I ω̇ = −ω × I ω with diagonal I.
 TEST(OneJoint, AFreeBodyObeysNewtonAndEuler) {
   const EquationsAt e = equations_at(one_body("mass = 2\ninertia = [1, 2, 2.5]", "type = \"free\""),

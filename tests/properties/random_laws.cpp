@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <vector>
 
 #include "model/coordinates.hpp"
 #include "model/expression_functions.hpp"
+#include "model/lookup_table.hpp"
 #include "properties/arithmetic.hpp"
 #include "properties/random.hpp"
 #include "properties/random_scene.hpp"
@@ -74,6 +76,7 @@ class Laws {
       const std::size_t frame = random_.below(mechanism_.frames.size()), axis = random_.below(3);
       choice.push_back(variable(Variable::Kind::kFramePosition, frame, axis));
       choice.push_back(variable(Variable::Kind::kFrameVelocity, frame, axis));
+      choice.push_back(variable(Variable::Kind::kFrameWorldSpin, frame, axis));
     }
     return choice[random_.below(choice.size())];
   }
@@ -108,7 +111,7 @@ class Laws {
   Expression law(const Expression& a, const Expression& b,
                  const Expression& clock = variable(Variable::Kind::kTime)) {
     const Expression zero(0.0), limit(number(-0.5, 0.5));
-    switch (random_.below(8)) {
+    switch (random_.below(10)) {
       case 0:
         return call("abs", {a}) * b;
       case 1:
@@ -125,10 +128,32 @@ class Laws {
         return model::where_less(zero, a, false, call("log", {a + Expression(0.1)}),
                                  call("pow", {zero - a, Expression(1.5)}));
       case 6:
+        return model::looked_up(table(1), {&a, 1});
+      case 7: {
+        const std::array<Expression, 2> arguments = {a, b};
+        return model::looked_up(table(2), arguments);
+      }
+      case 8:
         return call("mod", {clock, Expression(0.7)}) * a + call("floor", {Expression(2.3) * clock});
       default:
         return smooth(a, b);
     }
+  }
+
+  model::LookupTable table(std::size_t axes) {
+    model::LookupTable table;
+    std::size_t values = 1;
+    for (std::size_t i = 0; i < axes; ++i) {
+      std::vector<double> points = {number(-2, 0)};
+      const std::size_t count = 2 + random_.below(5);
+      while (points.size() < count) points.push_back(points.back() + number(0.3, 1));
+      values *= count;
+      table.axes.push_back({points});
+    }
+    table.beyond = random_.chance(0.5) ? model::Beyond::kHold : model::Beyond::kExtend;
+    for (std::size_t i = 0; i < values; ++i) table.values.emplace_back(number(-1, 1));
+    if (axes == 1) table.interpolation = static_cast<model::Interpolation>(random_.below(3));
+    return table;
   }
 
   model::Mechanism mechanism_;

@@ -110,6 +110,8 @@ class Writer {
         return fmt::format("{}.v{}", mechanism_.frames[v.index].name, kAxes[v.component]);
       case Kind::kFrameSpin:
         return fmt::format("{}.w{}", mechanism_.frames[v.index].name, kAxes[v.component]);
+      case Kind::kFrameWorldSpin:
+        return fmt::format("{}.world_w{}", mechanism_.frames[v.index].name, kAxes[v.component]);
       case Kind::kArgument:
         return arguments_[v.component];
     }

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/expression_sums.hpp"
+
 namespace jourdain::model {
 
 namespace {
@@ -20,7 +22,7 @@ bool is_identity(const Placement& placement) { return is_zero(placement.position
 
 Vector3 sum(const Vector3& a, const Vector3& b) {
   Vector3 result;
-  for (std::size_t k = 0; k < 3; ++k) result[k] = Expression::binary(Op::kAdd, a[k], b[k]);
+  for (std::size_t k = 0; k < 3; ++k) result[k] = plus(a[k], b[k]);
   return result;
 }
 
@@ -36,12 +38,9 @@ Vector3 turned(const Vector3& v, std::size_t k, const Expression& angle) {
   if (angle.is_zero()) return v;
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
   const Expression s = Expression::unary(Op::kSin, angle), c = Expression::unary(Op::kCos, angle);
-  const auto times = [](const Expression& a, const Expression& b) {
-    return Expression::binary(Op::kMultiply, a, b);
-  };
   Vector3 result = v;
-  result[i] = Expression::binary(Op::kSubtract, times(c, v[i]), times(s, v[j]));
-  result[j] = Expression::binary(Op::kAdd, times(s, v[i]), times(c, v[j]));
+  result[i] = minus(times(c, v[i]), times(s, v[j]));
+  result[j] = plus(times(s, v[i]), times(c, v[j]));
   return result;
 }
 

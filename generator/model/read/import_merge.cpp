@@ -122,6 +122,7 @@ class Renumber {
       case Kind::kFramePosition:
       case Kind::kFrameVelocity:
       case Kind::kFrameSpin:
+      case Kind::kFrameWorldSpin:
         variable.index += frames_;
         break;
     }

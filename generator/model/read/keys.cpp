@@ -5,6 +5,8 @@
 #include "model/read/keys_of_contacts.hpp"
 #include "model/read/keys_of_imports.hpp"
 #include "model/read/keys_of_kinematics.hpp"
+#include "model/read/keys_of_springs.hpp"
+#include "model/read/keys_of_tables.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::model {
@@ -93,7 +95,8 @@ KeySection joint_section() {
       "Joints make a tree: each body is the child of one. A joint with one coordinate gives its name to it.",
       {{"name", "name", "", kRequired, "an identifier"},
        {"type", "word", "", kRequired,
-        "fixed, revolute, prismatic, screw, cylindrical, universal, planar, spherical, free, curve, gimbal"},
+        "fixed, revolute, prismatic, screw, cylindrical, universal, planar, spherical, free, curve, gimbal, "
+        "point"},
        {"parent", "name", "", kRequired,
         "a body, or \"world\", the inertial frame; of a free joint the world"},
        {"child", "name", "", kRequired, "a body"},
@@ -150,7 +153,7 @@ KeySection coordinate_section() {
           "In the joint's table where it has one coordinate, otherwise in a table for each: cylindrical "
           "angle, slide; "
           "universal first, second; planar x, y, angle (angle = { damping = 5 }); gimbal first, second, "
-          "third. Units are those of an "
+          "third; point x, y, z. Units are those of an "
           "angle; of a "
           "slide m, N, N/m and so on. Spherical joints have damping, free ones initial_position and "
           "initial_velocity, three numbers each.",
@@ -222,7 +225,9 @@ KeySection force_section() {
           "[[force]]",
           "A force and a moment on a frame, or a force on a coordinate. Expressions of t, inputs, "
           "coordinates (crank, "
-          "crank.rate) and frames (tip.x, tip.vx, tip.wx).",
+          "crank.rate) and frames: position (tip.x), velocity (tip.vx) and angular velocity (tip.world_wx) "
+          "in the inertial "
+          "frame, angular velocity in the frame's own axes (tip.wx).",
           {{"name", "text", "", "its number", "for messages"},
            {"frame", "name", "", "none", "this, or joint"},
            {"joint", "name", "", "none", "whose coordinate is pushed forward"},
@@ -231,56 +236,19 @@ KeySection force_section() {
            {"moment", "3 expressions", "N m", "[0, 0, 0]", "on its body"},
            {"axes", "\"frame\", \"world\"", "", "\"frame\"", "that force and moment are given in"},
            {"value", "expression", "N m, N", kRequired, "on the coordinate"}},
-          R"([[force]]
+          R"toml([[force]]
 joint = "piston"
 value = "-6.4e-3*gas_pressure"
+
+[[force]]
+joint = "camshaft"
+value = "valve_train(camshaft.rate)"
 
 [[force]]
 frame = "small_end"
 axes = "world"
 force = ["-0.1*small_end.vx", 0, 0]
-)"};
-}
-
-KeySection spring_section() {
-  return {"spring",
-          "[[spring]]",
-          "A spring and damper that pulls the origins of two frames together.",
-          {{"name", "text", "", "its number", "for messages"},
-           {"from", "name", "", kRequired, "a frame"},
-           {"to", "name", "", kRequired, "a frame on another body"},
-           {"stiffness", "number", "N/m", "0", ""},
-           {"damping", "number", "N s/m", "0", ""},
-           {"free_length", "number", "m", "0", ""},
-           {"law", "expression", "N", "0", "added; of length (m) and rate (m/s)"},
-           {"potential", "expression", "J", "none",
-            "of the law, of length; without it the scene counts as losing energy"}},
-          R"([[spring]]
-from = "cover"
-to = "piston_body"
-stiffness = 200
-free_length = 0.12
-)"};
-}
-
-KeySection bushing_section() {
-  return {"bushing",
-          "[[bushing]]",
-          "Six springs and dampers that hold the origins and axes of two frames together; the law is in "
-          "generator/model/bushing.hpp.",
-          {{"name", "text", "", "its number", "for messages"},
-           {"from", "name", "", kRequired, "a frame, in whose axes the numbers are"},
-           {"to", "name", "", kRequired, "a frame on another body"},
-           {"stiffness", "3 numbers", "N/m", "[0, 0, 0]", "along the axes"},
-           {"damping", "3 numbers", "N s/m", "[0, 0, 0]", "not negative"},
-           {"torsional_stiffness", "3 numbers", "N m/rad", "[0, 0, 0]", "about the axes"},
-           {"torsional_damping", "3 numbers", "N m s/rad", "[0, 0, 0]", "not negative"}},
-          R"([[bushing]]
-from = "cover"
-to = "small_end"
-stiffness = [0, 100, 100]
-torsional_damping = [0, 0, 0.01]
-)"};
+)toml"};
 }
 
 KeySection loop_section() {
@@ -372,11 +340,11 @@ frame = "small_end"
 
 std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
-      model_section(),   parameter_section(), body_section(),       joint_section(),  coordinate_section(),
-      frame_section(),   actuator_section(),  input_section(),      force_section(),  spring_section(),
-      bushing_section(), stop_section(),      contact_section(),    loop_section(),   coupler_section(),
-      loops_section(),   output_section(),    kinematics_section(), import_section(), override_section(),
-      repeat_section()};
+      model_section(),      parameter_section(), table_section(),    body_section(),       joint_section(),
+      coordinate_section(), frame_section(),     actuator_section(), input_section(),      force_section(),
+      spring_section(),     bushing_section(),   stop_section(),     contact_section(),    loop_section(),
+      coupler_section(),    loops_section(),     output_section(),   kinematics_section(), import_section(),
+      override_section(),   repeat_section()};
   return sections;
 }
 

@@ -26,7 +26,8 @@ damping = 10
 KeySection contact_section() {
   return {"contact",
           "[[contact]]",
-          "A fixed plane against a frame's origin. At a depth d it pushes by N = max(stiffness d^exponent (1 "
+          "A fixed plane against a frame's origin, or a ball around it. At a depth d it pushes by N = "
+          "max(stiffness d^exponent (1 "
           "+ damping "
           "d'), 0) along its normal (Hunt and Crossley), and by friction N v/sqrt(v^2 + slip_speed^2) "
           "against the "
@@ -36,6 +37,7 @@ KeySection contact_section() {
            {"frame", "name", "", kRequired, "a [[frame]] or a body"},
            {"point", "3 numbers", "m", "[0, 0, 0]", "of the plane, in the inertial frame"},
            {"normal", "3 constants", "", "[0, 0, 1]", "out of the ground, in the inertial frame"},
+           {"radius", "number", "m", "0", "of a ball around the frame's origin"},
            {"stiffness", "number", "N/m", kRequired, "positive; N/m^exponent"},
            {"exponent", "constant", "", "1", "between 1 and 10; of spheres 1.5"},
            {"damping", "number", "s/m", "0", "not negative"},

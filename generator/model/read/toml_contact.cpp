@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/expression_functions.hpp"
+#include "model/expression_sums.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
@@ -15,15 +16,22 @@ namespace jourdain::model {
 namespace {
 
 using support::shown;
-using Op = Expression::Op;
-using Kind = Variable::Kind;
-
-Expression plus(const Expression& a, const Expression& b) { return Expression::binary(Op::kAdd, a, b); }
-Expression minus(const Expression& a, const Expression& b) { return Expression::binary(Op::kSubtract, a, b); }
-Expression times(const Expression& a, const Expression& b) { return Expression::binary(Op::kMultiply, a, b); }
 
 Expression dot(const Vector3& a, const Vector3& b) {
   return plus(plus(times(a[0], b[0]), times(a[1], b[1])), times(a[2], b[2]));
+}
+
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {minus(times(a[1], b[2]), times(a[2], b[1])), minus(times(a[2], b[0]), times(a[0], b[2])),
+          minus(times(a[0], b[1]), times(a[1], b[0]))};
+}
+
+/// depth^exponent where that is positive; roots instead of powers for halves.
+Expression raised(const Expression& depth, double exponent) {
+  const double whole = std::floor(exponent);
+  if (exponent - whole != 0.5) return real_power(depth, exponent);
+  return times(Expression::power(depth, static_cast<int>(whole)),
+               Expression::unary(Expression::Op::kSqrt, depth));
 }
 
 /// `force` where `depth` is positive, unless it would pull.
@@ -60,8 +68,8 @@ void read_stop(TomlFile& file, const TomlTable& table, const std::string& name, 
   if (has_lower && has_upper && !(file.value(lower) < file.value(upper)))
     table.error("upper", fmt::format("{} is not above 'lower'", table.quoted("upper")));
   if (!is_found) return;
-  const Expression at = Expression::variable({Kind::kPosition, j, c}),
-                   rate = Expression::variable({Kind::kVelocity, j, c});
+  const Expression at = Expression::variable({Variable::Kind::kPosition, j, c}),
+                   rate = Expression::variable({Variable::Kind::kVelocity, j, c});
   const auto force = [&](const Expression& depth, const Expression& speed) {
     return pushing(depth, plus(times(stiffness, depth), times(damping, speed)));
   };
@@ -70,12 +78,13 @@ void read_stop(TomlFile& file, const TomlTable& table, const std::string& name, 
   stop.where = table.where("joint");
   stop.joint = JointIndex(j);
   stop.coordinate = c;
-  if (has_lower) stop.force = force(minus(lower, at), Expression::unary(Op::kNegate, rate));
+  if (has_lower) stop.force = force(minus(lower, at), Expression::unary(Expression::Op::kNegate, rate));
   if (has_upper) stop.force = minus(stop.force, force(minus(at, upper), rate));
   mechanism.coordinate_forces.push_back(stop);
 }
 
-/// What a plane does to a point at depth d > 0 behind it, moving with velocity v, its own v_t along the plane:
+/// What a plane does to a point at depth d > 0 behind it, or to the lowest point of a ball around it, moving with
+/// velocity v_t along the plane:
 ///   N = max(k d^e (1 + c d′), 0)             Hunt and Crossley, J. Appl. Mech. 42 (1975) 440-445
 ///   F = N n − μ N v_t/sqrt(v_t² + w²)        Coulomb, regularised
 class ContactReader {
@@ -87,6 +96,8 @@ class ContactReader {
     const auto frame = find_frame(file_, table_, "frame", mechanism_);
     const std::array<double, 3> normal = direction();
     const Vector3 origin = table_.vector("point", needed::kLength, {0.0, 0.0, 0.0});
+    const Expression radius = table_.number("radius", needed::kLength);
+    refuse_negative(file_, table_, "radius", radius);
     const double exponent =
         table_.has("exponent") ? file_.constant(*table_.find("exponent"), place("exponent")) : 1;
     if (!(exponent >= 1 && exponent <= 10))
@@ -111,24 +122,34 @@ class ContactReader {
     load.axes = LoadAxes::kWorld;
     load.where = table_.where("frame");
     const Vector3 n = {normal[0], normal[1], normal[2]};
-    const Vector3 p = components(Kind::kFramePosition, *frame), v = components(Kind::kFrameVelocity, *frame);
+    const Vector3 p = components(Variable::Kind::kFramePosition, *frame),
+                  v = components(Variable::Kind::kFrameVelocity, *frame);
     const Vector3 behind = {minus(origin[0], p[0]), minus(origin[1], p[1]), minus(origin[2], p[2])};
-    const Expression depth = dot(n, behind), out = dot(n, v);
-    const Expression elastic = times(stiffness, real_power(depth, exponent));
+    const Expression depth = plus(dot(n, behind), radius), out = dot(n, v);
+    const Expression elastic = times(stiffness, raised(depth, exponent));
     const Expression push = pushing(depth, times(elastic, minus(1.0, times(damping, out))));
-    const Vector3 along = {minus(v[0], times(n[0], out)), minus(v[1], times(n[1], out)),
-                           minus(v[2], times(n[2], out))};
-    const Expression speed = Expression::unary(Op::kSqrt, plus(dot(along, along), times(slip, slip)));
-    const Expression drag = Expression::binary(Op::kDivide, times(friction, push), speed);
+    // Of the ball's lowest point, v − r ω × n, along the plane.
+    const Vector3 turning = cross(components(Variable::Kind::kFrameWorldSpin, *frame), n);
+    Vector3 along;
     for (std::size_t k = 0; k < 3; ++k)
+      along[k] = minus(minus(v[k], times(n[k], out)), times(radius, turning[k]));
+    const Expression speed =
+        Expression::unary(Expression::Op::kSqrt, plus(dot(along, along), times(slip, slip)));
+    const Expression drag = Expression::binary(Expression::Op::kDivide, times(friction, push), speed);
+    const Vector3 lever = {times(drag, times(radius, along[0])), times(drag, times(radius, along[1])),
+                           times(drag, times(radius, along[2]))};
+    const Vector3 moment = cross(n, lever);
+    for (std::size_t k = 0; k < 3; ++k) {
       load.force[k] = settled(minus(times(n[k], push), times(drag, along[k])), mechanism_);
+      load.moment[k] = settled(moment[k], mechanism_);
+    }
     mechanism_.loads.push_back(load);
   }
 
  private:
   Place place(const char* key) const { return {table_.quoted(key), needed::kPure}; }
 
-  static Vector3 components(Kind kind, FrameIndex frame) {
+  static Vector3 components(Variable::Kind kind, FrameIndex frame) {
     Vector3 vector;
     for (std::size_t k = 0; k < 3; ++k) vector[k] = Expression::variable({kind, frame.value, k});
     return vector;

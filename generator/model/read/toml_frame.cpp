@@ -27,12 +27,14 @@ void add_frame(Scope& scope, const std::string& name, std::size_t index) {
     add("", Kind::kFramePosition, Measure::variable(needed::kLength));
     add("v", Kind::kFrameVelocity, Measure::variable(needed::kSpeed));
     add("w", Kind::kFrameSpin, Measure::variable(needed::kAngularRate));
+    add("world_w", Kind::kFrameWorldSpin, Measure::variable(needed::kAngularRate));
   }
 }
 
 bool of_frame(const Variable& variable) {
-  return variable.kind == Variable::Kind::kFramePosition || variable.kind == Variable::Kind::kFrameVelocity ||
-         variable.kind == Variable::Kind::kFrameSpin;
+  using Kind = Variable::Kind;
+  return variable.kind == Kind::kFramePosition || variable.kind == Kind::kFrameVelocity ||
+         variable.kind == Kind::kFrameSpin || variable.kind == Kind::kFrameWorldSpin;
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ Scope residual_scope(const Mechanism& mechanism) {
     const Kind kind = entry.variable.kind;
     if (kind == Kind::kInput)
       entry.refusal = "it is an input; a residual is of t, coordinates and positions of frames";
-    if (kind == Kind::kVelocity || kind == Kind::kFrameVelocity || kind == Kind::kFrameSpin)
+    if (kind == Kind::kVelocity || kind == Kind::kFrameVelocity || kind == Kind::kFrameSpin ||
+        kind == Kind::kFrameWorldSpin)
       entry.refusal = "it is a velocity; a residual is of t, coordinates and positions of frames";
   }
   return scope;

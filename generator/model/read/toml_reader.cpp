@@ -23,7 +23,7 @@ using support::Diagnostics;
 /// Tables that a file may have any number of, and that [[repeat]] may hold.
 const std::vector<std::string> kLists{"import", "override", "body",   "joint",   "frame",  "actuator",
                                       "input",  "force",    "spring", "bushing", "output", "kinematics",
-                                      "loop",   "coupler",  "stop",   "contact"};
+                                      "loop",   "coupler",  "stop",   "contact", "table"};
 
 class TomlReader {
  public:
@@ -46,6 +46,7 @@ class TomlReader {
     // Names that an import would have declared are unknown then: not each is one more mistake.
     if (imports.size() < importing.size()) return mechanism;
     check_loop_options(imports);
+    read_lookup_tables(file_, repeats_.tables("table"), chain_);
     read_bodies(file_, repeats_.tables("body"), mechanism);
     read_joints(file_, repeats_.tables("joint"), mechanism);
     read_overrides(file_, repeats_.tables("override"), mechanism);

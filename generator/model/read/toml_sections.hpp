@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/mechanism.hpp"
+#include "model/read/read.hpp"
 #include "model/read/toml_repeat.hpp"
 #include "model/read/toml_table.hpp"
 
@@ -16,6 +17,9 @@ namespace jourdain::model {
 /// [parameters]: those with a value of their own in the order of the file, derived ones behind what they name. `file`
 /// has declared them then.
 void read_parameters(TomlFile& file, const toml::table& section, Mechanism& mechanism);
+
+/// All [[table]] tables: `file` has declared them then.
+void read_lookup_tables(TomlFile& file, const TomlTables& section, const ImportChain& chain);
 
 // Each of the following appends to what `mechanism` has, which may be imported.
 

@@ -243,6 +243,16 @@ Rotation TomlTable::rotation(std::string_view key) const {
   return {vector(key, needed::kAngle), has(key) ? where(key) : SourceRange{}};
 }
 
+const toml::array* TomlTable::array(std::string_view key, std::string_view expected) const {
+  if (!has(key)) {
+    missing(key);
+    return nullptr;
+  }
+  const toml::array* found = find(key)->as_array();
+  if (!found) wrong_type(key, expected);
+  return found;
+}
+
 const toml::table* TomlTable::table(std::string_view key) const {
   if (!has(key)) return nullptr;
   if (const auto* found = find(key)->as_table()) return found;

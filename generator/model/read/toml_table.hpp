@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/dimensions.hpp"
+#include "model/lookup_table.hpp"
 #include "model/mechanism.hpp"
 #include "model/read/read.hpp"
 #include "model/units.hpp"
@@ -57,6 +58,9 @@ class TomlFile {
   void declare(const DerivedParameter& derived);
   /// All parameters of a mechanism.
   void declare(const Mechanism& mechanism);
+  /// A table that expressions may call from now on.
+  void declare(LookupTable table) { tables_.push_back(std::move(table)); }
+  const std::vector<LookupTable>& tables() const { return tables_; }
   /// The names that expressions may use, in order: those of parameters, then derived ones.
   const std::vector<DeclaredParameter>& declared() const { return parameters_; }
 
@@ -121,6 +125,7 @@ class TomlFile {
   std::vector<DeclaredParameter> parameters_;
   std::vector<Expression> meanings_;  ///< of those that are derived, the last ones
   std::vector<double> values_;        ///< of the others
+  std::vector<LookupTable> tables_;
   std::optional<Repetition> repetition_;
   std::map<std::pair<int, int>, std::int64_t> repeated_errors_;  ///< index by line and column
   Completeness complete_;
@@ -174,6 +179,8 @@ class TomlTable {
   /// A table within this one; nothing (after a diagnostic if it has another type) where it is missing.
   const toml::table* table(std::string_view key) const;
 
+  /// An array; nothing after a diagnostic.
+  const toml::array* array(std::string_view key, std::string_view expected) const;
   void missing(std::string_view key, std::string hint = "") const;
   void error(std::string_view key, std::string message, std::string hint = "") const;
   std::string quoted(std::string_view key) const;

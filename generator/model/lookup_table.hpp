@@ -1,0 +1,68 @@
+// Functions of one or two arguments that are given by points, as expressions call them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/expression.hpp"
+#include "support/diagnostics.hpp"
+
+namespace jourdain::model {
+
+enum class Interpolation {
+  kLinear,
+  kMonotone,  ///< cubics with the same slope on both sides of a point, without overshoot
+  kSpline     ///< cubics with the same slope and curvature, curvature 0 at the ends
+};
+enum class Beyond {
+  kHold,   ///< the value at the end
+  kExtend  ///< a straight line with the slope at the end
+};
+
+inline constexpr std::size_t kMaximumTableValues = 400;
+inline constexpr std::size_t kMaximumCurvePoints = 100;  ///< of cubics
+
+/// Values at points of an axis, or on the grid of two. Points rise, two or more an axis.
+struct LookupTable {
+  struct Axis {
+    std::vector<double> points;
+    Measure measure = Measure::open();
+  };
+  std::string name;
+  std::vector<Axis> axes;          ///< x, or x and y
+  std::vector<Expression> values;  ///< those of the first x first
+  Measure measure = Measure::open();
+  Interpolation interpolation = Interpolation::kLinear;  ///< cubics: of one axis, values are constant
+  Beyond beyond = Beyond::kHold;
+  support::SourceRange where;
+
+  /// One is given: dimensions of expressions that call it are checked.
+  bool has_units() const {
+    return measure.is_anchored() ||
+           std::any_of(axes.begin(), axes.end(), [](const Axis& axis) { return axis.measure.is_anchored(); });
+  }
+};
+
+/// The table's value, of as many arguments as it has axes: pieces of which the one is taken that the argument is in, or
+/// on a grid values by their weights. No search, no branch: the cost is the same everywhere, 4 operations and 2
+/// selections an interval, of cubics 8 and 2; on a grid 2 operations a value, 4 and 4 selections an interval. It has
+/// its values at its points, and there the slopes of the intervals above.
+Expression looked_up(const LookupTable& table, std::span<const Expression> arguments);
+
+/// Slopes at the points of a curve through `values`, of these kinds:
+///   kMonotone  Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304, weighted for unequal intervals as in
+///              SLATEC's PCHIM; where neighbours rise and fall 0
+///   kSpline    natural cubic spline; de Boor, A Practical Guide to Splines (1978), chapter IV
+std::vector<double> slopes(Interpolation kind, std::span<const double> points,
+                           std::span<const double> values);
+
+/// As `parse_expression`, where tables may be called like functions.
+std::variant<MeasuredExpression, ExpressionError> parse_expression(
+    std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope,
+    const std::vector<LookupTable>& tables);
+
+}  // namespace jourdain::model

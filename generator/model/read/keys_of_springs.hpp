@@ -1,0 +1,11 @@
+// The keys of springs between frames.
+#pragma once
+
+#include "model/read/keys.hpp"
+
+namespace jourdain::model {
+
+KeySection spring_section();
+KeySection bushing_section();
+
+}  // namespace jourdain::model

@@ -1,0 +1,40 @@
+#include "model/read/keys_of_tables.hpp"
+
+namespace jourdain::model {
+
+KeySection table_section() {
+  return {"table",
+          "[[table]]",
+          "A function of one number or two that is given by points; expressions of this file call it, "
+          "valve_train(camshaft.rate).",
+          {{"name", "name", "", kRequired, "an identifier that means nothing else in expressions"},
+           {"x", "list of constants", "x_unit", kRequired, "two or more, rising"},
+           {"y", "list of constants", "y_unit", "none", "makes it a function of two numbers"},
+           {"values", "list of numbers or lists", "unit", kRequired,
+            "one for each x; with y a list for each x, one number for each y. Cubics have constants; up to "
+            "400, of "
+            "cubics 100"},
+           {"file", "text", "", "none",
+            "instead of x, y and values: lines of x, value; or a line of a word and the points of y, then "
+            "lines of x "
+            "and its values"},
+           {"x_unit", "text", "", "none", "of bare numbers; strict once given, as that of a parameter"},
+           {"y_unit", "text", "", "none", ""},
+           {"unit", "text", "", "none", "of the values"},
+           {"interpolation", "\"linear\", \"monotone\", \"spline\"", "", "\"linear\"",
+            "monotone: cubics that rise and fall where the values do; spline: cubics without jumps of the "
+            "curvature"},
+           {"beyond", "\"hold\", \"extend\"", "", "\"hold\"", "the end's value, or a line with its slope"},
+           {"description", "text", "", "empty", ""}},
+          R"([[table]]
+name = "valve_train"
+x = [-1500, 0, 1500, 3000]
+x_unit = "rpm"
+values = [0.8, 0, -0.8, -1.1]
+unit = "N m"
+interpolation = "monotone"
+beyond = "extend"
+)"};
+}
+
+}  // namespace jourdain::model
