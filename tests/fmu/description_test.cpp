@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "fmu/importer.hpp"
+#include "properties/effort.hpp"
 #include "support/process.hpp"
 
 namespace jourdain::tests {
@@ -51,18 +52,28 @@ void expect_consistent(const Fmu& fmu, const std::string& model) {
 
 class Schema : public testing::TestWithParam<int> {};
 
+std::vector<std::string> model_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(JOURDAIN_SOURCE_DIR) / "models"))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// One version has every other model, the other version the others, unless every case is asked for.
 TEST_P(Schema, HoldsForEveryModel) {
   std::vector<std::unique_ptr<Fmu>> units;
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(JOURDAIN_SOURCE_DIR) / "models")) {
-    if (entry.path().extension() != ".toml") continue;
-    const std::string model = entry.path().stem().string();
+  const std::vector<std::string> models = model_names();
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    if (!draws_all_cases() && i % 2 != static_cast<std::size_t>(GetParam()) % 2) continue;
+    const std::string& model = models[i];
     units.push_back(std::make_unique<Fmu>(make_fmu(model, GetParam(), kSourcesOnly), false));
     files.push_back(units.back()->folder() + "/modelDescription.xml");
     if (GetParam() == 3) files.push_back(units.back()->folder() + "/sources/buildDescription.xml");
     expect_consistent(*units.back(), model + ": ");
   }
-  ASSERT_GE(units.size(), 28u);
+  ASSERT_GE(units.size(), 14u);
   const support::ProcessResult result = validate(GetParam(), files);
   EXPECT_EQ(result.status, 0) << result.output;
 }
