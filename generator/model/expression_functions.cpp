@@ -133,6 +133,10 @@ const NamedFunction* find_function(std::string_view name) {
   return found == kFunctions.end() ? nullptr : found;
 }
 
+bool is_expression_word(std::string_view word) {
+  return word == "pi" || word == "deg" || word == "if" || find_function(word) != nullptr;
+}
+
 std::vector<std::string> function_names() {
   std::vector<std::string> names;
   for (const NamedFunction& function : kFunctions) names.emplace_back(function.name);

@@ -32,6 +32,9 @@ struct NamedFunction {
 /// Nothing where there is no such function. `if` is none: it compares.
 const NamedFunction* find_function(std::string_view name);
 
+/// Means something in every expression: a function, `if`, `pi`, `deg`.
+bool is_expression_word(std::string_view word);
+
 /// sqrt, sin, …, if
 std::vector<std::string> function_names();
 

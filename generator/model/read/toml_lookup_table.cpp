@@ -65,7 +65,7 @@ class LookupTableReader {
   void check_name() {
     const std::string& name = table_.name;
     check_identifier(file_, table_.where, "table", name);
-    if (name == "pi" || name == "deg" || name == "if" || find_function(name))
+    if (is_expression_word(name))
       keys_.error("name", fmt::format("table '{}' would hide what '{}' means in expressions", name, name));
     for (const DeclaredParameter& parameter : file_.declared())
       if (parameter.name == name) keys_.error("name", fmt::format("'{}' is a parameter too", shown(name)));

@@ -18,7 +18,7 @@ namespace {
 void check_parameter_name(TomlFile& file, const Parameter& parameter) {
   const std::string& name = parameter.name;
   check_identifier(file, parameter.where, "parameter", name);
-  if (name == "pi" || name == "deg" || name == "if" || find_function(name))
+  if (is_expression_word(name))
     file.error(parameter.where,
                fmt::format("parameter '{}' would hide what '{}' means in expressions", name, name));
   else if (is_reserved(name))

@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-bool is_expression_word(std::string_view word) {
-  return word == "pi" || word == "deg" || word == "if" || find_function(word) != nullptr;
-}
-
 bool starts_word(std::string_view text) {
   return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0]));
 }
