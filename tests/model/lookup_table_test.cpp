@@ -182,19 +182,33 @@ TEST(LookupTable, MayHaveParametersForValues) {
   EXPECT_EQ(at(table, 3, 0, {-1}), -1);
 }
 
+std::size_t operations_in(const LookupTable& table) {
+  const Function function = table;
+  std::size_t count = 0;
+  for (const Expression::Node& node : function.value.nodes())
+    count += node.op != Expression::Op::kLiteral && node.op != Expression::Op::kVariable;
+  return count;
+}
+
 TEST(LookupTable, CostsAFewOperationsAnInterval) {
   const auto size = [](std::size_t n, Interpolation kind) {
     std::vector<double> x, y;
     for (std::size_t k = 0; k < n; ++k) x.push_back(0.1 * double(k)), y.push_back(std::sin(double(k)));
-    const Expression x_of_t = Expression::variable(kX);
-    const Expression value = looked_up(curve(x, y, kind), {&x_of_t, 1});
-    std::size_t count = 0;
-    for (const Expression::Node& node : value.nodes())
-      count += node.op != Expression::Op::kLiteral && node.op != Expression::Op::kVariable;
-    return count;
+    return operations_in(curve(x, y, kind));
   };
   EXPECT_EQ(size(40, Interpolation::kLinear) - size(30, Interpolation::kLinear), 60u);
   EXPECT_EQ(size(40, Interpolation::kSpline) - size(30, Interpolation::kSpline), 100u);
+}
+
+/// 2 a value, 4 operations and 4 selections an interval; a row's first value is added to nothing, the row to others.
+TEST(LookupTable, CostsTwoOperationsAValueOfAGrid) {
+  const auto size = [](std::size_t n) {
+    LookupTable table{.name = "f", .axes = {{}, {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}}, .values = {}, .where = {}};
+    for (std::size_t k = 0; k < n; ++k) table.axes[0].points.push_back(0.1 * double(k));
+    for (std::size_t k = 0; k < 10 * n; ++k) table.values.emplace_back(std::sin(double(k) + 1));
+    return operations_in(table);
+  };
+  EXPECT_EQ(size(30) - size(20), 10 * (2 * 10u - 1 + 2 + 8));
 }
 
 std::string model_with(const std::string& table, const std::string& force) {
