@@ -84,7 +84,8 @@ std::string limits_text(const Json& joints) {
 std::string entries_text(const std::string& title, const char* array, const Json& entries) {
   report::TextTable table({title, "name", "joint", "unit", ">initial", "range"});
   for (const Json& entry : entries) {
-    const std::string name = cell(entry, "name"), joint = cell(entry, "joint");
+    const std::string name = cell(entry, "name"),
+                      joint = entry.contains("joint") ? cell(entry, "joint") : "(state)";
     table.add({fmt::format("{}[{}]", array, cell(entry, "index")), name, joint == name ? "" : joint,
                cell(entry, "unit"), cell(entry, "initial"), range_text(entry)});
   }

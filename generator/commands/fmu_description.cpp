@@ -180,6 +180,7 @@ class Description {
       set(type, "start", number.start.value_or(0));
     else if (number.start && number.role != Role::kTime)
       set(type, "start", *number.start);
+    if (number.nominal) set(type, "nominal", *number.nominal);
     if (number.derivative_of)
       type.SetAttribute("derivative", static_cast<unsigned>(name_of(*number.derivative_of)));
   }

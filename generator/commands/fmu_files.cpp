@@ -30,6 +30,14 @@ std::string literal(double number) {
   return text;
 }
 
+/// Of the continuous states.
+std::string nominals(const FmuScene& scene) {
+  std::string list;
+  for (const std::size_t reference : state_references(scene))
+    list += literal(scene.numbers[reference].nominal.value_or(1)) + ", ";
+  return list + "1.0";
+}
+
 std::map<std::string, std::string> holes(const FmuScene& scene, const std::string& token) {
   const programs::SceneFacts& facts = scene.facts;
   std::vector<std::size_t> velocities, quaternions;
@@ -47,6 +55,7 @@ std::map<std::string, std::string> holes(const FmuScene& scene, const std::strin
           {"GENERATOR", scene.generator},
           {"NY", count(facts.positions.size())},
           {"NZ", count(facts.velocities.size())},
+          {"ND", count(facts.displacements())},
           {"NU", count(facts.inputs.size())},
           {"NO", count(facts.output_numbers())},
           {"NP", count(facts.parameters.size())},
@@ -61,6 +70,7 @@ std::map<std::string, std::string> holes(const FmuScene& scene, const std::strin
           {"STEP", literal(scene.step)},
           {"STATE_POSITIONS", entries(scene.positions)},
           {"STATE_VELOCITIES", entries(velocities)},
+          {"NOMINALS", nominals(scene)},
           {"QUATERNIONS", entries(quaternions)}};
 }
 

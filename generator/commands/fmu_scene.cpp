@@ -54,11 +54,21 @@ class Numbers {
                        variable.index + i};
       if (i < variable.start.size()) number.start = variable.start[i];
       number.range = variable.range;
+      if (variable.role == Role::kVelocity) number.nominal = nominal(number.index);
       number.is_state = variable.role == Role::kVelocity ||
                         (variable.role == Role::kPosition && contains(scene_.positions, number.index));
       if (variable.role == Role::kPosition && !number.is_state) number.start.reset();
       add(std::move(number));
     }
+  }
+
+  /// Of an entry of z; nothing but of states.
+  std::optional<double> nominal(std::size_t velocity) const {
+    if (velocity < scene_.facts.displacements()) return {};
+    std::vector<double> values;
+    for (const model::Parameter& parameter : scene_.facts.parameters) values.push_back(parameter.value);
+    const model::StateVariable& state = scene_.facts.states[velocity - scene_.facts.displacements()];
+    return state.nominal.evaluate<double>(values);
   }
 
   std::size_t reference(Role role, std::size_t index) const { return references_.at({role, index}); }

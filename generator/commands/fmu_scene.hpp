@@ -21,6 +21,7 @@ struct FmuNumber {
   programs::Role role = programs::Role::kConstant;
   std::size_t index = 0;  ///< among the numbers of its role
   std::optional<double> start = {};
+  std::optional<double> nominal = {};  ///< of states beside the mechanism
   std::optional<std::array<double, 2>> range = {};
   bool is_state = false;                          ///< a continuous state
   std::optional<std::size_t> derivative_of = {};  ///< reference of the continuous state whose rate it is

@@ -137,7 +137,9 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
   return loaded;
 }
 
-std::size_t LoadedMechanism::freedom() const { return plan() ? plan()->freedom : velocity_count(); }
+std::size_t LoadedMechanism::freedom() const {
+  return plan() ? plan()->freedom : velocity_count() - mechanism.states.size();
+}
 
 std::string freedom_text(const LoadedMechanism& loaded) {
   return fmt::format("{} degree{} of freedom", loaded.freedom(), loaded.freedom() == 1 ? "" : "s");

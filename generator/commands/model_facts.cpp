@@ -175,11 +175,12 @@ class Facts {
   Json entries(const std::vector<programs::Entry>& list) const {
     Json facts = Json::array();
     for (const programs::Entry& entry : list) {
-      Json fact = {{"index", facts.size()},
-                   {"name", entry.name},
-                   {"unit", entry.unit},
-                   {"joint", mechanism_.joints[entry.joint->value].name},
-                   {"initial", entry.initial}};
+      Json fact = {{"index", facts.size()}, {"name", entry.name}, {"unit", entry.unit}};
+      if (entry.joint)
+        fact["joint"] = mechanism_.joints[entry.joint->value].name;
+      else
+        fact["description"] = entry.description;
+      fact["initial"] = entry.initial;
       const model::Coordinate* coordinate = coordinate_of(entry);
       if (&list == &entries_.positions && coordinate && coordinate->range) fact["range"] = *coordinate->range;
       facts.push_back(std::move(fact));

@@ -38,7 +38,7 @@ std::map<std::string, std::string> common_holes(const CompileOptions& options, c
 
 std::string needs_plain_rates(const SceneFacts& scene) {
   if (!scene.constraints.empty()) return "of a mechanism with closed loops";
-  if (scene.has_rate()) return "of quaternions, whose derivatives are of rotations";
+  if (!scene.tangent.quaternions.empty()) return "of quaternions, whose derivatives are of rotations";
   if (scene.velocities.empty()) return "of a mechanism that moves as prescribed";
   return scene.time.dynamics ? "that depend on time" : "";
 }
@@ -78,8 +78,8 @@ std::string metadata(const std::string& passage, const std::string& name, const 
 std::string casadi_text(const CompileOptions& options, const CompiledModel& compiled,
                         const std::string& title, const std::string&) {
   const SceneFacts& scene = compiled.facts;
-  const std::size_t nx = 2 * scene.velocities.size(), nu = scene.inputs.size(), np = scene.parameters.size(),
-                    no = scene.output_numbers();
+  const std::size_t nx = scene.displacements() + scene.velocities.size(), nu = scene.inputs.size(),
+                    np = scene.parameters.size(), no = scene.output_numbers();
   const auto passages = emit::passages("casadi.c.in");
   std::map<std::string, std::string> holes = common_holes(options, scene, title);
   std::string results;

@@ -85,6 +85,7 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   const programs::SceneFacts& facts = compiled.facts;
   expected.positions = facts.positions;
   expected.velocities = facts.velocities;
+  expected.states = facts.states.size();
   expected.inputs = facts.inputs;
   for (const model::Parameter& parameter : facts.parameters)
     expected.parameters.push_back({parameter.name, parameter.value, parameter.range});

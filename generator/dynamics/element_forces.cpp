@@ -50,6 +50,8 @@ Ex variable_value(const Scene& scene, const Variable& variable, Inputs inputs) {
       const Taylor motion = kinematics::coordinate_motion(scene.tree.links[link], scene.states[link]);
       return variable.kind == Variable::Kind::kPosition ? motion.value : motion.first;
     }
+    case Variable::Kind::kState:
+      return scene.leaves.z[scene.layout.first_state() + variable.index];
     case Variable::Kind::kFramePosition:
     case Variable::Kind::kFrameVelocity:
     case Variable::Kind::kFrameSpin:
@@ -110,6 +112,10 @@ void add_forces(const model::Actuator& actuator, ForceSum& sum) {
 void add_forces(const model::CoordinateForce& force, ForceSum& sum) {
   sum.push(sum.scene.link_of(force.joint, force.coordinate), 0,
            general_value(sum.scene, force.name, force.force, sum.inputs));
+}
+
+void add_forces(const model::StateVariable& state, ForceSum& sum) {
+  sum.forces.on_states.push_back(general_value(sum.scene, state.name, state.rate, sum.inputs));
 }
 
 }  // namespace jourdain::dynamics

@@ -22,6 +22,7 @@ struct AppliedForces {
   std::vector<Wrench> on_link;         ///< of loads, about the link's origin, in W
   std::vector<std::vector<Ex>> along;  ///< of all others, per link and column; positive pushes forward
   std::vector<BodyWrench> on_bodies;   ///< loads and elements between frames, body by body
+  std::vector<Ex> on_states;           ///< rates of the states
 };
 
 /// Applied forces as they are added up.
@@ -38,7 +39,7 @@ struct ForceSum {
   AppliedForces forces;
 };
 
-/// Value of an expression over time, coordinates, velocities, inputs and frames.
+/// Value of an expression over time, coordinates, velocities, inputs, frames and states.
 Ex general_value(const Scene& scene, const std::string& name, const model::Expression& expression,
                  Inputs inputs);
 
@@ -47,6 +48,7 @@ void add_forces(const model::CoordinateForce& force, ForceSum& sum);
 void add_forces(const model::Spring& spring, ForceSum& sum);
 void add_forces(const model::Load& load, ForceSum& sum);
 void add_forces(const model::Bushing& bushing, ForceSum& sum);
+void add_forces(const model::StateVariable& state, ForceSum& sum);
 
 /// J; of a kind without potential zero.
 Ex potential(const model::Spring& spring, const Scene& scene);
@@ -54,5 +56,6 @@ Ex potential(const model::Bushing& bushing, const Scene& scene);
 inline Ex potential(const model::Actuator&, const Scene&) { return 0; }
 inline Ex potential(const model::CoordinateForce&, const Scene&) { return 0; }
 inline Ex potential(const model::Load&, const Scene&) { return 0; }
+inline Ex potential(const model::StateVariable&, const Scene&) { return 0; }
 
 }  // namespace jourdain::dynamics

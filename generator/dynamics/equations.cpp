@@ -49,15 +49,15 @@ class Derivation {
       return std::move(equations_);
     }
     if (options_.accelerations_only) {
-      equations_.zdot = accelerations(applied);
+      equations_.zdot = with_states(accelerations(applied), applied);
       return std::move(equations_);
     }
     equations_.ydot = position_rate();
     derive_forces(applied);
-    if (mechanism_.loops.empty()) equations_.zdot = accelerations(applied);
+    if (mechanism_.loops.empty()) equations_.zdot = with_states(accelerations(applied), applied);
     if (options_.for_derivatives) {
-      equations_.residual = inverse_dynamics("r", applied, false);
-      equations_.load = load(applied);
+      equations_.residual = with_state_balance(inverse_dynamics("r", applied, false), applied);
+      equations_.load = with_states(load(applied), applied, -1);
     }
     equations_.potential_energy = derive_potential_energy(scene_);
     set_initial_state();
@@ -80,7 +80,7 @@ class Derivation {
 
   /// Z z; quaternions q̇ = ½ q ⊗ (0, ω).
   std::vector<Ex> position_rate() {
-    if (scene_.layout.quaternions.empty()) return {};
+    if (scene_.layout.quaternions.empty() && scene_.layout.state_count == 0) return {};
     std::vector<Ex> ydot(scene_.layout.position_count());
     for (std::size_t i = 0; i < scene_.link_count(); ++i) {
       const Link& link = scene_.tree.links[i];
@@ -109,15 +109,41 @@ class Derivation {
 
   void derive_forces(const AppliedForces& applied) {
     const FromLinkEquations& from_links = options_.from_links;
-    equations_.M =
-        with_rotors(from_links.mass_matrix && links() ? joint_mass_matrix(scene_, *links()) : mass_matrix());
+    equations_.M = with_state_rows(
+        with_rotors(from_links.mass_matrix && links() ? joint_mass_matrix(scene_, *links()) : mass_matrix()));
     equations_.k_bar = k_bar();
-    equations_.q_bar = q_bar(applied);
+    equations_.k_bar.resize(count_, 0);
+    equations_.q_bar = with_states(q_bar(applied), applied, -1);
     const AppliedForces passive = derive_applied_forces(scene_, Inputs::kZero);
-    equations_.tau = from_links.tau && links() ? with_rotors(link_inverse_dynamics(scene_, *links(), passive))
-                                               : inverse_dynamics("a", passive, options_.tau_by_links);
+    equations_.tau = with_state_balance(from_links.tau && links()
+                                            ? with_rotors(link_inverse_dynamics(scene_, *links(), passive))
+                                            : inverse_dynamics("a", passive, options_.tau_by_links),
+                                        passive);
     equations_.kinetic_energy = from_links.kinetic_energy && links() ? link_kinetic_energy(scene_, *links())
                                                                      : derive_kinetic_energy(scene_);
+  }
+
+  /// The entries of states are their rates, times `factor`.
+  std::vector<Ex> with_states(std::vector<Ex> rows, const AppliedForces& applied, int factor = 1) const {
+    rows.resize(count_);
+    for (std::size_t i = 0; i < applied.on_states.size(); ++i)
+      rows[scene_.layout.first_state() + i] = factor * applied.on_states[i];
+    return rows;
+  }
+
+  /// The entries of states are ẋ less their rates.
+  std::vector<Ex> with_state_balance(std::vector<Ex> rows, const AppliedForces& applied) const {
+    rows = with_states(std::move(rows), applied, -1);
+    for (std::size_t e = scene_.layout.first_state(); e < count_; ++e)
+      rows[e] = statements_.bind(fmt::format("balance_{}", e), scene_.leaves.zdot[e] + rows[e]);
+    return rows;
+  }
+
+  std::vector<std::vector<Ex>> with_state_rows(std::vector<std::vector<Ex>> M) const {
+    M.resize(count_);
+    for (std::vector<Ex>& row : M) row.resize(count_, 0);
+    for (std::size_t e = scene_.layout.first_state(); e < count_; ++e) M[e][e] = 1;
+    return M;
   }
 
   /// The equations of links, where the scene has them.
@@ -217,7 +243,7 @@ class Derivation {
   std::vector<Ex> with_weights(std::vector<Ex> q, const std::string& name) {
     if (options_.from_links.q_bar && links()) {
       const std::vector<Ex> weights = joint_forces(scene_, links()->weight_alone, "lg");
-      for (std::size_t e = 0; e < count_; ++e)
+      for (std::size_t e = 0; e < weights.size(); ++e)
         q[e] = statements_.bind(fmt::format("{}_{}", name, e), -weights[e] - q[e]);
       return q;
     }
@@ -302,6 +328,7 @@ class Derivation {
       for (const model::Expression& component : joint.initial_orientation) push(y, component);
       for (const model::Expression& component : joint.initial_spin) push(z, component);
     }
+    for (const model::StateVariable& state : mechanism_.states) push(z, state.initial);
   }
 
   const model::Mechanism& mechanism_;

@@ -58,7 +58,8 @@ struct KinematicValues {
 };
 
 /// The symbolic equations of motion M ż = k̄ − q̄ (signs as printed; generator/README.md) and what belongs to
-/// them. Entries are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout.
+/// them. Entries are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout; rows of
+/// states are those of unit inertias, ẋ = −q̄, without kinetic energy.
 struct Equations {
   kinematics::Statements statements;
   std::vector<Ex> ydot;            ///< Z z; empty where ẏ = z

@@ -6,10 +6,25 @@
 
 namespace jourdain::emit {
 
+namespace {
+
+/// "current (A), voltage"
+std::string state_names(const programs::SceneFacts& scene) {
+  std::string names;
+  for (const model::StateVariable& state : scene.states)
+    names += fmt::format("{}{}{}", names.empty() ? "" : ", ", state.name,
+                         state.unit.empty() ? "" : fmt::format(" ({})", comment_text(state.unit)));
+  return names;
+}
+
+}  // namespace
+
 std::vector<std::string> state_sentences(const ModelText& model) {
   std::vector<std::string> sentences = {
       fmt::format("{} coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).",
                   model.facts.clock ? "Time t (s), generalized" : "Generalized")};
+  if (const std::string states = state_names(model.facts); !states.empty())
+    sentences.push_back(fmt::format("The last entries of z are the states {}.", states));
   if (model.facts.dependents.empty()) return sentences;
   std::string names;
   for (const std::size_t entry : model.facts.dependents)
@@ -29,10 +44,13 @@ std::string parameter_remark(const model::Parameter& parameter) {
 
 std::string linearization_sentence(const programs::SceneFacts& scene) {
   return fmt::format(
-      "With x = (displacements, velocities), nz each, and o the numbers of all outputs in their order, "
+      "With x = (displacements, velocities), {}, and o the numbers of all outputs in their order, "
       "matrices row by row: d(dx/dt) = A dx + B du{}, do = C dx + D du{}. The displacement of a coordinate "
       "is "
       "its change, that of a quaternion a small rotation in body axes, dquat = 1/2 quat (0, dtheta).",
+      scene.states.empty() ? "nz each"
+                           : fmt::format("{} and {}, states among the velocities", scene.displacements(),
+                                         scene.velocities.size()),
       scene.time.dynamics ? " + rate_t dt" : "", scene.time.outputs ? " + output_t dt" : "");
 }
 

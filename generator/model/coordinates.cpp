@@ -80,6 +80,8 @@ CoordinateLayout lay_out_coordinates(const Mechanism& mechanism) {
     entries.position_count = layout.position_names.size() - entries.first_position;
     entries.velocity_count = layout.velocity_names.size() - entries.first_velocity;
   }
+  for (const StateVariable& state : mechanism.states) layout.velocity_names.push_back(state.name);
+  layout.state_count = mechanism.states.size();
   for (const Actuator& actuator : mechanism.actuators) layout.input_names.push_back(actuator.name);
   for (const Input& input : mechanism.inputs) layout.input_names.push_back(input.name);
   layout.tangent = tangent_of(mechanism, layout.joints);

@@ -17,8 +17,8 @@ struct JointEntries {
   std::vector<std::optional<std::size_t>> position, velocity;
 };
 
-/// Small displacements, one per velocity: of a scalar coordinate or a position its change, of a quaternion a
-/// small rotation δθ in body axes, δquat = ½ quat ⊗ (0, δθ).
+/// Small displacements, one per velocity but those of states: of a scalar coordinate or a position its change, of a
+/// quaternion a small rotation δθ in body axes, δquat = ½ quat ⊗ (0, δθ).
 struct Tangent {
   struct Scalar {
     std::size_t position = 0, velocity = 0;  ///< entry in y, and in z
@@ -28,16 +28,19 @@ struct Tangent {
 };
 
 /// Coordinates joint by joint in the order of `depth_first`, each joint's in its own order: scalar coordinates that are
-/// not prescribed; spherical: quaternion w x y z, and ω; free: position and quaternion, v and ω.
+/// not prescribed; spherical: quaternion w x y z, and ω; free: position and quaternion, v and ω. Behind all joints' the
+/// states, which are entries of z alone.
 /// Inputs: those of the actuators, then `Mechanism::inputs`.
 struct CoordinateLayout {
   std::vector<JointEntries> joints;  ///< by JointIndex
   std::vector<std::string> position_names, velocity_names, input_names;
   std::vector<std::size_t> quaternions;  ///< entry in y of each quaternion's w
+  std::size_t state_count = 0;           ///< last entries of z, which have no position
   Tangent tangent;
 
   std::size_t position_count() const { return position_names.size(); }
   std::size_t velocity_count() const { return velocity_names.size(); }
+  std::size_t first_state() const { return velocity_count() - state_count; }
   std::size_t input_count() const { return input_names.size(); }
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +34,7 @@ struct Variable {
     kFrameVelocity,   ///< its velocity, inertial frame, m/s
     kFrameSpin,       ///< component of the frame's angular velocity, in its own axes, rad/s
     kFrameWorldSpin,  ///< of the same, inertial frame
+    kState,           ///< number `index` of the states beside the mechanism
     kArgument  ///< `component` of what it is a function of: a curve's coordinate; a spring's length (0), rate (1)
   };
   Kind kind = Kind::kTime;
@@ -153,12 +155,13 @@ inline constexpr int kMaximumExpressionDepth = 100;
 inline constexpr std::size_t kMaximumExpressionSize = 5000;     ///< with derived parameters written out
 inline constexpr std::size_t kMaximumWrittenOutSize = 1000000;  ///< with what is used twice written twice
 
-/// A name that an expression may use for a variable; it may have one dot in it ("hinge.rate").
+/// A name that an expression may use for a variable or an expression of some; it may have one dot in it ("hinge.rate").
 struct ScopeEntry {
   std::string name;
   Variable variable;
   Measure measure;
-  std::string_view refusal = {};  ///< why it may not be used here, a hint; empty: it may
+  std::string_view refusal = {};           ///< why it may not be used here, a hint; empty: it may
+  std::optional<Expression> meaning = {};  ///< that it stands for, instead of a variable
 };
 using Scope = std::vector<ScopeEntry>;
 

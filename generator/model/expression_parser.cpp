@@ -187,8 +187,8 @@ class Parser : ExpressionText {
     if (next_is('('))
       for (const LookupTable& table : tables_)
         if (table.name == word) return value_of(table, depth);
-    const auto variable = std::find_if(scope_.begin(), scope_.end(),
-                                       [word](const ScopeEntry& entry) { return entry.name == word; });
+    const auto is_called = [word](const ScopeEntry& entry) { return entry.name == word; };
+    const auto variable = std::find_if(scope_.begin(), scope_.end(), is_called);
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       if (parameters_[i].name != word) continue;
       if (variable != scope_.end() && variable->refusal.empty())
@@ -200,7 +200,11 @@ class Parser : ExpressionText {
     if (variable != scope_.end() && !variable->refusal.empty())
       fail(begin, word.size(), fmt::format("'{}' may not be used here", word),
            std::string(variable->refusal));
-    if (variable != scope_.end()) return {Expression::variable(variable->variable), variable->measure};
+    if (variable != scope_.end() &&
+        (is_expression_word(word) || (word == "t" && std::count_if(variable, scope_.end(), is_called) > 1)))
+      fail(begin, word.size(), fmt::format("'{}' has two meanings", word), "rename the coordinate or input");
+    if (variable != scope_.end())
+      return {variable->meaning.value_or(Expression::variable(variable->variable)), variable->measure};
     if (word == "pi") return {Expression(std::numbers::pi), Measure::count()};
     if (word == "deg") return {Expression(std::numbers::pi / 180), Measure::degree()};
     if (next_is('(')) return word == "if" ? selection(depth) : function(word, begin, depth);

@@ -15,4 +15,15 @@ inline Expression times(const Expression& a, const Expression& b) {
   return Expression::binary(Expression::Op::kMultiply, a, b);
 }
 
+inline Vector3 minus(const Vector3& a, const Vector3& b) {
+  return {minus(a[0], b[0]), minus(a[1], b[1]), minus(a[2], b[2])};
+}
+inline Expression dot(const Vector3& a, const Vector3& b) {
+  return plus(plus(times(a[0], b[0]), times(a[1], b[1])), times(a[2], b[2]));
+}
+inline Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {minus(times(a[1], b[2]), times(a[2], b[1])), minus(times(a[2], b[0]), times(a[0], b[2])),
+          minus(times(a[0], b[1]), times(a[1], b[0]))};
+}
+
 }  // namespace jourdain::model

@@ -25,6 +25,7 @@
 #include "model/coordinate_force.hpp"
 #include "model/frame_load.hpp"
 #include "model/spring.hpp"
+#include "model/state_variable.hpp"
 
 namespace jourdain::model {
 
@@ -35,6 +36,7 @@ struct ForceElements {
   std::vector<Spring> springs;
   std::vector<Load> loads;
   std::vector<Bushing> bushings;
+  std::vector<StateVariable> states;  ///< the last entries of z, in this order
 };
 
 /// Calls `visit` with the list of each kind, in the order of ForceElements, const lists of const elements.
@@ -42,9 +44,9 @@ template <class Elements, class Visit>
 requires std::is_base_of_v<ForceElements, std::remove_const_t<Elements>>
 void for_each_force_list(Elements& all, Visit&& visit) {
   using Lists = std::conditional_t<std::is_const_v<Elements>, const ForceElements, ForceElements>;
-  auto& [actuators, coordinate_forces, springs, loads, bushings] = static_cast<Lists&>(all);
+  auto& [actuators, coordinate_forces, springs, loads, bushings, states] = static_cast<Lists&>(all);
   const auto each = [&visit](auto&... lists) { (visit(lists), ...); };
-  each(actuators, coordinate_forces, springs, loads, bushings);
+  each(actuators, coordinate_forces, springs, loads, bushings, states);
 }
 
 /// Calls `visit` with each element.

@@ -64,6 +64,7 @@ class OutputTime {
       case Variable::Kind::kFrameWorldSpin:
         return frame_depends(FrameIndex(variable.index));
       case Variable::Kind::kInput:
+      case Variable::Kind::kState:
       case Variable::Kind::kArgument:
         return false;
     }

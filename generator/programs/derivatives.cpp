@@ -27,14 +27,18 @@ using ir::Signed;
 
 namespace {
 
-/// What the columns of a Jacobian stand for: displacements and velocities (nz each), inputs, time.
+/// What the columns of a Jacobian stand for: displacements and velocities (nz each; those of states displace nothing),
+/// inputs, time.
 struct Columns {
-  std::size_t velocities = 0, inputs = 0;
+  std::size_t velocities = 0, states = 0, inputs = 0;
   bool time = false;  ///< something depends on it
 
   std::size_t velocity(std::size_t i) const { return velocities + i; }
   std::size_t input(std::size_t i) const { return 2 * velocities + i; }
   std::size_t time_column() const { return 2 * velocities + inputs; }
+  std::size_t displacements() const { return velocities - states; }
+  /// Of a column of displacements or velocities its number in a linearisation, which leaves out what displaces nothing.
+  std::size_t linear(std::size_t column) const { return column < velocities ? column : column - states; }
 };
 
 using ir::Column;
@@ -47,7 +51,8 @@ class Assembly {
       : sources_(sources),
         terms_(terms),
         order_(order),
-        columns_{sources.facts.velocities.size(), sources.facts.inputs.size(), sources.facts.time.any()} {}
+        columns_{sources.facts.velocities.size(), sources.facts.states.size(), sources.facts.inputs.size(),
+                 sources.facts.time.any()} {}
 
   /// M and the derivatives of the residual.
   Program residual_derivatives() {
@@ -73,13 +78,13 @@ class Assembly {
     const JacobianEntries J = acceleration_derivatives();
     write_kinematics();
     for (const auto& [at, value] : J) {
-      const std::size_t row = columns_.velocities + at.first;
+      const std::size_t row = columns_.displacements() + at.first;
       if (at.second == columns_.time_column())
         builder_.output("rate_t", static_cast<int>(row), -1, value);
       else if (at.second >= columns_.input(0))
         write("B", row, at.second - columns_.input(0), value);
       else
-        write("A", row, at.second, value);
+        write("A", row, columns_.linear(at.second), value);
     }
     write_outputs(J);
     return finish(FunctionId::kLinearize);
@@ -181,7 +186,8 @@ class Assembly {
   /// The upper half of A: displacements follow velocities; those of a quaternion turn with the body, δθ̇ = δω − ω × δθ.
   void write_kinematics() {
     const Signed one = builder_.literal(1);
-    for (std::size_t i = 0; i < columns_.velocities; ++i) write("A", i, columns_.velocity(i), one);
+    for (std::size_t i = 0; i < columns_.displacements(); ++i)
+      write("A", i, columns_.linear(columns_.velocity(i)), one);
     for (const model::Tangent::Scalar& s : sources_.facts.tangent.quaternions)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
@@ -216,7 +222,7 @@ class Assembly {
       else if (at.second >= columns_.input(0))
         write("D", at.first, at.second - columns_.input(0), value);
       else
-        write("C", at.first, at.second, value);
+        write("C", at.first, columns_.linear(at.second), value);
     }
   }
 

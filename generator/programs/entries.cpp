@@ -28,6 +28,8 @@ class TreeEntries {
       if (model::joint_kind(joint).has_origin()) origin(joint, child);
       if (model::joint_kind(joint).has_quaternion()) turning(joint, child);
     }
+    for (const model::StateVariable& state : mechanism.states)
+      entries.velocities.push_back({state.name, state.unit, state.description, {}, {}, value(state.initial)});
     inputs(mechanism);
   }
 

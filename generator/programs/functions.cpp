@@ -13,9 +13,10 @@ using model::TimeDependence;
 
 namespace {
 
-/// Derivatives by positions are by small displacements, one per velocity.
+/// Derivatives by positions are by small displacements, one per velocity; states have none.
 constexpr const char* kByDisplacements =
     "\nBy y means by displacements, one per velocity: small rotations in body axes for quaternions.";
+constexpr const char* kNoDisplacements = "States have no displacements: their columns by y are zero.";
 
 constexpr Extent kZ = Extent::kVelocities, kX = Extent::kStates, kU = Extent::kInputs, kO = Extent::kOutputs,
                  kG = Extent::kConstraints;
@@ -31,13 +32,15 @@ std::vector<FunctionInfo> function_table() {
        .result = "ydot",
        .comment = "dy/dt = Z(y) z: quaternions turn with half their product with the angular velocity, other "
                   "coordinates have their\nvelocity.",
-       .comment_reduced = "Dependent positions move as the loops make them."},
+       .comment_reduced = "Dependent positions move as the loops make them.",
+       .comment_states = "States have no positions."},
       {.id = FunctionId::kMassMatrix,
        .shape = Shape::kMatrix,
        .result = "M",
        .comment =
            "Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are "
-           "filled."},
+           "filled.",
+       .comment_states = "States have rows of a unit matrix."},
       {.id = FunctionId::kKBar,
        .result = "k",
        .comment = "Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity."},
@@ -46,19 +49,22 @@ std::vector<FunctionInfo> function_table() {
        .takes_input = true,
        .comment =
            "Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - "
-           "q_bar:\na force that pushes a coordinate forward makes its entry negative."},
+           "q_bar:\na force that pushes a coordinate forward makes its entry negative.",
+       .comment_states = "Entries of states are their rates, negative."},
       {.id = FunctionId::kForwardDynamics,
        .result = "zdot",
        .takes_input = true,
        .comment = "Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.",
        .comment_multipliers =
-           "The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces."},
+           "The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.",
+       .comment_states = "Entries of states are their rates."},
       {.id = FunctionId::kInverseDynamics,
        .result = "tau",
        .takes_acceleration = true,
        .comment = "Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given "
                   "accelerations\n`zdot`, N m or N.",
-       .comment_multipliers = "The loops' forces -G^T lambda count as missing."},
+       .comment_multipliers = "The loops' forces -G^T lambda count as missing.",
+       .comment_states = "Entries of states are zdot less their rates."},
       {.id = FunctionId::kKineticEnergy, .shape = Shape::kScalar, .comment = "Kinetic energy, J."},
       {.id = FunctionId::kPotentialEnergy,
        .shape = Shape::kScalar,
@@ -97,6 +103,7 @@ std::vector<FunctionInfo> function_table() {
        .comment = "r = M zdot - k_bar + q_bar for the given accelerations and inputs, N m or N: zero where "
                   "they fit.",
        .comment_multipliers = "The loops' forces are added: M zdot - k_bar + q_bar + G^T lambda.",
+       .comment_states = "Entries of states are zdot less their rates.",
        .on_request = true,
        .holds_derivatives = true,
        .arrays = {{"r", {kZ}}}},
@@ -107,6 +114,7 @@ std::vector<FunctionInfo> function_table() {
        .comment = std::string("Mass matrix, and derivatives of the residual by y, z, u and t at fixed "
                               "accelerations.") +
                   kByDisplacements,
+       .comment_states = kNoDisplacements,
        .on_request = true,
        .holds_derivatives = true,
        .arrays = {{"M", {kZ, kZ}},
@@ -118,6 +126,7 @@ std::vector<FunctionInfo> function_table() {
        .shape = Shape::kArrays,
        .takes_input = true,
        .comment = std::string("Accelerations zdot and their derivatives by y and z.") + kByDisplacements,
+       .comment_states = kNoDisplacements,
        .on_request = true,
        .holds_derivatives = true,
        .arrays = {{"zdot", {kZ}}, {"zdot_y", {kZ, kZ}}, {"zdot_z", {kZ, kZ}}}},
@@ -187,7 +196,7 @@ std::size_t count(const SceneFacts& scene, Extent extent) {
     case Extent::kVelocities:
       return scene.velocities.size();
     case Extent::kStates:
-      return 2 * scene.velocities.size();
+      return scene.displacements() + scene.velocities.size();
     case Extent::kInputs:
       return scene.inputs.size();
     case Extent::kOutputs:
@@ -238,9 +247,14 @@ std::vector<std::string> default_functions() {
 }
 
 std::string comment_of(const FunctionInfo& function, const SceneFacts& scene) {
-  if (scene.constraints.empty()) return function.comment;
-  const std::string& remark = scene.is_reduced ? function.comment_reduced : function.comment_multipliers;
-  return function.comment + (remark.empty() ? "" : "\n" + remark);
+  std::string comment = function.comment;
+  const auto add = [&comment](const std::string& remark) {
+    if (!remark.empty()) comment += "\n" + remark;
+  };
+  if (!scene.states.empty()) add(function.comment_states);
+  if (!scene.constraints.empty())
+    add(scene.is_reduced ? function.comment_reduced : function.comment_multipliers);
+  return comment;
 }
 
 bool has_function(const FunctionInfo& function, const SceneFacts& scene) {

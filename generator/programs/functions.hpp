@@ -27,7 +27,7 @@ enum class Shape {
 /// How far a subscript runs.
 enum class Extent {
   kVelocities,  ///< nz
-  kStates,      ///< 2 nz: displacements and velocities
+  kStates,      ///< displacements and velocities
   kInputs,
   kOutputs,      ///< numbers of all outputs
   kConstraints,  ///< rows of all loops
@@ -53,6 +53,7 @@ struct FunctionInfo {
   std::string comment = {};                   ///< doc comment, lines separated by '\n'
   std::string comment_reduced = {};           ///< a line more where coordinates depend on others
   std::string comment_multipliers = {};       ///< a line more where loops are held by multipliers
+  std::string comment_states = {};            ///< a line more where there are states
   const Stepper* stepper = nullptr;           ///< of a step
   std::optional<std::size_t> kinematic = {};  ///< in SceneFacts::kinematics
   bool on_request = false;                    ///< not emitted unless asked for or needed

@@ -122,15 +122,19 @@ class LoopProgram {
   }
 
   /// Bᵀ M B. With one degree of freedom twice the kinetic energy at z = B, where nothing else moves: that
-  /// costs less than M.
+  /// costs less than M. States have rows of a unit matrix.
   std::vector<ir::Column> mass_matrix() {
     const std::vector<ir::Column>& B = dependence_.B();
-    if (B.size() == 1 && !model::time_dependence(system_.mechanism).positions) {
+    const std::size_t states = system_.layout.state_count;
+    if (B.size() == 1 + states && !model::time_dependence(system_.mechanism).positions) {
       const Signed T =
           ir::insert(builder_, system_.tree(FunctionId::kKineticEnergy), [&](LeafKind kind, std::size_t i) {
             return kind == LeafKind::kVelocity ? std::optional(B[0][i]) : std::nullopt;
           })[0];
-      return {{builder_.multiply(builder_.literal(2), T)}};
+      std::vector<ir::Column> M(B.size(), ir::Column(B.size(), builder_.literal(0)));
+      M[0][0] = builder_.multiply(builder_.literal(2), T);
+      for (std::size_t i = 1; i < B.size(); ++i) M[i][i] = builder_.literal(1);
+      return M;
     }
     std::vector<ir::Column> M = loops::tree_mass_matrix(builder_, system_);
     if (!system_.plan.is_reduced()) return M;

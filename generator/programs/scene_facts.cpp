@@ -104,6 +104,7 @@ SceneFacts scene_facts(const model::Mechanism& mechanism, const loops::LoopPlan*
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   facts.positions = layout.position_names;
   facts.velocities = layout.velocity_names;
+  facts.states = mechanism.states;
   facts.inputs = layout.input_names;
   facts.parameters = mechanism.parameters;
   facts.tangent = layout.tangent;

@@ -35,7 +35,8 @@ struct KinematicFacts {
 
 struct SceneFacts {
   std::vector<std::string> positions, inputs;  ///< names by entry
-  std::vector<std::string> velocities;         ///< of the independent coordinates
+  std::vector<std::string> velocities;         ///< of the independent coordinates, then the states
+  std::vector<model::StateVariable> states;    ///< which are the last entries of z
   std::vector<model::Parameter> parameters;
   std::vector<OutputFacts> outputs;
   std::vector<KinematicFacts> kinematics;
@@ -51,8 +52,10 @@ struct SceneFacts {
   int closings =
       1;  ///< calls of close_loops where dependent positions were not integrated along: more for Newton's method
 
+  /// Entries of z that displace something.
+  std::size_t displacements() const { return velocities.size() - states.size(); }
   /// dy/dt is not z.
-  bool has_rate() const { return !tangent.quaternions.empty() || is_reduced; }
+  bool has_rate() const { return !tangent.quaternions.empty() || is_reduced || !states.empty(); }
   /// Numbers of all outputs.
   std::size_t output_numbers() const;
 };

@@ -65,6 +65,7 @@ Quantity quantity_of(std::string_view unit) {
 
 /// Of the rate of something: "rad/s" of "rad".
 std::string rate_unit(const std::string& unit) {
+  if (unit.empty()) return "";
   const std::size_t slash = unit.find("/s");
   return slash == std::string::npos ? unit + "/s" : unit + "^2";
 }

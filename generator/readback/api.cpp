@@ -151,7 +151,7 @@ std::size_t output_numbers(const Expected& expected) {
 }
 
 std::vector<ArrayArgument> linearization_members(const Expected& expected) {
-  const std::size_t x = 2 * expected.velocities.size(), u = expected.inputs.size(),
+  const std::size_t x = 2 * expected.velocities.size() - expected.states, u = expected.inputs.size(),
                     o = output_numbers(expected);
   std::vector<ArrayArgument> members = {{"A", {x, x}}};
   if (u > 0) members.push_back({"B", {x, u}});
@@ -163,7 +163,7 @@ std::vector<ArrayArgument> linearization_members(const Expected& expected) {
 }
 
 bool has_rate(const Expected& expected) {
-  return !expected.quaternions.empty() || !expected.dependents.empty();
+  return !expected.quaternions.empty() || !expected.dependents.empty() || expected.states > 0;
 }
 
 std::string correction_of(const Expected& expected) {

@@ -76,6 +76,7 @@ struct Expected {
   std::vector<support::FileHash> imported;  ///< files that it imports
   std::vector<std::string> options;         ///< of the command line
   std::vector<std::string> positions, velocities, inputs, constraints;  ///< names in order
+  std::size_t states = 0;  ///< last entries of z, which displace nothing
   std::vector<ExpectedParameter> parameters;
   std::vector<ExpectedVariable> variables;
   std::vector<ExpectedOutput> outputs;

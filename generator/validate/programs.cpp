@@ -18,7 +18,7 @@ namespace {
 ScaledReal component(const ExactDirection& d, const std::string& array, int column) {
   if (column < 0) return d.time;
   const auto i = static_cast<std::size_t>(column);
-  const std::size_t n = d.velocity.size();
+  const std::size_t n = d.displacement.size();
   if (array == "B" || array == "D" || array == "r_u") return d.input[i];
   if (array == "A" || array == "C") return i < n ? d.displacement[i] : d.velocity[i - n];
   return array == "r_y" || array == "zdot_y" ? d.displacement[i] : d.velocity[i];
@@ -76,7 +76,7 @@ std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledR
   if (function == FunctionId::kForwardDynamicsDerivatives)
     return {c.entries("zdot"), c.along("derivatives", {"zdot_y", "zdot_z"}, n)};
   if (function == FunctionId::kLinearize)
-    return {c.along("state", {"A", "B", "rate_t"}, 2 * n),
+    return {c.along("state", {"A", "B", "rate_t"}, direction.displacement.size() + n),
             c.along("outputs", {"C", "D", "output_t"}, output_numbers)};
   return {{program.name, values}};
 }

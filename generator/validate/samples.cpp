@@ -54,9 +54,9 @@ void move_to_start(const model::Mechanism& mechanism, Sample& sample) {
   for (const std::size_t q : model::lay_out_coordinates(mechanism).quaternions) normalise(&sample.y[q]);
 }
 
-void draw_direction(Uniform& uniform, Sample& sample) {
+void draw_direction(std::size_t displacements, Uniform& uniform, Sample& sample) {
   for (std::size_t i = 0; i < sample.z.size(); ++i) {
-    sample.direction.displacement.push_back(uniform(-1, 1));
+    if (i < displacements) sample.direction.displacement.push_back(uniform(-1, 1));
     sample.direction.velocity.push_back(uniform(-1, 1));
   }
   for (std::size_t i = 0; i < sample.u.size(); ++i) sample.direction.input.push_back(uniform(-1, 1));
@@ -97,8 +97,14 @@ reference::VectorX<long double> to_vector(const std::vector<double>& values) {
 
 namespace {
 
-/// Positions, velocities and inputs of these sizes; angles go round once. Parameters within a tenth of their values, or
-/// as they are.
+/// A state drawn about its initial value.
+double drawn(const model::StateVariable& state, double share, const Sample& sample) {
+  return state.initial.evaluate<double>(sample.parameters) +
+         share * state.nominal.evaluate<double>(sample.parameters);
+}
+
+/// Positions, velocities and inputs of these sizes, states about their initial values; angles go round once. Parameters
+/// within a tenth of their values, or as they are.
 Sample drawn(const model::Mechanism& mechanism, bool is_varied, double length, double speed, double input,
              Uniform& uniform, Uniform& directions) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
@@ -112,12 +118,14 @@ Sample drawn(const model::Mechanism& mechanism, bool is_varied, double length, d
   for (std::size_t i = 0; i < layout.position_count(); ++i)
     sample.y.push_back(uniform(-1, 1) * (angular[i] ? 3.14 : length));
   for (std::size_t i = 0; i < layout.velocity_count(); ++i) {
-    sample.z.push_back(speed * uniform(-2, 2));
+    const double share = speed * uniform(-2, 2);
+    sample.z.push_back(
+        i < layout.first_state() ? share : drawn(mechanism.states[i - layout.first_state()], share, sample));
     sample.zdot.push_back(uniform(-5, 5));
   }
   for (std::size_t i = 0; i < layout.input_count(); ++i) sample.u.push_back(input * uniform(-5, 5));
   for (const std::size_t q : layout.quaternions) normalise(&sample.y[q]);
-  draw_direction(directions, sample);
+  draw_direction(layout.first_state(), directions, sample);
   return sample;
 }
 

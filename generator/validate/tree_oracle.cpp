@@ -180,6 +180,7 @@ ExactVector TreeOracle::acceleration_rate(const ExactDirection& direction) const
 std::vector<ScaledReal> TreeOracle::displacement_rate() const {
   const ExactDirection& d = point_.direction;
   std::vector<ScaledReal> rate = d.velocity;
+  rate.resize(d.displacement.size());
   const std::vector<ScaledReal>& z = point_.exact[LeafKind::kVelocity];
   for (const model::Tangent::Scalar& s : tangent_.quaternions)
     for (std::size_t k = 0; k < 3; ++k) {

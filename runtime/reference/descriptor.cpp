@@ -112,7 +112,8 @@ typename DescriptorReference<Scalar>::System DescriptorReference<Scalar>::linear
 
 template <class Scalar>
 descriptor::Scene<Scalar> DescriptorReference<Scalar>::scene_at(Scalar t, const Eigen::VectorX<Scalar>& u,
-                                                                const System& system) const {
+                                                                const System& system,
+                                                                const Eigen::VectorX<Scalar>& states) const {
   JD_CHECK(std::size_t(u.size()) == layout_.input_count(), "{} values for {} inputs", u.size(),
            layout_.input_count());
   descriptor::Scene<Scalar> scene{.t = t,
@@ -120,7 +121,8 @@ descriptor::Scene<Scalar> DescriptorReference<Scalar>::scene_at(Scalar t, const 
                                   .inputs = {u.begin(), u.end()},
                                   .position = {},
                                   .rate = {},
-                                  .frames = descriptor::frame_motions(frames_, bodies_, system.motions)};
+                                  .frames = descriptor::frame_motions(frames_, bodies_, system.motions),
+                                  .states = {states.begin(), states.end()}};
   for (const JointRows<Scalar>& rows : system.joints) {
     const auto position = rows.value.tail(coordinate_count(rows));
     const auto rate = rows.rate.tail(coordinate_count(rows));
@@ -156,6 +158,7 @@ Eigen::VectorX<Scalar> DescriptorReference<Scalar>::spin_damping(
 template <class Scalar>
 void DescriptorReference<Scalar>::add_forces(const descriptor::Scene<Scalar>& scene, System& system) const {
   system.forces = descriptor::body_forces(mechanism_, scene, frames_, bodies_, system.motions);
+  system.state_rates = descriptor::state_rates(mechanism_, scene);
   const std::vector<Eigen::VectorX<Scalar>> Q = descriptor::coordinate_forces(mechanism_, scene);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     Eigen::VectorX<Scalar> share = spin_damping(j, system.motions);

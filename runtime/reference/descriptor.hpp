@@ -94,6 +94,7 @@ struct AbsoluteState {
   Scalar t = 0;  ///< s
   std::vector<AbsoluteBody<Scalar>> bodies;
   std::vector<std::vector<Scalar>> near;  ///< by joint, its scalar coordinates approximately (see `measure`)
+  Eigen::VectorX<Scalar> states = {};     ///< beside the mechanism
 };
 
 /// What the index-1 system gives at an absolute state.
@@ -102,8 +103,9 @@ struct AbsoluteRates {
   Eigen::VectorX<Scalar> xdot;       ///< of (v_C, ω) body by body, 6 nb
   Eigen::VectorX<Scalar> g, g_rate;  ///< constraint violation g and G x + g_t, of joints, then of loops
   std::vector<std::vector<Scalar>>
-      near;                   ///< scalar coordinates measured there, prescribed ones as prescribed
-  Eigen::Index unknowns = 0;  ///< of the linear system: accelerations and multipliers
+      near;                       ///< scalar coordinates measured there, prescribed ones as prescribed
+  Eigen::VectorX<Scalar> states;  ///< their rates
+  Eigen::Index unknowns = 0;      ///< of the linear system: accelerations and multipliers
 };
 
 /// A mechanism with its parameters' values put in. Evaluations are const and independent of each other. Bodies
@@ -163,7 +165,8 @@ class DescriptorReference {
   void add_loop_rows(Scalar t, const Coordinates& coordinates, System& system) const;
   Eigen::MatrixX<Scalar> tree_velocities(Scalar t, const Eigen::VectorX<Scalar>& y,
                                          const Eigen::VectorX<Scalar>& z) const;
-  descriptor::Scene<Scalar> scene_at(Scalar t, const Eigen::VectorX<Scalar>& u, const System& system) const;
+  descriptor::Scene<Scalar> scene_at(Scalar t, const Eigen::VectorX<Scalar>& u, const System& system,
+                                     const Eigen::VectorX<Scalar>& states) const;
   Eigen::VectorX<Scalar> spin_damping(std::size_t joint,
                                       const std::vector<AbsoluteBody<Scalar>>& motions) const;
   void add_forces(const descriptor::Scene<Scalar>& scene, System& system) const;

@@ -37,6 +37,8 @@ Scalar value(const model::Expression& expression, const Scene<Scalar>& scene,
         return scene.frames.at(i).omega[component];
       case Variable::Kind::kFrameWorldSpin:
         return scene.frames.at(i).R_WF.row(component).dot(scene.frames.at(i).omega);
+      case Variable::Kind::kState:
+        return scene.states.at(i);
       case Variable::Kind::kArgument:
         JD_CHECK(v.component < arguments.size(), "argument {} of {}", v.component, arguments.size());
         return arguments[v.component];
@@ -86,6 +88,12 @@ Effect<Scalar> effect(const model::Load& load, const model::Mechanism&, const Sc
   const Matrix3<Scalar> R_WL = load.axes == model::LoadAxes::kFrame ? scene.frames[load.frame.value].R_WF
                                                                     : Matrix3<Scalar>::Identity();
   return {.at_frames = {{load.frame, R_WL * value(load.force, scene), R_WL * value(load.moment, scene)}}};
+}
+
+/// Nothing on bodies and coordinates: see `state_rates`.
+template <class Scalar>
+Effect<Scalar> effect(const model::StateVariable&, const model::Mechanism&, const Scene<Scalar>&) {
+  return {};
 }
 
 template <class Scalar>

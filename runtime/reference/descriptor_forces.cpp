@@ -134,6 +134,14 @@ std::vector<Eigen::VectorX<Scalar>> coordinate_forces(const model::Mechanism& me
 }
 
 template <class Scalar>
+Eigen::VectorX<Scalar> state_rates(const model::Mechanism& mechanism, const Scene<Scalar>& scene) {
+  Eigen::VectorX<Scalar> rates(Eigen::Index(mechanism.states.size()));
+  for (Eigen::Index i = 0; i < rates.size(); ++i)
+    rates[i] = value(mechanism.states[std::size_t(i)].rate, scene);
+  return rates;
+}
+
+template <class Scalar>
 std::vector<Eigen::VectorX<Scalar>> rotor_inertias(const model::Mechanism& mechanism,
                                                    std::span<const Scalar> parameters) {
   std::vector<Eigen::VectorX<Scalar>> inertias;
@@ -157,6 +165,7 @@ std::vector<Eigen::VectorX<Scalar>> rotor_inertias(const model::Mechanism& mecha
                                          const std::vector<Frame<S>>&, const std::vector<Body<S>>&,    \
                                          const std::vector<AbsoluteBody<S>>&);                         \
   template std::vector<Eigen::VectorX<S>> coordinate_forces(const model::Mechanism&, const Scene<S>&); \
+  template Eigen::VectorX<S> state_rates(const model::Mechanism&, const Scene<S>&);                    \
   template std::vector<Eigen::VectorX<S>> rotor_inertias(const model::Mechanism&, std::span<const S>);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE

@@ -65,6 +65,7 @@ struct Scene {
   std::vector<Scalar> parameters, inputs;           ///< as in the mechanism and its CoordinateLayout
   std::vector<std::vector<Scalar>> position, rate;  ///< by joint and scalar coordinate, prescribed ones too
   std::vector<FrameMotion<Scalar>> frames;          ///< as in the mechanism
+  std::vector<Scalar> states = {};                  ///< as in the mechanism
 };
 
 /// Motion of each of the frames on the given bodies.
@@ -86,6 +87,10 @@ Eigen::VectorX<Scalar> body_forces(const model::Mechanism& mechanism, const Scen
 template <class Scalar>
 std::vector<Eigen::VectorX<Scalar>> coordinate_forces(const model::Mechanism& mechanism,
                                                       const Scene<Scalar>& scene);
+
+/// Rates of the states.
+template <class Scalar>
+Eigen::VectorX<Scalar> state_rates(const model::Mechanism& mechanism, const Scene<Scalar>& scene);
 
 /// gear_ratio² rotor_inertia of the actuators, summed on each scalar coordinate of each joint; kg m² or kg.
 template <class Scalar>

@@ -134,6 +134,7 @@ DescriptorSolution<Scalar> DescriptorReference<Scalar>::solution(const System& s
 
   DescriptorSolution<Scalar> result;
   result.zdot.resize(Eigen::Index(layout_.velocity_count()));
+  result.zdot.tail(system.state_rates.size()) = system.state_rates;
   result.g = system.g.head(system.joint_row_count());
   result.g_rate = system.g_rate.head(system.joint_row_count());
   result.size = nx + system.G.rows();
@@ -160,7 +161,7 @@ DescriptorSolution<Scalar> DescriptorReference<Scalar>::solve(Scalar t, const Ei
                                                               const Eigen::VectorX<Scalar>& z,
                                                               const Eigen::VectorX<Scalar>& u) const {
   System system = linearise(t, absolute_state(t, y, z), coordinates_at(t, y, z));
-  add_forces(scene_at(t, u, system), system);
+  add_forces(scene_at(t, u, system, z.tail(Eigen::Index(layout_.state_count))), system);
   add_inertia(system);
   return solution(system, tree_velocities(t, y, z));
 }
@@ -179,14 +180,19 @@ template <class Scalar>
 AbsoluteRates<Scalar> DescriptorReference<Scalar>::rates(const AbsoluteState<Scalar>& state,
                                                          const Eigen::VectorX<Scalar>& u) const {
   System system = linearise(state.t, state.bodies, coordinates_near(state.t, state.near));
-  const descriptor::Scene<Scalar> scene = scene_at(state.t, u, system);
+  const descriptor::Scene<Scalar> scene = scene_at(state.t, u, system, state.states);
   add_forces(scene, system);
   add_inertia(system);
   const Eigen::MatrixX<Scalar> matrix = index1_matrix(system);
   Eigen::VectorX<Scalar> right(matrix.rows());
   right << system.forces, -system.as_solved(system.gamma);
   const Eigen::VectorX<Scalar> unknowns = solved_by_lu<Scalar>(matrix, right);
-  return {unknowns.head(system.M.rows()), system.g, system.g_rate, scene.position, matrix.rows()};
+  return {unknowns.head(system.M.rows()),
+          system.g,
+          system.g_rate,
+          scene.position,
+          system.state_rates,
+          matrix.rows()};
 }
 
 /// Change of x that moves the constraints' linearisation by −violation.

@@ -94,7 +94,7 @@ typename DescriptorReference<Scalar>::Coordinates DescriptorReference<Scalar>::c
 template <class Scalar>
 AbsoluteState<Scalar> DescriptorReference<Scalar>::absolute(Scalar t, const Eigen::VectorX<Scalar>& y,
                                                             const Eigen::VectorX<Scalar>& z) const {
-  AbsoluteState<Scalar> state{t, absolute_state(t, y, z), {}};
+  AbsoluteState<Scalar> state{t, absolute_state(t, y, z), {}, z.tail(Eigen::Index(layout_.state_count))};
   for (const auto& joint : coordinates_at(t, y, z)) {
     state.near.emplace_back();
     for (const TimeJet<Scalar>& coordinate : joint) state.near.back().push_back(coordinate.value);

@@ -33,6 +33,7 @@ struct DescriptorReference<Scalar>::System {
   Eigen::VectorX<Scalar> g, g_rate, gamma;       ///< g, G x + g_t, γ
   Eigen::MatrixX<Scalar> M;                      ///< 6 nb × 6 nb, with rotors
   Eigen::VectorX<Scalar> forces;                 ///< right-hand side of M ẋ + Gᵀ λ, 6 nb
+  Eigen::VectorX<Scalar> state_rates;
   std::vector<Eigen::VectorX<Scalar>> joint_forces;  ///< by joint, its share Cᵀ Q of `forces`, 6 nb
 
   Eigen::Index joint_row_count() const { return G.rows() - loop_row_count; }

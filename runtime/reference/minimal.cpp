@@ -98,6 +98,7 @@ State<Scalar> Reference<Scalar>::initial_state() const {
     for (const model::Expression& component : joint.initial_orientation) y.push_back(value(component));
     for (const model::Expression& component : joint.initial_spin) z.push_back(value(component));
   }
+  for (const model::StateVariable& variable : mechanism_.states) z.push_back(value(variable.initial));
   const auto vector = [](const std::vector<Scalar>& values) {
     return VectorX<Scalar>(Eigen::Map<const VectorX<Scalar>>(values.data(), Eigen::Index(values.size())));
   };
@@ -178,6 +179,10 @@ Terms<Scalar> Reference<Scalar>::all_columns(const Forces& at) const {
     center.shift(center.R * bodies_[i].p_BC);
     add_body(bodies_[i], center, at, sum);
   }
+  for (std::size_t i = 0; i < layout_.state_count; ++i) {
+    const auto row = Eigen::Index(layout_.first_state() + i);
+    sum.M(row, row) = sum.M_scale(row, row) = 1;
+  }
   add_joint_forces(at, sum);
   for_each_force_element(mechanism_, [&](const auto& element) { add(effect(element, at), at, sum); });
   return sum;
@@ -199,6 +204,7 @@ Terms<Scalar> Reference<Scalar>::evaluate(const State<Scalar>& state, const Vect
   terms.k_scale = k_s;
   terms.q_bar = terms.q_bar.head(nz).eval();
   terms.q_scale = terms.q_scale.head(nz).eval();
+  terms.state_count = Eigen::Index(layout_.state_count);
   return terms;
 }
 

@@ -73,6 +73,7 @@ struct Terms {
   Scalar kinetic_energy = 0;    ///< J
   Scalar potential_energy = 0;  ///< J: −m g·p_C, zero at the inertial origin, springs, elements
   Scalar kinetic_scale = 0, potential_scale = 0;
+  Eigen::Index state_count = 0;  ///< last rows: ẋ = −q̄, a unit inertia each
 };
 
 /// Entries of one output of the mechanism, member by member, matrices row by row: pose: position, rotation;
@@ -167,6 +168,7 @@ class Reference {
   Effect effect(const model::Spring& spring, const Forces& at) const;
   Effect effect(const model::Load& load, const Forces& at) const;
   Effect effect(const model::Bushing& bushing, const Forces& at) const;
+  Effect effect(const model::StateVariable& state, const Forces& at) const;
 
   /// Second derivatives of all scalar velocities, with their scales.
   struct Accelerations {
@@ -194,7 +196,7 @@ inline constexpr long double kNaturalShare = 1e-3L;
 
 /// Where every term of an entry vanishes with the same cosine, its term sum says nothing: rounding an angle of size 1
 /// moves the entry by the unit roundoff times its natural size, sqrt(M_ii M_jj) for M and as much for rows of
-/// k̄ and q̄, measured by M_scale. Adds kNaturalShare of that to the scales.
+/// k̄ and q̄, measured by M_scale. Adds kNaturalShare of that to the scales, but of states.
 template <class Scalar>
 void widen_scales(Terms<Scalar>& terms);
 

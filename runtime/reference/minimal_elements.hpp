@@ -111,4 +111,10 @@ auto Reference<Scalar>::effect(const model::Load& load, const Forces& at) const 
   return {.at_frames = {{load.frame, force, moment}}};
 }
 
+template <class Scalar>
+auto Reference<Scalar>::effect(const model::StateVariable& state, const Forces& at) const -> Effect {
+  const auto index = std::size_t(&state - mechanism_.states.data());
+  return {.on_columns = {{Eigen::Index(layout_.first_state() + index), general(state.rate, at)}}};
+}
+
 }  // namespace jourdain::reference

@@ -34,6 +34,8 @@ Bounded<Scalar> Reference<Scalar>::general(const model::Expression& expression, 
         return coordinate(v.index, v.component, at.state).first;
       case Kind::kInput:
         return at.u[Eigen::Index(v.index)];
+      case Kind::kState:
+        return at.state.z[Eigen::Index(layout_.first_state() + v.index)];
       case Kind::kFramePosition:
         return {at.frames[v.index].p[k], at.frames[v.index].p_scale[k]};
       case Kind::kFrameVelocity:

@@ -9,13 +9,14 @@ namespace jourdain::reference {
 template <class Scalar>
 void widen_scales(Terms<Scalar>& terms) {
   const auto share = Scalar(kNaturalShare);
-  if (terms.M.size() == 0) return;
-  const VectorX<Scalar> size = terms.M_scale.diagonal().cwiseSqrt();
+  const Eigen::Index n = terms.M.rows() - terms.state_count;
+  if (n == 0) return;
+  const VectorX<Scalar> size = terms.M_scale.diagonal().head(n).cwiseSqrt();
   for (VectorX<Scalar>* scale : {&terms.k_scale, &terms.q_scale}) {
-    const Scalar relative = (scale->array() / size.array()).maxCoeff();
-    *scale += share * relative * size;
+    const Scalar relative = (scale->head(n).array() / size.array()).maxCoeff();
+    scale->head(n) += share * relative * size;
   }
-  terms.M_scale += share * size * size.transpose();
+  terms.M_scale.topLeftCorner(n, n) += share * size * size.transpose();
 }
 
 template <class Scalar>

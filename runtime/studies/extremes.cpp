@@ -112,7 +112,7 @@ class Comparison {
     const auto n = static_cast<Eigen::Index>(flow_.table().velocity_count);
     if (flow_.has_loops()) return M.cwiseAbs() * zdot.cwiseAbs() + by_entries(M, t, x);
     const MatrixXd A = linearisation(flow_, {t, x}, tangent_);
-    VectorXd sizes(2 * n);
+    VectorXd sizes = VectorXd::Zero(2 * n);
     for (const model::Tangent::Scalar& s : tangent_.scalars)
       sizes[static_cast<Eigen::Index>(s.velocity)] = std::fabs(x[s.position]);
     for (const model::Tangent::Scalar& s : tangent_.quaternions)

@@ -62,6 +62,7 @@ bool can_stay(const model::CoordinateForce&, const Mechanism&) { return false; }
 bool can_stay(const model::Load&, const Mechanism&) { return false; }
 bool can_stay(const model::Spring&, const Mechanism&) { return true; }
 bool can_stay(const model::Bushing&, const Mechanism&) { return true; }
+bool can_stay(const model::StateVariable&, const Mechanism&) { return false; }
 
 bool can_be_rewritten(const Mechanism& m) {
   return m.loops.empty() &&

@@ -95,8 +95,8 @@ MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point, con
     return A;
   }
   MatrixXd J = extrapolated_jacobian(flow, point);
-  if (tangent.quaternions.empty()) return J;
   const auto ny = static_cast<Index>(flow.position_count()), nz = J.cols() - ny;
+  if (tangent.quaternions.empty() && ny == nz) return J;
   const MatrixXd T = position_tangents(Eigen::Map<const VectorXd>(point.x.data(), ny), nz, tangent);
   MatrixXd A(2 * nz, 2 * nz);
   // In axes that do not turn, a small rotation changes by the difference of the angular velocities and by nothing else.

@@ -142,20 +142,27 @@ std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& 
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,
                      const std::vector<Local>& locals, const model::Tangent& tangent, bool conserves_energy) {
   return {trajectory_rate(flow, reference, tangent), reference.points.back().t - reference.points.front().t,
-          flow.table().unit_roundoff, !conserves_energy && damps(flow, locals, tangent)};
+          flow.table().unit_roundoff,
+          (!conserves_energy || still_velocities(flow, tangent) > 0) && damps(flow, locals, tangent)};
 }
 
 double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference,
                        const model::Tangent& tangent) {
   constexpr std::size_t kMost = 2000;
   const std::size_t stride = 1 + reference.points.size() / kMost;
-  const auto n = static_cast<Index>(flow.size() - flow.position_count());
+  const auto n = static_cast<Index>(flow.size() - flow.position_count()),
+             states = static_cast<Index>(still_velocities(flow, tangent));
   double motion = 0, change = 0, turning = 0, count = 0;
+  VectorXd sizes = VectorXd::Zero(states), changes = sizes;  // of states
   for (std::size_t k = 0; k < reference.points.size(); k += stride, ++count) {
     const Point<double>& point = reference.points[k];
     const std::vector<double> rates = flow.rates(point.t, point.x);
-    const VectorXd z = Eigen::Map<const VectorXd>(point.x.data() + flow.position_count(), n),
-                   zdot = Eigen::Map<const VectorXd>(rates.data() + flow.position_count(), n);
+    VectorXd z = Eigen::Map<const VectorXd>(point.x.data() + flow.position_count(), n),
+             zdot = Eigen::Map<const VectorXd>(rates.data() + flow.position_count(), n);
+    sizes += z.tail(states).cwiseAbs();
+    changes += zdot.tail(states).cwiseAbs();
+    z.tail(states).setZero();
+    zdot.tail(states).setZero();
     motion += z.dot(mass_times(flow, point, z));
     change += zdot.dot(mass_times(flow, point, zdot));
     for (const model::Tangent::Scalar& s : tangent.quaternions)
@@ -163,7 +170,10 @@ double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& refere
   }
   const double slowest = 1 / (reference.points.back().t - reference.points.front().t);
   const double rate = motion > 0 ? std::sqrt(std::max(0.0, change) / motion) : 0;
-  return std::max({slowest, turning, rate});
+  double of_states = 0;
+  for (Index i = 0; i < states; ++i)
+    if (sizes[i] > 0) of_states = std::max(of_states, changes[i] / sizes[i]);
+  return std::max({slowest, turning, rate, of_states});
 }
 
 const Local& local_at(const std::vector<Local>& locals, double time) {

@@ -33,13 +33,13 @@ struct Scene {
 std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
                              const model::Tangent& tangent, const Progress& progress);
 
-/// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing.
+/// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing, unless there are states.
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,
                      const std::vector<Local>& locals, const model::Tangent& tangent, bool conserves_energy);
 
 /// rms(ż) over rms(z) along the trajectory, weighed by M, 1/s: a stiff coordinate that vibrates or settles
-/// counts with the little energy that it has. At least half the largest rate at which a quaternion turns, and
-/// one over the duration.
+/// counts with the little energy that it has; of states mean |ẋ| over mean |x|. At least half the largest rate
+/// at which a quaternion turns, and one over the duration.
 double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference,
                        const model::Tangent& tangent);
 

@@ -86,11 +86,12 @@ class DescriptorForm : public NumericForm {
   bool finite() const override { return packed(state_).allFinite(); }
 
  private:
-  /// Body by body: centre of mass, quaternion w x y z, v, ω.
+  /// Body by body: centre of mass, quaternion w x y z, v, ω; then states beside the mechanism.
   static constexpr Eigen::Index kEntries = 13;
 
   static VectorXd packed(const reference::AbsoluteState<double>& state) {
-    VectorXd x(kEntries * Eigen::Index(state.bodies.size()));
+    VectorXd x(kEntries * Eigen::Index(state.bodies.size()) + state.states.size());
+    x.tail(state.states.size()) = state.states;
     Eigen::Index first = 0;
     for (const auto& body : state.bodies) {
       const Eigen::Quaterniond& q = body.orientation;
@@ -101,8 +102,9 @@ class DescriptorForm : public NumericForm {
   }
 
   reference::AbsoluteState<double> unpacked(double t, const VectorXd& x) const {
-    reference::AbsoluteState<double> state{t, {}, state_.near};
-    for (Eigen::Index first = 0; first < x.size(); first += kEntries) {
+    const Eigen::Index others = state_.states.size();
+    reference::AbsoluteState<double> state{t, {}, state_.near, x.tail(others)};
+    for (Eigen::Index first = 0; first < x.size() - others; first += kEntries) {
       const auto entry = x.segment<kEntries>(first);
       state.bodies.push_back({entry.head<3>(), Eigen::Quaterniond(entry[3], entry[4], entry[5], entry[6]),
                               entry.segment<3>(7), entry.tail<3>()});
@@ -116,6 +118,7 @@ class DescriptorForm : public NumericForm {
     const auto rates = model_.rates(state, to_vector(inputs_.at(t)));
     state_.near = rates.near;
     VectorXd f(x.size());
+    f.tail(rates.states.size()) = rates.states;
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
       const Eigen::Index first = kEntries * Eigen::Index(b);
       const Eigen::Vector3d& omega = state.bodies[b].omega;

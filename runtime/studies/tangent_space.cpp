@@ -23,7 +23,7 @@ Eigen::Vector4d quaternion_at(const Point<double>& point, std::size_t entry) {
 VectorXd difference(const Flow<double>& flow, const model::Tangent& tangent, const Point<double>& to,
                     const Point<double>& from) {
   const Index nz = velocity_count(flow);
-  VectorXd result(2 * nz);
+  VectorXd result = VectorXd::Zero(2 * nz);
   for (const model::Tangent::Scalar& s : tangent.scalars)
     result[Index(s.velocity)] = to.x[s.position] - from.x[s.position];
   for (const model::Tangent::Scalar& s : tangent.quaternions) {
@@ -52,6 +52,7 @@ MatrixXd closing_jacobian(const Flow<double>& flow, const Point<double>& point,
     };
     P.col(k) = difference(flow, tangent, side(delta), side(-delta)) / (2 * delta);
   }
+  for (Index k = nz - static_cast<Index>(still_velocities(flow, tangent)); k < nz; ++k) P(k, k) = 1;
   return P;
 }
 
@@ -64,6 +65,11 @@ Eigen::Matrix<double, 4, 3> turning(const Eigen::Vector4d& q) {
       q[3], q[0], -q[1],     //
       -q[2], q[1], q[0];
   return m / 2;
+}
+
+std::size_t still_velocities(const Flow<double>& flow, const model::Tangent& tangent) {
+  return static_cast<std::size_t>(flow.table().velocity_count) - tangent.scalars.size() -
+         3 * tangent.quaternions.size();
 }
 
 bool keeps_all_coordinates(const Flow<double>& flow, const model::Tangent& tangent) {

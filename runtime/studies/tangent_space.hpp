@@ -10,6 +10,9 @@
 
 namespace jourdain::studies {
 
+/// Last entries of z that displace nothing: states beside the mechanism.
+std::size_t still_velocities(const Flow<double>& flow, const model::Tangent& tangent);
+
 /// Whether every position counts in `tangent` though there are loops: multipliers hold them closed.
 bool keeps_all_coordinates(const Flow<double>& flow, const model::Tangent& tangent);
 

@@ -29,6 +29,8 @@ struct Counting {
   friend Counting atan2(Counting a, Counting b);
   friend Counting exp(Counting a);
   friend Counting tanh(Counting a);
+  friend Counting atan(Counting a);
+  friend Counting fabs(Counting a);
   /// Whoever compares chooses.
   friend bool operator<(Counting a, Counting b) { return ++counted.selections, a.value < b.value; }
 };
@@ -39,5 +41,7 @@ Counting cos(Counting a);
 Counting atan2(Counting a, Counting b);
 Counting exp(Counting a);
 Counting tanh(Counting a);
+Counting atan(Counting a);
+Counting fabs(Counting a);
 
 }  // namespace jourdain::tests

@@ -45,6 +45,12 @@ struct Pack {
   friend Pack sqrt(const Pack& a) {
     return each([&](std::size_t i) { return std::sqrt(a.v[i]); });
   }
+  friend Pack fabs(const Pack& a) {
+    return each([&](std::size_t i) { return std::fabs(a.v[i]); });
+  }
+  friend Pack atan(const Pack& a) {
+    return each([&](std::size_t i) { return std::atan(a.v[i]); });
+  }
   friend Pack exp(const Pack& a) {
     return each([&](std::size_t i) { return std::exp(a.v[i]); });
   }

@@ -102,7 +102,7 @@ TEST(Cases, ATreeThatIsPrintedSaysWhatWasRead) {
     if (entry.path().extension() != ".toml") continue;
     const std::string printed = print_tree(read_tree(support::read_file(entry.path().string())));
     EXPECT_EQ(print_tree(read_tree(printed)), printed);
-    support::Diagnostics diagnostics("model.toml", printed);
+    support::Diagnostics diagnostics(entry.path().string(), printed);
     EXPECT_TRUE(model::read_mechanism(diagnostics)) << diagnostics.format();
   }
 }

@@ -1,5 +1,5 @@
 // Accelerations and constraint forces of the emitted programs against the descriptor form: every model and robot
-// with loops and more than a hundred random mechanisms.
+// with loops and more than a hundred random mechanisms, of which a third have states beside them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_loops.hpp"
+#include "properties/random_states.hpp"
 #include "reference/descriptor.hpp"
 
 namespace jourdain::tests {
@@ -130,7 +131,8 @@ TEST(Loops, RandomMechanismsAccelerateAndLoadAsTheDescriptorFormSays) {
   Tally chosen, multipliers;
   for (std::uint64_t seed = 0; seed < kMechanisms; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
-    const model::Mechanism mechanism = random_loops(seed);
+    model::Mechanism mechanism = random_loops(seed);
+    if (seed % 3 == 2) add_states(mechanism, seed);
     const auto states = consistent_states(mechanism, seed, kStates);
     ASSERT_TRUE(states);
     compare(mechanism, {}, *states, chosen);

@@ -1,6 +1,7 @@
 // How many random cases a test draws.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -22,5 +23,8 @@ inline std::uint64_t cases(std::uint64_t all) {
   return draws_all_cases() ? all : (all + 3) / 4;
 #endif
 }
+
+/// Whether a test looks at the `number`-th of several: at one in `of`, or at all where draws_all_cases().
+inline bool draws(std::size_t number, std::size_t of) { return draws_all_cases() || number % of == 0; }
 
 }  // namespace jourdain::tests

@@ -11,6 +11,7 @@
 #include "properties/arithmetic.hpp"
 #include "properties/random.hpp"
 #include "properties/random_scene.hpp"
+#include "properties/random_states.hpp"
 
 namespace jourdain::tests {
 
@@ -38,11 +39,18 @@ class Laws {
     output.kind = model::OutputKind::kExpression;
     output.value = law(quantity(), quantity());
     mechanism_.outputs.push_back(output);
+    if (random_.chance(0.5)) add_states();
     return std::move(mechanism_);
   }
 
  private:
   double number(double low, double high) { return random_.uniform(low, high); }
+
+  void add_states() {
+    tests::add_states(mechanism_, random_.below(1000));
+    for (model::StateVariable& state : mechanism_.states)
+      state.rate = state.rate + number(-1, 1) * law(quantity(), quantity());
+  }
 
   void add_to(std::size_t j, std::size_t c) {
     model::Coordinate& coordinate = mechanism_.joints[j].coordinates[c];
@@ -78,6 +86,8 @@ class Laws {
       choice.push_back(variable(Variable::Kind::kFrameVelocity, frame, axis));
       choice.push_back(variable(Variable::Kind::kFrameWorldSpin, frame, axis));
     }
+    for (std::size_t i = 0; i < mechanism_.states.size(); ++i)
+      choice.push_back(variable(Variable::Kind::kState, i));
     return choice[random_.below(choice.size())];
   }
 

@@ -8,7 +8,8 @@
 namespace jourdain::tests {
 
 /// random_scene(seed) with forces, loads, laws of springs and outputs by functions of every kind, and with motions by
-/// those that are smooth. Where a function has values on one side only, an `if` may hold it back.
+/// those that are smooth; half of them with states. Where a function has values on one side only, an `if` may hold it
+/// back.
 model::Mechanism random_scene_with_laws(std::uint64_t seed);
 
 }  // namespace jourdain::tests

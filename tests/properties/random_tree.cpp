@@ -338,6 +338,13 @@ reference::State<double> random_state(const model::Mechanism& mechanism, std::ui
   }
   for (const std::size_t q : layout.quaternions) state.y.segment<4>(Eigen::Index(q)).normalize();
   if (model::time_dependence(mechanism).any()) state.t = random.uniform(0, 2);
+  const std::vector<double> parameters = model::default_values(mechanism);
+  for (std::size_t i = 0; i < layout.state_count; ++i) {
+    const model::StateVariable& beside = mechanism.states[i];
+    state.z[Eigen::Index(layout.first_state() + i)] =
+        beside.initial.evaluate<double>(parameters) +
+        random.uniform(-2, 2) * beside.nominal.evaluate<double>(parameters);
+  }
   return state;
 }
 

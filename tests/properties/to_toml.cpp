@@ -112,6 +112,8 @@ class Writer {
         return fmt::format("{}.w{}", mechanism_.frames[v.index].name, kAxes[v.component]);
       case Kind::kFrameWorldSpin:
         return fmt::format("{}.world_w{}", mechanism_.frames[v.index].name, kAxes[v.component]);
+      case Kind::kState:
+        return mechanism_.states[v.index].name;
       case Kind::kArgument:
         return arguments_[v.component];
     }
@@ -125,6 +127,12 @@ class Writer {
 
   std::string vector(const model::Vector3& v) const {
     return fmt::format("[{}, {}, {}]", value(v[0]), value(v[1]), value(v[2]));
+  }
+
+  void add(const model::StateVariable& state) {
+    text_ += fmt::format("\n[[state]]\nname = \"{}\"\nrate = {}\ninitial = {}\n", state.name,
+                         value(state.rate), value(state.initial));
+    if (!state.unit.empty()) text_ += fmt::format("unit = \"{}\"\n", state.unit);
   }
 
   void add(const model::Body& body) {

@@ -19,6 +19,7 @@
 #include "rocking_four_bar_all/rocking_four_bar_all_kernels.hpp"
 #include "spring_four_bar_all/spring_four_bar_all_kernels.hpp"
 #include "steppers/dual.hpp"
+#include "steppers/measured_order.hpp"
 #include "steppers/visit_steppers.hpp"
 
 namespace jourdain::tests {
@@ -33,7 +34,7 @@ concept HasClock = requires(State state) {
 template <class State>
 constexpr std::size_t kQuotientsOfRk5 = HasClock<State> ? 24 : 20;
 
-TEST(Steppers, OperationsAreThoseOfTheManifest) {
+TEST(Steppers, OperationsAreThoseOfTheManifest){
 #define JOURDAIN_COUNT_STEPS(ns)                                                                            \
   {                                                                                                         \
     std::ifstream file(JOURDAIN_STEPPERS "/" #ns "/" #ns ".json");                                          \
@@ -51,40 +52,9 @@ TEST(Steppers, OperationsAreThoseOfTheManifest) {
     };                                                                                                      \
     JOURDAIN_VISIT_STEPPERS(ns, Counting, visit);                                                           \
   }
-  JOURDAIN_COUNT_STEPS(quadrotor_all)
-  JOURDAIN_COUNT_STEPS(cart_pole_all)
-  JOURDAIN_COUNT_STEPS(flyball_governor_all)
-  JOURDAIN_COUNT_STEPS(spring_four_bar_all)
-  JOURDAIN_COUNT_STEPS(rocking_four_bar_all)
-}
-
-/// Positions after `duration` (s) in `steps` steps from the initial state.
-template <class State, class Input, class Step, class History>
-std::vector<long double> after(State state, const Input& input, long double duration, int steps, Step step,
-                               History history) {
-  for (int i = 0; i < steps; ++i) step(state, input, duration / steps, history);
-  return {std::begin(state.y), std::end(state.y)};
-}
-
-long double distance(const std::vector<long double>& a, const std::vector<long double>& b) {
-  long double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(sum);
-}
-
-/// Orders from the differences of four resolutions, extrapolated to steps of length zero. In long double, so that
-/// rounding does not reach the fifth-order method.
-template <class State, class Input, class Step, class History>
-double measured_order(const State& state, const Input& input, long double duration, Step step,
-                      const History& history) {
-  std::vector<std::vector<long double>> ends;
-  for (const int steps : {200, 400, 800, 1600})
-    ends.push_back(after(state, input, duration, steps, step, history));
-  const auto slope = [&ends](std::size_t i) {
-    return std::log2(distance(ends[i], ends[i + 1]) / distance(ends[i + 1], ends[i + 2]));
-  };
-  return double(2 * slope(1) - slope(0));
-}
+    JOURDAIN_COUNT_STEPS(quadrotor_all) JOURDAIN_COUNT_STEPS(cart_pole_all)
+        JOURDAIN_COUNT_STEPS(flyball_governor_all) JOURDAIN_COUNT_STEPS(spring_four_bar_all)
+            JOURDAIN_COUNT_STEPS(rocking_four_bar_all)}
 
 TEST(Steppers, HaveTheirOrders){
 #define JOURDAIN_CHECK_ORDERS(ns, duration)                                                               \

@@ -14,6 +14,7 @@
 #include "loops/plan/scales.hpp"
 #include "loops/plan/sharing_rows.hpp"
 #include "loops/plan/start.hpp"
+#include "loops/plan/states.hpp"
 #include "loops/regularity/regularity_proof.hpp"
 #include "loops/rows/disagreement.hpp"
 #include "loops/rows/regular_rows.hpp"
@@ -372,7 +373,11 @@ class Planner {
 
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
                                    support::Diagnostics& diagnostics) {
-  return Planner(mechanism, constraints, diagnostics).plan();
+  if (mechanism.states.empty()) return Planner(mechanism, constraints, diagnostics).plan();
+  const model::Mechanism held = without_states(mechanism);
+  std::optional<LoopPlan> plan = Planner(held, constraints, diagnostics).plan();
+  if (plan) add_states(mechanism, *plan);
+  return plan;
 }
 
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {

@@ -102,6 +102,8 @@ void check_numbers(const Mechanism& mechanism, Diagnostics& diagnostics) {
   check.values(mechanism.gravity, {}, "gravity");
   for (const Body& body : mechanism.bodies) check.body(body);
   for (const Joint& joint : mechanism.joints) check.joint(joint);
+  for (const StateVariable& state : mechanism.states)
+    check.value(state.initial, state.where, fmt::format("initial of state '{}'", support::shown(state.name)));
 }
 
 void check_mechanism(const Mechanism& mechanism, Diagnostics& diagnostics, support::Severity triangle) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "model/check/checks.hpp"
+#include "model/coordinates.hpp"
 
 namespace jourdain::model {
 
@@ -104,6 +105,14 @@ class GraphCheck {
   bool sound_ = true;
 };
 
+void check_states(const Mechanism& mechanism, Diagnostics& diagnostics) {
+  if (mechanism.states.empty() || lay_out_coordinates(mechanism).position_count() > 0) return;
+  diagnostics.error(mechanism.states.front().where,
+                    fmt::format("state '{}' moves beside a mechanism that only time moves",
+                                support::shown(mechanism.states.front().name)),
+                    "states need a coordinate without 'motion'");
+}
+
 }  // namespace
 
 bool check_graph(const Mechanism& mechanism, Diagnostics& diagnostics) {
@@ -117,6 +126,7 @@ bool check_graph(const Mechanism& mechanism, Diagnostics& diagnostics) {
                       diagnostics.path().ends_with(".toml")
                           ? "every joint is fixed"
                           : "every joint is fixed; --root free lets the root link move");
+  check_states(mechanism, diagnostics);
   return true;
 }
 

@@ -46,13 +46,14 @@ struct Named {
   SourceRange where;
 };
 
-/// What expressions name beside frames: coordinates and inputs; an actuator may have the name of its coordinate.
+/// What expressions name beside frames: coordinates, inputs, states; an actuator may have the name of its coordinate.
 std::vector<Named> signals(const Mechanism& mechanism) {
   std::vector<Named> names;
   for (const Joint& joint : mechanism.joints)
     for (const Coordinate& coordinate : joint.coordinates) names.push_back({coordinate.name, joint.where});
   for (const Actuator& actuator : mechanism.actuators) names.push_back({actuator.name, actuator.where});
   for (const Input& input : mechanism.inputs) names.push_back({input.name, input.where});
+  for (const StateVariable& state : mechanism.states) names.push_back({state.name, state.where});
   return names;
 }
 
@@ -78,6 +79,7 @@ class Renumber {
         frames_(mechanism.frames.size()),
         actuators_(mechanism.actuators.size()),
         inputs_(mechanism.inputs.size()),
+        states_(mechanism.states.size()),
         own_actuators_(part.actuators.size()) {
     std::size_t count = mechanism.parameters.size();
     for (const std::optional<Expression>& given : how.parameters)
@@ -119,6 +121,9 @@ class Renumber {
       case Kind::kInput:
         variable.index += actuators_ + (variable.index < own_actuators_ ? 0 : inputs_);
         break;
+      case Kind::kState:
+        variable.index += states_;
+        break;
       case Kind::kFramePosition:
       case Kind::kFrameVelocity:
       case Kind::kFrameSpin:
@@ -131,7 +136,7 @@ class Renumber {
 
   int file_;
   std::vector<Expression> parameters_;
-  std::size_t bodies_, joints_, frames_, actuators_, inputs_, own_actuators_;
+  std::size_t bodies_, joints_, frames_, actuators_, inputs_, states_, own_actuators_;
   bool too_long_ = false;
 };
 
@@ -161,7 +166,7 @@ std::optional<NameClash> name_clash(const Mechanism& mechanism, const Mechanism&
       clash("frames", here, there),
       clash("frames or bodies", here, part.bodies),
       clash("frames or bodies", mechanism.bodies, there),
-      clash("coordinates or inputs", signals(mechanism), signals(part)),
+      clash("coordinates, inputs or states", signals(mechanism), signals(part)),
       clash("outputs", mechanism.outputs, part.outputs),
       clash("functions", mechanism.kinematics, part.kinematics),
       clash("loops", mechanism.loops, part.loops),

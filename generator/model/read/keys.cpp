@@ -6,6 +6,7 @@
 #include "model/read/keys_of_imports.hpp"
 #include "model/read/keys_of_kinematics.hpp"
 #include "model/read/keys_of_springs.hpp"
+#include "model/read/keys_of_states.hpp"
 #include "model/read/keys_of_tables.hpp"
 #include "support/check.hpp"
 
@@ -223,7 +224,7 @@ description = "above that of the crankcase"
 KeySection force_section() {
   return {"force",
           "[[force]]",
-          "A force and a moment on a frame, or a force on a coordinate. Expressions of t, inputs, "
+          "A force and a moment on a frame, or a force on a coordinate. Expressions of t, inputs, states, "
           "coordinates (crank, "
           "crank.rate) and frames: position (tip.x), velocity (tip.vx) and angular velocity (tip.world_wx) "
           "in the inertial "
@@ -238,7 +239,7 @@ KeySection force_section() {
            {"value", "expression", "N m, N", kRequired, "on the coordinate"}},
           R"toml([[force]]
 joint = "piston"
-value = "-6.4e-3*gas_pressure"
+value = "piston_force"
 
 [[force]]
 joint = "camshaft"
@@ -341,8 +342,9 @@ frame = "small_end"
 std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
       model_section(),      parameter_section(), table_section(),    body_section(),       joint_section(),
-      coordinate_section(), frame_section(),     actuator_section(), input_section(),      force_section(),
-      spring_section(),     bushing_section(),   stop_section(),     contact_section(),    loop_section(),
+      coordinate_section(), frame_section(),     actuator_section(), input_section(),      state_section(),
+      signal_section(),     friction_section(),  force_section(),    spring_section(),     bushing_section(),
+      cable_section(),      gear_mesh_section(), stop_section(),     contact_section(),    loop_section(),
       coupler_section(),    loops_section(),     output_section(),   kinematics_section(), import_section(),
       override_section(),   repeat_section()};
   return sections;

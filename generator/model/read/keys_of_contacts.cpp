@@ -42,7 +42,12 @@ KeySection contact_section() {
            {"exponent", "constant", "", "1", "between 1 and 10; of spheres 1.5"},
            {"damping", "number", "s/m", "0", "not negative"},
            {"friction", "number", "", "0", "coefficient"},
-           {"slip_speed", "number", "m/s", kRequired, "with friction: below it friction is smoothed"}},
+           {"friction_model", "\"smoothed\", \"lugre\"", "", "\"smoothed\"",
+            "lugre: bristles, which hold; two states in m, the table's name with _1 and _2"},
+           {"slip_speed", "number", "m/s", kRequired,
+            "with friction: below it friction is smoothed; 1e-8 of lugre"},
+           {"bristle_stiffness", "number", "1/m", kRequired, "of lugre, per normal force"},
+           {"bristle_damping", "number", "s/m", "0", "of lugre, per normal force"}},
           R"([[contact]]
 frame = "small_end"
 point = [-1, 0, 0]

@@ -47,4 +47,47 @@ torsional_damping = [0, 0, 0.01]
 )"};
 }
 
+KeySection cable_section() {
+  return {
+      "cable",
+      "[[cable]]",
+      "A cable that runs through points from one end to the other, as over sheaves without friction: the "
+      "tension max(stiffness e + damping e', 0) at a stretch e of its whole length is the same all along. "
+      "It never pushes.",
+      {{"name", "text", "", "its number", "for messages"},
+       {"through", "list of names", "", kRequired, "2 to 20 frames or bodies, from end to end"},
+       {"stiffness", "number", "N/m", kRequired, "positive"},
+       {"damping", "number", "N s/m", "0", "not negative"},
+       {"free_length", "number", "m", kRequired, "positive"}},
+      R"([[cable]]
+through = ["cover", "small_end", "crankshaft"]
+stiffness = 500
+free_length = 2
+)"};
+}
+
+KeySection gear_mesh_section() {
+  return {"gear_mesh",
+          "[[gear_mesh]]",
+          "Elastic teeth of two wheels: a force along the line of action by e = first_radius q1 + "
+          "second_radius q2, q the coordinates; with a backlash none while |e| is less than half of it, and "
+          "none that pulls.",
+          {{"name", "text", "", "its number", "for messages"},
+           {"first", "name", "", kRequired, "a coordinate, an angle"},
+           {"second", "name", "", kRequired, "another one"},
+           {"first_radius", "number", "m", kRequired, "of the base circle; negative: teeth inside a ring"},
+           {"second_radius", "number", "m", kRequired, ""},
+           {"stiffness", "number", "N/m", kRequired, "positive"},
+           {"damping", "number", "N s/m", "0", "not negative"},
+           {"backlash", "number", "m", "0", "not negative"}},
+          R"([[gear_mesh]]
+first = "crank"
+second = "camshaft"
+first_radius = 0.03
+second_radius = -0.06
+stiffness = 1e6
+damping = 50
+)"};
+}
+
 }  // namespace jourdain::model

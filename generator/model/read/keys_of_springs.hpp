@@ -7,5 +7,7 @@ namespace jourdain::model {
 
 KeySection spring_section();
 KeySection bushing_section();
+KeySection cable_section();
+KeySection gear_mesh_section();
 
 }  // namespace jourdain::model

@@ -154,6 +154,11 @@ class Members {
     each(name, from, to, stiffness, damping, torsional_stiffness, torsional_damping, where);
   }
 
+  void one(StateVariable& state) {
+    auto& [name, rate, initial, nominal, unit, description, where] = state;
+    each(name, rate, initial, nominal, unit, description, where);
+  }
+
   Visit& visit_;
 };
 

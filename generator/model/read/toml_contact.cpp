@@ -1,30 +1,18 @@
-// [[stop]] and [[contact]]: forces that push and never pull, made of expressions.
+// [[contact]]: a plane against a point or a ball, made of expressions.
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
-#include "model/expression_functions.hpp"
 #include "model/expression_sums.hpp"
-#include "model/read/keys.hpp"
+#include "model/mechanism.hpp"
+#include "model/read/pushing.hpp"
 #include "model/read/toml_frame.hpp"
-#include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
 
 namespace jourdain::model {
 
 namespace {
-
-using support::shown;
-
-Expression dot(const Vector3& a, const Vector3& b) {
-  return plus(plus(times(a[0], b[0]), times(a[1], b[1])), times(a[2], b[2]));
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {minus(times(a[1], b[2]), times(a[2], b[1])), minus(times(a[2], b[0]), times(a[0], b[2])),
-          minus(times(a[0], b[1]), times(a[1], b[0]))};
-}
 
 /// depth^exponent where that is positive; roots instead of powers for halves.
 Expression raised(const Expression& depth, double exponent) {
@@ -34,59 +22,15 @@ Expression raised(const Expression& depth, double exponent) {
                Expression::unary(Expression::Op::kSqrt, depth));
 }
 
-/// `force` where `depth` is positive, unless it would pull.
-Expression pushing(const Expression& depth, const Expression& force) {
-  return where_less(0.0, depth, false, Expression::function(support::Function::kMax, force, 0.0), 0.0);
-}
-
-void refuse_negative(TomlFile& file, const TomlTable& table, std::string_view key, const Expression& value) {
-  if (file.value(value) < 0) table.error(key, fmt::format("{} is negative", table.quoted(key)));
-}
-
-/// max(k d + c d′, 0) at a depth d > 0 beyond each limit (Kelvin and Voigt).
-void read_stop(TomlFile& file, const TomlTable& table, const std::string& name, Mechanism& mechanism) {
-  const std::optional<std::string> joint_name = table.required_text("joint");
-  if (!joint_name) return;
-  const auto joint = find_named(file, table.where("joint"), table.what() + " names", "joint", *joint_name,
-                                mechanism.joints, file.complete().structure);
-  const std::size_t j = joint.value_or(0);
-  std::size_t c = 0;
-  bool is_found = false;
-  if (joint)
-    if (const auto coordinate = find_coordinate(table, mechanism.joints[j])) {
-      c = *coordinate;
-      is_found = true;
-    }
-  const CoordinateNeeds needs = is_found ? coordinate_needs(mechanism.joints[j], c) : CoordinateNeeds{};
-  const Expression stiffness = table.positive("stiffness", needs.stiffness);
-  const Expression damping = table.number("damping", needs.damping);
-  refuse_negative(file, table, "damping", damping);
-  const Expression lower = table.number("lower", needs.position),
-                   upper = table.number("upper", needs.position);
-  const bool has_lower = table.has("lower"), has_upper = table.has("upper");
-  if (!has_lower && !has_upper) table.missing("upper", "or 'lower', or both");
-  if (has_lower && has_upper && !(file.value(lower) < file.value(upper)))
-    table.error("upper", fmt::format("{} is not above 'lower'", table.quoted("upper")));
-  if (!is_found) return;
-  const Expression at = Expression::variable({Variable::Kind::kPosition, j, c}),
-                   rate = Expression::variable({Variable::Kind::kVelocity, j, c});
-  const auto force = [&](const Expression& depth, const Expression& speed) {
-    return pushing(depth, plus(times(stiffness, depth), times(damping, speed)));
-  };
-  CoordinateForce stop;
-  stop.name = name;
-  stop.where = table.where("joint");
-  stop.joint = JointIndex(j);
-  stop.coordinate = c;
-  if (has_lower) stop.force = force(minus(lower, at), Expression::unary(Expression::Op::kNegate, rate));
-  if (has_upper) stop.force = minus(stop.force, force(minus(at, upper), rate));
-  mechanism.coordinate_forces.push_back(stop);
-}
+/// Below this speed, m/s, bristles give way by themselves: what they hold creeps with about that.
+constexpr double kHeldSlip = 1e-8;
 
 /// What a plane does to a point at depth d > 0 behind it, or to the lowest point of a ball around it, moving with
 /// velocity v_t along the plane:
 ///   N = max(k d^e (1 + c d′), 0)             Hunt and Crossley, J. Appl. Mech. 42 (1975) 440-445
-///   F = N n − μ N v_t/sqrt(v_t² + w²)        Coulomb, regularised
+///   F = N n − μ N v_t/sqrt(v_t² + w²)        Coulomb, regularised, or
+///   F = N n − N (σ0 s + σ1 s′)               LuGre (see toml_friction.cpp), bristles s in the plane,
+///   s′ = v_t − σ0 sqrt(v_t² + w²) s/μ
 class ContactReader {
  public:
   ContactReader(TomlFile& file, const TomlTable& table, std::string name, Mechanism& mechanism)
@@ -107,13 +51,10 @@ class ContactReader {
         table_.positive("stiffness", exponent == 1 ? needed::kStiffness : needed::kAnything);
     const Expression damping = table_.number("damping", Needed{{"s/m"}});
     refuse_negative(file_, table_, "damping", damping);
-    const Expression friction = table_.number("friction", needed::kPure);
-    refuse_negative(file_, table_, "friction", friction);
-    const Expression slip =
-        table_.has("friction") ? table_.positive("slip_speed", needed::kSpeed) : Expression(1.0);
-    if (table_.has("slip_speed") && !table_.has("friction"))
-      table_.error("slip_speed", fmt::format("{} has no 'friction'", table_.what()));
-    if (!frame) return;
+    const bool holds = read_friction();
+    const std::size_t mark = file_.error_count();
+    if (holds) declare_bristles(normal);
+    if (!frame || file_.error_count() != mark) return;
     if (!mechanism_.frames[frame->value].body)
       table_.error("frame", fmt::format("{} acts on the world, which cannot move", table_.what()));
     Load load;
@@ -122,38 +63,101 @@ class ContactReader {
     load.axes = LoadAxes::kWorld;
     load.where = table_.where("frame");
     const Vector3 n = {normal[0], normal[1], normal[2]};
-    const Vector3 p = components(Variable::Kind::kFramePosition, *frame),
-                  v = components(Variable::Kind::kFrameVelocity, *frame);
+    const Vector3 p = frame_components(Variable::Kind::kFramePosition, *frame),
+                  v = frame_components(Variable::Kind::kFrameVelocity, *frame);
     const Vector3 behind = {minus(origin[0], p[0]), minus(origin[1], p[1]), minus(origin[2], p[2])};
     const Expression depth = plus(dot(n, behind), radius), out = dot(n, v);
     const Expression elastic = times(stiffness, raised(depth, exponent));
     const Expression push = pushing(depth, times(elastic, minus(1.0, times(damping, out))));
     // Of the ball's lowest point, v − r ω × n, along the plane.
-    const Vector3 turning = cross(components(Variable::Kind::kFrameWorldSpin, *frame), n);
+    const Vector3 turning = cross(frame_components(Variable::Kind::kFrameWorldSpin, *frame), n);
     Vector3 along;
     for (std::size_t k = 0; k < 3; ++k)
       along[k] = minus(minus(v[k], times(n[k], out)), times(radius, turning[k]));
     const Expression speed =
-        Expression::unary(Expression::Op::kSqrt, plus(dot(along, along), times(slip, slip)));
-    const Expression drag = Expression::binary(Expression::Op::kDivide, times(friction, push), speed);
-    const Vector3 lever = {times(drag, times(radius, along[0])), times(drag, times(radius, along[1])),
-                           times(drag, times(radius, along[2]))};
-    const Vector3 moment = cross(n, lever);
-    for (std::size_t k = 0; k < 3; ++k) {
-      load.force[k] = settled(minus(times(n[k], push), times(drag, along[k])), mechanism_);
-      load.moment[k] = settled(moment[k], mechanism_);
+        Expression::unary(Expression::Op::kSqrt, plus(dot(along, along), times(slip_, slip_)));
+    const auto act = [&](const Vector3& force, const Vector3& lever) {
+      const Vector3 moment = cross(n, lever);
+      for (std::size_t k = 0; k < 3; ++k) {
+        load.force[k] = settled(force[k], mechanism_);
+        load.moment[k] = settled(moment[k], mechanism_);
+      }
+    };
+    if (holds) {
+      const Vector3 held = bristle_force(along, speed, push);
+      act({plus(times(n[0], push), held[0]), plus(times(n[1], push), held[1]),
+           plus(times(n[2], push), held[2])},
+          {minus(0.0, times(radius, held[0])), minus(0.0, times(radius, held[1])),
+           minus(0.0, times(radius, held[2]))});
+    } else {
+      const Expression drag = Expression::binary(Expression::Op::kDivide, times(friction_, push), speed);
+      act({minus(times(n[0], push), times(drag, along[0])), minus(times(n[1], push), times(drag, along[1])),
+           minus(times(n[2], push), times(drag, along[2]))},
+          {times(drag, times(radius, along[0])), times(drag, times(radius, along[1])),
+           times(drag, times(radius, along[2]))});
     }
     mechanism_.loads.push_back(load);
   }
 
  private:
-  Place place(const char* key) const { return {table_.quoted(key), needed::kPure}; }
-
-  static Vector3 components(Variable::Kind kind, FrameIndex frame) {
-    Vector3 vector;
-    for (std::size_t k = 0; k < 3; ++k) vector[k] = Expression::variable({kind, frame.value, k});
-    return vector;
+  /// Whether friction holds, by bristles.
+  bool read_friction() {
+    friction_ = table_.number("friction", needed::kPure);
+    refuse_negative(file_, table_, "friction", friction_);
+    const bool holds = table_.choice("friction_model", {"smoothed", "lugre"}).value_or(0) == 1;
+    if (!table_.has("friction"))
+      for (const char* key : {"slip_speed", "friction_model", "bristle_stiffness", "bristle_damping"})
+        if (table_.has(key)) table_.error(key, fmt::format("{} has no 'friction'", table_.what()));
+    if (table_.has("friction") && (!holds || table_.has("slip_speed")))
+      slip_ = table_.positive("slip_speed", needed::kSpeed);
+    if (!holds) {
+      for (const char* key : {"bristle_stiffness", "bristle_damping"})
+        if (table_.has("friction") && table_.has(key))
+          table_.error(key, fmt::format("{} has no bristles", table_.what()), "friction_model = \"lugre\"");
+      return false;
+    }
+    if (!table_.has("slip_speed")) slip_ = kHeldSlip;
+    if (table_.has("friction")) table_.positive("friction", needed::kPure);
+    bristle_stiffness_ = table_.positive("bristle_stiffness", Needed{{"1/m"}});
+    bristle_damping_ = table_.number("bristle_damping", Needed{{"s/m"}});
+    refuse_negative(file_, table_, "bristle_damping", bristle_damping_);
+    return table_.has("friction");
   }
+
+  /// Two states, along the directions of the plane.
+  void declare_bristles(const std::array<double, 3>& normal) {
+    directions_ = slide_directions(normal);
+    first_bristle_ = mechanism_.states.size();
+    if (!table_.has("name")) return table_.missing("name", "its states have the name");
+    for (const char* end : {"_1", "_2"}) {
+      StateVariable state;
+      state.name = name_ + end;
+      state.where = table_.where("name");
+      state.unit = "m";
+      state.nominal = Expression::binary(Expression::Op::kDivide, friction_, bristle_stiffness_);
+      state.description = "deflection of friction's bristles";
+      if (!check_signal_name(file_, table_, "state", state.name, mechanism_)) return;
+      mechanism_.states.push_back(state);
+    }
+  }
+
+  /// On the plane's point; sets the rates of the bristles.
+  Vector3 bristle_force(const Vector3& along, const Expression& speed, const Expression& push) {
+    Vector3 force = {0.0, 0.0, 0.0};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vector3 a = {directions_[i][0], directions_[i][1], directions_[i][2]};
+      const Expression s = Expression::variable({Variable::Kind::kState, first_bristle_ + i});
+      const Expression pull = times(bristle_stiffness_, s);
+      const Expression back = Expression::binary(Expression::Op::kDivide, times(pull, speed), friction_);
+      const Expression rate = minus(dot(a, along), back);
+      mechanism_.states[first_bristle_ + i].rate = settled(rate, mechanism_);
+      const Expression share = times(push, plus(pull, times(bristle_damping_, rate)));
+      for (std::size_t k = 0; k < 3; ++k) force[k] = minus(force[k], times(a[k], share));
+    }
+    return force;
+  }
+
+  Place place(const char* key) const { return {table_.quoted(key), needed::kPure}; }
 
   /// Of unit length; [0, 0, 1] after a diagnostic.
   std::array<double, 3> direction() {
@@ -172,26 +176,13 @@ class ContactReader {
   const TomlTable& table_;
   std::string name_;
   Mechanism& mechanism_;
+  Expression friction_, bristle_stiffness_, bristle_damping_;
+  Expression slip_ = 1.0;
+  std::array<std::array<double, 3>, 2> directions_{};
+  std::size_t first_bristle_ = 0;
 };
 
-template <class Read>
-void for_each_table(TomlFile& file, const TomlTables& section, const char* kind, const Read& read) {
-  std::size_t number = 0;
-  for (const toml::node& node : section) {
-    const std::string name = name_or_number(file, *node.as_table(), kind, ++number);
-    const TomlTable table(file, *node.as_table(), fmt::format("{} '{}'", kind, shown(name)),
-                          file.range(node.source()), keys_of(kind));
-    read(table, name);
-  }
-}
-
 }  // namespace
-
-void read_stops(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
-  for_each_table(file, section, "stop", [&](const TomlTable& table, const std::string& name) {
-    read_stop(file, table, name, mechanism);
-  });
-}
 
 void read_contacts(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
   for_each_table(file, section, "contact", [&](const TomlTable& table, const std::string& name) {

@@ -60,7 +60,7 @@ void read_coordinate_force(TomlFile& file, const TomlTable& table, const std::st
 }  // namespace
 
 void read_forces(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
-  const Scope scope = general_scope(mechanism);
+  const Scope scope = general_scope(file, mechanism);
   std::size_t number = 0;
   for (const toml::node& node : section) {
     const std::string name = name_or_number(file, *node.as_table(), "force", ++number);

@@ -42,15 +42,19 @@ bool of_frame(const Variable& variable) {
 std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std::string_view key,
                                      Mechanism& mechanism) {
   const std::optional<std::string> name = table.required_text(key);
-  if (!name) return {};
-  if (const std::optional<FrameIndex> frame = frame_named(mechanism, *name)) return frame;
+  return name ? find_frame(file, table.where(key), table.what(), *name, mechanism) : std::nullopt;
+}
+
+std::optional<FrameIndex> find_frame(TomlFile& file, SourceRange where, const std::string& who,
+                                     const std::string& name, Mechanism& mechanism) {
+  if (const std::optional<FrameIndex> frame = frame_named(mechanism, name)) return frame;
   std::vector<std::string> names;
   for (const Frame& frame : mechanism.frames) names.push_back(frame.name);
   for (const Body& body : mechanism.bodies) names.push_back(body.name);
-  const std::string close = support::nearest(*name, names);
+  const std::string close = support::nearest(name, names);
   if (close.empty() && !file.complete().structure) return {};
-  table.error(key, fmt::format("{} names unknown frame or body '{}'", table.what(), shown(*name)),
-              close.empty() ? "declare a [[frame]]" : fmt::format("did you mean '{}'?", close));
+  file.error(where, fmt::format("{} names unknown frame or body '{}'", who, shown(name)),
+             close.empty() ? "declare a [[frame]]" : fmt::format("did you mean '{}'?", close));
   return {};
 }
 
@@ -69,7 +73,7 @@ std::optional<std::pair<FrameIndex, FrameIndex>> find_ends(TomlFile& file, const
   return std::pair(*from, *to);
 }
 
-Scope general_scope(const Mechanism& mechanism) {
+Scope general_scope(const TomlFile& file, const Mechanism& mechanism) {
   using Kind = Variable::Kind;
   Scope scope = time_scope();
   // An actuator is called like its coordinate unless it has a name of its own: the coordinate comes first and wins.
@@ -86,9 +90,14 @@ Scope general_scope(const Mechanism& mechanism) {
         {actuator.name, {Kind::kInput, input++, 0}, Measure::variable(input_needs(mechanism, actuator))});
   for (const Input& own : mechanism.inputs)
     scope.push_back({own.name, {Kind::kInput, input++, 0}, Measure::variable(input_needs(own))});
+  for (std::size_t i = 0; i < mechanism.states.size(); ++i)
+    scope.push_back(
+        {mechanism.states[i].name, {Kind::kState, i}, Measure::variable({{mechanism.states[i].unit}})});
   for (std::size_t i = 0; i < mechanism.frames.size(); ++i) add_frame(scope, mechanism.frames[i].name, i);
   for (std::size_t i = 0; i < mechanism.bodies.size(); ++i)
     add_frame(scope, mechanism.bodies[i].name, kBodies + i);
+  for (const Signal& signal : file.signals())
+    scope.push_back({signal.name, {}, Measure::variable({{signal.unit}}), {}, signal.value});
   return scope;
 }
 
@@ -101,6 +110,12 @@ Needed input_needs(const Mechanism& mechanism, const Actuator& actuator) {
 }
 
 Needed input_needs(const Input& input) { return {{input.unit}}; }
+
+Vector3 frame_components(Variable::Kind kind, FrameIndex frame) {
+  Vector3 vector;
+  for (std::size_t k = 0; k < 3; ++k) vector[k] = Expression::variable({kind, frame.value, k});
+  return vector;
+}
 
 Expression settled(const Expression& expression, Mechanism& mechanism) {
   return expression.substituted([&](const Variable& variable) {

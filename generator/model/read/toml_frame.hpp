@@ -13,18 +13,26 @@ namespace jourdain::model {
 std::optional<FrameIndex> find_frame(TomlFile& file, const TomlTable& table, std::string_view key,
                                      Mechanism& mechanism);
 
+/// The frame of that name, wherever it stands; `who` names it.
+std::optional<FrameIndex> find_frame(TomlFile& file, SourceRange where, const std::string& who,
+                                     const std::string& name, Mechanism& mechanism);
+
 /// The frames on two bodies, or one on the world, that 'from' and 'to' name. Nothing where one is unknown; two on one
 /// body stand after a diagnostic.
 std::optional<std::pair<FrameIndex, FrameIndex>> find_ends(TomlFile& file, const TomlTable& table,
                                                            Mechanism& mechanism);
 
-/// t, inputs, coordinates and their rates, frames and bodies with position, velocity and angular velocity.
-Scope general_scope(const Mechanism& mechanism);
+/// t, inputs, states, coordinates and their rates, frames and bodies with position, velocity and angular velocity;
+/// signals of the file.
+Scope general_scope(const TomlFile& file, const Mechanism& mechanism);
 
 /// The unit of an input; of an actuator's, anything where there is a gear, which may turn one kind of motion into
 /// the other.
 Needed input_needs(const Mechanism& mechanism, const Actuator& actuator);
 Needed input_needs(const Input& input);
+
+/// Position, velocity or angular velocity of a frame, as `kind` says.
+Vector3 frame_components(Variable::Kind kind, FrameIndex frame);
 
 /// An expression of general_scope as it stands in the mechanism: bodies that it names become frames.
 Expression settled(const Expression& expression, Mechanism& mechanism);

@@ -36,26 +36,45 @@ std::vector<std::string> keys_of_type(const toml::table& table) {
   return joined(kKeysOfAll, loop_kind(static_cast<LoopType>(index)).keys);
 }
 
-/// The general scope, in which what is no position is refused.
-Scope residual_scope(const Mechanism& mechanism) {
+/// Why a residual cannot be of it; empty: it can.
+std::string_view refusal_in_residual(const Variable& variable) {
   using Kind = Variable::Kind;
-  Scope scope = general_scope(mechanism);
+  switch (variable.kind) {
+    case Kind::kInput:
+      return "it is an input; a residual is of t, coordinates and positions of frames";
+    case Kind::kState:
+      return "it is a state; a residual is of t, coordinates and positions of frames";
+    case Kind::kVelocity:
+    case Kind::kFrameVelocity:
+    case Kind::kFrameSpin:
+    case Kind::kFrameWorldSpin:
+      return "it is a velocity; a residual is of t, coordinates and positions of frames";
+    case Kind::kTime:
+    case Kind::kPosition:
+    case Kind::kFramePosition:
+    case Kind::kArgument:
+      break;
+  }
+  return "";
+}
+
+/// The general scope, in which what is no position is refused.
+Scope residual_scope(const TomlFile& file, const Mechanism& mechanism) {
+  Scope scope = general_scope(file, mechanism);
   for (ScopeEntry& entry : scope) {
-    const Kind kind = entry.variable.kind;
-    if (kind == Kind::kInput)
-      entry.refusal = "it is an input; a residual is of t, coordinates and positions of frames";
-    if (kind == Kind::kVelocity || kind == Kind::kFrameVelocity || kind == Kind::kFrameSpin ||
-        kind == Kind::kFrameWorldSpin)
-      entry.refusal = "it is a velocity; a residual is of t, coordinates and positions of frames";
+    if (!entry.meaning)
+      entry.refusal = refusal_in_residual(entry.variable);
+    else if (any_variable(*entry.meaning, [](const Variable& v) { return !refusal_in_residual(v).empty(); }))
+      entry.refusal = "it is of more than t, coordinates and positions of frames";
   }
   return scope;
 }
 
 /// The general scope, in which all that moves is refused.
-Scope length_scope(const Mechanism& mechanism) {
-  Scope scope = general_scope(mechanism);
+Scope length_scope(const TomlFile& file, const Mechanism& mechanism) {
+  Scope scope = general_scope(file, mechanism);
   for (ScopeEntry& entry : scope)
-    if (entry.variable.kind != Variable::Kind::kTime)
+    if (entry.meaning || entry.variable.kind != Variable::Kind::kTime)
       entry.refusal = "the length of a rod is of t and parameters";
   return scope;
 }
@@ -130,7 +149,8 @@ class LoopReader {
     if (!table_.has("length"))
       return table_.missing("length", "m; an expression of t and parameters, or a number");
     const std::size_t mark = file_.error_count();
-    loop.length = read_time_function(file_, table_, "length", needed::kLength, length_scope(mechanism));
+    loop.length =
+        read_time_function(file_, table_, "length", needed::kLength, length_scope(file_, mechanism));
     if (file_.error_count() != mark) return;
     const auto start = loop.length.evaluate<double>(
         file_.values(), [](double v) { return v; }, [](const Variable&) { return 0.0; });
@@ -144,7 +164,7 @@ class LoopReader {
     if (!table_.has("residual"))
       return table_.missing("residual", "an expression of t, coordinates and positions of frames");
     loop.residual =
-        settled(table_.function("residual", needed::kAnything, residual_scope(mechanism)), mechanism);
+        settled(table_.function("residual", needed::kAnything, residual_scope(file_, mechanism)), mechanism);
     refuse_kinks(table_, "residual", loop.residual);
     if (loop.residual.calls(support::Function::kAtan2))
       table_.error("residual",

@@ -73,7 +73,7 @@ bool read_content(TomlFile& file, const TomlTable& table, Output& output, const 
 }  // namespace
 
 void read_outputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism) {
-  const Scope scope = general_scope(mechanism);
+  const Scope scope = general_scope(file, mechanism);
   for (const toml::node& node : section) {
     Output output;
     output.name = file.text_or(*node.as_table(), "name");

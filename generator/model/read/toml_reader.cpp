@@ -21,9 +21,10 @@ namespace {
 using support::Diagnostics;
 
 /// Tables that a file may have any number of, and that [[repeat]] may hold.
-const std::vector<std::string> kLists{"import", "override", "body",   "joint",   "frame",  "actuator",
-                                      "input",  "force",    "spring", "bushing", "output", "kinematics",
-                                      "loop",   "coupler",  "stop",   "contact", "table"};
+const std::vector<std::string> kLists{"import",   "override", "body",   "joint",    "frame",  "actuator",
+                                      "input",    "force",    "spring", "bushing",  "output", "kinematics",
+                                      "loop",     "coupler",  "stop",   "contact",  "table",  "state",
+                                      "friction", "signal",   "cable",  "gear_mesh"};
 
 class TomlReader {
  public:
@@ -54,11 +55,15 @@ class TomlReader {
     read_frames(file_, repeats_.tables("frame"), mechanism);
     attach_imports(file_, imports, mechanism);
     read_inputs(file_, repeats_.tables("input"), mechanism);
+    read_frictions(file_, repeats_.tables("friction"), mechanism);
+    read_states(file_, repeats_.tables("state"), repeats_.tables("signal"), mechanism);
     read_forces(file_, repeats_.tables("force"), mechanism);
     read_stops(file_, repeats_.tables("stop"), mechanism);
     read_contacts(file_, repeats_.tables("contact"), mechanism);
     read_springs(file_, repeats_.tables("spring"), mechanism);
     read_bushings(file_, repeats_.tables("bushing"), mechanism);
+    read_cables(file_, repeats_.tables("cable"), mechanism);
+    read_gear_meshes(file_, repeats_.tables("gear_mesh"), mechanism);
     read_outputs(file_, repeats_.tables("output"), mechanism);
     read_kinematics(file_, repeats_.tables("kinematics"), mechanism);
     read_loops(file_, repeats_.tables("loop"), mechanism);

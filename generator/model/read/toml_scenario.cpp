@@ -53,6 +53,10 @@ std::vector<Expression> read_follow(const TomlTable& table, const Mechanism& mec
     table.error("", "a mechanism with closed loops cannot follow a motion", "drive it with [input]");
     return {};
   }
+  if (!mechanism.states.empty()) {
+    table.error("", "a mechanism with states cannot follow a motion", "drive it with [input]");
+    return {};
+  }
   for (std::size_t i = 0; i < layout.velocity_count(); ++i) {
     const std::string& name = layout.position_names[i];
     if (!table.has(name))

@@ -69,11 +69,25 @@ void read_frames(TomlFile& file, const TomlTables& section, Mechanism& mechanism
 /// All [[input]] tables.
 void read_inputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
-/// [[force]], [[spring]], [[bushing]], [[output]], [[loop]] and [[coupler]]: what refers to bodies, joints, frames and
-/// inputs, which `mechanism` has already. Bodies that are named where a frame may stand become frames.
+/// False after a diagnostic that expressions cannot call `what` (a state, a signal) so; the table's key is 'name'.
+bool check_signal_name(TomlFile& file, const TomlTable& table, const char* what, const std::string& name,
+                       const Mechanism& mechanism);
+
+/// All [[friction]] tables: forces on coordinates and a state each.
+void read_frictions(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+
+/// All [[state]] and [[signal]] tables: rates may name all of them, and what forces may name; a signal those before it.
+/// `file` has declared the signals then.
+void read_states(TomlFile& file, const TomlTables& section, const TomlTables& signals, Mechanism& mechanism);
+
+/// [[force]], [[spring]], [[bushing]], [[cable]], [[gear_mesh]], [[output]], [[loop]] and [[coupler]]: what refers to
+/// bodies, joints, frames, inputs and states, which `mechanism` has already. Bodies that are named where a frame may
+/// stand become frames.
 void read_forces(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_springs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_bushings(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_cables(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_gear_meshes(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_outputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_loops(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_couplers(TomlFile& file, const TomlTables& section, Mechanism& mechanism);

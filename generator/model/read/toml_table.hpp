@@ -44,6 +44,14 @@ struct Repetition {
   std::int64_t value = 0;
 };
 
+/// An expression with a name that others may use.
+struct Signal {
+  std::string name;
+  Expression value;
+  std::string unit;  ///< SI; empty: none
+  SourceRange where = {};
+};
+
 /// One TOML file while it is read.
 class TomlFile {
  public:
@@ -61,6 +69,9 @@ class TomlFile {
   /// A table that expressions may call from now on.
   void declare(LookupTable table) { tables_.push_back(std::move(table)); }
   const std::vector<LookupTable>& tables() const { return tables_; }
+  /// A signal that expressions may name from now on.
+  void declare(Signal signal) { signals_.push_back(std::move(signal)); }
+  const std::vector<Signal>& signals() const { return signals_; }
   /// The names that expressions may use, in order: those of parameters, then derived ones.
   const std::vector<DeclaredParameter>& declared() const { return parameters_; }
 
@@ -126,6 +137,7 @@ class TomlFile {
   std::vector<Expression> meanings_;  ///< of those that are derived, the last ones
   std::vector<double> values_;        ///< of the others
   std::vector<LookupTable> tables_;
+  std::vector<Signal> signals_;
   std::optional<Repetition> repetition_;
   std::map<std::pair<int, int>, std::int64_t> repeated_errors_;  ///< index by line and column
   Completeness complete_;

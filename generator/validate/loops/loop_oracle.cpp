@@ -271,6 +271,7 @@ std::vector<ScaledReal> LoopOracle::start(const ir::Program& program) const {
 std::vector<ScaledReal> LoopOracle::displacement_rate() const {
   const dynamics::ExactDirection& d = point_.direction;
   std::vector<ScaledReal> rate = d.velocity;
+  rate.resize(d.displacement.size());
   const std::vector<std::size_t>& independent = scene_.plan.independent;
   const auto place = [&](std::size_t velocity) {
     if (!scene_.plan.is_reduced()) return velocity;
@@ -299,7 +300,7 @@ std::vector<ScaledReal> LoopOracle::change(const Numbers& numbers, bool with_inp
       return at(scene_.plan.is_reduced() ? scene_.plan.independent[j] : j);
     };
     for (std::size_t j = 0; j < d.velocity.size(); ++j) {
-      displacement[entry(j)] = step * d.displacement[j];
+      if (j < d.displacement.size()) displacement[entry(j)] = step * d.displacement[j];
       there.exact[LeafKind::kVelocity][j] += step * d.velocity[j];
     }
     std::vector<ScaledReal>& y = there.exact[LeafKind::kPosition];

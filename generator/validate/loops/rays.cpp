@@ -29,6 +29,9 @@ std::vector<Ray> draw_rays(const loops::NumericClosure& closure, const loops::Lo
     ray.configuration = configuration;
     loops::Vector z(at(layout.velocity_count()));
     for (long double& entry : z) entry = uniform(-2, 2);
+    for (std::size_t k = layout.first_state(); k < plan.z.size(); ++k)
+      z[at(k)] = plan.z[k] + z[at(k)] * mechanism.states[k - layout.first_state()].nominal.evaluate<double>(
+                                            model::default_values(mechanism));
     z = closure.consistent(configuration, z, {});
     for (std::size_t k = 0; k < plan.z.size(); ++k)
       if (!plan.is_reduced() ||
@@ -36,7 +39,7 @@ std::vector<Ray> draw_rays(const loops::NumericClosure& closure, const loops::Lo
         ray.z.push_back(static_cast<double>(z[at(k)]));
     fill(ray.zdot, ray.z.size(), 5);
     fill(ray.u, layout.input_count(), 5);
-    fill(ray.displacement, ray.z.size(), 1);
+    fill(ray.displacement, ray.z.size() - layout.state_count, 1);
     fill(ray.velocity, ray.z.size(), 1);
     fill(ray.input, layout.input_count(), 1);
     if (model::time_dependence(mechanism).any()) ray.time = uniform(-1, 1);

@@ -1,0 +1,37 @@
+// What readers of elements that push and never pull share.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "model/expression_functions.hpp"
+#include "model/read/keys.hpp"
+#include "model/read/toml_names.hpp"
+#include "model/read/toml_repeat.hpp"
+
+namespace jourdain::model {
+
+/// `force` where `depth` is positive, unless it would pull.
+inline Expression pushing(const Expression& depth, const Expression& force) {
+  return where_less(0.0, depth, false, Expression::function(support::Function::kMax, force, 0.0), 0.0);
+}
+
+inline void refuse_negative(TomlFile& file, const TomlTable& table, std::string_view key,
+                            const Expression& value) {
+  if (file.value(value) < 0) table.error(key, fmt::format("{} is negative", table.quoted(key)));
+}
+
+/// Calls `read` with each table of a section and its name.
+template <class Read>
+void for_each_table(TomlFile& file, const TomlTables& section, const char* kind, const Read& read) {
+  std::size_t number = 0;
+  for (const toml::node& node : section) {
+    const std::string name = name_or_number(file, *node.as_table(), kind, ++number);
+    const TomlTable table(file, *node.as_table(), fmt::format("{} '{}'", kind, support::shown(name)),
+                          file.range(node.source()), keys_of(kind));
+    read(table, name);
+  }
+}
+
+}  // namespace jourdain::model
