@@ -6,6 +6,7 @@
 
 #include "agreement/compiled_batch.hpp"
 #include "embed/c_driver.hpp"
+#include "properties/effort.hpp"
 #include "support/diagnostics.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
@@ -69,7 +70,9 @@ TEST(CLanguage, IsCleanForEveryCompiler) {
 TEST(CLanguage, ComputesTheBytesOfTheCppInDoubleAndInFloat) {
   ASSERT_GE(emitted().size(), kModels);
   long compared = 0;
+  std::size_t number = 0;
   for (const Emitted& model : emitted()) {
+    if (!draws(number++, 2)) continue;
     const support::TemporaryFolder folder;
     std::vector<std::string> objects;
     for (const char* ending : {"", "_f"}) {
@@ -93,8 +96,8 @@ TEST(CLanguage, ComputesTheBytesOfTheCppInDoubleAndInFloat) {
     EXPECT_EQ(result.status, 0) << model.name << "\n" << result.output.substr(0, 2000);
     compared += std::stol(result.output.substr(result.output.rfind('\n', result.output.size() - 2) + 1));
   }
-  EXPECT_GT(compared, kNumbers);
-  fmt::print("{} results of {} models compared\n", compared, emitted().size());
+  EXPECT_GT(compared, draws_all_cases() ? kNumbers : kNumbers / 3);
+  fmt::print("{} results of models compared\n", compared);
 }
 
 }  // namespace

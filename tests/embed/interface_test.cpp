@@ -16,6 +16,7 @@
 
 #include "embed/emitted_models.hpp"
 #include "jourdain/jourdain_interface.h"
+#include "properties/effort.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -463,7 +464,9 @@ TEST(Interface, SaysWhatTheDescriptionSays) {
   GTEST_SKIP() << "the release build goes through all models";
 #endif
   ASSERT_GE(model_names().size(), 20u);
-  for (const std::string& model : model_names()) expect_all_of(model, false);
+  std::size_t number = 0;
+  for (const std::string& model : model_names())
+    if (draws(number++, 2)) expect_all_of(model, false);
 }
 
 TEST(Interface, OfFloatsSaysTheSame) {

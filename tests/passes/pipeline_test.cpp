@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "agreement/shared_data.hpp"
 #include "compile/compile.hpp"
 #include "compile/module_check.hpp"
 #include "ir/builder.hpp"
 #include "passes/random_program.hpp"
+#include "properties/effort.hpp"
 
 namespace jourdain::passes {
 namespace {
@@ -81,15 +83,19 @@ History history(const model::Mechanism& mechanism) {
 }
 
 TEST(Passes, AreIdempotentAndKeepProgramsSoundOnEveryModel) {
-  for (const auto& entry : std::filesystem::directory_iterator(tests::model_path(""))) {
-    if (entry.path().extension() != ".toml") continue;
-    const model::Mechanism mechanism = tests::read_model(entry.path());
+  std::set<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(tests::model_path("")))
+    if (entry.path().extension() == ".toml") paths.insert(entry.path());
+  std::size_t number = 0;
+  for (const std::filesystem::path& path : paths) {
+    if (!tests::draws(number++, 3)) continue;
+    const model::Mechanism mechanism = tests::read_model(path);
     const History passed = history(mechanism);
-    ASSERT_GT(passed.modules.size(), pipeline().size()) << entry.path();
-    expect_idempotent(passed.modules[0].second, entry.path().stem());
+    ASSERT_GT(passed.modules.size(), pipeline().size()) << path;
+    expect_idempotent(passed.modules[0].second, path.stem());
     for (std::size_t k = 1; k < passed.modules.size(); ++k)
       EXPECT_EQ(module_defects(passed.modules[k].second, passed.compiled.facts), std::vector<std::string>())
-          << passed.modules[k].first << " of " << entry.path();
+          << passed.modules[k].first << " of " << path;
   }
 }
 
