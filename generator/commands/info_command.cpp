@@ -59,7 +59,8 @@ std::string loops_text(const model::Mechanism& mechanism) {
   for (const model::Loop& loop : mechanism.loops) {
     std::string type(model::loop_kind(loop).name);
     std::replace(type.begin(), type.end(), '_', ' ');
-    text += fmt::format("  loop {} [{}]", loop.name, type);
+    text += fmt::format("  {} {} [{}]", model::loop_kind(loop).is_constraint() ? "constraint" : "loop",
+                        loop.name, type);
     if (model::loop_kind(loop).has_ends()) text += fmt::format(": {}, {}", end(loop.from), end(loop.to));
     text += "\n";
   }

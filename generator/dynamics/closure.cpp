@@ -7,6 +7,7 @@
 #include "dynamics/moving_vector.hpp"
 #include "dynamics/points.hpp"
 #include "kinematics/numbers.hpp"
+#include "model/loop_kinds.hpp"
 
 namespace jourdain::dynamics {
 
@@ -89,7 +90,7 @@ class Closure {
     for (Ex& row : closure_.rows) row = scene_.statements.bind("g_" + loop_.name, kinematics::settled(row));
     for (Ex& sense : closure_.senses)
       sense = scene_.statements.bind("sense_" + loop_.name, kinematics::settled(sense));
-    if (rates == ClosureRates::kGiven)
+    if (rates == ClosureRates::kGiven && closure_.velocities.empty())
       for (std::size_t r = 0; r < closure_.rows.size(); ++r) add_slopes(r);
     return std::move(closure_);
   }
@@ -186,10 +187,94 @@ class Closure {
         return hold_points(from_axes);
       case LoopType::kRod:
         return hold_length();
+      case LoopType::kKnifeEdge:
+        return hold_back(b_.direction(kinematics::unit_vector(loop_.to_axis)).value,
+                         kinematics::zero_vector(), loop_.name + "s");
+      case LoopType::kRollingWheel:
+      case LoopType::kRollingBall:
+      case LoopType::kRollingEllipsoid:
+        return roll(a_.direction(n).value, from_axes);
       case LoopType::kResidual:
+      case LoopType::kVelocity:
         break;
     }
-    JD_CHECK(false, "a residual is no row of two frames");
+    JD_CHECK(false, "an expression is no row of two frames");
+  }
+
+  /// Where a body is lowest: how far below its origin, and from there to that point.
+  struct Lowest {
+    Ex depth;
+    Vector3 lever;
+  };
+
+  Ex length(const model::Expression& given, const std::string& name) const {
+    return general_value(scene_, loop_.name + name, given, Inputs::kZero);
+  }
+
+  Lowest of_ball(const Vector3& n) const {
+    const Ex radius = length(loop_.length, "l");
+    return {radius, Ex(-radius) * n};
+  }
+
+  /// A disc of no width about w.
+  Lowest of_wheel(const Vector3& n) const {
+    kinematics::Statements& statements = scene_.statements;
+    const Ex radius = length(loop_.length, "l");
+    const Vector3 w = b_.direction(kinematics::unit_vector(loop_.to_axis)).value;
+    const Ex lean = statements.bind(loop_.name + "nw", dot(n, w));
+    const Ex upright = statements.bind(loop_.name + "up", kinematics::square_root(1 - lean * lean));
+    return {radius * upright, Ex(-radius / upright) * (n - lean * w)};
+  }
+
+  Lowest of_ellipsoid(const Vector3& n) const {
+    kinematics::Statements& statements = scene_.statements;
+    Ex square = 0;
+    Vector3 lever = kinematics::zero_vector();
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vector3 along = kinematics::zero_vector();
+      along[k] = 1;
+      const std::string name = fmt::format("{}e{}", loop_.name, k);
+      const Vector3 e = b_.direction(along).value;
+      const Ex share = statements.bind(name + "n", dot(n, e));
+      const Ex radius = length(loop_.radii[k], fmt::format("r{}", k));
+      const Ex weighed = statements.bind(name + "s", radius * radius * share);
+      square = statements.bind(name + "q", square + weighed * share);
+      lever = statements.bind(name + "l", lever - weighed * e);
+    }
+    const Ex depth = statements.bind(loop_.name + "d", kinematics::square_root(square));
+    return {depth, Ex(1 / depth) * lever};
+  }
+
+  void roll(const Vector3& n, const Axes& from_axes) {
+    const auto [depth, way] = loop_.type == LoopType::kRollingBall    ? of_ball(n)
+                              : loop_.type == LoopType::kRollingWheel ? of_wheel(n)
+                                                                      : of_ellipsoid(n);
+    const Vector3 lever = scene_.statements.bind(loop_.name + "c", way);
+    closure_.rows.push_back(dot(n, difference_.value) - depth);
+    closure_.gradients.push_back(touching(n, lever));
+    for (std::size_t k = 0; k < 2; ++k)
+      hold_back(a_.direction(from_axes[k]).value, lever, fmt::format("{}s{}", loop_.name, k));
+  }
+
+  /// Of the velocity along `e` of the point of the body of `to` at `lever` from its origin, relative to the body of
+  /// `from`.
+  RowGradient touching(const Vector3& e, const Vector3& lever) const {
+    return {.place = e,
+            .turn_from = kinematics::cross(e, difference_.value + lever),
+            .turn_to = kinematics::cross(lever, e)};
+  }
+
+  /// That velocity is zero.
+  void hold_back(const Vector3& e, const Vector3& lever, const std::string& name) {
+    const std::size_t row = closure_.rows.size();
+    closure_.rows.emplace_back(0);
+    closure_.gradients.push_back(touching(e, lever));
+    add_slopes(row);
+    Ex velocity = closure_.time_slopes.back();
+    for (const auto& [entry, slope] : closure_.slopes.back()) velocity += slope * scene_.leaves.z[entry];
+    closure_.velocities[row] = scene_.statements.bind(name, velocity);
+    closure_.slopes.clear();
+    closure_.time_slopes.clear();
   }
 
   /// G and g_t of a row: its gradient on the columns of the links on the way to either frame.
@@ -257,12 +342,16 @@ class Closure {
 std::vector<LoopClosure> derive_closure(const Scene& scene, ClosureRates rates) {
   std::vector<LoopClosure> closures;
   for (const Loop& loop : scene.mechanism.loops)
-    if (loop.type == LoopType::kResidual)
-      closures.emplace_back().rows = {scene.statements.bind(
-          "g_" + loop.name,
-          kinematics::settled(general_value(scene, loop.name, loop.residual, Inputs::kZero)))};
-    else
+    if (model::loop_kind(loop).has_ends()) {
       closures.push_back(Closure(scene, loop).close(rates));
+    } else {
+      const Ex value = scene.statements.bind(
+          "g_" + loop.name,
+          kinematics::settled(general_value(scene, loop.name, loop.residual, Inputs::kZero)));
+      LoopClosure& closure = closures.emplace_back();
+      closure.rows = {loop.type == LoopType::kVelocity ? Ex(0) : value};
+      if (loop.type == LoopType::kVelocity) closure.velocities[0] = value;
+    }
   return closures;
 }
 

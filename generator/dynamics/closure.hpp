@@ -36,6 +36,8 @@ struct LoopClosure {
   std::vector<std::map<std::size_t, Ex>> slopes;
   std::vector<Ex> time_slopes, rates, biases;
   std::optional<Span> span;  ///< of the one row of a rod
+  /// Of rows that bind velocities alone, whose g is 0: what is kept at zero, linear in z.
+  std::map<std::size_t, Ex> velocities;
 };
 
 enum class ClosureRates { kNone, kGiven };

@@ -1,5 +1,7 @@
 #include "dynamics/closure_motion.hpp"
 
+#include <optional>
+
 namespace jourdain::dynamics {
 
 using kinematics::LeafKind;
@@ -68,12 +70,37 @@ std::vector<GradientReal> displaced_positions(const model::Tangent& tangent, con
   return y;
 }
 
+/// Calls `use` with the number of each row that binds velocities alone, and what it keeps at zero.
+template <class Use>
+void for_each_velocity(const Equations& closures, const Use& use) {
+  std::size_t first = 0;
+  for (const LoopClosure& loop : closures.closures) {
+    for (const auto& [row, velocity] : loop.velocities) use(first + row, velocity);
+    first += loop.rows.size();
+  }
+}
+
 template <class Number>
 std::vector<Number> rows_of(const Equations& closures, const Evaluation<Number>& at) {
   std::vector<Number> rows;
   for (const LoopClosure& loop : closures.closures)
     for (const Ex& row : loop.rows) rows.push_back(at.value(row));
   return rows;
+}
+
+/// G and g_t of rows that bind velocities alone: their value at rest, and how it changes with z.
+void add_velocity_rows(const Equations& closures, const LeafValue& leaf, ClosureJacobian& jacobian) {
+  std::optional<GradientPrecision> at;
+  for_each_velocity(closures, [&](std::size_t row, const Ex& velocity) {
+    if (!at)
+      at.emplace(closures.statements, [&](LeafKind kind, std::size_t i) -> GradientReal {
+        if (kind == LeafKind::kVelocity) return {0, {{i, 1}}};
+        return {leaf(kind, i)};
+      });
+    const GradientReal value = at->value(velocity);
+    jacobian.g_t[row] = value.value;
+    for (const GradientReal::Slope& slope : value.slopes) jacobian.G[row][slope.variable] = slope.by;
+  });
 }
 
 }  // namespace
@@ -95,6 +122,7 @@ ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent
     by.pop_back();
     jacobian.G.push_back(std::move(by));
   }
+  add_velocity_rows(closures, leaf, jacobian);
   return jacobian;
 }
 
@@ -104,7 +132,7 @@ ClosureMotion closure_motion(const Equations& closures, const model::Tangent& ta
   const MovingPrecision at(closures.statements, [&](LeafKind kind, std::size_t i) -> MovingReal {
     if (kind == LeafKind::kPosition) return y[i];
     if (kind == LeafKind::kTime) return {leaf(kind, i), 1};
-    return {leaf(kind, i)};
+    return {kind == LeafKind::kVelocity ? z[i] : leaf(kind, i)};
   });
   ClosureMotion motion;
   for (const MovingReal& row : rows_of(closures, at)) {
@@ -112,6 +140,11 @@ ClosureMotion closure_motion(const Equations& closures, const model::Tangent& ta
     motion.rate.push_back(row.first);
     motion.gamma.push_back(row.second);
   }
+  for_each_velocity(closures, [&](std::size_t row, const Ex& velocity) {
+    const MovingReal value = at.value(velocity);
+    motion.rate[row] = value.value;
+    motion.gamma[row] = value.first;
+  });
   return motion;
 }
 

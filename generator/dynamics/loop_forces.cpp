@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "model/loop_kinds.hpp"
+
 namespace jourdain::dynamics {
 
 namespace {
@@ -73,7 +75,7 @@ AppliedForces with_loop_forces(const Scene& scene, AppliedForces applied,
   std::size_t row = 0;
   for (std::size_t k = 0; k < closures.size(); ++k) {
     const model::Loop& loop = scene.mechanism.loops[k];
-    if (loop.type != model::LoopType::kResidual) forces.add(loop, closures[k], row);
+    if (model::loop_kind(loop).has_ends()) forces.add(loop, closures[k], row);
     row += model::row_count(loop.type);
   }
   return forces.result();

@@ -41,6 +41,11 @@ struct Variable {
   std::size_t index = 0;
   std::size_t component = 0;
 
+  /// Of a coordinate or of a frame.
+  bool is_rate() const {
+    return kind == Kind::kVelocity || kind == Kind::kFrameVelocity || kind == Kind::kFrameSpin ||
+           kind == Kind::kFrameWorldSpin;
+  }
   bool operator==(const Variable&) const = default;
 };
 

@@ -1,5 +1,7 @@
 #include "model/loop_kinds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "support/enumerators.hpp"
@@ -20,12 +22,20 @@ constexpr LoopRow kPointInPlane[] = {{"n_d"}};
 constexpr LoopRow kPointOnLine[] = {kA1D, kA2D};
 constexpr LoopRow kRod[] = {{"length"}};
 constexpr LoopRow kResidual[] = {{"residual", false}};
+constexpr LoopRow kVelocity[] = {{"velocity", false, false}};
+constexpr LoopRow kKnifeEdge[] = {{"slip", true, false}};
+constexpr LoopRow kRolling[] = {{"height"}, {"slip_1", true, false}, {"slip_2", true, false}};
 
 constexpr std::string_view kEnds[] = {"from", "to"};
 constexpr std::string_view kAxis[] = {"from", "to", "axis"};
 constexpr std::string_view kAxes[] = {"from", "to", "axis", "to_axis"};
 constexpr std::string_view kLength[] = {"from", "to", "length"};
 constexpr std::string_view kExpression[] = {"residual"};
+constexpr std::string_view kOfVelocities[] = {"velocity"};
+constexpr std::string_view kBlade[] = {"frame", "axis", "plane"};
+constexpr std::string_view kWheel[] = {"frame", "axis", "radius", "plane", "normal"};
+constexpr std::string_view kRound[] = {"frame", "radius", "plane", "normal"};
+constexpr std::string_view kEllipsoid[] = {"frame", "radii", "plane", "normal"};
 
 constexpr auto kKinds = std::to_array<LoopKind>({
     {LoopType::kBall, "ball", kBall, kEnds},
@@ -38,6 +48,11 @@ constexpr auto kKinds = std::to_array<LoopKind>({
     {LoopType::kPointOnLine, "point_on_line", kPointOnLine, kAxis},
     {LoopType::kRod, "rod", kRod, kLength},
     {LoopType::kResidual, "residual", kResidual, kExpression},
+    {LoopType::kVelocity, "velocity", kVelocity, kOfVelocities},
+    {LoopType::kKnifeEdge, "knife_edge", kKnifeEdge, kBlade},
+    {LoopType::kRollingWheel, "rolling_wheel", kRolling, kWheel},
+    {LoopType::kRollingBall, "rolling_ball", kRolling, kRound},
+    {LoopType::kRollingEllipsoid, "rolling_ellipsoid", kRolling, kEllipsoid},
 });
 static_assert(support::is_complete(kKinds, &LoopKind::type), "a row for each LoopType, in their order");
 
@@ -49,8 +64,42 @@ const LoopKind& loop_kind(LoopType type) { return kKinds[static_cast<std::size_t
 
 std::size_t row_count(LoopType type) { return loop_kind(type).rows.size(); }
 
+std::string in_words(const Loop& loop) {
+  return fmt::format("{} '{}'", loop_kind(loop).is_constraint() ? "constraint" : "loop",
+                     support::shown(loop.name));
+}
+
+const Loop& loop_of_row(const Mechanism& mechanism, std::size_t row) {
+  std::size_t loop = 0;
+  for (std::size_t first = 0; row >= first + row_count(mechanism.loops[loop].type); ++loop)
+    first += row_count(mechanism.loops[loop].type);
+  return mechanism.loops[loop];
+}
+
+bool binds_velocities(const Mechanism& mechanism) {
+  return std::ranges::any_of(mechanism.loops, [](const Loop& loop) {
+    return std::ranges::any_of(loop_kind(loop).rows, [](const LoopRow& row) { return !row.has_position; });
+  });
+}
+
+namespace {
+
+std::vector<std::string> names_of(bool constraints) {
+  std::vector<std::string> names;
+  for (const LoopKind& kind : kKinds)
+    if (kind.is_constraint() == constraints) names.emplace_back(kind.name);
+  return names;
+}
+
+}  // namespace
+
 const std::vector<std::string>& loop_type_names() {
-  static const std::vector<std::string> names = support::names_of(kKinds);
+  static const std::vector<std::string> names = names_of(false);
+  return names;
+}
+
+const std::vector<std::string>& constraint_type_names() {
+  static const std::vector<std::string> names = names_of(true);
   return names;
 }
 

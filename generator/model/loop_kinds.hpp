@@ -13,7 +13,8 @@ namespace jourdain::model {
 /// One constraint row, named after what is zero in it (see LoopType).
 struct LoopRow {
   std::string_view name;
-  bool is_length = true;  ///< m; otherwise a product of unit vectors, or whatever a residual is
+  bool is_length = true;     ///< m; otherwise a product of unit vectors, or whatever a residual is
+  bool has_position = true;  ///< otherwise it binds velocities alone, and its g is 0
 };
 
 struct LoopKind {
@@ -24,7 +25,9 @@ struct LoopKind {
 
   bool takes(std::string_view key) const;
   /// Whether it joins two frames; otherwise it is a residual.
-  bool has_ends() const { return takes("from"); }
+  bool has_ends() const { return takes("from") || takes("frame"); }
+  /// Whether it stands in [[constraint]]; otherwise it closes a chain.
+  bool is_constraint() const { return takes("frame") || takes("velocity"); }
   /// Whether it keeps two points a length apart.
   bool is_bar() const { return takes("length"); }
 };
@@ -32,7 +35,17 @@ struct LoopKind {
 const LoopKind& loop_kind(LoopType type);
 inline const LoopKind& loop_kind(const Loop& loop) { return loop_kind(loop.type); }
 
-/// In the order of LoopType.
+/// What messages call it: "loop 'pin'".
+std::string in_words(const Loop& loop);
+
+/// Whether some row binds velocities alone.
+bool binds_velocities(const Mechanism& mechanism);
+
+/// Whose constraint row that is.
+const Loop& loop_of_row(const Mechanism& mechanism, std::size_t row);
+
+/// Of [[loop]], the first ones, in the order of LoopType; of [[constraint]], the others.
 const std::vector<std::string>& loop_type_names();
+const std::vector<std::string>& constraint_type_names();
 
 }  // namespace jourdain::model

@@ -185,7 +185,15 @@ enum class LoopType {
   kPointInPlane,  ///< n·Δ = 0
   kPointOnLine,   ///< a₁·Δ = 0, a₂·Δ = 0
   kRod,           ///< (Δ·Δ − l²)/(2 l) = 0
-  kResidual       ///< residual = 0
+  kResidual,      ///< residual = 0
+  // Rows that bind velocities and leave positions free, but for `height`: v is that of the body of `to` relative to
+  // the body of `from`, at the origin of `to` or at the point Δ + ρ that touches the plane through `from`.
+  kVelocity,      ///< residual = 0, linear in velocities
+  kKnifeEdge,     ///< w·v = 0
+  kRollingWheel,  ///< height n·Δ − l sqrt(1 − (n·w)²) = 0; a₁·v = 0, a₂·v = 0; ρ = −l (n − (n·w) w)/sqrt(1 − (n·w)²)
+  kRollingBall,   ///< height n·Δ − l = 0; a₁·v = 0, a₂·v = 0; ρ = −l n
+  /// With the axes eᵢ of `to` and D = Σ rᵢ² eᵢ eᵢᵀ: height n·Δ − sqrt(n·D n) = 0; a₁·v = 0, a₂·v = 0; ρ = −D n/sqrt(n·D n)
+  kRollingEllipsoid
 };
 
 /// A joint that closes a kinematic loop: constraint rows g = 0 beside the tree of the joints. Δ leads from the
@@ -197,11 +205,12 @@ enum class LoopType {
 struct Loop {
   std::string name;
   LoopType type = LoopType::kBall;
-  FrameIndex from, to;                       ///< on two bodies, or one on the world; no part of kResidual
-  std::array<double, 3> axis{0, 0, 1};       ///< not normalised; in `from`, of a pin in the carrier's axes
-  std::array<double, 3> to_axis{0, 0, 1};    ///< in `to`, not normalised
-  Expression length;                         ///< rod, m: of time and parameters, positive
-  Expression residual;                       ///< of time, coordinates and positions of frames
+  FrameIndex from, to;                     ///< on two bodies, or one on the world; no part of expressions
+  std::array<double, 3> axis{0, 0, 1};     ///< not normalised; in `from`, of a pin in the carrier's axes
+  std::array<double, 3> to_axis{0, 0, 1};  ///< in `to`, not normalised
+  Expression length;    ///< rod, m: of time and parameters, positive; radius: of parameters
+  Expression residual;  ///< of time, coordinates, positions of frames; kVelocity: and their rates
+  Vector3 radii;        ///< r, m: of parameters
   std::optional<ScalarCoordinate> follower;  ///< of a coupler: follows the residual's other coordinate
   SourceRange where = {};
   SourceRange to_where = {};  ///< of the name of the end `to`; line 0: use `where`

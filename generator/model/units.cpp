@@ -211,6 +211,13 @@ std::optional<std::pair<double, std::string>> split_quantity(std::string_view te
   return std::pair(value, std::string(text));
 }
 
+std::string unit_per_second(const std::string& unit) {
+  if (unit.empty()) return "";
+  if (unit == "-") return "1/s";
+  if (unit.ends_with("/s")) return unit + "^2";
+  return unit.find('/') == std::string::npos ? unit + "/s" : "(" + unit + ")/s";
+}
+
 double in_si(double value, const Unit& unit) {
   if (unit.factor == 1) return value;
   return static_cast<double>(static_cast<long double>(value) * unit.factor);

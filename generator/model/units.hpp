@@ -37,4 +37,7 @@ std::optional<std::pair<double, std::string>> split_quantity(std::string_view te
 /// In SI units; computed in long double, infinite where that is beyond double.
 double in_si(double value, const Unit& unit);
 
+/// Of a rate: "rad/s" of "rad", "m/s^2" of "m/s", "(N/m)/s" of "N/m"; none where the unit is none.
+std::string unit_per_second(const std::string& unit);
+
 }  // namespace jourdain::model

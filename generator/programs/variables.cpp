@@ -7,6 +7,7 @@
 #include <set>
 
 #include "model/joint_kinds.hpp"
+#include "model/units.hpp"
 #include "programs/entries.hpp"
 #include "programs/output_names.hpp"
 #include "support/enumerators.hpp"
@@ -61,13 +62,6 @@ Quantity quantity_of(std::string_view unit) {
   for (const QuantityRow& row : kQuantities)
     if (!row.unit.empty() && row.unit == unit) return row.quantity;
   return Quantity::kOther;
-}
-
-/// Of the rate of something: "rad/s" of "rad".
-std::string rate_unit(const std::string& unit) {
-  if (unit.empty()) return "";
-  const std::size_t slash = unit.find("/s");
-  return slash == std::string::npos ? unit + "/s" : unit + "^2";
 }
 
 class Table {
@@ -140,8 +134,9 @@ class Table {
     const std::size_t count = list_.size() - first;
     for (std::size_t k = first; k < first + count; ++k) {
       const Variable state = list_[k];
-      Variable& rate = add_scalar(state.role == Role::kPosition ? Role::kPositionRate : Role::kAcceleration,
-                                  "der(" + state.name + ")", rate_unit(state.unit), "rate of " + state.name);
+      Variable& rate =
+          add_scalar(state.role == Role::kPosition ? Role::kPositionRate : Role::kAcceleration,
+                     "der(" + state.name + ")", model::unit_per_second(state.unit), "rate of " + state.name);
       rate.derivative_of = k;
       if (state.quantity == Quantity::kQuaternionPart) rate.quantity = Quantity::kQuaternionRate;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "model/joint_kinds.hpp"
 #include "model/loop_kinds.hpp"
@@ -130,10 +131,48 @@ class FigureMaker {
 
   void add_loop(const model::Loop& loop) {
     const model::LoopKind& kind = model::loop_kind(loop);
+    if (kind.is_constraint()) return add_round(loop);
     if (!kind.has_ends()) return;
     const FigurePoint from = attached(loop.from), to = attached(loop.to);
     figure_.lines.push_back({kind.is_bar() ? LineKind::kBody : LineKind::kSlide, from, to});
     for (const FigurePoint& end : {from, to}) figure_.joints.push_back({end, {}, true, false, {}});
+  }
+
+  /// What rolls: three sections of it, of a wheel the one across its axle.
+  void add_round(const model::Loop& loop) {
+    const model::LoopKind& kind = model::loop_kind(loop);
+    if (!kind.takes("radius") && !kind.takes("radii")) return;
+    const model::Frame& frame = mechanism_.frames[loop.to.value];
+    if (!frame.body) return;
+    const FigurePoint centre = attached(loop.to);
+    const auto ring = [&](const Numbers3& u, const Numbers3& v) {
+      constexpr int kSides = 32;
+      const auto at = [&](int side) {
+        const double angle = 2 * std::numbers::pi * side / kSides;
+        FigurePoint point = centre;
+        for (std::size_t k = 0; k < 3; ++k)
+          point.position[k] += std::cos(angle) * u[k] + std::sin(angle) * v[k];
+        return point;
+      };
+      for (int side = 0; side < kSides; ++side)
+        figure_.lines.push_back({LineKind::kBody, at(side), at(side + 1)});
+    };
+    const double radius = number(loop.length);
+    const Numbers3 radii = kind.takes("radii") ? numbers(loop.radii) : Numbers3{radius, radius, radius};
+    const auto along = [&](const std::array<double, 3>& direction, double length) {
+      Numbers3 v = axis_in(frame.placement, direction);
+      for (double& entry : v) entry *= length;
+      return v;
+    };
+    if (kind.takes("axis")) {
+      const auto [u, v] = model::plane_axes(unit(loop.to_axis));
+      return ring(along(u, radius), along(v, radius));
+    }
+    const Numbers3 x = along({1, 0, 0}, radii[0]), y = along({0, 1, 0}, radii[1]),
+                   z = along({0, 0, 1}, radii[2]);
+    ring(x, y);
+    ring(y, z);
+    ring(z, x);
   }
 
   const Mechanism& mechanism_;

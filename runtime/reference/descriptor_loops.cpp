@@ -1,5 +1,6 @@
 #include "reference/descriptor_loops.hpp"
 
+#include "model/loop_kinds.hpp"
 #include "reference/decompositions.hpp"
 #include "reference/descriptor_rows.hpp"
 #include "support/check.hpp"
@@ -19,18 +20,31 @@ void read_direction(const std::array<double, 3>& given, Vector3<Scalar>& axis,
   for (std::size_t i = 0; i < 2; ++i) normals[i] = Vector3<double>(across[i].data()).template cast<Scalar>();
 }
 
+/// A row: g, or what is kept at zero where velocities alone are bound; its last derivative is not known then.
+template <class Scalar>
+struct Row {
+  TimeJet<Scalar> value;
+  bool is_velocity = false;
+};
+
+template <class Scalar>
+TimeJet<Scalar> rate_of(const TimeJet<Scalar>& x) {
+  return {x.rate, x.acceleration, 0};
+}
+
 /// Writes down the rows of loops where all bodies move as given.
 template <class Scalar>
 class Closing {
  public:
   using T = TimeJet<Scalar>;
   using Direction = Vector3<T>;
+  using Rotation = Matrix3<T>;
 
   Closing(const Parts<Scalar>& parts, const std::vector<Pose<T>>& bodies, const T& time,
           const std::vector<std::vector<Scalar>>& near)
       : parts_(parts), bodies_(bodies), time_(time), near_(near) {}
 
-  std::vector<T> run() {
+  std::vector<Row<Scalar>> run() {
     for (const Loop<Scalar>& loop : parts_.loops) add(loop);
     return std::move(rows_);
   }
@@ -60,10 +74,8 @@ class Closing {
   }
 
   void add(const Loop<Scalar>& loop) {
-    if (loop.type == LoopType::kResidual) {
-      add_row(value(loop.residual));
-      return;
-    }
+    if (loop.type == LoopType::kResidual) return add_row(value(loop.residual));
+    if (loop.type == LoopType::kVelocity) return add_velocity(value(loop.residual));
     const Ends at = ends(loop);
     switch (loop.type) {
       case LoopType::kBall:
@@ -98,12 +110,58 @@ class Closing {
         add_row((at.delta.dot(at.delta) - length * length) / (T(2) * length));
         break;
       }
+      case LoopType::kKnifeEdge:
+        add_velocity(at.w.dot(slip(loop, at.delta, Direction(T(0), T(0), T(0)))));
+        break;
+      case LoopType::kRollingWheel: {
+        const T lean = at.n.dot(at.w);
+        const Direction along = at.n - at.w * lean;
+        touch(loop, at, Direction(along * (-value(loop.length) / sqrt(along.dot(along)))));
+        break;
+      }
+      case LoopType::kRollingBall:
+        touch(loop, at, Direction(at.n * -value(loop.length)));
+        break;
+      case LoopType::kRollingEllipsoid:
+        touch(loop, at, lowest(loop, at.n));
+        break;
       case LoopType::kResidual:
+      case LoopType::kVelocity:
         break;
     }
   }
 
-  void add_row(const T& g) { rows_.push_back(g); }
+  /// Of an ellipsoid x·S⁻² x = 1 in its own axes, S of its radii: −S m/|m| with m = S n.
+  Direction lowest(const Loop<Scalar>& loop, const Direction& n) const {
+    const Pose<T> to = frame(loop.to);
+    Direction m = to.R_WF.transpose() * n;
+    for (Eigen::Index k = 0; k < 3; ++k) m[k] *= value(loop.radii[std::size_t(k)]);
+    const T size = sqrt(m.dot(m));
+    for (Eigen::Index k = 0; k < 3; ++k) m[k] *= -value(loop.radii[std::size_t(k)]) / size;
+    return to.R_WF * m;
+  }
+
+  /// The point at `lever` from the origin of `to` is in the plane and does not slip.
+  void touch(const Loop<Scalar>& loop, const Ends& at, const Direction& lever) {
+    add_row(at.n.dot(at.delta + lever));
+    const Direction v = slip(loop, at.delta, lever);
+    for (const Direction& a : at.a) add_velocity(a.dot(v));
+  }
+
+  /// How fast the body of `to` passes the body of `from` at `lever` from the origin of `to`.
+  Direction slip(const Loop<Scalar>& loop, const Direction& delta, const Direction& lever) const {
+    const Pose<T> from = frame(loop.from), to = frame(loop.to);
+    return carried(to, lever) - carried(from, delta + lever);
+  }
+
+  /// Velocity of what is fixed to a frame at `lever` from its origin.
+  static Direction carried(const Pose<T>& frame, const Direction& lever) {
+    return frame.p_WF.unaryExpr(&rate_of<Scalar>) +
+           frame.R_WF.unaryExpr(&rate_of<Scalar>) * (frame.R_WF.transpose() * lever);
+  }
+
+  void add_row(const T& g) { rows_.push_back({g}); }
+  void add_velocity(const T& v) { rows_.push_back({v, true}); }
 
   void points_coincide(const Loop<Scalar>& loop, const Ends& at) {
     const Direction components = body(loop.carrier).R_WF.transpose() * at.delta;
@@ -126,16 +184,28 @@ class Closing {
         [&](const model::Variable& v) -> T {
           if (v.kind == Kind::kTime) return time_;
           if (v.kind == Kind::kPosition) return coordinate(v.index, v.component);
-          JD_CHECK(v.kind == Kind::kFramePosition, "a loop depends on variable kind {}", int(v.kind));
-          return frame(v.index).p_WF[Eigen::Index(v.component)];
+          if (v.kind == Kind::kVelocity) return rate_of(coordinate(v.index, v.component));
+          const Pose<T> at = frame(v.index);
+          if (v.kind == Kind::kFramePosition) return at.p_WF[Eigen::Index(v.component)];
+          if (v.kind == Kind::kFrameVelocity) return rate_of(at.p_WF[Eigen::Index(v.component)]);
+          const Rotation R_rate = at.R_WF.unaryExpr(&rate_of<Scalar>);
+          if (v.kind == Kind::kFrameSpin) return spin(at.R_WF.transpose() * R_rate, v.component);
+          JD_CHECK(v.kind == Kind::kFrameWorldSpin, "a loop depends on variable kind {}", int(v.kind));
+          return spin(R_rate * at.R_WF.transpose(), v.component);
         });
+  }
+
+  /// Of a skew matrix the vector that it multiplies with.
+  static T spin(const Rotation& skew, std::size_t component) {
+    const auto k = Eigen::Index(component);
+    return skew((k + 2) % 3, (k + 1) % 3);
   }
 
   const Parts<Scalar>& parts_;
   const std::vector<Pose<T>>& bodies_;
   T time_;
   const std::vector<std::vector<Scalar>>& near_;
-  std::vector<T> rows_;
+  std::vector<Row<Scalar>> rows_;
 };
 
 }  // namespace
@@ -150,7 +220,8 @@ std::vector<Loop<Scalar>> read_loops(const model::Mechanism& mechanism) {
     read_direction<Scalar>(given.to_axis, loop.to_axis, loop.to_normals);
     loop.length = given.length;
     loop.residual = given.residual;
-    if (given.type == LoopType::kResidual) continue;
+    loop.radii = given.radii;
+    if (!model::loop_kind(given).has_ends()) continue;
     loop.from = given.from.value;
     loop.to = given.to.value;
     const auto carrier =
@@ -173,29 +244,31 @@ LoopRows<Scalar> loop_rows(const Parts<Scalar>& parts, Scalar t,
     moving.push_back(coasting(parts.bodies[b], motions[b], velocity));
     resting.push_back(coasting<Scalar>(parts.bodies[b], motions[b], Velocity<Scalar>::Zero()));
   }
-  const std::vector<T> rows = Closing<Scalar>(parts, moving, T(t, 1, 0), near).run();
+  const std::vector<Row<Scalar>> rows = Closing<Scalar>(parts, moving, T(t, 1, 0), near).run();
   const auto size = Eigen::Index(rows.size());
   LoopRows<Scalar> result{.jacobian = Eigen::MatrixX<Scalar>::Zero(size, 6 * Eigen::Index(count)),
                           .value = Eigen::VectorX<Scalar>(size),
                           .rate = Eigen::VectorX<Scalar>(size),
                           .gamma = Eigen::VectorX<Scalar>(size)};
   for (Eigen::Index i = 0; i < size; ++i) {
-    const T& row = rows[std::size_t(i)];
-    result.value[i] = row.value;
-    result.rate[i] = row.rate;
-    result.gamma[i] = row.acceleration;
+    const auto& [row, is_velocity] = rows[std::size_t(i)];
+    result.value[i] = is_velocity ? Scalar(0) : row.value;
+    result.rate[i] = is_velocity ? row.value : row.rate;
+    result.gamma[i] = is_velocity ? row.rate : row.acceleration;
   }
   if (size == 0) return result;
+  const std::vector<Row<Scalar>> at_rest = Closing<Scalar>(parts, resting, T(t), near).run();
   // Time stands still while one body moves in one direction.
   for (std::size_t b = 0; b < count; ++b) {
-    const Pose<T> at_rest = resting[b];
+    const Pose<T> pose = resting[b];
     for (Eigen::Index k = 0; k < 6; ++k) {
       resting[b] = coasting<Scalar>(parts.bodies[b], motions[b], Velocity<Scalar>::Unit(k));
-      const std::vector<T> column = Closing<Scalar>(parts, resting, T(t), near).run();
-      for (Eigen::Index i = 0; i < size; ++i)
-        result.jacobian(i, 6 * Eigen::Index(b) + k) = column[std::size_t(i)].rate;
+      const std::vector<Row<Scalar>> column = Closing<Scalar>(parts, resting, T(t), near).run();
+      for (std::size_t i = 0; i < column.size(); ++i)
+        result.jacobian(Eigen::Index(i), 6 * Eigen::Index(b) + k) =
+            column[i].is_velocity ? column[i].value.value - at_rest[i].value.value : column[i].value.rate;
     }
-    resting[b] = at_rest;
+    resting[b] = pose;
   }
   return result;
 }

@@ -24,6 +24,7 @@ struct Loop {
   Vector3<Scalar> normals[2];          ///< a₁, a₂; of a pin c₁, c₂
   Vector3<Scalar> to_normals[2];       ///< b₁, b₂
   model::Expression length, residual;  ///< m; any unit
+  model::Vector3 radii;                ///< m
 };
 
 template <class Scalar>

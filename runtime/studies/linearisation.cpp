@@ -138,9 +138,7 @@ Modes modes_of(const MatrixXd& A) {
   modes.defective = singular[singular.size() - 1] * kDependent < singular[0];
   modes.right = modes.scales.asDiagonal() * right;
   const Eigen::MatrixXcd left = inverse(right);
-  const Index nz = A.rows() / 2;
-  const MatrixXd shares = right.cwiseAbs().cwiseProduct(left.transpose().cwiseAbs());
-  modes.participations = shares.topRows(nz) + shares.bottomRows(nz);
+  modes.participations = right.cwiseAbs().cwiseProduct(left.transpose().cwiseAbs());
   for (Index k = 0; k < A.cols(); ++k) modes.participations.col(k) /= modes.participations.col(k).sum();
   return modes;
 }

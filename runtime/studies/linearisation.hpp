@@ -22,12 +22,10 @@ Eigen::MatrixXd linearisation(const Flow<double>& flow, const Point<double>& poi
 /// Eigenvalues µ (1/s) with their eigenvectors.
 struct Modes {
   Eigen::VectorXcd values;
-  Eigen::MatrixXcd right;  ///< columns, in the coordinates of A
-  Eigen::MatrixXd
-      /// nz × 2nz: share of each coordinate, position and velocity together, in a mode; columns sum to 1
-      participations;
-  Eigen::VectorXd scales;  ///< of the coordinates; balance A
-  bool defective = false;  ///< eigenvectors as good as dependent: participations say little
+  Eigen::MatrixXcd right;          ///< columns, in the coordinates of A
+  Eigen::MatrixXd participations;  ///< share of each row of A in a mode; columns sum to 1
+  Eigen::VectorXd scales;          ///< of the coordinates; balance A
+  bool defective = false;          ///< eigenvectors as good as dependent: participations say little
 };
 
 Modes modes_of(const Eigen::MatrixXd& A);

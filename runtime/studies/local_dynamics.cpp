@@ -18,12 +18,11 @@ constexpr std::size_t kPoints = 60;
 
 /// The rows of the local coordinates, displacements and velocities.
 MatrixXd kept(const MatrixXd& rates, const LocalCoordinates& coordinates) {
-  const auto n = static_cast<Index>(coordinates.velocities.size()), nz = rates.rows() / 2;
-  MatrixXd result(2 * n, rates.cols());
-  for (Index i = 0; i < n; ++i) {
-    const auto entry = static_cast<Index>(coordinates.velocities[std::size_t(i)]);
-    result.row(i) = rates.row(entry);
-    result.row(n + i) = rates.row(nz + entry);
+  const std::vector<std::size_t> rows = coordinates.rows();
+  MatrixXd result(static_cast<Index>(rows.size()), rates.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool of_velocity = i >= coordinates.displacements.size();
+    result.row(Index(i)) = rates.row(static_cast<Index>(rows[i]) + (of_velocity ? rates.rows() / 2 : 0));
   }
   return result;
 }
@@ -64,8 +63,7 @@ double shrinking(const Flow<double>& flow, const Local& local, const model::Tang
       moved = moved_along(moved, tangent, i - positions, dt * local.point->x[i]);
     moved = flow.closed(std::move(moved));
     const LocalCoordinates there = local_coordinates(flow, moved, tangent);
-    return log_inertia(flow, moved,
-                       there.velocities == local.coordinates.velocities ? there : local.coordinates);
+    return log_inertia(flow, moved, there.rows() == local.coordinates.rows() ? there : local.coordinates);
   };
   return -local.A.trace() - (after(time) - after(-time)) / (2 * time);
 }
@@ -120,6 +118,12 @@ void average_damping(std::vector<Local>& locals) {
   }
 }
 
+/// Volumes may shrink then though energy is kept: a bicycle rights itself.
+bool binds_velocities(const std::vector<Local>& locals) {
+  return !locals.empty() &&
+         locals.front().coordinates.displacements.size() > locals.front().coordinates.velocities.size();
+}
+
 }  // namespace
 
 std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
@@ -143,7 +147,8 @@ Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& referenc
                      const std::vector<Local>& locals, const model::Tangent& tangent, bool conserves_energy) {
   return {trajectory_rate(flow, reference, tangent), reference.points.back().t - reference.points.front().t,
           flow.table().unit_roundoff,
-          (!conserves_energy || still_velocities(flow, tangent) > 0) && damps(flow, locals, tangent)};
+          (!conserves_energy || still_velocities(flow, tangent) > 0 || binds_velocities(locals)) &&
+              damps(flow, locals, tangent)};
 }
 
 double trajectory_rate(const Flow<double>& flow, const ReferenceSolution& reference,

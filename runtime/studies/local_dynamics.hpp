@@ -19,6 +19,9 @@ struct Local {
   Modes modes;
   Eigen::VectorXcd
       judged;  ///< the modes' values, 1/s, oscillations with their mean damping along the trajectory
+
+  /// Rows of A that are of positions, the first ones.
+  Eigen::Index positions() const { return static_cast<Eigen::Index>(coordinates.displacements.size()); }
 };
 
 /// What modes are compared with.
@@ -33,7 +36,8 @@ struct Scene {
 std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
                              const model::Tangent& tangent, const Progress& progress);
 
-/// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing, unless there are states.
+/// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing, unless there are states or constraints that bind
+/// velocities alone.
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,
                      const std::vector<Local>& locals, const model::Tangent& tangent, bool conserves_energy);
 

@@ -63,7 +63,8 @@ MethodLimit limit_by_system(const StabilityFunction& function, const Local& loca
   }
   result.h = INFINITY;
   if (negligible(result.mode, local.modes, scene)) return result;
-  result.h = step_limit(function, local.A, std::abs(result.mode), {growth + 1 / scene.duration});
+  result.h =
+      step_limit(function, local.A, local.positions(), std::abs(result.mode), {growth + 1 / scene.duration});
   result.time = local.point->t;
   result.kind = kind_of(result.mode, scene);
   if (result.kind == ModeKind::kUndamped && result.h * std::abs(result.mode) < kResolved) result.h = 0;

@@ -41,10 +41,13 @@ void name_owners(const Flow<double>& flow, const std::vector<Local>& locals, Sta
   const Local& local = local_at(locals, result.fastest_time);
   const Modes& modes = local.modes;
   const VectorXd shares = modes.participations.col(index_of(result.fastest, modes));
-  for (Index i = 0; i < shares.size(); ++i)
-    if (shares[i] >= kShownShare)
-      result.owners.push_back(
-          {flow.table().velocity_names[local.coordinates.velocities[std::size_t(i)]], shares[i]});
+  VectorXd by_entry = VectorXd::Zero(static_cast<Index>(flow.table().velocity_count));
+  const std::vector<std::size_t> entries = local.coordinates.rows();
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    by_entry[static_cast<Index>(entries[i])] += shares[Index(i)];
+  for (Index i = 0; i < by_entry.size(); ++i)
+    if (by_entry[i] >= kShownShare)
+      result.owners.push_back({flow.table().velocity_names[std::size_t(i)], by_entry[i]});
   std::stable_sort(result.owners.begin(), result.owners.end(),
                    [](const CoordinateShare& a, const CoordinateShare& b) { return a.share > b.share; });
 }
@@ -54,7 +57,8 @@ void name_owners(const Flow<double>& flow, const std::vector<Local>& locals, Sta
 double transient_growth(const StabilityFunction& function, const Local& local, double h, const Scene& scene) {
   constexpr int kSteps = 300;  // modes near the limit die out slowly
   const VectorXd& d = local.modes.scales;
-  const MatrixXd step = d.cwiseInverse().asDiagonal() * step_matrix(function, local.A, h) * d.asDiagonal();
+  const MatrixXd step =
+      d.cwiseInverse().asDiagonal() * step_matrix(function, local.A, local.positions(), h) * d.asDiagonal();
   const Eigen::MatrixXcd right = d.cwiseInverse().asDiagonal() * local.modes.right;
   Eigen::VectorXcd kept = Eigen::VectorXcd::Ones(right.cols());
   for (Index i = 0; i < kept.size(); ++i)
@@ -88,7 +92,7 @@ void look_for_transients(const Flow<double>& flow, const std::vector<Local>& loc
 double growth_beyond(const StabilityFunction& function, const MethodLimit& limit, const Local& local) {
   const double h = kFailing * limit.h;
   if (function.kind == StabilityFunction::Kind::kPartitioned)
-    return spectral_radius(step_matrix(function, local.A, h));
+    return spectral_radius(step_matrix(function, local.A, local.positions(), h));
   const Complex mu = limit.kind == ModeKind::kUndamped ? Complex(0, std::abs(limit.mode)) : limit.mode;
   return amplification(function, h * mu);
 }

@@ -1,5 +1,6 @@
 #include "studies/tangent_space.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -56,7 +57,23 @@ MatrixXd closing_jacobian(const Flow<double>& flow, const Point<double>& point,
   return P;
 }
 
+/// The entries whose rows of a projection are most independent; its trace counts the directions that it keeps.
+std::vector<std::size_t> most_independent(const MatrixXd& projection) {
+  const auto count = static_cast<std::size_t>(std::max(0L, std::lround(projection.trace())));
+  std::vector<std::size_t> entries;
+  if (count == 0) return entries;
+  const std::vector<Index> order = reference::pivoted_columns<double>(projection.transpose());
+  for (std::size_t i = 0; i < count; ++i) entries.push_back(static_cast<std::size_t>(order[i]));
+  return entries;
+}
+
 }  // namespace
+
+std::vector<std::size_t> LocalCoordinates::rows() const {
+  std::vector<std::size_t> list = displacements;
+  list.insert(list.end(), velocities.begin(), velocities.end());
+  return list;
+}
 
 Eigen::Matrix<double, 4, 3> turning(const Eigen::Vector4d& q) {
   Eigen::Matrix<double, 4, 3> m;
@@ -97,21 +114,21 @@ LocalCoordinates local_coordinates(const Flow<double>& flow, const Point<double>
   if (!keeps_all_coordinates(flow, tangent)) {
     result.velocities.resize(static_cast<std::size_t>(nz));
     std::iota(result.velocities.begin(), result.velocities.end(), std::size_t(0));
+    result.displacements = result.velocities;
     result.embedding = MatrixXd::Identity(2 * nz, 2 * nz);
     return result;
   }
   const MatrixXd P = closing_jacobian(flow, point, tangent);
-  // A projection: its trace counts the directions that it keeps.
-  const auto freedom = static_cast<Index>(std::lround(P.topLeftCorner(nz, nz).trace()));
   result.embedding = MatrixXd::Zero(2 * nz, 0);
-  if (!P.allFinite() || freedom < 1) return result;
-  const std::vector<Index> order = reference::pivoted_columns<double>(P.topLeftCorner(nz, nz).transpose());
-  MatrixXd kept = MatrixXd::Zero(2 * nz, 2 * freedom);
-  for (Index i = 0; i < freedom; ++i) {
-    const Index entry = order[static_cast<std::size_t>(i)];
-    result.velocities.push_back(static_cast<std::size_t>(entry));
-    kept(entry, i) = kept(nz + entry, freedom + i) = 1;
-  }
+  if (!P.allFinite()) return result;
+  result.displacements = most_independent(P.topLeftCorner(nz, nz));
+  result.velocities = most_independent(P.bottomRightCorner(nz, nz));
+  if (result.velocities.size() == result.displacements.size()) result.velocities = result.displacements;
+  if (result.velocities.empty()) return result;
+  const std::vector<std::size_t> rows = result.rows();
+  MatrixXd kept = MatrixXd::Zero(2 * nz, static_cast<Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    kept(static_cast<Index>(rows[i]) + (i < result.displacements.size() ? 0 : nz), static_cast<Index>(i)) = 1;
   result.embedding = P * kept * reference::inverse<double>(kept.transpose() * P * kept);
   return result;
 }

@@ -20,10 +20,14 @@ bool keeps_all_coordinates(const Flow<double>& flow, const model::Tangent& tange
 Point<double> moved_along(const Point<double>& point, const model::Tangent& tangent, std::size_t velocity,
                           double delta);
 
-/// Local coordinates of the closed states near one: the displacements and velocities of some entries of z.
+/// Local coordinates of the closed states near one: the displacements and velocities of some entries of z. Where
+/// constraints bind velocities alone there are more displacements than velocities.
 struct LocalCoordinates {
-  std::vector<std::size_t> velocities;  ///< entries of z, n of them: one per degree of freedom
-  Eigen::MatrixXd embedding;  ///< 2nz × 2n: displacements and velocities of all entries by the coordinates
+  std::vector<std::size_t> displacements, velocities;  ///< entries of z
+  Eigen::MatrixXd embedding;  ///< 2nz × n: displacements and velocities of all entries by the coordinates
+
+  /// Displacements, then velocities.
+  std::vector<std::size_t> rows() const;
 };
 
 /// Of a scene with all coordinates: those entries whose rows of the correction's derivative, by differences, are most

@@ -14,6 +14,7 @@
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_loops.hpp"
+#include "properties/random_rolling.hpp"
 #include "reference/descriptor.hpp"
 
 namespace jourdain::tests {
@@ -312,6 +313,23 @@ TEST(LoopOutputs, AgreeForLoopsOfEveryType) {
   }
   fmt::print("{} states\n", compared);
   EXPECT_GE(compared, cases(60));
+}
+
+TEST(LoopOutputs, AgreeForWhatRolls) {
+  std::size_t compared = 0;
+  const auto add = [&](const model::Mechanism& mechanism, std::uint64_t seed) {
+    if (std::none_of(mechanism.loops.begin(), mechanism.loops.end(), [](const model::Loop& loop) {
+          return loop.type == model::LoopType::kResidual || loop.type == model::LoopType::kVelocity;
+        }))
+      compared += compare(mechanism, LoopTreatment::kMultipliers, seed);
+  };
+  for (const char* name : {"bicycle", "rolling_disc", "sleigh"})
+    add(read_model(model_path(fmt::format("{}.toml", name))), 1);
+  const std::size_t of_models = compared;
+  for (std::uint64_t seed = 0; seed < cases(60); ++seed) add(random_rolling(seed), seed);
+  fmt::print("{} states\n", compared);
+  EXPECT_GE(of_models, 2 * kStates);
+  EXPECT_GT(compared, of_models);
 }
 
 }  // namespace

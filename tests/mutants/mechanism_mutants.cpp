@@ -31,7 +31,8 @@ class Numbers {
     for (model::Output& output : mechanism_.outputs)
       if (output.kind == model::OutputKind::kExpression) visit_("output " + output.name, output.value);
     for (model::Loop& loop : mechanism_.loops)
-      if (model::loop_kind(loop).takes("length")) visit_("length of " + loop.name, loop.length);
+      if (model::loop_kind(loop).takes("length") || model::loop_kind(loop).takes("radius"))
+        visit_("length of " + loop.name, loop.length);
   }
 
  private:

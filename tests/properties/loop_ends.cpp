@@ -134,8 +134,33 @@ LoopEnds::Vector LoopEnds::offset(model::Loop& loop, const Pose& from, const Pos
       if (random_.chance(0.5)) loop.length = loop.length + departure(random_);
       return from.R * rod;
     }
+    case LoopType::kKnifeEdge:
+      return from.R * Vector(random_.uniform(-0.3, 0.3), step, 0);
+    case LoopType::kRollingBall:
+      loop.length = random_.uniform(0.1, 0.4);
+      return step * n.unitOrthogonal() + Long(loop.length.constant()) * n;
+    case LoopType::kRollingWheel:
+    case LoopType::kRollingEllipsoid:
+    case LoopType::kVelocity:
+      break;
   }
   return Vector::Zero();
+}
+
+/// The centre of a wheel or an ellipsoid whose frame is turned by R, from a point of the plane; sets sizes and what a
+/// wheel spins about.
+LoopEnds::Vector LoopEnds::standing(model::Loop& loop, const Pose& from, const Matrix& R) {
+  const Vector n = from.R * vector(loop.axis).normalized(), u = n.unitOrthogonal();
+  const Long lean = random_.uniform(-1, 1), step = random_.uniform(-0.3, 0.3);
+  if (loop.type == LoopType::kRollingEllipsoid) {
+    Vector radii;
+    for (Long& radius : radii) radius = random_.uniform(0.1, 0.4);
+    for (std::size_t k = 0; k < 3; ++k) loop.radii[k] = double(radii[Eigen::Index(k)]);
+    return step * u + (R.transpose() * n).cwiseProduct(radii).norm() * n;
+  }
+  loop.length = random_.uniform(0.1, 0.4);
+  loop.to_axis = cleaned(R.transpose() * (std::cos(lean) * u + std::sin(lean) * n));
+  return step * u.cross(n) + Long(loop.length.constant()) * std::cos(lean) * n;
 }
 
 /// Orientation of the second end.
@@ -158,6 +183,11 @@ LoopEnds::Matrix LoopEnds::turned(const model::Loop& loop, const Matrix& R_WF) {
     case LoopType::kPointOnLine:
     case LoopType::kRod:
     case LoopType::kResidual:
+    case LoopType::kVelocity:
+    case LoopType::kKnifeEdge:
+    case LoopType::kRollingWheel:
+    case LoopType::kRollingBall:
+    case LoopType::kRollingEllipsoid:
       break;
   }
   return tilt_ ? R_WF : R_WT;
@@ -182,9 +212,13 @@ void LoopEnds::close(LoopType type) {
 
   model::Frame to_frame;
   to_frame.body = model::BodyIndex(to_body);
-  const Vector place = body.R.transpose() * (from.p + offset(loop, from, held) - body.p);
+  const bool stands = type == LoopType::kRollingWheel || type == LoopType::kRollingEllipsoid;
+  Vector way = stands ? Vector(Vector::Zero()) : offset(loop, from, held);
+  const Matrix R_WT = turned(loop, from.R);
+  if (stands) way = standing(loop, from, R_WT);
+  const Vector place = body.R.transpose() * (from.p + way - body.p);
   for (std::size_t i = 0; i < 3; ++i) to_frame.placement.position[i] = clean(place[Eigen::Index(i)]);
-  to_frame.placement.rotation.rpy = angles(body.R.transpose() * turned(loop, from.R));
+  to_frame.placement.rotation.rpy = angles(body.R.transpose() * R_WT);
   loop.from = add(from_frame);
   loop.to = add(to_frame);
   mechanism_.loops.push_back(loop);

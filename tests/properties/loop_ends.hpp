@@ -41,6 +41,7 @@ class LoopEnds {
   std::array<double, 3> direction(bool in_plane);
   void choose_axes(model::Loop& loop, const Pose& carrier);
   Vector offset(model::Loop& loop, const Pose& from, const Pose& carrier);
+  Vector standing(model::Loop& loop, const Pose& from, const Matrix& R);
   Matrix turned(const model::Loop& loop, const Matrix& R_WF);
   std::pair<model::Expression, long double> quantity();
   void add_residual(model::Loop& loop);

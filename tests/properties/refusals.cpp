@@ -12,6 +12,7 @@
 #include "programs/functions.hpp"
 #include "properties/random_linkages.hpp"
 #include "properties/random_loops.hpp"
+#include "properties/random_rolling.hpp"
 #include "properties/random_scene.hpp"
 #include "properties/random_tree.hpp"
 #include "support/uniform.hpp"
@@ -59,10 +60,16 @@ model::Mechanism extreme(std::uint64_t seed) {
 }  // namespace
 
 const std::vector<ValidKind>& valid_kinds() {
-  static const std::vector<ValidKind> kinds = {
-      {"trees", 3000, 15},     {"scenes", 3000, 15},   {"loops", 1200, 5},
-      {"linkages", 900, 5},    {"extremes", 1500, 40}, {"chains of 2 to 12, 24 orders", 400, 10},
-      {"chains of 20", 20, 1}, {"chains of 60", 6, 1}, {"chains of 200", 1, 0}};
+  static const std::vector<ValidKind> kinds = {{"trees", 3000, 15},
+                                               {"scenes", 3000, 15},
+                                               {"loops", 1200, 5},
+                                               {"rolling", 400, 4},
+                                               {"linkages", 900, 5},
+                                               {"extremes", 1500, 40},
+                                               {"chains of 2 to 12, 24 orders", 400, 10},
+                                               {"chains of 20", 20, 1},
+                                               {"chains of 60", 6, 1},
+                                               {"chains of 200", 1, 0}};
   return kinds;
 }
 
@@ -70,6 +77,7 @@ model::Mechanism valid_mechanism(const ValidKind& kind, std::uint64_t seed) {
   if (kind.name == "trees") return random_tree(seed);
   if (kind.name == "scenes") return random_scene(seed);
   if (kind.name == "loops") return random_loops(seed);
+  if (kind.name == "rolling") return random_rolling(seed);
   if (kind.name == "linkages") return linkage(seed);
   if (kind.name == "extremes") return extreme(seed);
   if (kind.name == "chains of 20") return chain(20, 0, seed);

@@ -271,8 +271,21 @@ class Writer {
 
   void add(const model::Loop& loop) {
     const model::LoopKind& kind = model::loop_kind(loop);
-    text_ += fmt::format("\n[[loop]]\nname = \"{}\"\ntype = \"{}\"\n", loop.name, kind.name);
-    for (const std::string_view key : kind.keys) text_ += own_key(loop, key);
+    text_ += fmt::format("\n[[{}]]\nname = \"{}\"\ntype = \"{}\"\n",
+                         kind.is_constraint() ? "constraint" : "loop", loop.name, kind.name);
+    for (const std::string_view key : kind.keys)
+      text_ += kind.is_constraint() ? key_of_constraint(loop, key) : own_key(loop, key);
+  }
+
+  std::string key_of_constraint(const model::Loop& loop, std::string_view key) const {
+    if (key == "frame") return fmt::format("frame = \"{}\"\n", frame(loop.to));
+    if (key == "plane") return fmt::format("plane = \"{}\"\n", frame(loop.from));
+    if (key == "axis") return axis("axis", loop.to_axis);
+    if (key == "normal") return axis("normal", loop.axis);
+    if (key == "radii") return fmt::format("radii = {}\n", vector(loop.radii));
+    if (key == "radius") return fmt::format("radius = {}\n", value(loop.length));
+    JD_CHECK(key == "velocity", "no words for the key '{}' of a constraint", key);
+    return fmt::format("velocity = {}\n", value(loop.residual));
   }
 
   std::string own_key(const model::Loop& loop, std::string_view key) const {

@@ -50,6 +50,40 @@ std::string loop(const std::string& type, const std::string& lines) {
          (type == "residual" ? "" : "from = \"tip\"\nto = \"world\"\n") + lines;
 }
 
+TEST(ToToml, ConstraintsComeBackFromTheirDescription) {
+  const std::string text = kChain + R"(
+[[constraint]]
+name = "bound"
+velocity = "hinge.rate + sin(t)*tip.vx - tip.world_wy*rod.wx^0 - l"
+[[constraint]]
+name = "blade"
+type = "knife_edge"
+frame = "tip"
+axis = [0, 1, 2]
+plane = "crank"
+[[constraint]]
+name = "wheel"
+type = "rolling_wheel"
+frame = "tip"
+radius = "l/2"
+normal = [0, 1, 0]
+[[constraint]]
+name = "ball"
+type = "rolling_ball"
+frame = "rod"
+radius = 0.5
+[[constraint]]
+name = "stone"
+type = "rolling_ellipsoid"
+frame = "rod"
+radii = [1, "l", 3]
+)";
+  const model::Mechanism first = read(text), second = read(to_toml(first));
+  ASSERT_EQ(first.loops.size(), 5u);
+  EXPECT_EQ(to_toml(second), to_toml(first));
+  for (std::size_t k = 0; k < first.loops.size(); ++k) EXPECT_EQ(second.loops[k].type, first.loops[k].type);
+}
+
 TEST(ToToml, LoopsComeBackFromTheirDescription) {
   std::string text = kChain;
   for (const char* type : {"revolute", "universal", "prismatic", "cylindrical"})

@@ -196,8 +196,8 @@ class Definitions {
         const Long length = value(loop.length, state, frames);
         return g.push_back((delta.squaredNorm() - length * length) / (2 * length));
       }
-      case LoopType::kResidual:
-        return;
+      default:
+        FAIL() << "no rows for a loop of type " << int(loop.type);
     }
   }
 

@@ -26,11 +26,14 @@ Matrix rows_of(const Matrix& G, const std::vector<std::size_t>& rows) {
   return part;
 }
 
-/// Which rows are lengths.
+/// Which rows are lengths that tell how much a row weighs. What rolls may bind light bodies and heavy ones: there each
+/// row weighs what it weighs.
 std::vector<bool> lengths_of(const model::Mechanism& mechanism) {
   std::vector<bool> is_length;
+  const bool tells = !model::binds_velocities(mechanism);
   for (const model::Loop& loop : mechanism.loops)
-    for (const model::LoopRow& row : model::loop_kind(loop.type).rows) is_length.push_back(row.is_length);
+    for (const model::LoopRow& row : model::loop_kind(loop.type).rows)
+      is_length.push_back(tells && row.is_length);
   return is_length;
 }
 

@@ -108,9 +108,8 @@ class StartSearch {
   bool report_open() {
     Eigen::Index worst = 0;
     const long double residual = closure_.value(start_.configuration).cwiseAbs().maxCoeff(&worst);
-    const model::Loop& loop = loop_of(static_cast<std::size_t>(worst));
-    diagnostics_.error(loop.where,
-                       fmt::format("loop '{}' cannot be closed from the initial values", shown(loop.name)),
+    const model::Loop& loop = model::loop_of_row(mechanism_, static_cast<std::size_t>(worst));
+    diagnostics_.error(loop.where, fmt::format("{} cannot be closed from the initial values", in_words(loop)),
                        fmt::format("the nearest configuration found leaves constraint {} open by {:.3g}{}",
                                    row_name(worst), static_cast<double>(residual), as_given(independent_)));
     return false;
@@ -120,10 +119,10 @@ class StartSearch {
   bool report_reversed() {
     const std::vector<std::size_t> reversed = closure_.reversed(start_.configuration);
     for (const std::size_t loop : reversed)
-      diagnostics_.error(mechanism_.loops[loop].where,
-                         fmt::format("loop '{}' closes with its axes against each other",
-                                     shown(mechanism_.loops[loop].name)),
-                         "turn 'to_axis' round, or start nearer to the configuration that is meant");
+      diagnostics_.error(
+          mechanism_.loops[loop].where,
+          fmt::format("{} closes with its axes against each other", in_words(mechanism_.loops[loop])),
+          "turn 'to_axis' round, or start nearer to the configuration that is meant");
     return reversed.empty();
   }
 
@@ -188,9 +187,9 @@ class StartSearch {
   bool report_opening() {
     Eigen::Index worst = 0;
     const long double rate = opening(start_.z).cwiseAbs().maxCoeff(&worst);
-    const model::Loop& loop = loop_of(static_cast<std::size_t>(worst));
+    const model::Loop& loop = model::loop_of_row(mechanism_, static_cast<std::size_t>(worst));
     diagnostics_.error(
-        loop.where, fmt::format("no velocities agree with loop '{}' at the start", shown(loop.name)),
+        loop.where, fmt::format("no velocities agree with {} at the start", in_words(loop)),
         fmt::format("the best ones found open constraint {} at {:.3g}/s{}: start from another configuration",
                     row_name(worst), static_cast<double>(rate), as_given(independent_)));
     return false;
@@ -238,13 +237,6 @@ class StartSearch {
       if (!agrees(nearest(tried))) held = fewer;
     }
     return held;
-  }
-
-  const model::Loop& loop_of(std::size_t row) const {
-    std::size_t loop = 0, first = 0;
-    while (row >= first + model::row_count(mechanism_.loops[loop].type))
-      first += model::row_count(mechanism_.loops[loop++].type);
-    return mechanism_.loops[loop];
   }
 
   std::string row_name(Eigen::Index row) const {

@@ -30,6 +30,15 @@ NumericClosure::NumericClosure(const model::Mechanism& mechanism, const Constrai
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   tangent_ = layout.tangent;
   velocities_ = layout.velocity_count();
+  for (const ir::Output& output : programs.velocities.outputs)
+    without_position_.push_back(support::subscript(output.row));
+}
+
+Matrix NumericClosure::jacobian(const Configuration& config, RowsOf rows) const {
+  Matrix G = jacobian(config);
+  if (rows == RowsOf::kPositions)
+    for (const std::size_t r : without_position_) G.row(at(r)).setZero();
+  return G;
 }
 
 ir::LeafValues<long double> NumericClosure::leaves(const Configuration& config, const Vector& z) const {
@@ -130,7 +139,7 @@ Configuration NumericClosure::assembled(Configuration config, const std::vector<
   constexpr long double kLongest = 0.3L;  // of one step, rad or m: further the linearisation says little
   Vector g = regarded(value(config));
   for (int i = 0; i < kSteps && !(g.lpNorm<Eigen::Infinity>() <= kClosed / 1e5L); ++i) {
-    Vector step = least_norm(columns_of(regarded(jacobian(config)), moving), -g);
+    Vector step = least_norm(columns_of(regarded(jacobian(config, RowsOf::kPositions)), moving), -g);
     if (!step.allFinite()) break;
     if (step.lpNorm<Eigen::Infinity>() > kLongest) step *= kLongest / step.lpNorm<Eigen::Infinity>();
     Configuration best = displaced(config, step);
@@ -148,8 +157,11 @@ Configuration NumericClosure::assembled(Configuration config, const std::vector<
 }
 
 Vector NumericClosure::consistent(const Configuration& config, const Vector& z,
-                                  const std::vector<bool>& moving) const {
-  return z - least_norm(columns_of(regarded(jacobian(config)), moving), opening_rate(config, z));
+                                  const std::vector<bool>& moving, RowsOf rows) const {
+  Vector rate = opening_rate(config, z);
+  if (rows == RowsOf::kPositions)
+    for (const std::size_t r : without_position_) rate[at(r)] = 0;
+  return z - least_norm(columns_of(regarded(jacobian(config, rows)), moving), rate);
 }
 
 Vector least_norm(const Matrix& A, const Vector& b) {
@@ -192,8 +204,8 @@ std::vector<Configuration> walk(const NumericClosure& closure, const Configurati
     const Configuration& from = found[tries % found.size()];
     Vector direction(at(closure.velocity_count()));
     for (long double& entry : direction) entry = uniform(-1, 1);
-    direction = closure.consistent(from, direction, {}) -
-                closure.consistent(from, Vector::Zero(direction.size()), {});
+    direction = closure.consistent(from, direction, {}, RowsOf::kPositions) -
+                closure.consistent(from, Vector::Zero(direction.size()), {}, RowsOf::kPositions);
     const long double length = direction.lpNorm<Eigen::Infinity>();
     if (!(length > 0)) continue;
     const long double stride = uniform(0.1, 0.7), time = uniform(0, 1);

@@ -23,6 +23,9 @@ struct Configuration {
 /// Residuals of rows with lengths below this count as closed, m (of products of unit vectors: without unit).
 inline constexpr long double kClosed = 1e-14L;
 
+/// Which rows count: all, or those that hold positions.
+enum class RowsOf { kAll, kPositions };
+
 /// The constraints of one mechanism at fixed values of the parameters. Evaluations are const.
 class NumericClosure {
  public:
@@ -61,7 +64,10 @@ class NumericClosure {
 
   /// The nearest velocities that meet G z + g_t = 0, of those in `moving`; where there are none, those that
   /// come nearest to that.
-  Vector consistent(const Configuration& at, const Vector& z, const std::vector<bool>& moving) const;
+  Vector consistent(const Configuration& at, const Vector& z, const std::vector<bool>& moving,
+                    RowsOf rows = RowsOf::kAll) const;
+  /// G with zeros in the rows that do not count.
+  Matrix jacobian(const Configuration& at, RowsOf rows) const;
 
  private:
   /// Without the rows that are disregarded.
@@ -70,6 +76,7 @@ class NumericClosure {
   ir::LeafValues<long double> leaves(const Configuration& at, const Vector& z) const;
 
   const ConstraintPrograms& programs_;
+  std::vector<std::size_t> without_position_;  ///< rows that bind velocities alone
   model::Tangent tangent_;
   std::vector<double> parameters_;
   std::size_t rows_ = 0, velocities_ = 0;

@@ -9,6 +9,7 @@
 #include "model/coordinates.hpp"
 #include "model/loop_kinds.hpp"
 #include "passes/rewrite.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -86,6 +87,14 @@ class Lowered {
     });
   }
 
+  Program velocities() const {
+    return by_row("velocities",
+                  [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t r, int row) {
+                    if (const auto it = closure.velocities.find(r); it != closure.velocities.end())
+                      program.add(l, {"v", row, -1, it->second});
+                  });
+  }
+
   Program senses() const {
     LoopLowering program(mechanism_, equations_);
     for (std::size_t l = 0; l < equations_.closures.size(); ++l)
@@ -147,13 +156,15 @@ class Lowered {
 /// A builder that holds g and differentiates it.
 class Differentiation {
  public:
-  Differentiation(const model::Tangent& tangent, const Program& value, EliminationOrder order)
+  Differentiation(const model::Tangent& tangent, const Program& value, const Program& velocities,
+                  EliminationOrder order)
       : tangent_(tangent), order_(order), g_(ir::insert(builder_, value)) {
     const std::size_t n = tangent.scalars.size() + 3 * tangent.quaternions.size();
     std::vector<Seed> seeds = lowering::displacement_seeds(builder_, tangent);
     seeds.push_back({builder_.leaf(LeafKind::kTime, 0), n, builder_.literal(1)});
     velocities_ = n;
     G_ = ir::differentiate(builder_, g_, seeds, order);
+    add_velocities(velocities);
   }
 
   Program jacobian() {
@@ -183,6 +194,22 @@ class Differentiation {
   }
 
  private:
+  /// G and g_t of rows that are linear in z and have no g.
+  void add_velocities(const Program& velocities) {
+    const std::vector<Signed> moving = ir::insert(builder_, velocities);
+    const std::vector<Signed> resting = ir::insert(builder_, velocities, [this](LeafKind kind, std::size_t) {
+      return kind == LeafKind::kVelocity ? std::optional(builder_.literal(0)) : std::nullopt;
+    });
+    std::vector<Seed> seeds;
+    for (std::size_t k = 0; k < velocities_; ++k)
+      seeds.push_back({builder_.leaf(LeafKind::kVelocity, k), k, builder_.literal(1)});
+    const JacobianEntries entries = ir::differentiate(builder_, moving, seeds, order_);
+    const auto row = [&](std::size_t k) { return support::subscript(velocities.outputs[k].row); };
+    for (const auto& [at, value] : entries) G_[{row(at.first), at.second}] = value;
+    for (std::size_t k = 0; k < resting.size(); ++k)
+      if (!builder_.is_literal(resting[k], 0)) G_[{row(k), velocities_}] = resting[k];
+  }
+
   /// y and t moving along with the state, velocities held: the one column is time.
   std::vector<Seed> path_seeds() {
     std::vector<Seed> seeds;
@@ -226,10 +253,11 @@ std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mech
   const Lowered lowered(mechanism, equations);
   ConstraintPrograms programs;
   programs.value = lowered.values();
+  programs.velocities = lowered.velocities();
   programs.senses = lowered.senses();
   programs.spans = lowered.spans();
   const auto differentiation = [&](EliminationOrder o) {
-    return Differentiation(tangent, programs.value, o);
+    return Differentiation(tangent, programs.value, programs.velocities, o);
   };
   const std::vector<Program> jacobians =
       in_order(lowering::cheapest([&](EliminationOrder o) { return differentiation(o).jacobian(); }),

@@ -76,7 +76,8 @@ std::size_t next_row(const std::vector<Rows>& configurations, std::size_t count)
 
 }  // namespace
 
-std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians, long double tolerance) {
+std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians, long double tolerance,
+                                      const std::vector<std::size_t>& first) {
   std::size_t rank = 0;
   std::vector<std::size_t> ranks;
   for (const Matrix& G : jacobians) {
@@ -88,11 +89,12 @@ std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians, long
     if (ranks[k] == rank) configurations.emplace_back(jacobians[k]);
   std::vector<std::size_t> chosen;
   const auto count = static_cast<std::size_t>(jacobians.front().rows());
-  while (chosen.size() < rank) {
-    const std::size_t row = next_row(configurations, count);
+  const auto take = [&](std::size_t row) {
     chosen.push_back(row);
     for (Rows& rows : configurations) rows.take(row);
-  }
+  };
+  for (const std::size_t row : first) take(row);
+  while (chosen.size() < rank) take(next_row(configurations, count));
   std::sort(chosen.begin(), chosen.end());
   return chosen;
 }

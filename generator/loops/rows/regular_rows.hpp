@@ -12,9 +12,11 @@ namespace jourdain::loops {
 inline constexpr long double kRowTolerance = 1e-6L;
 
 /// As many rows as are independent anywhere: those that stay so best where they do it worst, of the
-/// configurations at which that many are; earlier rows where there is little difference. In order.
+/// configurations at which that many are; earlier rows where there is little difference. In order. `first` are chosen
+/// in any case.
 std::vector<std::size_t> regular_rows(const std::vector<Matrix>& jacobians,
-                                      long double tolerance = kRowTolerance);
+                                      long double tolerance = kRowTolerance,
+                                      const std::vector<std::size_t>& first = {});
 
 /// What the largest of `others` adds to the rows `regular` of G, over its largest row.
 long double largest_rest(const Matrix& G, const std::vector<std::size_t>& regular,

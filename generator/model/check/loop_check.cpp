@@ -59,7 +59,7 @@ class LoopCheck {
     const std::optional<BodyIndex> from = mechanism_.frames[loop.from.value].body,
                                    to = mechanism_.frames[loop.to.value].body;
     const SourceRange where = loop.to_where.line == 0 ? loop.where : loop.to_where;
-    const std::string name = fmt::format("loop '{}' joins {} with ", shown(loop.name), named(from));
+    const std::string name = fmt::format("{} joins {} with ", in_words(loop), named(from));
     if (from == to) return diagnostics_.error(where, name + "itself", "its ends must be on two bodies");
     const std::optional<BodyIndex> carrying = carrier(mechanism_, from, to);
     std::vector<std::size_t> joints = joints_between(from, carrying);
@@ -74,20 +74,25 @@ class LoopCheck {
   }
 
   void residual(const Loop& loop) {
-    for (const Expression::Node& node : loop.residual.nodes()) {
-      if (node.op != Expression::Op::kVariable) continue;
-      const Variable& variable = node.variable;
-      if (variable.kind == Variable::Kind::kPosition &&
-          !mechanism_.joints[variable.index].coordinates[variable.component].motion)
-        return;
-      if (variable.kind != Variable::Kind::kFramePosition) continue;
-      const std::vector<std::size_t> joints =
-          joints_between(mechanism_.frames[variable.index].body, std::nullopt);
-      if (std::any_of(joints.begin(), joints.end(), [this](std::size_t j) { return is_free(j); })) return;
-    }
-    diagnostics_.error(loop.where,
-                       fmt::format("the residual of loop '{}' depends on no coordinate", shown(loop.name)),
-                       "it is kept at zero by coordinates that are not prescribed");
+    const bool of_velocities = loop.type == LoopType::kVelocity;
+    if (any_variable(loop.residual, [&](const Variable& v) { return moves(v, of_velocities); })) return;
+    diagnostics_.error(
+        loop.where,
+        of_velocities ? fmt::format("the velocity of {} depends on no rate", in_words(loop))
+                      : fmt::format("the residual of {} depends on no coordinate", in_words(loop)),
+        of_velocities ? "it is kept at zero by rates that are not prescribed: 'name.rate', 'frame.vx'"
+                      : "it is kept at zero by coordinates that are not prescribed");
+  }
+
+  /// Whether it is a position, or a velocity, that is not prescribed.
+  bool moves(const Variable& variable, bool velocity) const {
+    using Kind = Variable::Kind;
+    const auto& [kind, index, component] = variable;
+    if (kind == Kind::kTime || variable.is_rate() != velocity) return false;
+    if (kind == Kind::kPosition || kind == Kind::kVelocity)
+      return !mechanism_.joints[index].coordinates[component].motion;
+    const std::vector<std::size_t> joints = joints_between(mechanism_.frames[index].body, std::nullopt);
+    return std::any_of(joints.begin(), joints.end(), [this](std::size_t j) { return is_free(j); });
   }
 
   /// A residual of coordinates pushes these along their joints, between parent and child: joints transmit that like
@@ -98,18 +103,21 @@ class LoopCheck {
       const OutputKindRow& kind = output_kind(output.kind);
       if (!kind.is_of_joint()) continue;
       const bool unknown = any_variable(loop.residual, [&](const Variable& v) {
-        if (v.kind == Variable::Kind::kFramePosition) return true;
-        return kind.subject == OutputSubject::kCoordinate && v.kind == Variable::Kind::kPosition &&
-               v.index == output.joint.value && v.component == output.coordinate;
+        if (v.kind == Variable::Kind::kPosition || v.kind == Variable::Kind::kVelocity)
+          return kind.subject == OutputSubject::kCoordinate && v.index == output.joint.value &&
+                 v.component == output.coordinate;
+        return v.kind != Variable::Kind::kTime;
       });
       if (unknown)
-        diagnostics_.error(output.where,
-                           fmt::format("output '{}' is a {} in a mechanism with the residual '{}'",
-                                       shown(output.name), kind.name, shown(loop.name)),
-                           kind.subject == OutputSubject::kJoint
-                               ? "a residual of positions does not say on which bodies its force acts: use a "
-                                 "joint as the loop"
-                               : "what drives its own coordinate is not known");
+        diagnostics_.error(
+            output.where,
+            fmt::format("output '{}' is a {} in a mechanism with the {} '{}'", shown(output.name), kind.name,
+                        loop.type == LoopType::kVelocity ? "velocity constraint" : "residual",
+                        shown(loop.name)),
+            kind.subject == OutputSubject::kJoint
+                ? "an expression does not say on which bodies its force acts: a loop or a "
+                  "constraint of two frames does"
+                : "what drives its own coordinate is not known");
     }
   }
 

@@ -59,4 +59,40 @@ slip_speed = 0.01
 )"};
 }
 
+KeySection tyre_section() {
+  return {"tyre",
+          "[[tyre]]",
+          "A wheel on a fixed plane whose forces build up with the way that it rolls (relaxation length); "
+          "two states, "
+          "deflections in m, the table's name with _longitudinal and _lateral. What it computes is at the "
+          "head of "
+          "generator/model/read/toml_tyre.cpp.",
+          {{"name", "name", "", kRequired, "of its states and of the frame NAME_axle"},
+           {"frame", "name", "", kRequired, "a [[frame]] or a body: the wheel's centre, turning with it"},
+           {"axis", "3 constants", "", "[0, 1, 0]",
+            "in frame, to the left: a wheel that turns about it in the positive sense goes forward"},
+           {"point", "3 numbers", "m", "[0, 0, 0]", "of the plane, in the inertial frame"},
+           {"normal", "3 constants", "", "[0, 0, 1]", "out of the ground, in the inertial frame"},
+           {"radius", "number", "m", kRequired, "unloaded; slip is counted with it"},
+           {"stiffness", "number", "N/m", kRequired, "of the radius; positive"},
+           {"damping", "number", "N s/m", "0", "not negative"},
+           {"friction", "number", "", kRequired, "largest force along the plane over the load"},
+           {"relaxation_length", "number", "m", kRequired, "positive"},
+           {"law", "\"magic_formula\", \"brush\"", "", "\"magic_formula\"", ""},
+           {"stiffness_factor", "2 constants", "", kRequired, "B of the Magic Formula, forward and sideways"},
+           {"shape_factor", "2 constants", "", kRequired, "C of it"},
+           {"curvature_factor", "2 constants", "", "[0, 0]", "E of it, up to 1"},
+           {"slip_stiffness", "number", "", kRequired, "brush: slope at no slip over the load"}},
+          R"([[tyre]]
+name = "front"
+frame = "front_wheel"
+radius = 0.31
+stiffness = 2e5
+friction = 1
+relaxation_length = 0.3
+stiffness_factor = [12, 10]
+shape_factor = [1.6, 1.3]
+)"};
+}
+
 }  // namespace jourdain::model

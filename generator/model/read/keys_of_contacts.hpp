@@ -7,5 +7,6 @@ namespace jourdain::model {
 
 KeySection stop_section();
 KeySection contact_section();
+KeySection tyre_section();
 
 }  // namespace jourdain::model

@@ -7,10 +7,11 @@ namespace jourdain::model {
 
 namespace {
 
-/// Is it a residual of that joint's coordinates alone?
+/// Is it an expression of that joint's coordinates alone?
 bool is_about(const Loop& loop, JointIndex joint) {
   const auto of_joint = [joint](const Variable& v) {
-    return v.kind == Variable::Kind::kPosition && v.index == joint.value;
+    return (v.kind == Variable::Kind::kPosition || v.kind == Variable::Kind::kVelocity) &&
+           v.index == joint.value;
   };
   return any_variable(loop.residual, of_joint) &&
          !any_variable(loop.residual, [&](const Variable& v) { return !of_joint(v); });

@@ -118,7 +118,7 @@ class Members {
     each(name, frame, axes, quantities, where);
   }
   void one(Loop& loop) {
-    auto& [name, type, from, to, axis, to_axis, length, residual, follower, where, to_where] = loop;
+    auto& [name, type, from, to, axis, to_axis, length, residual, radii, follower, where, to_where] = loop;
     each(name, type, from, to, axis, to_axis, length, residual, follower, where, to_where);
   }
   void one(ScalarCoordinate& scalar) {

@@ -17,11 +17,6 @@ inline Expression pushing(const Expression& depth, const Expression& force) {
   return where_less(0.0, depth, false, Expression::function(support::Function::kMax, force, 0.0), 0.0);
 }
 
-inline void refuse_negative(TomlFile& file, const TomlTable& table, std::string_view key,
-                            const Expression& value) {
-  if (file.value(value) < 0) table.error(key, fmt::format("{} is negative", table.quoted(key)));
-}
-
 /// Calls `read` with each table of a section and its name.
 template <class Read>
 void for_each_table(TomlFile& file, const TomlTables& section, const char* kind, const Read& read) {

@@ -45,9 +45,8 @@ class CableReader {
   void read() {
     const std::vector<FrameIndex> points = read_points();
     const Expression stiffness = table_.positive("stiffness", needed::kStiffness),
-                     damping = table_.number("damping", needed::kDamping),
+                     damping = table_.not_negative("damping", needed::kDamping),
                      free_length = table_.positive("free_length", needed::kLength);
-    refuse_negative(file_, table_, "damping", damping);
     if (points.size() < kFewest) return;
     std::vector<Segment> segments;
     Expression length, rate;

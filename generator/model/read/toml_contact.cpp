@@ -40,8 +40,7 @@ class ContactReader {
     const auto frame = find_frame(file_, table_, "frame", mechanism_);
     const std::array<double, 3> normal = direction();
     const Vector3 origin = table_.vector("point", needed::kLength, {0.0, 0.0, 0.0});
-    const Expression radius = table_.number("radius", needed::kLength);
-    refuse_negative(file_, table_, "radius", radius);
+    const Expression radius = table_.not_negative("radius", needed::kLength);
     const double exponent =
         table_.has("exponent") ? file_.constant(*table_.find("exponent"), place("exponent")) : 1;
     if (!(exponent >= 1 && exponent <= 10))
@@ -49,8 +48,7 @@ class ContactReader {
                    "spheres have 1.5");
     const Expression stiffness =
         table_.positive("stiffness", exponent == 1 ? needed::kStiffness : needed::kAnything);
-    const Expression damping = table_.number("damping", Needed{{"s/m"}});
-    refuse_negative(file_, table_, "damping", damping);
+    const Expression damping = table_.not_negative("damping", Needed{{"s/m"}});
     const bool holds = read_friction();
     const std::size_t mark = file_.error_count();
     if (holds) declare_bristles(normal);
@@ -102,8 +100,7 @@ class ContactReader {
  private:
   /// Whether friction holds, by bristles.
   bool read_friction() {
-    friction_ = table_.number("friction", needed::kPure);
-    refuse_negative(file_, table_, "friction", friction_);
+    friction_ = table_.not_negative("friction", needed::kPure);
     const bool holds = table_.choice("friction_model", {"smoothed", "lugre"}).value_or(0) == 1;
     if (!table_.has("friction"))
       for (const char* key : {"slip_speed", "friction_model", "bristle_stiffness", "bristle_damping"})
@@ -119,8 +116,7 @@ class ContactReader {
     if (!table_.has("slip_speed")) slip_ = kHeldSlip;
     if (table_.has("friction")) table_.positive("friction", needed::kPure);
     bristle_stiffness_ = table_.positive("bristle_stiffness", Needed{{"1/m"}});
-    bristle_damping_ = table_.number("bristle_damping", Needed{{"s/m"}});
-    refuse_negative(file_, table_, "bristle_damping", bristle_damping_);
+    bristle_damping_ = table_.not_negative("bristle_damping", Needed{{"s/m"}});
     return table_.has("friction");
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/joint_kinds.hpp"
+#include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
 #include "model/taylor.hpp"
 
@@ -43,6 +44,22 @@ CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate) {
     return {needed::kAngle, needed::kAngularRate, needed::kMoment, needed::kAngularStiffness,
             needed::kAngularDamping};
   return {needed::kLength, needed::kSpeed, needed::kForce, needed::kStiffness, needed::kDamping};
+}
+
+CoordinateNeeds coordinate_needs(const Mechanism& mechanism, const std::optional<ScalarCoordinate>& at) {
+  return at ? coordinate_needs(mechanism.joints[at->joint.value], at->coordinate) : CoordinateNeeds{};
+}
+
+std::optional<ScalarCoordinate> find_coordinate(TomlFile& file, const TomlTable& table,
+                                                const Mechanism& mechanism) {
+  const std::optional<std::string> name = table.required_text("joint");
+  if (!name) return {};
+  const auto joint = find_named(file, table.where("joint"), table.what() + " names", "joint", *name,
+                                mechanism.joints, file.complete().structure);
+  if (!joint) return {};
+  const auto coordinate = find_coordinate(table, mechanism.joints[*joint]);
+  if (!coordinate) return {};
+  return ScalarCoordinate{JointIndex(*joint), *coordinate};
 }
 
 const Scope& time_scope() {

@@ -41,19 +41,15 @@ void read_coordinate_force(TomlFile& file, const TomlTable& table, const std::st
       table.error(key, fmt::format("{} acts on a joint and has no '{}'", table.what(), key),
                   "write value = \"...\"");
   if (!table.has("value")) table.missing("value", "an expression, N m or N");
-  const std::optional<std::string> joint_name = table.required_text("joint");
-  const auto joint = find_named(file, table.where("joint"), table.what() + " names", "joint", *joint_name,
-                                mechanism.joints, file.complete().structure);
-  const auto coordinate = joint ? find_coordinate(table, mechanism.joints[*joint]) : std::nullopt;
-  const Needed needed =
-      coordinate ? coordinate_needs(mechanism.joints[*joint], *coordinate).force : needed::kAnything;
+  const std::optional<ScalarCoordinate> found = find_coordinate(file, table, mechanism);
+  const Needed needed = coordinate_needs(mechanism, found).force;
   CoordinateForce force;
   force.name = name;
   force.where = table.where("joint");
   force.force = settled(table.function("value", needed, scope), mechanism);
-  if (!coordinate) return;
-  force.joint = JointIndex(*joint);
-  force.coordinate = *coordinate;
+  if (!found) return;
+  force.joint = found->joint;
+  force.coordinate = found->coordinate;
   mechanism.coordinate_forces.push_back(force);
 }
 

@@ -66,9 +66,8 @@ class FrictionReader {
 
   void read() {
     const std::optional<std::string> name = table_.required_text("name");
-    const std::optional<ScalarCoordinate> at = find();
-    const Bristles bristles = read_numbers(
-        at ? coordinate_needs(mechanism_.joints[at->joint.value], at->coordinate) : CoordinateNeeds{});
+    const std::optional<ScalarCoordinate> at = find_coordinate(file_, table_, mechanism_);
+    const Bristles bristles = read_numbers(coordinate_needs(mechanism_, at));
     if (!name || !at) return;
     StateVariable state;
     state.name = *name;
@@ -91,23 +90,12 @@ class FrictionReader {
   }
 
  private:
-  std::optional<ScalarCoordinate> find() const {
-    const std::optional<std::string> name = table_.required_text("joint");
-    if (!name) return {};
-    const auto joint = find_named(file_, table_.where("joint"), table_.what() + " names", "joint", *name,
-                                  mechanism_.joints, file_.complete().structure);
-    if (!joint) return {};
-    const auto coordinate = find_coordinate(table_, mechanism_.joints[*joint]);
-    if (!coordinate) return {};
-    return ScalarCoordinate{JointIndex(*joint), *coordinate};
-  }
-
   Bristles read_numbers(const CoordinateNeeds& needs) {
     Bristles b;
     b.coulomb = table_.positive("coulomb", needs.force);
     b.stiffness = table_.positive("bristle_stiffness", needs.stiffness);
-    b.damping = not_negative("bristle_damping", needs.damping);
-    b.viscous = not_negative("viscous", needs.damping);
+    b.damping = table_.not_negative("bristle_damping", needs.damping);
+    b.viscous = table_.not_negative("viscous", needs.damping);
     b.has_stribeck = table_.has("breakaway");
     if (b.has_stribeck) {
       b.breakaway = table_.positive("breakaway", needs.force);
@@ -118,12 +106,6 @@ class FrictionReader {
       table_.error("stribeck_speed", fmt::format("{} has no 'breakaway'", table_.what()));
     }
     return b;
-  }
-
-  Expression not_negative(const char* key, const Needed& needed) {
-    Expression value = table_.number(key, needed);
-    if (file_.value(value) < 0) table_.error(key, fmt::format("{} is negative", table_.quoted(key)));
-    return value;
   }
 
   TomlFile& file_;

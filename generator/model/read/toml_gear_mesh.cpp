@@ -25,10 +25,8 @@ class GearMeshReader {
   void read() {
     const auto first = wheel("first"), second = wheel("second");
     const Expression stiffness = table_.positive("stiffness", needed::kStiffness),
-                     damping = table_.number("damping", needed::kDamping),
-                     backlash = table_.number("backlash", needed::kLength);
-    refuse_negative(file_, table_, "damping", damping);
-    refuse_negative(file_, table_, "backlash", backlash);
+                     damping = table_.not_negative("damping", needed::kDamping),
+                     backlash = table_.not_negative("backlash", needed::kLength);
     const Expression radius1 = radius("first_radius"), radius2 = radius("second_radius");
     if (!first || !second) return;
     if (first->joint == second->joint && first->coordinate == second->coordinate)

@@ -38,23 +38,13 @@ std::vector<std::string> keys_of_type(const toml::table& table) {
 
 /// Why a residual cannot be of it; empty: it can.
 std::string_view refusal_in_residual(const Variable& variable) {
-  using Kind = Variable::Kind;
-  switch (variable.kind) {
-    case Kind::kInput:
-      return "it is an input; a residual is of t, coordinates and positions of frames";
-    case Kind::kState:
-      return "it is a state; a residual is of t, coordinates and positions of frames";
-    case Kind::kVelocity:
-    case Kind::kFrameVelocity:
-    case Kind::kFrameSpin:
-    case Kind::kFrameWorldSpin:
-      return "it is a velocity; a residual is of t, coordinates and positions of frames";
-    case Kind::kTime:
-    case Kind::kPosition:
-    case Kind::kFramePosition:
-    case Kind::kArgument:
-      break;
-  }
+  if (variable.kind == Variable::Kind::kInput)
+    return "it is an input; a residual is of t, coordinates and positions of frames";
+  if (variable.kind == Variable::Kind::kState)
+    return "it is a state; a residual is of t, coordinates and positions of frames";
+  if (variable.is_rate())
+    return "it is a velocity; a residual is of t, coordinates and positions of frames; [[constraint]] takes "
+           "rates";
   return "";
 }
 

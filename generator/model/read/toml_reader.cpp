@@ -21,10 +21,10 @@ namespace {
 using support::Diagnostics;
 
 /// Tables that a file may have any number of, and that [[repeat]] may hold.
-const std::vector<std::string> kLists{"import",   "override", "body",   "joint",    "frame",  "actuator",
-                                      "input",    "force",    "spring", "bushing",  "output", "kinematics",
-                                      "loop",     "coupler",  "stop",   "contact",  "table",  "state",
-                                      "friction", "signal",   "cable",  "gear_mesh"};
+const std::vector<std::string> kLists{
+    "import", "override", "body",     "joint",      "frame", "actuator",  "input",      "force",
+    "spring", "bushing",  "output",   "kinematics", "loop",  "coupler",   "stop",       "contact",
+    "table",  "state",    "friction", "signal",     "cable", "gear_mesh", "constraint", "tyre"};
 
 class TomlReader {
  public:
@@ -60,6 +60,7 @@ class TomlReader {
     read_forces(file_, repeats_.tables("force"), mechanism);
     read_stops(file_, repeats_.tables("stop"), mechanism);
     read_contacts(file_, repeats_.tables("contact"), mechanism);
+    read_tyres(file_, repeats_.tables("tyre"), mechanism);
     read_springs(file_, repeats_.tables("spring"), mechanism);
     read_bushings(file_, repeats_.tables("bushing"), mechanism);
     read_cables(file_, repeats_.tables("cable"), mechanism);
@@ -68,9 +69,11 @@ class TomlReader {
     read_kinematics(file_, repeats_.tables("kinematics"), mechanism);
     read_loops(file_, repeats_.tables("loop"), mechanism);
     read_couplers(file_, repeats_.tables("coupler"), mechanism);
+    read_constraints(file_, repeats_.tables("constraint"), mechanism);
     if (const toml::table* section = top_.table("loops"))
       mechanism.loop_options = read_loop_options(file_, *section, top_.where("loops"), mechanism);
-    if (top_.has("loops") && mechanism.loops.empty() && !top_.has("loop") && !top_.has("coupler"))
+    if (top_.has("loops") && mechanism.loops.empty() && !top_.has("loop") && !top_.has("coupler") &&
+        !top_.has("constraint"))
       top_.error("loops", "the file has [loops] and no [[loop]]", "each loop joint is a [[loop]]");
     return mechanism;
   }

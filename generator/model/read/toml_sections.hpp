@@ -38,6 +38,8 @@ struct CoordinateNeeds {
 };
 CoordinateNeeds coordinate_needs(const Joint& joint, std::size_t coordinate);
 
+CoordinateNeeds coordinate_needs(const Mechanism& mechanism, const std::optional<ScalarCoordinate>& at);
+
 /// What belongs to one scalar coordinate, from the table of its joint or from its own. Keys that are left out change
 /// nothing.
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
@@ -55,10 +57,15 @@ const Scope& time_scope();
 
 /// The scalar coordinate of `joint` that the table's 'coordinate' names; nothing after a diagnostic.
 std::optional<std::size_t> find_coordinate(const TomlTable& table, const Joint& joint);
+/// The one that the table's 'joint' and 'coordinate' name.
+std::optional<ScalarCoordinate> find_coordinate(TomlFile& file, const TomlTable& table,
+                                                const Mechanism& mechanism);
 
 /// All [[stop]] tables: forces on coordinates; all [[contact]] tables: loads on frames.
 void read_stops(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_contacts(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+/// All [[tyre]] tables: loads on frames, two states and a frame each.
+void read_tyres(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
 /// All [[kinematics]] tables; each makes one function per entry of its quantities.
 void read_kinematics(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
@@ -80,8 +87,8 @@ void read_frictions(TomlFile& file, const TomlTables& section, Mechanism& mechan
 /// `file` has declared the signals then.
 void read_states(TomlFile& file, const TomlTables& section, const TomlTables& signals, Mechanism& mechanism);
 
-/// [[force]], [[spring]], [[bushing]], [[cable]], [[gear_mesh]], [[output]], [[loop]] and [[coupler]]: what refers to
-/// bodies, joints, frames, inputs and states, which `mechanism` has already. Bodies that are named where a frame may
+/// [[force]], [[spring]], [[bushing]], [[cable]], [[gear_mesh]], [[output]], [[loop]], [[coupler]] and
+/// [[constraint]]: what refers to bodies, joints, frames, inputs and states, which `mechanism` has already. Bodies that are named where a frame may
 /// stand become frames.
 void read_forces(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_springs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
@@ -91,6 +98,7 @@ void read_gear_meshes(TomlFile& file, const TomlTables& section, Mechanism& mech
 void read_outputs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_loops(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_couplers(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
+void read_constraints(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
 /// All [[override]] tables: keys of bodies and joints that are imported.
 void read_overrides(TomlFile& file, const TomlTables& section, Mechanism& mechanism);

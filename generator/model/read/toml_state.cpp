@@ -65,13 +65,6 @@ std::optional<StateVariable> read_state(TomlFile& file, const TomlTable& table, 
   return state;
 }
 
-/// Of a state per second; none where the state has none.
-std::string rate_unit(const std::string& unit) {
-  if (unit.empty()) return "";
-  if (unit == "-") return "1/s";
-  return unit.find('/') == std::string::npos ? unit + "/s" : fmt::format("({})/s", unit);
-}
-
 /// An expression that later ones may name.
 void read_signal(TomlFile& file, const toml::node& node, const Mechanism& mechanism) {
   const TomlTable table(file, *node.as_table(),
@@ -112,7 +105,7 @@ void read_states(TomlFile& file, const TomlTables& section, const TomlTables& si
   for ([[maybe_unused]] const toml::node& node : section) {  // with the index of its repetition
     const auto& [table, index] = *item++;
     if (!index) continue;
-    const std::string unit = rate_unit(mechanism.states[*index].unit);
+    const std::string unit = unit_per_second(mechanism.states[*index].unit);
     const Expression rate = table.function("rate", {{unit}}, scope);
     mechanism.states[*index].rate = settled(rate, mechanism);
   }

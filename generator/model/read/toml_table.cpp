@@ -135,6 +135,12 @@ Expression TomlTable::number(std::string_view key, const Needed& needed, const E
   return has(key) ? file_.expression(*find(key), place(key, needed)) : otherwise;
 }
 
+Expression TomlTable::not_negative(std::string_view key, const Needed& needed) const {
+  const Expression value = number(key, needed);
+  if (file_.value(value) < 0) error(key, fmt::format("{} is negative", quoted(key)));
+  return value;
+}
+
 Expression TomlTable::positive(std::string_view key, const Needed& needed) const {
   if (!has(key)) {
     missing(key);

@@ -173,6 +173,8 @@ class TomlTable {
   Expression number(std::string_view key, const Needed& needed, const Expression& otherwise = 0.0) const;
   /// A required number that is positive at the parameters' default values.
   Expression positive(std::string_view key, const Needed& needed) const;
+  /// A number, 0 where the key is missing, that is not negative at the parameters' default values.
+  Expression not_negative(std::string_view key, const Needed& needed) const;
   /// An expression over the names of `scope`, and three of them; zero where the key is missing.
   Expression function(std::string_view key, const Needed& needed, const Scope& scope) const;
   Vector3 functions(std::string_view key, const Needed& needed, const Scope& scope) const;

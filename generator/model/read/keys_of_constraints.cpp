@@ -1,0 +1,32 @@
+#include "model/read/keys_of_constraints.hpp"
+
+namespace jourdain::model {
+
+KeySection constraint_section() {
+  return {
+      "constraint",
+      "[[constraint]]",
+      "Binds velocities and leaves positions free: what rolls, or glides along a blade, without slip. "
+      "All coordinates are kept. A wheel is a thin disc; what rolls stays in touch with the plane, "
+      "which pulls as well as it pushes.",
+      {{"name", "name", "", "its number", ""},
+       {"type", "word", "", "velocity",
+        "velocity, knife_edge, rolling_wheel, rolling_ball, rolling_ellipsoid"},
+       {"velocity", "expression", "any", kRequired,
+        "velocity: of t, coordinates, frames and their rates, linear in the rates; kept at zero"},
+       {"frame", "name", "", kRequired, "a [[frame]] or a body: the blade's point, the centre"},
+       {"axis", "3 constants", "", "[0, 1, 0]",
+        "in frame; knife_edge: where the point cannot go; rolling_wheel: what it spins about"},
+       {"radius", "number", "m", kRequired, "rolling_wheel, rolling_ball: positive"},
+       {"radii", "3 numbers", "m", kRequired, "rolling_ellipsoid: along the axes of frame, positive"},
+       {"plane", "name", "", "the world", "a frame or a body: a point of what it moves on"},
+       {"normal", "3 constants", "", "[0, 0, 1]", "of the plane, in the axes of plane, out of the ground"}},
+      R"([[constraint]]
+name = "rear"
+type = "rolling_wheel"
+frame = "rear_wheel"
+radius = 0.3
+)"};
+}
+
+}  // namespace jourdain::model
