@@ -83,7 +83,7 @@ namespace {
 /// more than it should.
 std::string growth_text(const studies::StabilityFunction& function, const Eigen::MatrixXd& A, double growth,
                         double t, double h) {
-  const double factor = studies::spectral_radius(studies::step_matrix(function, A, A.rows() / 2, h));
+  const double factor = studies::spectral_radius(studies::step_matrix(function, A, h));
   if (!(factor > kGrowth * std::exp(growth * h))) return "";
   return fmt::format("{} multiplies differences by {:.3g} in a step at t = {:g} s", function.method, factor,
                      t);

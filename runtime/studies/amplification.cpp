@@ -88,14 +88,14 @@ double amplification(const StabilityFunction& function, Complex x) {
   return std::abs(polynomial(function.numerator, x) / polynomial(function.denominator, x));
 }
 
-MatrixXd step_matrix(const StabilityFunction& function, const MatrixXd& A, Eigen::Index positions, double h) {
-  const Eigen::Index n = A.rows();
+MatrixXd step_matrix(const StabilityFunction& function, const MatrixXd& A, double h) {
+  const Eigen::Index n = A.rows(), half = n / 2;
   const MatrixXd identity = MatrixXd::Identity(n, n);
   if (function.kind == Kind::kPartitioned) {
-    MatrixXd of_velocities = identity, of_positions = identity;
-    of_velocities.bottomRows(n - positions) += h * A.bottomRows(n - positions);
-    of_positions.topRows(positions) += h * A.topRows(positions);
-    return of_positions * of_velocities;
+    MatrixXd velocities = identity, positions = identity;
+    velocities.bottomRows(half) += h * A.bottomRows(half);
+    positions.topRows(half) += h * A.topRows(half);
+    return positions * velocities;
   }
   MatrixXd value = MatrixXd::Zero(n, n);
   for (std::size_t k = function.numerator.size(); k-- > 0;)
@@ -112,10 +112,9 @@ double step_limit(const StabilityFunction& function, Complex mu, Allowance allow
   return first_unstable(kShortest, kLongest, kFactor, kPrecision, unstable) / speed;
 }
 
-double step_limit(const StabilityFunction& function, const MatrixXd& A, Eigen::Index positions,
-                  double fastest, Allowance allowed) {
+double step_limit(const StabilityFunction& function, const MatrixXd& A, double fastest, Allowance allowed) {
   const auto unstable = [&](double r) {
-    return spectral_radius(step_matrix(function, A, positions, r / fastest)) >
+    return spectral_radius(step_matrix(function, A, r / fastest)) >
            std::exp(std::min(allowed.growth * r / fastest, 600.0)) * (1 + kDefective);
   };
   constexpr double kFirst = 0.05;  // h‖A‖ below which growth is a matter of accuracy

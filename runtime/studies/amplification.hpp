@@ -26,10 +26,9 @@ const StabilityFunction* stability_function(std::string_view method);
 /// |R(x)|, or the largest root of the multistep recursion, at x = hµ. Not for partitioned methods.
 double amplification(const StabilityFunction& function, std::complex<double> x);
 
-/// Matrix of one step of length h (s) on x' = A x, A with `positions` rows of positions first. One-step methods with a
+/// Matrix of one step of length h (s) on x' = A x, A 2nz × 2nz with positions first. One-step methods with a
 /// polynomial, and partitioned ones.
-Eigen::MatrixXd step_matrix(const StabilityFunction& function, const Eigen::MatrixXd& A,
-                            Eigen::Index positions, double h);
+Eigen::MatrixXd step_matrix(const StabilityFunction& function, const Eigen::MatrixXd& A, double h);
 
 /// What a mode may do in a step before it counts as unstable: |R(hµ)| ≤ exp(`growth` h) (1 + tolerance).
 struct Allowance {
@@ -40,8 +39,8 @@ struct Allowance {
 double step_limit(const StabilityFunction& function, std::complex<double> mu, Allowance allowed);
 
 /// The same of the whole linear system x' = A x, for partitioned methods.
-double step_limit(const StabilityFunction& function, const Eigen::MatrixXd& A, Eigen::Index positions,
-                  double fastest, Allowance allowed);
+double step_limit(const StabilityFunction& function, const Eigen::MatrixXd& A, double fastest,
+                  Allowance allowed);
 
 /// Whether some piece of the imaginary axis from 0 on is stable.
 bool keeps_oscillations(const StabilityFunction& function);

@@ -63,8 +63,7 @@ MethodLimit limit_by_system(const StabilityFunction& function, const Local& loca
   }
   result.h = INFINITY;
   if (negligible(result.mode, local.modes, scene)) return result;
-  result.h =
-      step_limit(function, local.A, local.positions(), std::abs(result.mode), {growth + 1 / scene.duration});
+  result.h = step_limit(function, local.A, std::abs(result.mode), {growth + 1 / scene.duration});
   result.time = local.point->t;
   result.kind = kind_of(result.mode, scene);
   if (result.kind == ModeKind::kUndamped && result.h * std::abs(result.mode) < kResolved) result.h = 0;
@@ -76,8 +75,10 @@ MethodLimit local_limit(const StabilityFunction* function, const Local& local, c
   MethodLimit none;
   none.h = INFINITY;
   if (!function) return none;
-  if (function->kind == StabilityFunction::Kind::kPartitioned)
-    return limit_by_system(*function, local, scene);
+  const bool partitioned = function->kind == StabilityFunction::Kind::kPartitioned;
+  // Where velocities alone are bound positions follow dependent velocities, too, which the linear system leaves out.
+  if (partitioned && 2 * local.positions() != local.A.rows()) return none;
+  if (partitioned) return limit_by_system(*function, local, scene);
   const MethodLimit fast = limit_by_modes(*function, local, scene, true);
   return fast.h < INFINITY ? fast : limit_by_modes(*function, local, scene, false);
 }

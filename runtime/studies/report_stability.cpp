@@ -107,7 +107,9 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
     list.push_back(fmt::format(
         "no prediction for {}: no mode limits them, or it grows, is neither thirty times faster than the "
         "motion "
-        "nor stays as it is, or allows more than a quarter of the time; observed of them are runs from the "
+        "nor stays as it is, or allows more than a quarter of the time, or is of positions after velocities "
+        "of which "
+        "constraints bind some; observed of them are runs from the "
         "start over the whole time, until a velocity is ten times the largest of the reference",
         unpredicted));
   if (s.transient_growth > kTransient)

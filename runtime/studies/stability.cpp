@@ -57,8 +57,7 @@ void name_owners(const Flow<double>& flow, const std::vector<Local>& locals, Sta
 double transient_growth(const StabilityFunction& function, const Local& local, double h, const Scene& scene) {
   constexpr int kSteps = 300;  // modes near the limit die out slowly
   const VectorXd& d = local.modes.scales;
-  const MatrixXd step =
-      d.cwiseInverse().asDiagonal() * step_matrix(function, local.A, local.positions(), h) * d.asDiagonal();
+  const MatrixXd step = d.cwiseInverse().asDiagonal() * step_matrix(function, local.A, h) * d.asDiagonal();
   const Eigen::MatrixXcd right = d.cwiseInverse().asDiagonal() * local.modes.right;
   Eigen::VectorXcd kept = Eigen::VectorXcd::Ones(right.cols());
   for (Index i = 0; i < kept.size(); ++i)
@@ -92,7 +91,7 @@ void look_for_transients(const Flow<double>& flow, const std::vector<Local>& loc
 double growth_beyond(const StabilityFunction& function, const MethodLimit& limit, const Local& local) {
   const double h = kFailing * limit.h;
   if (function.kind == StabilityFunction::Kind::kPartitioned)
-    return spectral_radius(step_matrix(function, local.A, local.positions(), h));
+    return spectral_radius(step_matrix(function, local.A, h));
   const Complex mu = limit.kind == ModeKind::kUndamped ? Complex(0, std::abs(limit.mode)) : limit.mode;
   return amplification(function, h * mu);
 }

@@ -15,12 +15,12 @@
 #include "loops/plan/sharing_rows.hpp"
 #include "loops/plan/start.hpp"
 #include "loops/plan/states.hpp"
+#include "loops/plan/velocity_rows.hpp"
 #include "loops/regularity/regularity_proof.hpp"
 #include "loops/rows/disagreement.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "model/loop_kinds.hpp"
 #include "model/time_dependence.hpp"
-#include "passes/rewrite.hpp"
 #include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
@@ -44,25 +44,29 @@ class Planner {
         diagnostics_(diagnostics),
         layout_(model::lay_out_coordinates(mechanism)),
         closure_(mechanism, constraints, model::default_values(mechanism)),
-        names_(row_names(mechanism)),
-        binds_velocities_(model::binds_velocities(mechanism)) {}
+        names_(row_names(mechanism)) {}
 
   std::optional<LoopPlan> plan() {
     plan_.iterations = mechanism_.loop_options.iterations;
     plan_.stabilisation = mechanism_.loop_options.stabilisation;
     plan_.is_named = mechanism_.loop_options.treatment || !mechanism_.loop_options.independent.empty();
-    if (!check_linear() || !assemble()) return {};
+    if (!check_linear(mechanism_, constraints_, diagnostics_) || !assemble()) return {};
     configurations_ = walk(closure_, start_, mechanism_, kConfigurations);
     for (const Configuration& c : configurations_) jacobians_.push_back(closure_.jacobian(c));
     if (!check_acting()) return {};
-    plan_.rows = plan_.disagreeing.empty() ? regular() : all_but(plan_.disagreeing);
+    plan_.rows = plan_.disagreeing.empty() ? kept_rows(closure_, configurations_, jacobians_)
+                                           : all_but(plan_.disagreeing);
     for (const std::size_t r : all_but(plan_.rows)) plan_.redundant.push_back(names_[r]);
     plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
     if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
     massless_ = massless_in_tree(mechanism_, start_);
     set_scales(mechanism_, start_, jacobians_.front(), massless_.empty(), plan_);
-    if (!(binds_velocities_ ? treat_velocities() : plan_.freedom == 0 ? treat_determined() : treat()))
+    if (model::binds_velocities(mechanism_)) {
+      if (!check_velocities(mechanism_, closure_, configurations_, plan_.rows, diagnostics_)) return {};
+      plan_.reason = "constraints of velocities leave positions free";
+    } else if (!(plan_.freedom == 0 ? treat_determined() : treat())) {
       return {};
+    }
     if (!check_tree_inertia(mechanism_, massless_, plan_, diagnostics_)) return {};
     if (!plan_.is_reduced()) share();
     set_determinant(mechanism_, configurations_, jacobians_, plan_);
@@ -75,34 +79,6 @@ class Planner {
     for (const auto& name : mechanism_.loop_options.independent)
       list.push_back(*layout_.joints[name.joint.value].velocity[name.coordinate]);
     return list;
-  }
-
-  /// No row of velocities takes the place of one of positions, which would be left open.
-  std::vector<std::size_t> regular() const {
-    if (!binds_velocities_) return regular_rows(jacobians_);
-    std::vector<Matrix> of_positions;
-    for (const Configuration& c : configurations_)
-      of_positions.push_back(closure_.jacobian(c, RowsOf::kPositions));
-    return regular_rows(jacobians_, kRowTolerance, regular_rows(of_positions));
-  }
-
-  /// Rates may not multiply each other: what G depends on.
-  bool check_linear() const {
-    bool all_are = true;
-    for (const ir::Output& output : constraints_.velocities.outputs) {
-      ir::Program G = constraints_.jacobian;
-      std::erase_if(G.outputs, [&](const ir::Output& entry) { return entry.row != output.row; });
-      const ir::Program row = passes::remove_dead_code(G);
-      const auto is_velocity = [](const ir::Node& node) {
-        return node.op == ir::Op::kLeaf && node.leaf == ir::LeafKind::kVelocity;
-      };
-      if (std::none_of(row.nodes.begin(), row.nodes.end(), is_velocity)) continue;
-      const model::Loop& loop = model::loop_of_row(mechanism_, support::subscript(output.row));
-      diagnostics_.error(loop.where, fmt::format("{} is not linear in velocities", in_words(loop)),
-                         "rates may be multiplied by functions of t and positions, and added");
-      all_are = false;
-    }
-    return all_are;
   }
 
   std::vector<std::size_t> all_but(const std::vector<std::size_t>& rows) const {
@@ -182,18 +158,6 @@ class Planner {
         if (const auto entry = layout_.joints[loop.follower->joint.value].velocity[loop.follower->coordinate])
           list.push_back(*entry);
     return list;
-  }
-
-  /// Positions do not follow from each other where velocities alone are bound.
-  bool treat_velocities() {
-    const model::LoopOptions& options = mechanism_.loop_options;
-    plan_.reason = "constraints of velocities leave positions free";
-    const bool asked = options.treatment && *options.treatment != LoopTreatment::kMultipliers;
-    if (asked || !options.independent.empty())
-      diagnostics_.error(options.where,
-                         "constraints of velocities are met by multipliers, all coordinates are kept",
-                         "leave 'treatment' and 'independent' out");
-    return !asked && options.independent.empty();
   }
 
   /// Without freedom all positions follow from time; multipliers are left for what is singular on the way.
@@ -404,7 +368,6 @@ class Planner {
   model::CoordinateLayout layout_;
   NumericClosure closure_;
   std::vector<std::string> names_;
-  bool binds_velocities_;
   Configuration start_;
   std::vector<Configuration> configurations_;  ///< closed ones; the first is the start
   std::vector<Matrix> jacobians_;              ///< there

@@ -35,6 +35,7 @@ class NumericClosure {
   std::size_t row_count() const { return rows_; }
   std::size_t velocity_count() const { return velocities_; }
   const model::Tangent& tangent() const { return tangent_; }
+  bool binds_velocities() const { return !without_position_.empty(); }
 
   /// Rows that follow from others, but for numbers that disagree: assembling and walking leave them open, by
   /// no more than `limit` (m, products of unit vectors) on the branch that is meant.

@@ -1,0 +1,120 @@
+#include "loops/plan/velocity_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "loops/record/loop_plan.hpp"
+#include "loops/rows/regular_rows.hpp"
+#include "model/loop_kinds.hpp"
+#include "passes/rewrite.hpp"
+#include "support/matrix_index.hpp"
+
+namespace jourdain::loops {
+
+namespace {
+
+bool is_velocity(const ir::Node& node) {
+  return node.op == ir::Op::kLeaf && node.leaf == ir::LeafKind::kVelocity;
+}
+
+/// Whether that row of G depends on no velocity.
+bool is_linear(const ConstraintPrograms& constraints, int row) {
+  ir::Program G = constraints.jacobian;
+  std::erase_if(G.outputs, [row](const ir::Output& entry) { return entry.row != row; });
+  const ir::Program needed = passes::remove_dead_code(G);
+  return std::none_of(needed.nodes.begin(), needed.nodes.end(), is_velocity);
+}
+
+}  // namespace
+
+bool check_linear(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
+                  support::Diagnostics& diagnostics) {
+  bool all_are = true;
+  for (const ir::Output& output : constraints.velocities.outputs) {
+    if (is_linear(constraints, output.row)) continue;
+    const model::Loop& loop = model::loop_of_row(mechanism, support::subscript(output.row));
+    diagnostics.error(loop.where, fmt::format("{} is not linear in velocities", in_words(loop)),
+                      "rates may be multiplied by functions of t and positions, and added");
+    all_are = false;
+  }
+  return all_are;
+}
+
+std::vector<std::size_t> kept_rows(const NumericClosure& closure,
+                                   const std::vector<Configuration>& configurations,
+                                   const std::vector<Matrix>& jacobians) {
+  if (!closure.binds_velocities()) return regular_rows(jacobians);
+  std::vector<Matrix> of_positions;
+  for (const Configuration& c : configurations)
+    of_positions.push_back(closure.jacobian(c, RowsOf::kPositions));
+  return regular_rows(jacobians, kRowTolerance, regular_rows(of_positions));
+}
+
+namespace {
+
+/// What of redundant rows does not follow from the others; looked for where it is most.
+class Redundancy {
+ public:
+  Redundancy(const model::Mechanism& mechanism, const NumericClosure& closure,
+             const std::vector<std::size_t>& kept, support::Diagnostics& diagnostics)
+      : mechanism_(mechanism),
+        closure_(closure),
+        kept_(kept),
+        others_(all_but(kept, closure.row_count())),
+        diagnostics_(diagnostics) {}
+
+  bool check(const Configuration& c) const {
+    for (const std::size_t row : others_)
+      if (const long double rest = largest_rest(closure_.jacobian(c), kept_, {row}); rest > kFollows)
+        return report(row, fmt::format("{} nearly follows from the others", in_words(loop_of(row))),
+                      fmt::format("but for {:.1g} of them: strictly the mechanism loses a degree of freedom; "
+                                  "write more digits, or leave it out",
+                                  static_cast<double>(rest)));
+    const Vector z = closure_.consistent(c, Vector::Zero(support::at(closure_.velocity_count())), {});
+    Eigen::Index worst = 0;
+    const long double rate = closure_.opening_rate(c, z).cwiseAbs().maxCoeff(&worst);
+    if (rate <= kAgrees * (1 + z.lpNorm<Eigen::Infinity>())) return true;
+    const auto row = static_cast<std::size_t>(worst);
+    return report(
+        row, fmt::format("no velocities agree with {} away from the start", in_words(loop_of(row))),
+        fmt::format("constraints contradict each other, at t = {:.3g} s by {:.3g}/s in {}",
+                    static_cast<double>(c.t), static_cast<double>(rate), row_names(mechanism_)[row]));
+  }
+
+ private:
+  static constexpr long double kFollows = 1e-12L, kAgrees = 1e-9L;
+
+  const model::Loop& loop_of(std::size_t row) const { return model::loop_of_row(mechanism_, row); }
+
+  bool report(std::size_t row, const std::string& what, const std::string& hint) const {
+    diagnostics_.error(loop_of(row).where, what, hint);
+    return false;
+  }
+
+  const model::Mechanism& mechanism_;
+  const NumericClosure& closure_;
+  const std::vector<std::size_t>& kept_;
+  std::vector<std::size_t> others_;
+  support::Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+bool check_velocities(const model::Mechanism& mechanism, const NumericClosure& closure,
+                      const std::vector<Configuration>& configurations, const std::vector<std::size_t>& kept,
+                      support::Diagnostics& diagnostics) {
+  const model::LoopOptions& options = mechanism.loop_options;
+  const bool asked = options.treatment && *options.treatment != model::LoopTreatment::kMultipliers;
+  if (asked || !options.independent.empty()) {
+    diagnostics.error(options.where,
+                      "constraints of velocities are met by multipliers, all coordinates are kept",
+                      "leave 'treatment' and 'independent' out");
+    return false;
+  }
+  const Redundancy redundancy(mechanism, closure, kept, diagnostics);
+  return std::all_of(configurations.begin(), configurations.end(),
+                     [&](const Configuration& c) { return redundancy.check(c); });
+}
+
+}  // namespace jourdain::loops
