@@ -192,7 +192,7 @@ enum class LoopType {
   kKnifeEdge,     ///< w·v = 0
   kRollingWheel,  ///< height n·Δ − l sqrt(1 − (n·w)²) = 0; a₁·v = 0, a₂·v = 0; ρ = −l (n − (n·w) w)/sqrt(1 − (n·w)²)
   kRollingBall,   ///< height n·Δ − l = 0; a₁·v = 0, a₂·v = 0; ρ = −l n
-  /// With the axes eᵢ of `to` and D = Σ rᵢ² eᵢ eᵢᵀ: height n·Δ − sqrt(n·D n) = 0; a₁·v = 0, a₂·v = 0; ρ = −D n/sqrt(n·D n)
+  /// D = Σ rᵢ² eᵢ eᵢᵀ, eᵢ axes of `to`: height n·Δ − sqrt(n·D n) = 0; a₁·v = 0, a₂·v = 0; ρ = −D n/sqrt(n·D n)
   kRollingEllipsoid
 };
 

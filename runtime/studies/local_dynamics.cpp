@@ -118,7 +118,7 @@ void average_damping(std::vector<Local>& locals) {
   }
 }
 
-/// Volumes may shrink then though energy is kept: a bicycle rights itself.
+/// Volumes may shrink then though energy is kept: what rolls rights itself.
 bool binds_velocities(const std::vector<Local>& locals) {
   return !locals.empty() &&
          locals.front().coordinates.displacements.size() > locals.front().coordinates.velocities.size();

@@ -36,8 +36,8 @@ struct Scene {
 std::vector<Local> linearise(const Flow<double>& flow, const ReferenceSolution& reference,
                              const model::Tangent& tangent, const Progress& progress);
 
-/// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing, unless there are states or constraints that bind
-/// velocities alone.
+/// `locals` from `linearise`, at least one. A scene that conserves energy damps nothing, unless there are states or
+/// constraints that bind velocities alone.
 Scene describe_scene(const Flow<double>& flow, const ReferenceSolution& reference,
                      const std::vector<Local>& locals, const model::Tangent& tangent, bool conserves_energy);
 

@@ -1,4 +1,4 @@
-// Tyres against their formulas, written a second time on vectors: load, slip, Magic Formula, brush, the way that slip needs.
+// Tyres against their formulas, written a second time on vectors: load, slip, Magic Formula, brush, relaxation.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

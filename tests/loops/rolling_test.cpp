@@ -1,5 +1,5 @@
-// What rolls and glides without slip, against closed forms and published digits: a bicycle, a disc, a sleigh, a robot on
-// two wheels, a ball on a turntable.
+// What rolls and glides without slip, against closed forms and published digits: a bicycle, a disc, a sleigh, a robot
+// on two wheels, a ball on a turntable, a rattleback.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 
 namespace jourdain::tests {
 
-/// random_scene, every third time random_loops and a body that flies, with one or two constraints more: wheels, balls and ellipsoids that roll and blades on
-/// the world or on bodies that move, expressions of rates, positions and time. Closed at the initial positions. What
-/// the constraints leave free is as many at `consistent_states(..., seed, kLoopStates)`, and one degree of freedom or
-/// more; other draws are thrown away.
+/// random_scene, every third time random_loops and a body that flies, with one or two constraints more: wheels, balls
+/// and ellipsoids that roll and blades on the world or on bodies that move, expressions of rates, positions and time.
+/// Closed at the initial positions. What the constraints leave free is as many at
+/// `consistent_states(..., seed, kLoopStates)`, and one degree of freedom or more; other draws are thrown away.
 model::Mechanism random_rolling(std::uint64_t seed);
 
 }  // namespace jourdain::tests

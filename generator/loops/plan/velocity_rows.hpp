@@ -17,9 +17,9 @@ std::vector<std::size_t> kept_rows(const NumericClosure& closure,
                                    const std::vector<Configuration>& configurations,
                                    const std::vector<Matrix>& jacobians);
 
-/// False after a diagnostic: no treatment but multipliers may be asked for, and at each configuration those rows that are
-/// not kept must follow from `kept`, what they ask of velocities too. They may do so at the start and not elsewhere, or
-/// later, or but for the digits of the file.
+/// False after a diagnostic: no treatment but multipliers may be asked for, and at each configuration those rows that
+/// are not kept must follow from `kept`, what they ask of velocities too. They may do so at the start and not
+/// elsewhere, or later, or but for the digits of the file.
 bool check_velocities(const model::Mechanism& mechanism, const NumericClosure& closure,
                       const std::vector<Configuration>& configurations, const std::vector<std::size_t>& kept,
                       support::Diagnostics& diagnostics);

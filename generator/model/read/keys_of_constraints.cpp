@@ -22,10 +22,8 @@ KeySection constraint_section() {
        {"plane", "name", "", "the world", "a frame or a body: a point of what it moves on"},
        {"normal", "3 constants", "", "[0, 0, 1]", "of the plane, in the axes of plane, out of the ground"}},
       R"([[constraint]]
-name = "rear"
-type = "rolling_wheel"
-frame = "rear_wheel"
-radius = 0.3
+name = "camshaft_gears"
+velocity = "camshaft.rate - 0.5*crank.rate"
 )"};
 }
 

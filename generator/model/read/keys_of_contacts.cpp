@@ -84,8 +84,8 @@ KeySection tyre_section() {
            {"curvature_factor", "2 constants", "", "[0, 0]", "E of it, up to 1"},
            {"slip_stiffness", "number", "", kRequired, "brush: slope at no slip over the load"}},
           R"([[tyre]]
-name = "front"
-frame = "front_wheel"
+name = "roller"
+frame = "cams"
 radius = 0.31
 stiffness = 2e5
 friction = 1

@@ -88,8 +88,8 @@ void read_frictions(TomlFile& file, const TomlTables& section, Mechanism& mechan
 void read_states(TomlFile& file, const TomlTables& section, const TomlTables& signals, Mechanism& mechanism);
 
 /// [[force]], [[spring]], [[bushing]], [[cable]], [[gear_mesh]], [[output]], [[loop]], [[coupler]] and
-/// [[constraint]]: what refers to bodies, joints, frames, inputs and states, which `mechanism` has already. Bodies that are named where a frame may
-/// stand become frames.
+/// [[constraint]]: what refers to bodies, joints, frames, inputs and states, which `mechanism` has already. Bodies that
+/// are named where a frame may stand become frames.
 void read_forces(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_springs(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 void read_bushings(TomlFile& file, const TomlTables& section, Mechanism& mechanism);

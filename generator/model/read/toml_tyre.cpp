@@ -41,9 +41,9 @@ using model::plus;
 ///   slip speeds w = f·(v + r ω × q), l·(v + r ω × q), rolling speed V = max(|f·v|, r |ω·a|)
 ///   s′ = −w − V s/L where the wheel touches, −V s/L elsewhere; the slips are σ = s/L, together ρ = |σ|
 ///   F = N (g₁(ρ) σ₁ f + g₂(ρ) σ₂ l)/ρ + N n    at q h/c from the centre
-/// with, by the Magic Formula, g = μ sin(C atan(B ρ − E (B ρ − atan(B ρ)))), and by a brush with a parabolic load, θ = K/(3 μ),
-/// g = 3 μ θρ (1 − θρ + (θρ)²/3), μ from θρ = 1 on. H. B. Pacejka, Tyre and Vehicle Dynamics, 2nd ed. 2006: chapters 3, 4
-/// and 7 (relaxation), of which these are the isotropic similarity and the single-contact-point forms.
+/// with, by the Magic Formula, g = μ sin(C atan(B ρ − E (B ρ − atan(B ρ)))), and by a brush with a parabolic load,
+/// θ = K/(3 μ), g = 3 μ θρ (1 − θρ + (θρ)²/3), μ from θρ = 1 on. H. B. Pacejka, Tyre and Vehicle Dynamics, 2nd ed.
+/// 2006: chapters 3, 4, 7 (relaxation), of which these are the isotropic similarity and the single-contact-point forms.
 class TyreReader {
  public:
   TyreReader(TomlFile& file, const TomlTable& table, std::string name, Mechanism& mechanism)
