@@ -329,7 +329,10 @@ TEST(LoopOutputs, AgreeForWhatRolls) {
   for (std::uint64_t seed = 0; seed < cases(60); ++seed) add(random_rolling(seed), seed);
   fmt::print("{} states\n", compared);
   EXPECT_GE(of_models, 2 * kStates);
-  EXPECT_GT(compared, of_models);
+  // Of a few none may be regular enough.
+  if (cases(60) >= 15) {
+    EXPECT_GT(compared, of_models);
+  }
 }
 
 }  // namespace
