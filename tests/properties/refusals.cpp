@@ -60,16 +60,11 @@ model::Mechanism extreme(std::uint64_t seed) {
 }  // namespace
 
 const std::vector<ValidKind>& valid_kinds() {
-  static const std::vector<ValidKind> kinds = {{"trees", 3000, 15},
-                                               {"scenes", 3000, 15},
-                                               {"loops", 1200, 5},
-                                               {"rolling", 400, 4},
-                                               {"linkages", 900, 5},
-                                               {"extremes", 1500, 40},
-                                               {"chains of 2 to 12, 24 orders", 400, 10},
-                                               {"chains of 20", 20, 1},
-                                               {"chains of 60", 6, 1},
-                                               {"chains of 200", 1, 0}};
+  static const std::vector<ValidKind> kinds = {
+      {"trees", 3000, 15},     {"scenes", 3000, 15},   {"loops", 1200, 5},
+      {"linkages", 900, 5},    {"extremes", 1500, 40}, {"chains of 2 to 12, 24 orders", 400, 10},
+      {"chains of 20", 20, 1}, {"chains of 60", 6, 1}, {"chains of 200", 1, 0},
+      {"rolling", 400, 4}};
   return kinds;
 }
 
