@@ -24,7 +24,7 @@ struct LoopKind {
   std::span<const std::string_view> keys;  ///< of a file, beside the name and the type
 
   bool takes(std::string_view key) const;
-  /// Whether it joins two frames; otherwise it is a residual.
+  /// Whether it joins two frames; otherwise it is an expression.
   bool has_ends() const { return takes("from") || takes("frame"); }
   /// Whether it stands in [[constraint]]; otherwise it closes a chain.
   bool is_constraint() const { return takes("frame") || takes("velocity"); }

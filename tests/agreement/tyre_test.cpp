@@ -149,10 +149,7 @@ TEST(Tyre, IsItsFormulasOnASlope) {
 
 /// A slip that lasts: forces by the Magic Formula's table of slips.
 TEST(Tyre, SettlesAtTheSlipThatIsAskedFor) {
-  const double speed = 20, asked = 0.08;
-  double s = 0;
-  for (int k = 0; k < 100000; ++k) s += 1e-5 * (asked * speed - speed * s / 0.3);
-  EXPECT_NEAR(s / 0.3, asked, 1e-9);  // what the rate says by itself
+  const double speed = 20, asked = 0.08, s = 0.3 * asked;
   const Derived derived = scene(kWheel + kMagic);
   Sample sample;
   const Vector3 n(0.6, 0, 0.8), forward = Vector3(0, 1, 0).cross(n), centre = Vector3(0, 0, -0.1) + 0.3 * n;

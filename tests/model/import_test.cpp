@@ -356,6 +356,24 @@ TEST(Import, ThatIsTurnedKeepsTheAxesOfItsPins) {
   EXPECT_EQ(mechanism.bodies[body->value].name, "a_mount");
 }
 
+/// Radii are of parameters, whose numbers are others in the whole.
+TEST(Import, KeepsTheParametersOfWhatRolls) {
+  Files files;
+  files
+      .add("stone.toml",
+           "[model]\nname = \"stone\"\n[parameters]\na = 0.2\n" + link("stone", "spin", "world") +
+               "[[constraint]]\nname = \"rolls\"\ntype = \"rolling_ellipsoid\"\nframe = \"stone\"\n"
+               "radii = [\"a\", \"2*a\", 0.5]\n")
+      .add("model.toml",
+           kHead + "[parameters]\nb = 7\nc = 8\n[[import]]\nfile = \"stone.toml\"\nprefix = \"s_\"\n");
+  const Mechanism mechanism = files.cleanly("model.toml");
+  ASSERT_EQ(mechanism.loops.size(), 1u);
+  const std::vector<double> values = default_values(mechanism);
+  EXPECT_EQ(mechanism.loops[0].radii[0].evaluate<double>(values), 0.2);
+  EXPECT_EQ(mechanism.loops[0].radii[1].evaluate<double>(values), 0.4);
+  EXPECT_EQ(mechanism.loops[0].radii[2].constant(), 0.5);
+}
+
 /// First where the frame is, then where the import is in it, then where the joint is in that.
 TEST(Import, OnATurnedFrameHangsOnAMountForEachTurn) {
   Files files;

@@ -30,9 +30,11 @@ class Numbers {
     });
     for (model::Output& output : mechanism_.outputs)
       if (output.kind == model::OutputKind::kExpression) visit_("output " + output.name, output.value);
-    for (model::Loop& loop : mechanism_.loops)
-      if (model::loop_kind(loop).takes("length") || model::loop_kind(loop).takes("radius"))
-        visit_("length of " + loop.name, loop.length);
+    for (model::Loop& loop : mechanism_.loops) {
+      const model::LoopKind& kind = model::loop_kind(loop);
+      if (kind.takes("length") || kind.takes("radius")) visit_("length of " + loop.name, loop.length);
+      if (kind.takes("radii")) vector("radii of " + loop.name, loop.radii);
+    }
   }
 
  private:

@@ -88,7 +88,8 @@ class LoopCheck {
   bool moves(const Variable& variable, bool velocity) const {
     using Kind = Variable::Kind;
     const auto& [kind, index, component] = variable;
-    if (kind == Kind::kTime || variable.is_rate() != velocity) return false;
+    const bool moves = variable.is_rate() || kind == Kind::kPosition || kind == Kind::kFramePosition;
+    if (!moves || variable.is_rate() != velocity) return false;
     if (kind == Kind::kPosition || kind == Kind::kVelocity)
       return !mechanism_.joints[index].coordinates[component].motion;
     const std::vector<std::size_t> joints = joints_between(mechanism_.frames[index].body, std::nullopt);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/check/checks.hpp"
+#include "model/loop_kinds.hpp"
 #include "model/read/followers.hpp"
 #include "model/read/lock.hpp"
 #include "model/read/weld.hpp"
@@ -40,8 +41,9 @@ void lock_joints(Mechanism& mechanism, const ReadOptions& options, Diagnostics& 
 
 /// Limits of robot files are ranges of what is proven of loop joints, where coordinates start within them.
 void keep_useful_limits(Mechanism& mechanism) {
-  const bool closes = std::any_of(mechanism.loops.begin(), mechanism.loops.end(),
-                                  [](const Loop& loop) { return loop.type != LoopType::kResidual; });
+  const bool closes = std::any_of(mechanism.loops.begin(), mechanism.loops.end(), [](const Loop& loop) {
+    return loop_kind(loop).has_ends() && !loop_kind(loop).is_constraint();
+  });
   const std::vector<double> parameters = default_values(mechanism);
   for (Joint& joint : mechanism.joints)
     for (Coordinate& coordinate : joint.coordinates) {

@@ -119,7 +119,7 @@ class Members {
   }
   void one(Loop& loop) {
     auto& [name, type, from, to, axis, to_axis, length, residual, radii, follower, where, to_where] = loop;
-    each(name, type, from, to, axis, to_axis, length, residual, follower, where, to_where);
+    each(name, type, from, to, axis, to_axis, length, residual, radii, follower, where, to_where);
   }
   void one(ScalarCoordinate& scalar) {
     auto& [joint, coordinate] = scalar;

@@ -35,18 +35,6 @@ std::string_view refusal_in_velocity(const Variable& variable) {
   return "";
 }
 
-/// The general scope, in which inputs and states are refused.
-Scope velocity_scope(const TomlFile& file, const Mechanism& mechanism) {
-  Scope scope = general_scope(file, mechanism);
-  for (ScopeEntry& entry : scope) {
-    if (!entry.meaning)
-      entry.refusal = refusal_in_velocity(entry.variable);
-    else if (any_variable(*entry.meaning, [](const Variable& v) { return !refusal_in_velocity(v).empty(); }))
-      entry.refusal = "it is of inputs or states";
-  }
-  return scope;
-}
-
 class ConstraintReader {
  public:
   ConstraintReader(TomlFile& file, const toml::table& table, std::size_t number)
@@ -90,8 +78,10 @@ class ConstraintReader {
   void read_velocity(Loop& loop, Mechanism& mechanism) {
     if (!table_.has("velocity"))
       return table_.missing("velocity", "an expression of t, coordinates, frames and their rates");
-    loop.residual =
-        settled(table_.function("velocity", needed::kAnything, velocity_scope(file_, mechanism)), mechanism);
+    loop.residual = settled(table_.function("velocity", needed::kAnything,
+                                            general_scope_but(file_, mechanism, refusal_in_velocity,
+                                                              "it is of inputs or states")),
+                            mechanism);
     refuse_kinks(table_, "velocity", loop.residual);
   }
 

@@ -101,6 +101,18 @@ Scope general_scope(const TomlFile& file, const Mechanism& mechanism) {
   return scope;
 }
 
+Scope general_scope_but(const TomlFile& file, const Mechanism& mechanism,
+                        std::string_view (*refusal)(const Variable&), std::string_view of_signals) {
+  Scope scope = general_scope(file, mechanism);
+  for (ScopeEntry& entry : scope) {
+    if (!entry.meaning)
+      entry.refusal = refusal(entry.variable);
+    else if (any_variable(*entry.meaning, [refusal](const Variable& v) { return !refusal(v).empty(); }))
+      entry.refusal = of_signals;
+  }
+  return scope;
+}
+
 Needed input_needs(const Mechanism& mechanism, const Actuator& actuator) {
   const bool direct = actuator.gear_ratio.is_constant() && actuator.gear_ratio.constant() == 1;
   const Joint& joint = mechanism.joints[actuator.joint.value];

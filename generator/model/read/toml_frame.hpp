@@ -26,6 +26,10 @@ std::optional<std::pair<FrameIndex, FrameIndex>> find_ends(TomlFile& file, const
 /// signals of the file.
 Scope general_scope(const TomlFile& file, const Mechanism& mechanism);
 
+/// general_scope without what `refusal` gives a reason for, and without signals of that: those `of_signals`.
+Scope general_scope_but(const TomlFile& file, const Mechanism& mechanism,
+                        std::string_view (*refusal)(const Variable&), std::string_view of_signals);
+
 /// The unit of an input; of an actuator's, anything where there is a gear, which may turn one kind of motion into
 /// the other.
 Needed input_needs(const Mechanism& mechanism, const Actuator& actuator);

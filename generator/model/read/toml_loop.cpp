@@ -48,18 +48,6 @@ std::string_view refusal_in_residual(const Variable& variable) {
   return "";
 }
 
-/// The general scope, in which what is no position is refused.
-Scope residual_scope(const TomlFile& file, const Mechanism& mechanism) {
-  Scope scope = general_scope(file, mechanism);
-  for (ScopeEntry& entry : scope) {
-    if (!entry.meaning)
-      entry.refusal = refusal_in_residual(entry.variable);
-    else if (any_variable(*entry.meaning, [](const Variable& v) { return !refusal_in_residual(v).empty(); }))
-      entry.refusal = "it is of more than t, coordinates and positions of frames";
-  }
-  return scope;
-}
-
 /// The general scope, in which all that moves is refused.
 Scope length_scope(const TomlFile& file, const Mechanism& mechanism) {
   Scope scope = general_scope(file, mechanism);
@@ -153,8 +141,11 @@ class LoopReader {
   void read_residual(Loop& loop, Mechanism& mechanism) {
     if (!table_.has("residual"))
       return table_.missing("residual", "an expression of t, coordinates and positions of frames");
-    loop.residual =
-        settled(table_.function("residual", needed::kAnything, residual_scope(file_, mechanism)), mechanism);
+    loop.residual = settled(
+        table_.function("residual", needed::kAnything,
+                        general_scope_but(file_, mechanism, refusal_in_residual,
+                                          "it is of more than t, coordinates and positions of frames")),
+        mechanism);
     refuse_kinks(table_, "residual", loop.residual);
     if (loop.residual.calls(support::Function::kAtan2))
       table_.error("residual",

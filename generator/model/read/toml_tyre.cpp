@@ -17,7 +17,7 @@ namespace {
 
 const std::vector<std::string> kLaws{"magic_formula", "brush"};
 
-/// Speeds of slip below this share of the slip are as good as none.
+/// Slips below this are as good as none.
 constexpr double kNoSlip = 1e-9;
 
 Expression over(const Expression& a, const Expression& b) {
@@ -66,6 +66,7 @@ class TyreReader {
       return table_.error("frame", fmt::format("{} is on the world, which cannot move", table_.what()));
     const auto axle = add_axle(on, axis);
     if (!axle) return;
+    first_state_ = mechanism_.states.size();
     if (!declare("_longitudinal") || !declare("_lateral")) return;
 
     const Vector3 n = {normal[0], normal[1], normal[2]};
@@ -178,7 +179,6 @@ class TyreReader {
     state.unit = "m";
     state.description = "deflection of a tyre";
     if (!check_signal_name(file_, table_, "state", state.name, mechanism_)) return false;
-    if (end[1] == 'l' && end[2] == 'o') first_state_ = mechanism_.states.size();
     mechanism_.states.push_back(state);
     return true;
   }
