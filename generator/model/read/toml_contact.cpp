@@ -38,7 +38,8 @@ class ContactReader {
 
   void read() {
     const auto frame = find_frame(file_, table_, "frame", mechanism_);
-    const std::array<double, 3> normal = direction();
+    const std::array<double, 3> normal =
+        unit_direction(table_, "normal", {0, 0, 1}, "a normal points out of the ground, such as [0, 0, 1]");
     const Vector3 origin = table_.vector("point", needed::kLength, {0.0, 0.0, 0.0});
     const Expression radius = table_.not_negative("radius", needed::kLength);
     const double exponent =
@@ -154,19 +155,6 @@ class ContactReader {
   }
 
   Place place(const char* key) const { return {table_.quoted(key), needed::kPure}; }
-
-  /// Of unit length; [0, 0, 1] after a diagnostic.
-  std::array<double, 3> direction() {
-    std::array<double, 3> normal = table_.direction("normal", {0, 0, 1});
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
-    if (!(length > 0) || !std::isfinite(length)) {
-      table_.error("normal", fmt::format("{} has no direction", table_.quoted("normal")),
-                   "a normal points out of the ground, such as [0, 0, 1]");
-      return {0, 0, 1};
-    }
-    for (double& component : normal) component /= length;
-    return normal;
-  }
 
   TomlFile& file_;
   const TomlTable& table_;

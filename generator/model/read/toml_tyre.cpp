@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "model/expression_sums.hpp"
 #include "model/matrix3.hpp"
@@ -52,7 +51,8 @@ class TyreReader {
   void read() {
     const std::size_t mark = file_.error_count();
     const auto frame = find_frame(file_, table_, "frame", mechanism_);
-    const std::array<double, 3> normal = direction("normal", {0, 0, 1}), axis = direction("axis", {0, 1, 0});
+    const std::array<double, 3> normal = unit_direction(table_, "normal", {0, 0, 1}),
+                                axis = unit_direction(table_, "axis", {0, 1, 0});
     const Vector3 origin = table_.vector("point", needed::kLength, {0.0, 0.0, 0.0});
     const Expression radius = table_.positive("radius", needed::kLength),
                      stiffness = table_.positive("stiffness", needed::kStiffness),
@@ -101,17 +101,6 @@ class TyreReader {
   }
 
  private:
-  std::array<double, 3> direction(const char* key, const std::array<double, 3>& otherwise) {
-    std::array<double, 3> result = table_.direction(key, otherwise);
-    const double length = std::hypot(result[0], result[1], result[2]);
-    if (!(length > 0) || !std::isfinite(length)) {
-      table_.error(key, fmt::format("{} has no direction", table_.quoted(key)));
-      return otherwise;
-    }
-    for (double& component : result) component /= length;
-    return result;
-  }
-
   void read_law() {
     friction_ = table_.positive("friction", needed::kPure);
     brush_ = table_.choice("law", kLaws).value_or(0) == 1;
