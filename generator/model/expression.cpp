@@ -2,147 +2,11 @@
 
 #include <algorithm>
 
+#include "model/expression_nodes.hpp"
+
 namespace jourdain::model {
 
-namespace {
-
 using Op = Expression::Op;
-using Node = Expression::Node;
-
-double folded(const std::vector<Node>& nodes, const Node& operation) {
-  const auto value = [&](std::size_t i) { return nodes[i].value; };
-  switch (operation.op) {
-    case Op::kLiteral:
-    case Op::kParameter:
-    case Op::kVariable:
-      break;
-    case Op::kNegate:
-      return -value(operation.left);
-    case Op::kAdd:
-      return value(operation.left) + value(operation.right);
-    case Op::kSubtract:
-      return value(operation.left) - value(operation.right);
-    case Op::kMultiply:
-      return value(operation.left) * value(operation.right);
-    case Op::kDivide:
-      return value(operation.left) / value(operation.right);
-    case Op::kPower: {
-      double product = 1;
-      for (int i = 0; i < std::abs(operation.exponent); ++i) product *= value(operation.left);
-      return operation.exponent < 0 ? 1 / product : product;
-    }
-    case Op::kSqrt:
-      return std::sqrt(value(operation.left));
-    case Op::kSin:
-      return std::sin(value(operation.left));
-    case Op::kCos:
-      return std::cos(value(operation.left));
-    case Op::kFunction:
-      return support::value_of(operation.function, value(operation.left), value(operation.right));
-  }
-  JD_CHECK(false, "operation {}", static_cast<int>(operation.op));
-}
-
-int operand_count(const Node& node) {
-  const Op op = node.op;
-  if (op == Op::kLiteral || op == Op::kParameter || op == Op::kVariable) return 0;
-  if (op == Op::kFunction) return support::facts_of(node.function).operands;
-  return op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply || op == Op::kDivide ? 2 : 1;
-}
-
-/// Nodes while an expression is built, each simplified as it comes: constants are folded, exact identities applied.
-class NodeList {
- public:
-  /// The position of the expression's value.
-  std::size_t append(const Expression& expression) {
-    const std::size_t shift = nodes_.size();
-    for (Node node : expression.nodes()) {
-      node.left += shift;
-      node.right += shift;
-      nodes_.push_back(node);
-    }
-    return nodes_.size() - 1;
-  }
-
-  /// A leaf, or an operation on earlier nodes.
-  std::size_t add(const Node& node) {
-    const int operands = operand_count(node);
-    if (operands > 0 && is_literal(node.left) && (operands == 1 || is_literal(node.right)))
-      return push({.op = Op::kLiteral, .value = folded(nodes_, node)});
-    switch (node.op) {
-      case Op::kNegate:
-        return nodes_[node.left].op == Op::kNegate ? nodes_[node.left].left : push(node);
-      case Op::kAdd:
-        if (is(node.left, 0)) return node.right;
-        return is(node.right, 0) ? node.left : push(node);
-      case Op::kSubtract:
-        if (is(node.left, 0)) return add({.op = Op::kNegate, .left = node.right, .right = node.right});
-        return is(node.right, 0) ? node.left : push(node);
-      case Op::kMultiply:
-        if (is(node.left, 0) || is(node.right, 0)) return push({.op = Op::kLiteral});
-        if (is(node.left, 1)) return node.right;
-        return is(node.right, 1) ? node.left : push(node);
-      case Op::kDivide:
-        if (is(node.left, 0)) return push({.op = Op::kLiteral});
-        return is(node.right, 1) ? node.left : push(node);
-      case Op::kPower:
-        if (node.exponent == 0) return push({.op = Op::kLiteral, .value = 1});
-        return node.exponent == 1 ? node.left : push(node);
-      case Op::kFunction:
-        return function(node);
-      default:
-        return push(node);
-    }
-  }
-
-  /// What the value at `root` needs, in order.
-  std::vector<Node> finish(std::size_t root) const {
-    std::vector<bool> is_needed(nodes_.size());
-    is_needed[root] = true;
-    for (std::size_t i = root + 1; i-- > 0;) {
-      if (!is_needed[i]) continue;
-      const int operands = operand_count(nodes_[i]);
-      if (operands >= 1) is_needed[nodes_[i].left] = true;
-      if (operands == 2) is_needed[nodes_[i].right] = true;
-    }
-    std::vector<Node> result;
-    std::vector<std::size_t> place(nodes_.size());
-    for (std::size_t i = 0; i <= root; ++i) {
-      if (!is_needed[i]) continue;
-      Node node = nodes_[i];
-      if (operand_count(node) > 0) {
-        node.left = place[node.left];
-        node.right = operand_count(node) == 2 ? place[node.right] : node.left;
-      }
-      place[i] = result.size();
-      result.push_back(node);
-    }
-    return result;
-  }
-
- private:
-  bool is_literal(std::size_t i) const { return nodes_[i].op == Op::kLiteral; }
-  bool is(std::size_t i, double value) const { return is_literal(i) && nodes_[i].value == value; }
-
-  std::size_t push(const Node& node) {
-    nodes_.push_back(node);
-    return nodes_.size() - 1;
-  }
-
-  /// What a choice does not take need not have a value.
-  std::size_t function(const Node& node) {
-    using support::Function;
-    const bool where_negative = node.function == Function::kWhereNegative;
-    if (!where_negative && node.function != Function::kWhereNotNegative) return push(node);
-    if (is_literal(node.left))
-      return (nodes_[node.left].value < 0) == where_negative ? node.right : push({.op = Op::kLiteral});
-    return is(node.right, 0) ? node.right : push(node);
-  }
-
-  std::vector<Node> nodes_;
-};
-
-}  // namespace
 
 Expression Expression::parameter(ParameterIndex index) {
   Expression result;
@@ -268,7 +132,7 @@ std::size_t Expression::written_out_size() const {
     const int operands = operand_count(node);
     std::size_t size = 1;
     if (operands >= 1) size += sizes[node.left];
-    if (operands == 2 && node.right != node.left) size += sizes[node.right];
+    if (operands == 2) size += sizes[node.right];
     sizes.push_back(std::min(size, kMaximumWrittenOutSize + 1));
   }
   return sizes.back();

@@ -15,6 +15,12 @@ inline Expression times(const Expression& a, const Expression& b) {
   return Expression::binary(Expression::Op::kMultiply, a, b);
 }
 
+inline Vector3 plus(const Vector3& a, const Vector3& b) {
+  return {plus(a[0], b[0]), plus(a[1], b[1]), plus(a[2], b[2])};
+}
+inline Vector3 times(const Expression& factor, const Vector3& v) {
+  return {times(factor, v[0]), times(factor, v[1]), times(factor, v[2])};
+}
 inline Vector3 minus(const Vector3& a, const Vector3& b) {
   return {minus(a[0], b[0]), minus(a[1], b[1]), minus(a[2], b[2])};
 }

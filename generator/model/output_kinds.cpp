@@ -9,13 +9,13 @@ namespace {
 using Clock = OutputClock;
 using Subject = OutputSubject;
 
-constexpr OutputMemberKind kPose[] = {{"position", MemberShape::kVector, "m"},
+constexpr OutputMemberKind kPoseMembers[] = {{"position", MemberShape::kVector, "m"},
                                       {"rotation", MemberShape::kRotation, "1"}};
-constexpr OutputMemberKind kVelocity[] = {{"v", MemberShape::kVector, "m/s"},
+constexpr OutputMemberKind kVelocityMembers[] = {{"v", MemberShape::kVector, "m/s"},
                                           {"omega", MemberShape::kVector, "rad/s"}};
-constexpr OutputMemberKind kAcceleration[] = {{"a", MemberShape::kVector, "m/s^2"},
+constexpr OutputMemberKind kAccelerationMembers[] = {{"a", MemberShape::kVector, "m/s^2"},
                                               {"omega_dot", MemberShape::kVector, "rad/s^2"}};
-constexpr OutputMemberKind kJacobian[] = {
+constexpr OutputMemberKind kJacobianMembers[] = {
     {"J_t", MemberShape::kPerVelocity},       {"J_r", MemberShape::kPerVelocity},
     {"v_bar", MemberShape::kVector, "m/s"},   {"omega_bar", MemberShape::kVector, "rad/s"},
     {"a_bar", MemberShape::kVector, "m/s^2"}, {"zeta_bar", MemberShape::kVector, "rad/s^2"}};
@@ -25,14 +25,14 @@ constexpr OutputMemberKind kDrive[] = {{"", MemberShape::kScalar, kForceOnCoordi
 constexpr OutputMemberKind kEnergy[] = {{"", MemberShape::kScalar, "J"}};
 constexpr OutputMemberKind kNumber[] = {{""}};
 
-constexpr auto kKinds = std::to_array<OutputKindRow>({
-    {OutputKind::kPose, "pose", Subject::kFrame, Clock::kFrame, kPose,
+constexpr auto kOutputKinds = std::to_array<OutputKindRow>({
+    {OutputKind::kPose, "pose", Subject::kFrame, Clock::kFrame, kPoseMembers,
      "Position (inertial frame) and rotation matrix (frame to inertial) of '{}'."},
-    {OutputKind::kVelocity, "velocity", Subject::kFrame, Clock::kFrame, kVelocity,
+    {OutputKind::kVelocity, "velocity", Subject::kFrame, Clock::kFrame, kVelocityMembers,
      "Velocity (inertial frame) and angular velocity (frame components) of '{}'."},
-    {OutputKind::kAcceleration, "acceleration", Subject::kFrame, Clock::kDynamics, kAcceleration,
+    {OutputKind::kAcceleration, "acceleration", Subject::kFrame, Clock::kDynamics, kAccelerationMembers,
      "Acceleration (inertial frame) and angular acceleration (frame components) of '{}'."},
-    {OutputKind::kJacobian, "jacobian", Subject::kFrame, Clock::kFrame, kJacobian,
+    {OutputKind::kJacobian, "jacobian", Subject::kFrame, Clock::kFrame, kJacobianMembers,
      "Jacobians of '{}': v = J_t z + v_bar, a = J_t zdot + a_bar (inertial frame); omega = J_r z + "
      "omega_bar, omega_dot = J_r zdot + zeta_bar (frame components)."},
     {OutputKind::kReaction, "reaction", Subject::kJoint, Clock::kDynamics, kReaction,
@@ -46,15 +46,15 @@ constexpr auto kKinds = std::to_array<OutputKindRow>({
     {OutputKind::kExpression, "expression", Subject::kValue, Clock::kValue, kNumber,
      "Expression of the model description."},
 });
-static_assert(support::is_complete(kKinds, &OutputKindRow::kind),
+static_assert(support::is_complete(kOutputKinds, &OutputKindRow::kind),
               "a row for each OutputKind, in their order");
 
 }  // namespace
 
-const OutputKindRow& output_kind(OutputKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+const OutputKindRow& output_kind(OutputKind kind) { return kOutputKinds[static_cast<std::size_t>(kind)]; }
 
 const std::vector<std::string>& output_kind_names() {
-  static const std::vector<std::string> names = support::names_of(kKinds);
+  static const std::vector<std::string> names = support::names_of(kOutputKinds);
   return names;
 }
 

@@ -104,6 +104,8 @@ class Renumber {
     expression =
         expression.substituted([this](const Variable& v) { return Expression::variable(renumbered(v)); })
             .with_parameters([this](ParameterIndex i) { return parameters_[i.value]; });
+    // A product of itself with itself has two nodes, and the power of two of a long chain no room in any number.
+    too_long_ = expression.has_no_variable() && expression.written_out_size() > kMaximumWrittenOutSize;
   }
 
   bool too_long() const { return too_long_; }

@@ -26,7 +26,7 @@ damping = 10
 KeySection contact_section() {
   return {"contact",
           "[[contact]]",
-          "A fixed plane against a frame's origin, or a ball around it. At a depth d it pushes by N = "
+          "A plane, or ground of a height, against a frame's origin, or a ball around it. At a depth d it pushes by N = "
           "max(stiffness d^exponent (1 "
           "+ damping "
           "d'), 0) along its normal (Hunt and Crossley), and by friction N v/sqrt(v^2 + slip_speed^2) "
@@ -37,6 +37,12 @@ KeySection contact_section() {
            {"frame", "name", "", kRequired, "a [[frame]] or a body"},
            {"point", "3 numbers", "m", "[0, 0, 0]", "of the plane, in the inertial frame"},
            {"normal", "3 constants", "", "[0, 0, 1]", "out of the ground, in the inertial frame"},
+           {"height", "expression", "m", "0",
+            "of the ground over the plane: of x, y, z, the inertial coordinates of the plane's point under "
+            "it, and of t"},
+           {"approaches", "constant", "", "4",
+            "0 to 20: how often the point that is touched is looked for; each time its error is multiplied by "
+            "radius times curvature"},
            {"radius", "number", "m", "0", "of a ball around the frame's origin"},
            {"stiffness", "number", "N/m", kRequired, "positive; N/m^exponent"},
            {"exponent", "constant", "", "1", "between 1 and 10; of spheres 1.5"},
@@ -62,7 +68,7 @@ slip_speed = 0.01
 KeySection tyre_section() {
   return {"tyre",
           "[[tyre]]",
-          "A wheel on a fixed plane whose forces build up with the way that it rolls (relaxation length); "
+          "A wheel on a plane, or on ground of a height, whose forces build up with the way that it rolls (relaxation length); "
           "two states, "
           "deflections in m, the table's name with _longitudinal and _lateral. What it computes is at the "
           "head of "
@@ -73,15 +79,21 @@ KeySection tyre_section() {
             "in frame, to the left: a wheel that turns about it in the positive sense goes forward"},
            {"point", "3 numbers", "m", "[0, 0, 0]", "of the plane, in the inertial frame"},
            {"normal", "3 constants", "", "[0, 0, 1]", "out of the ground, in the inertial frame"},
+           {"height", "expression", "m", "0",
+            "of the ground over the plane: of x, y, z, the inertial coordinates of the plane's point under "
+            "it, and of t"},
+           {"approaches", "constant", "", "4",
+            "0 to 20: how often the point that is touched is looked for; each time its error is multiplied by "
+            "radius times curvature"},
            {"radius", "number", "m", kRequired, "unloaded; slip is counted with it"},
            {"stiffness", "number", "N/m", kRequired, "of the radius; positive"},
            {"damping", "number", "N s/m", "0", "not negative"},
            {"friction", "number", "", kRequired, "largest force along the plane over the load"},
            {"relaxation_length", "number", "m", kRequired, "positive"},
            {"law", "\"magic_formula\", \"brush\"", "", "\"magic_formula\"", ""},
-           {"stiffness_factor", "2 constants", "", kRequired, "B of the Magic Formula, forward and sideways"},
-           {"shape_factor", "2 constants", "", kRequired, "C of it"},
-           {"curvature_factor", "2 constants", "", "[0, 0]", "E of it, up to 1"},
+           {"stiffness_factor", "2 numbers", "", kRequired, "B of the Magic Formula, forward and sideways"},
+           {"shape_factor", "2 numbers", "", kRequired, "C of it"},
+           {"curvature_factor", "2 numbers", "", "[0, 0]", "E of it, up to 1"},
            {"slip_stiffness", "number", "", kRequired, "brush: slope at no slip over the load"}},
           R"([[tyre]]
 name = "roller"

@@ -1,4 +1,4 @@
-// [[contact]]: a plane against a point or a ball, made of expressions.
+// [[contact]]: the ground against a point or a ball, made of expressions.
 #include <fmt/format.h>
 
 #include <array>
@@ -6,6 +6,7 @@
 
 #include "model/expression_sums.hpp"
 #include "model/mechanism.hpp"
+#include "model/read/ground.hpp"
 #include "model/read/pushing.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_sections.hpp"
@@ -26,7 +27,7 @@ Expression raised(const Expression& depth, double exponent) {
 constexpr double kHeldSlip = 1e-8;
 
 /// What a plane does to a point at depth d > 0 behind it, or to the lowest point of a ball around it, moving with
-/// velocity v_t along the plane:
+/// velocity v_t along the plane; where the ground has a height, the plane that touches it there:
 ///   N = max(k d^e (1 + c d′), 0)             Hunt and Crossley, J. Appl. Mech. 42 (1975) 440-445
 ///   F = N n − μ N v_t/sqrt(v_t² + w²)        Coulomb, regularised, or
 ///   F = N n − N (σ0 s + σ1 s′)               LuGre (see toml_friction.cpp), bristles s in the plane,
@@ -38,9 +39,7 @@ class ContactReader {
 
   void read() {
     const auto frame = find_frame(file_, table_, "frame", mechanism_);
-    const std::array<double, 3> normal =
-        unit_direction(table_, "normal", {0, 0, 1}, "a normal points out of the ground, such as [0, 0, 1]");
-    const Vector3 origin = table_.vector("point", needed::kLength, {0.0, 0.0, 0.0});
+    const Ground ground(table_, "a normal points out of the ground, such as [0, 0, 1]");
     const Expression radius = table_.not_negative("radius", needed::kLength);
     const double exponent =
         table_.has("exponent") ? file_.constant(*table_.find("exponent"), place("exponent")) : 1;
@@ -52,7 +51,7 @@ class ContactReader {
     const Expression damping = table_.not_negative("damping", Needed{{"s/m"}});
     const bool holds = read_friction();
     const std::size_t mark = file_.error_count();
-    if (holds) declare_bristles(normal);
+    if (holds) declare_bristles();
     if (!frame || file_.error_count() != mark) return;
     if (!mechanism_.frames[frame->value].body)
       table_.error("frame", fmt::format("{} acts on the world, which cannot move", table_.what()));
@@ -61,11 +60,11 @@ class ContactReader {
     load.frame = *frame;
     load.axes = LoadAxes::kWorld;
     load.where = table_.where("frame");
-    const Vector3 n = {normal[0], normal[1], normal[2]};
-    const Vector3 p = frame_components(Variable::Kind::kFramePosition, *frame),
-                  v = frame_components(Variable::Kind::kFrameVelocity, *frame);
-    const Vector3 behind = {minus(origin[0], p[0]), minus(origin[1], p[1]), minus(origin[2], p[2])};
-    const Expression depth = plus(dot(n, behind), radius), out = dot(n, v);
+    const Vector3 p = frame_components(Variable::Kind::kFramePosition, *frame);
+    const Ground::Plane plane = ground.touched(p, [&radius](const Vector3& n) { return times(times(-1.0, radius), n); });
+    const Vector3& n = plane.normal;
+    const Vector3 v = minus(frame_components(Variable::Kind::kFrameVelocity, *frame), plane.velocity);
+    const Expression depth = plus(plane.behind, radius), out = dot(n, v);
     const Expression elastic = times(stiffness, raised(depth, exponent));
     const Expression push = pushing(depth, times(elastic, minus(1.0, times(damping, out))));
     // Of the ball's lowest point, v − r ω × n, along the plane.
@@ -83,7 +82,7 @@ class ContactReader {
       }
     };
     if (holds) {
-      const Vector3 held = bristle_force(along, speed, push);
+      const Vector3 held = bristle_force(ground.along(plane), along, speed, push);
       act({plus(times(n[0], push), held[0]), plus(times(n[1], push), held[1]),
            plus(times(n[2], push), held[2])},
           {minus(0.0, times(radius, held[0])), minus(0.0, times(radius, held[1])),
@@ -121,9 +120,8 @@ class ContactReader {
     return table_.has("friction");
   }
 
-  /// Two states, along the directions of the plane.
-  void declare_bristles(const std::array<double, 3>& normal) {
-    directions_ = slide_directions(normal);
+  /// Two states.
+  void declare_bristles() {
     first_bristle_ = mechanism_.states.size();
     if (!table_.has("name")) return table_.missing("name", "its states have the name");
     for (const char* end : {"_1", "_2"}) {
@@ -138,11 +136,12 @@ class ContactReader {
     }
   }
 
-  /// On the plane's point; sets the rates of the bristles.
-  Vector3 bristle_force(const Vector3& along, const Expression& speed, const Expression& push) {
+  /// On the plane's point; sets the rates of the bristles, which stand in the directions of the plane.
+  Vector3 bristle_force(const std::array<Vector3, 2>& directions, const Vector3& along,
+                        const Expression& speed, const Expression& push) {
     Vector3 force = {0.0, 0.0, 0.0};
     for (std::size_t i = 0; i < 2; ++i) {
-      const Vector3 a = {directions_[i][0], directions_[i][1], directions_[i][2]};
+      const Vector3& a = directions[i];
       const Expression s = Expression::variable({Variable::Kind::kState, first_bristle_ + i});
       const Expression pull = times(bristle_stiffness_, s);
       const Expression back = Expression::binary(Expression::Op::kDivide, times(pull, speed), friction_);
@@ -162,7 +161,6 @@ class ContactReader {
   Mechanism& mechanism_;
   Expression friction_, bristle_stiffness_, bristle_damping_;
   Expression slip_ = 1.0;
-  std::array<std::array<double, 3>, 2> directions_{};
   std::size_t first_bristle_ = 0;
 };
 

@@ -68,7 +68,9 @@ std::optional<Expression> TomlFile::with_meanings(const Expression& expression) 
   for (const Expression::Node& node : expression.nodes())
     size += node.op == Expression::Op::kParameter ? meaning(node.parameter).nodes().size() : 1;
   if (size > kMaximumExpressionSize) return {};
-  return expression.with_parameters(meaning);
+  Expression result = expression.with_parameters(meaning);
+  if (result.written_out_size() > kMaximumWrittenOutSize) return {};
+  return result;
 }
 
 void TomlFile::error(SourceRange where, std::string message, std::string hint) {

@@ -222,6 +222,16 @@ Vector3 TomlTable::vector(std::string_view key, const Needed& needed, const Vect
   return result;
 }
 
+std::optional<std::array<Expression, 2>> TomlTable::pair(std::string_view key, const Needed& needed) const {
+  Place where = place(key, needed);
+  const toml::array* array = has(key) ? numbers(key, 2, where) : nullptr;
+  if (!array) return {};
+  const std::size_t mark = file_.error_count();
+  std::array<Expression, 2> result;
+  for (std::size_t i = 0; i < 2; ++i) result[i] = file_.expression((*array)[i], where);
+  return file_.error_count() == mark ? std::optional(result) : std::nullopt;
+}
+
 std::array<double, 3> TomlTable::direction(std::string_view key,
                                            const std::array<double, 3>& otherwise) const {
   if (!has(key)) return otherwise;

@@ -180,6 +180,8 @@ class TomlTable {
   Vector3 functions(std::string_view key, const Needed& needed, const Scope& scope) const;
   /// Three numbers, or a table of them and their unit; `otherwise` where the key is missing.
   Vector3 vector(std::string_view key, const Needed& needed, const Vector3& otherwise = {}) const;
+  /// Two numbers; nothing (after a diagnostic if it is something else) where the key is missing.
+  std::optional<std::array<Expression, 2>> pair(std::string_view key, const Needed& needed) const;
   /// Three pure numbers that do not depend on parameters.
   std::array<double, 3> direction(std::string_view key, const std::array<double, 3>& otherwise) const;
   /// Two numbers that do not depend on parameters; nothing (after a diagnostic if it is something

@@ -1,4 +1,4 @@
-// [[tyre]]: a wheel on a fixed plane with slip that needs a way to build up, made of expressions and two states.
+// [[tyre]]: a wheel on the ground with slip that needs a way to build up, made of expressions and two states.
 #include <fmt/format.h>
 
 #include <array>
@@ -6,6 +6,7 @@
 #include "model/expression_sums.hpp"
 #include "model/matrix3.hpp"
 #include "model/mechanism.hpp"
+#include "model/read/ground.hpp"
 #include "model/read/pushing.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_sections.hpp"
@@ -26,13 +27,11 @@ Expression negative(const Expression& a) { return Expression::unary(Expression::
 Expression root(const Expression& a) { return Expression::unary(Expression::Op::kSqrt, a); }
 Expression call(support::Function function, const Expression& a) { return Expression::function(function, a); }
 
-Vector3 scaled(const Expression& factor, const Vector3& v) {
-  return {times(factor, v[0]), times(factor, v[1]), times(factor, v[2])};
+/// The direction from a wheel's centre, axle a, down to a plane with the normal n.
+Vector3 down_to(const Vector3& n, const Vector3& a) {
+  const Vector3 across = cross(a, n);
+  return times(over(1.0, root(dot(across, across))), minus(times(dot(n, a), a), n));
 }
-Vector3 plus(const Vector3& a, const Vector3& b) {
-  return {model::plus(a[0], b[0]), model::plus(a[1], b[1]), model::plus(a[2], b[2])};
-}
-using model::plus;
 
 /// With the axle a and the normal n, c = |a × n|: forward f = a × n/c, to the left l = n × f, down in the wheel's plane
 /// q = −(n − (n·a) a)/c. At a depth d = r c − h of the lowest point, h the centre's height:
@@ -43,6 +42,8 @@ using model::plus;
 /// with, by the Magic Formula, g = μ sin(C atan(B ρ − E (B ρ − atan(B ρ)))), and by a brush with a parabolic load,
 /// θ = K/(3 μ), g = 3 μ θρ (1 − θρ + (θρ)²/3), μ from θρ = 1 on. H. B. Pacejka, Tyre and Vehicle Dynamics, 2nd ed.
 /// 2006: chapters 3, 4, 7 (relaxation), of which these are the isotropic similarity and the single-contact-point forms.
+/// Where the ground has a height, the plane is the one that touches it where r q leads from the centre (see ground.hpp),
+/// and v is counted from the ground's.
 class TyreReader {
  public:
   TyreReader(TomlFile& file, const TomlTable& table, std::string name, Mechanism& mechanism)
@@ -51,9 +52,8 @@ class TyreReader {
   void read() {
     const std::size_t mark = file_.error_count();
     const auto frame = find_frame(file_, table_, "frame", mechanism_);
-    const std::array<double, 3> normal = unit_direction(table_, "normal", {0, 0, 1}),
-                                axis = unit_direction(table_, "axis", {0, 1, 0});
-    const Vector3 origin = table_.vector("point", needed::kLength, {0.0, 0.0, 0.0});
+    const Ground ground(table_);
+    const std::array<double, 3> axis = unit_direction(table_, "axis", {0, 1, 0});
     const Expression radius = table_.positive("radius", needed::kLength),
                      stiffness = table_.positive("stiffness", needed::kStiffness),
                      damping = table_.not_negative("damping", needed::kDamping),
@@ -69,18 +69,20 @@ class TyreReader {
     first_state_ = mechanism_.states.size();
     if (!declare("_longitudinal") || !declare("_lateral")) return;
 
-    const Vector3 n = {normal[0], normal[1], normal[2]};
     const Vector3 p = frame_components(Variable::Kind::kFramePosition, *frame),
-                  v = frame_components(Variable::Kind::kFrameVelocity, *frame),
                   w = frame_components(Variable::Kind::kFrameWorldSpin, *frame);
     const Vector3 a = minus(frame_components(Variable::Kind::kFramePosition, *axle), p);
+    const Ground::Plane plane =
+        ground.touched(p, [&](const Vector3& n) { return times(radius, down_to(n, a)); });
+    const Vector3& n = plane.normal;
+    const Vector3 v = minus(frame_components(Variable::Kind::kFrameVelocity, *frame), plane.velocity);
     const Vector3 across = cross(a, n);
-    const Expression upright = root(dot(across, across)), height = dot(n, minus(p, origin));
-    const Vector3 forward = scaled(over(1.0, upright), across), left = cross(n, forward);
-    const Vector3 down = scaled(over(1.0, upright), minus(scaled(dot(n, a), a), n));
+    const Expression upright = root(dot(across, across)), height = negative(plane.behind);
+    const Vector3 forward = times(over(1.0, upright), across), left = cross(n, forward);
+    const Vector3 down = down_to(n, a);
     const Expression depth = minus(times(radius, upright), height);
     const Expression load = pushing(depth, minus(times(stiffness, depth), times(damping, dot(n, v))));
-    const Vector3 slipping = plus(v, scaled(radius, cross(w, down)));
+    const Vector3 slipping = plus(v, times(radius, cross(w, down)));
     const Expression rolling =
         Expression::function(support::Function::kMax, call(support::Function::kAbs, dot(forward, v)),
                              times(radius, call(support::Function::kAbs, dot(w, a))));
@@ -88,16 +90,16 @@ class TyreReader {
     const Expression total =
         root(plus(plus(times(slip[0], slip[0]), times(slip[1], slip[1])), kNoSlip * kNoSlip));
     const std::array<Vector3, 2> along = {forward, left};
-    Vector3 force = scaled(load, n);
+    Vector3 force = times(load, n);
     for (std::size_t i = 0; i < 2; ++i) {
       StateVariable& own = mechanism_.states[first_state_ + i];
       const Expression back = negative(times(rolling, slip[i]));
       own.rate =
           settled(where_less(0.0, depth, false, minus(back, dot(along[i], slipping)), back), mechanism_);
       own.nominal = over(relaxation, 10.0);
-      force = plus(force, scaled(times(load, times(over(strength(i, total), total), slip[i])), along[i]));
+      force = plus(force, times(times(load, times(over(strength(i, total), total), slip[i])), along[i]));
     }
-    act(*frame, force, cross(scaled(over(height, upright), down), force));
+    act(*frame, force, cross(times(over(height, upright), down), force));
   }
 
  private:
@@ -116,26 +118,26 @@ class TyreReader {
     }
     B_ = pair("stiffness_factor", {});
     C_ = pair("shape_factor", {});
-    E_ = pair("curvature_factor", std::array{0.0, 0.0});
+    E_ = pair("curvature_factor", std::array<Expression, 2>{0.0, 0.0});
     for (std::size_t i = 0; i < 2; ++i) {
-      if (!(B_[i] > 0))
+      if (!(file_.value(B_[i]) > 0))
         table_.error("stiffness_factor",
                      fmt::format("{} must be positive", table_.quoted("stiffness_factor")));
-      if (!(C_[i] > 0))
+      if (!(file_.value(C_[i]) > 0))
         table_.error("shape_factor", fmt::format("{} must be positive", table_.quoted("shape_factor")));
-      if (!(E_[i] <= 1))
+      if (!(file_.value(E_[i]) <= 1))
         table_.error("curvature_factor", fmt::format("{} is more than 1", table_.quoted("curvature_factor")),
                      "forces would turn round");
     }
   }
 
   /// Along and across; both are 1 after a diagnostic.
-  std::array<double, 2> pair(const char* key, const std::optional<std::array<double, 2>>& otherwise) {
-    if (!table_.has(key)) {
-      if (!otherwise) table_.missing(key, "two numbers, forward and sideways");
-      return otherwise.value_or(std::array{1.0, 1.0});
-    }
-    return table_.constant_pair(key, needed::kPure, {}).value_or(std::array{1.0, 1.0});
+  std::array<Expression, 2> pair(const char* key,
+                                 const std::optional<std::array<Expression, 2>>& otherwise) {
+    const std::array<Expression, 2> one = {1.0, 1.0};
+    if (table_.has(key)) return table_.pair(key, needed::kPure).value_or(one);
+    if (!otherwise) table_.missing(key, "two numbers, forward and sideways");
+    return otherwise.value_or(one);
   }
 
   /// A frame one metre along the axle.
@@ -211,7 +213,7 @@ class TyreReader {
   Mechanism& mechanism_;
   bool brush_ = false;
   Expression friction_, slip_stiffness_;
-  std::array<double, 2> B_{}, C_{}, E_{};
+  std::array<Expression, 2> B_, C_, E_;
   std::size_t first_state_ = 0;
 };
 
