@@ -1,7 +1,11 @@
 #include "ir/jacobian.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "ir/function_partials.hpp"
 
@@ -128,8 +132,14 @@ class Graph {
     users_[v].clear();
   }
 
+  /// Signs that all have to hold, of values by their number, in order, and the selection that asks for them.
+  using Guard = std::vector<std::pair<std::size_t, Op>>;
+  /// A sum of values each of which is taken where its guard holds.
+  using Parts = std::map<Guard, Signed>;
+  static constexpr std::size_t kMostParts = 16;
+
   /// Zero times what has no value would have none: where a factor is only taken where a sign says so, and the other
-  /// need not exist, the product is taken as a whole.
+  /// need not exist, the other is taken there alone as well.
   Signed product(Signed a, Signed b) {
     look_at_new_values();
     const bool exists_a = exists_[a.value.value], exists_b = exists_[b.value.value];
@@ -138,29 +148,115 @@ class Graph {
     return builder_.multiply(a, b);
   }
 
-  /// `taken` times `factor`, which goes where no more signs decide.
-  Signed inside(Signed taken, Signed factor) {
-    const Node node = builder_.program()[taken.value];
-    const Signed a{node.a}, b{node.b};
-    Signed result;
-    switch (node.op) {
-      case Op::kNegate:
-        result = -product(a, factor);
-        break;
-      case Op::kAdd:
-        result = builder_.add(product(a, factor), product(b, factor));
-        break;
-      case Op::kSubtract:
-        result = builder_.subtract(product(a, factor), product(b, factor));
-        break;
-      case Op::kMultiply:
-        result = is_taken_[node.a.value] ? builder_.multiply(product(a, factor), b)
-                                         : builder_.multiply(a, product(b, factor));
-        break;
-      default:
-        result = builder_.function(function_of(node.op), a, product(b, factor));
+  /// `value` times `factor`, which goes where no more signs decide.
+  Signed inside(Signed value, Signed factor) {
+    const Parts& known = parts(value.value);
+    if (known.empty()) {
+      const Signed some = builder_.subtract(some_part_is_taken(value.value), builder_.literal(0.5));
+      const Signed needed = builder_.function(support::Function::kWhereNotNegative, some, factor);
+      return builder_.multiply(value, needed);
     }
-    return taken.negative ? -result : result;
+    Parts all = known;
+    for (auto& [guard, part] : all) part = product(part, factor);
+    const Signed sum = taken(all.begin(), all.end(), 0);
+    return value.negative ? -sum : sum;
+  }
+
+  /// The sum of parts whose guards have the first `depth` signs in common, which hold.
+  Signed taken(Parts::const_iterator begin, Parts::const_iterator end, std::size_t depth) {
+    Signed sum = builder_.literal(0);
+    while (begin != end) {
+      if (begin->first.size() == depth) {
+        sum = builder_.add(sum, (begin++)->second);
+        continue;
+      }
+      const auto [sign, selection] = begin->first[depth];
+      const auto alike = std::find_if(begin, end, [&, s = sign, o = selection](const auto& part) {
+        return part.first[depth] != std::pair(s, o);
+      });
+      const Signed inner = taken(begin, alike, depth + 1);
+      sum = builder_.add(sum, builder_.function(function_of(selection), Signed{ValueId(sign)}, inner));
+      begin = alike;
+    }
+    return sum;
+  }
+
+  /// A value as a sum of what is taken by signs: factors of selections stand inside them, and what one guard takes is
+  /// one part. None where they would be more than kMostParts: signs in a chain may have as many ways as there are
+  /// combinations.
+  const Parts& parts(ValueId value) {
+    if (const auto known = parts_.find(value.value); known != parts_.end()) return known->second;
+    Parts result;
+    if (!is_taken_.at(value.value)) {
+      result[{}] = {value};
+    } else {
+      const Node node = builder_.program()[value];
+      const bool by_a = is_taken_[node.a.value];
+      bool is_whole = true;
+      const auto take = [&](ValueId from, const auto& with) {
+        const Parts& all = parts(from);
+        is_whole = is_whole && !all.empty();
+        for (const auto& [guard, part] : all) with(guard, part);
+      };
+      switch (node.op) {
+        case Op::kNegate:
+          take(node.a, [&](const Guard& guard, Signed part) { add(result, guard, -part); });
+          break;
+        case Op::kAdd:
+        case Op::kSubtract:
+          take(node.a, [&](const Guard& guard, Signed part) { add(result, guard, part); });
+          take(node.b, [&](const Guard& guard, Signed part) {
+            add(result, guard, node.op == Op::kAdd ? part : -part);
+          });
+          break;
+        case Op::kMultiply:
+          take(by_a ? node.a : node.b, [&](const Guard& guard, Signed part) {
+            add(result, guard, builder_.multiply(part, {by_a ? node.b : node.a}));
+          });
+          break;
+        default:
+          take(node.b, [&](const Guard& guard, Signed part) {
+            if (const auto both = conjunction({{node.a.value, node.op}}, guard)) add(result, *both, part);
+          });
+          // Where nothing is ever taken, zero is.
+          if (is_whole && result.empty()) result[{}] = builder_.literal(0);
+      }
+      if (!is_whole || result.size() > kMostParts) result.clear();
+    }
+    look_at_new_values();
+    return parts_.emplace(value.value, std::move(result)).first->second;
+  }
+
+  /// 1 where some part of a value is taken, 0 where none is.
+  Signed some_part_is_taken(ValueId value) {
+    if (const auto known = some_.find(value.value); known != some_.end()) return known->second;
+    Signed result = builder_.literal(1);
+    if (is_taken_.at(value.value)) {
+      const Node node = builder_.program()[value];
+      const auto of = [this](ValueId v) { return some_part_is_taken(v); };
+      if (node.op == Op::kAdd || node.op == Op::kSubtract)
+        result = builder_.function(support::Function::kMax, of(node.a), of(node.b));
+      else if (node.op == Op::kMultiply || node.op == Op::kNegate)
+        result = of(is_taken_[node.a.value] ? node.a : node.b);
+      else
+        result = builder_.function(function_of(node.op), Signed{node.a}, of(node.b));
+    }
+    look_at_new_values();
+    return some_.emplace(value.value, result).first->second;
+  }
+
+  void add(Parts& parts, const Guard& guard, Signed part) {
+    const auto [it, is_new] = parts.try_emplace(guard, part);
+    if (!is_new) it->second = builder_.add(it->second, part);
+  }
+
+  /// Nothing where signs contradict each other.
+  static std::optional<Guard> conjunction(const Guard& a, const Guard& b) {
+    Guard both;
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+    const auto contradicts = [](const auto& x, const auto& y) { return x.first == y.first; };
+    if (std::adjacent_find(both.begin(), both.end(), contradicts) != both.end()) return {};
+    return both;
   }
 
   /// Which values are finite for all finite variables (parameters are taken to be such that what follows from them
@@ -176,8 +272,11 @@ class Graph {
       };
       const bool is_parameter = node.leaf == LeafKind::kParameter || node.leaf == LeafKind::kConstant;
       fixed_.push_back(holds(fixed_, node.op == Op::kLiteral || is_parameter));
-      const bool may_fail = (node.op == Op::kDivide && !fixed_[node.b.value]) || node.op == Op::kSqrt ||
-                            (is_function(node.op) && !is_selection(node.op) && node.op != Op::kTanh);
+      bounds_.push_back(bound(node));
+      const bool may_fail =
+          (node.op == Op::kDivide && !fixed_[node.b.value] && bounds_[node.b.value] != Bound::kPositive) ||
+          (node.op == Op::kSqrt && bounds_[node.a.value] == Bound::kNone) ||
+          (is_function(node.op) && !is_selection(node.op) && node.op != Op::kTanh);
       exists_.push_back(fixed_[i] || (holds(exists_, true) && !may_fail));
       const bool is_sum_or_product = node.op == Op::kAdd || node.op == Op::kSubtract ||
                                      node.op == Op::kMultiply || node.op == Op::kNegate;
@@ -187,8 +286,33 @@ class Graph {
     }
   }
 
+  /// What a value is never below, for all variables and parameters.
+  enum class Bound { kNone, kZero, kPositive };  ///< kPositive: a positive constant
+
+  Bound bound(const Node& node) const {
+    const auto of = [this](ValueId v) { return bounds_[v.value]; };
+    switch (node.op) {
+      case Op::kLiteral:
+        return node.literal > 0 ? Bound::kPositive : node.literal == 0 ? Bound::kZero : Bound::kNone;
+      case Op::kAdd: {
+        const Bound less = std::min(of(node.a), of(node.b));
+        return less == Bound::kNone ? less : std::max(of(node.a), of(node.b));
+      }
+      case Op::kMultiply:
+        return node.a == node.b && of(node.a) == Bound::kNone ? Bound::kZero
+                                                              : std::min(of(node.a), of(node.b));
+      case Op::kSqrt:
+        return of(node.a);
+      default:
+        return Bound::kNone;
+    }
+  }
+
   Builder& builder_;
+  std::vector<Bound> bounds_;
   std::vector<bool> exists_, fixed_, is_taken_;  ///< of the values so far
+  std::map<std::size_t, Parts> parts_;
+  std::map<std::size_t, Signed> some_;
   std::size_t count_, columns_ = 0, rows_;
   std::vector<std::map<std::size_t, Signed>> operands_;  // of each vertex, with the partial derivative by it
   std::vector<std::set<std::size_t>> users_;

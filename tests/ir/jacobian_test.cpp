@@ -61,6 +61,37 @@ TEST_P(Orders, ChainTheDerivativesOfLeaves) {
   EXPECT_DOUBLE_EQ((evaluated(b, J, 5, 7)[{0, 0}]), 14 - 35);
 }
 
+/// Roots that exist where they are taken alone, in sums and products that share their terms: derivatives exist wherever
+/// the function does, and are not written out once for each way through it, of which there are 2^12.
+TEST_P(Orders, TakeFactorsIntoChoicesWithoutGrowing) {
+  Builder b;
+  const Signed y0 = b.leaf(LeafKind::kPosition, 0), y1 = b.leaf(LeafKind::kPosition, 1), one = b.literal(1);
+  const auto where_not_negative = [&b](Signed sign, Signed value) {
+    return b.function(support::Function::kWhereNotNegative, sign, value);
+  };
+  const Signed root = b.unary(Op::kSqrt, y0), more = b.unary(Op::kSqrt, b.add(y0, y1));
+  Signed inner = root;
+  for (int k = 0; k < 12; ++k) inner = b.divide(b.add(b.multiply(inner, more), root), b.add(inner, more));
+  Signed sum = b.add(where_not_negative(y0, inner), where_not_negative(b.subtract(y0, one), more));
+  for (int k = 0; k < 12; ++k)
+    sum =
+        b.add(where_not_negative(b.subtract(y0, b.literal(k)), b.multiply(sum, inner)), b.multiply(sum, y1));
+  const auto value = [&](double at) {
+    Builder copy = b;
+    copy.output("f", -1, -1, sum);
+    LeafValues<double> leaves;
+    leaves[LeafKind::kPosition] = {at, 0.5};
+    return interpret(copy.finish("f"), leaves).at(0);
+  };
+  const double h = 1e-5;
+  const double slope = (value(7.5 + h) - value(7.5 - h)) / (2 * h);
+  const JacobianEntries J = differentiate(b, {sum}, {{y0, 0, one}, {y1, 1, one}}, GetParam());
+  EXPECT_LE(b.program().nodes.size(), 3000u);
+  EXPECT_NEAR((evaluated(b, J, 7.5, 0.5)[{0, 0}]), slope, 1e-7 * std::fabs(slope));
+  EXPECT_EQ((evaluated(b, J, -1, 0.5)[{0, 0}]), 0);
+  EXPECT_EQ((evaluated(b, J, -1, 0.5)[{0, 1}]), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Jacobian, Orders,
                          ::testing::Values(EliminationOrder{0}, EliminationOrder{0.5}, EliminationOrder{1}));
 
