@@ -16,6 +16,7 @@
 #include "loops/plan/plan.hpp"
 #include "loops/plan/plan_text.hpp"
 #include "model/coordinates.hpp"
+#include "model/joint_kinds.hpp"
 #include "report/conserved_energy.hpp"
 #include "report/figure.hpp"
 #include "report/plot.hpp"
@@ -37,7 +38,7 @@ struct ReportArguments {
   std::vector<std::string> methods;
   std::string folder;
   std::string reference = "auto";
-  double tolerance = 0, budget = 0;
+  double tolerance = 0, budget = 0, penetration = 0;
   bool plots = true;
 };
 
@@ -116,6 +117,7 @@ bool settle(ReportArguments& arguments) {
   arguments.study.reference = reference_kind(arguments.reference);
   if (arguments.tolerance > 0) arguments.study.question.tolerance = arguments.tolerance;
   if (arguments.budget > 0) arguments.study.question.budget = arguments.budget;
+  if (arguments.penetration > 0) arguments.study.penetration = arguments.penetration;
   return print_conflict(check_derivative_terms(arguments.methods, terms_of(arguments)));
 }
 
@@ -149,6 +151,31 @@ std::future<std::optional<FreeModel>> build_free_bodies(const ReportArguments& a
   return std::async(std::launch::async, [mechanism, compiled, number, name = options.name] {
     return std::optional<FreeModel>({*mechanism, build_model(name, *compiled, number)});
   });
+}
+
+/// Adds an output for the depth of each one-sided element, after the others.
+std::vector<studies::TouchFacts> add_depths(model::Mechanism& mechanism,
+                                            const std::vector<double>& parameters) {
+  std::vector<studies::TouchFacts> facts;
+  const auto add = [&](const auto& elements, const auto& unit_of) {
+    for (const auto& element : elements) {
+      if (!element.touch) continue;
+      model::Output depth;
+      depth.name = fmt::format("figure_depth_{}", facts.size());
+      depth.kind = model::OutputKind::kExpression;
+      depth.value = element.touch->depth;
+      mechanism.outputs.push_back(depth);
+      facts.push_back({element.name, unit_of(element),
+                       element.touch->stiffness.template evaluate<double>(parameters),
+                       element.touch->exponent});
+    }
+  };
+  add(mechanism.loads, [](const model::Load&) { return std::string("m"); });
+  add(mechanism.coordinate_forces, [&mechanism](const model::CoordinateForce& stop) {
+    const model::JointKind& kind = model::joint_kind(mechanism.joints[stop.joint.value]);
+    return std::string(kind.motions[stop.coordinate].is_angular() ? "rad" : "m");
+  });
+  return facts;
 }
 
 studies::EmittedFreeBodies emitted(const FreeModel& free, const studies::Inputs& inputs, bool hold) {
@@ -211,7 +238,8 @@ int run(ReportArguments arguments) {
   }
   ProgressBar bar;
   bar.show("deriving the equations", 0);
-  const report::Figure figure = report::make_figure(model->loaded.mechanism, model->parameters);
+  report::Figure figure = report::make_figure(model->loaded.mechanism, model->parameters);
+  arguments.study.touches = add_depths(figure.mechanism, model->parameters);
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
   if (velocities <= kMostVelocities) options.functions.push_back("forward_dynamics_derivatives");
@@ -287,6 +315,10 @@ void add_report(CLI::App& app, int& status) {
                    "recommend the most accurate within this run time, as 20us, per period")
       ->transform(time)
       ->excludes(tolerance);
+  command
+      ->add_option("--penetration", arguments->penetration,
+                   "say what keeps contacts, tyres and stops within this depth, m or rad")
+      ->check(CLI::PositiveNumber);
   command
       ->add_option("--period", arguments->study.question.period,
                    "simulated time that the budget is for, as 1ms")

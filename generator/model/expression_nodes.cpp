@@ -138,7 +138,7 @@ std::size_t NodeList::function(const Node& node) {
 
 std::size_t NodeList::Hash::operator()(std::size_t i) const {
   const Node& n = list->nodes_[i];
-  std::size_t hash = static_cast<std::size_t>(n.op);
+  auto hash = static_cast<std::size_t>(n.op);
   const auto mix = [&hash](std::size_t value) {
     hash ^= value + 0x9e3779b97f4a7c15u + (hash << 6) + (hash >> 2);
   };

@@ -8,6 +8,7 @@
 
 #include "model/expression.hpp"
 #include "model/indices.hpp"
+#include "model/touch.hpp"
 #include "support/diagnostics.hpp"
 
 namespace jourdain::model {
@@ -22,13 +23,16 @@ struct Load {
   LoadAxes axes = LoadAxes::kFrame;
   Vector3 force;   ///< N
   Vector3 moment;  ///< N m
+  std::optional<Touch> touch = {};
   support::SourceRange where = {};
 
   static constexpr std::string_view kKind = "force";
   static std::optional<ScalarCoordinate> pushed() { return {}; }
   std::vector<FrameIndex> ends() const { return {frame}; }
   std::vector<Expression*> expressions() {
-    return {&force[0], &force[1], &force[2], &moment[0], &moment[1], &moment[2]};
+    std::vector<Expression*> all = {&force[0], &force[1], &force[2], &moment[0], &moment[1], &moment[2]};
+    if (touch) all.insert(all.end(), {&touch->depth, &touch->stiffness});
+    return all;
   }
   static bool conserves_energy() { return false; }
   static std::string assumption() { return ""; }

@@ -202,6 +202,19 @@ std::string loops_section(const studies::ReportHead& head, const jourdain_model_
   return text + "</table></div>\n";
 }
 
+std::string touches_section(const jourdain_model_table& table, const Study& study) {
+  std::string text = list(studies::touches_remarks(table, study)) + "<div class=\"table\"><table>";
+  std::vector<std::vector<std::string>> rows = studies::touches_rows(study);
+  rows.insert(rows.begin(), studies::touches_head(study));
+  for (const std::vector<std::string>& row : rows) {
+    const char* cell = &row == &rows.front() ? "th" : "td";
+    text += "<tr>";
+    for (const std::string& entry : row) text += fmt::format("<{0}>{1}</{0}>", cell, escaped(entry));
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
 std::string alternatives_table(const jourdain_model_table& table, const Study& study) {
   const auto row = [](const std::vector<std::string>& cells, const char* tag) {
     std::string text = "<tr>";
@@ -265,6 +278,7 @@ std::vector<Section> sections_of(const studies::ReportHead& head, const jourdain
   if (!study.sources.empty()) list.push_back(sources_section(table, study));
   if (!study.stability.points.empty()) list.push_back(stability_section(table, study));
   if (!head.loops.empty()) list.push_back({"Closed loops", loops_section(head, table, study), {}});
+  if (study.touches) list.push_back({"One-sided elements", touches_section(table, study), {}});
   if (!study.extremes.empty()) list.push_back({"Extremes", extremes_table(study), {}});
   if (study.options.conserves_energy) list.push_back(energy_section(table, study));
   if (!study.forms.empty()) list.push_back({"Equations of the first kind", "", {forms_plot(study)}});

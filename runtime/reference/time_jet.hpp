@@ -70,8 +70,8 @@ struct TimeJet {
   }
   friend TimeJet exp(const TimeJet& a) {
     using std::exp;
-    const Scalar value = exp(a.value);
-    return {value, value * a.rate, value * (a.acceleration + a.rate * a.rate)};
+    const Scalar power = exp(a.value);
+    return {power, power * a.rate, power * (a.acceleration + a.rate * a.rate)};
   }
   friend TimeJet log(const TimeJet& a) {
     using std::log;

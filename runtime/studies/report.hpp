@@ -61,6 +61,13 @@ std::string loops_text(const ReportHead& head, const jourdain_model_table& table
 std::vector<std::vector<std::string>> loop_rows(const jourdain_model_table& table, const Study& study);
 std::string loops_csv(const ReportHead& head, const jourdain_model_table& table, const Study& study);
 
+/// How deep contacts, tyres and stops are pressed, for a terminal; empty without them.
+std::string touches_text(const jourdain_model_table& table, const Study& study);
+std::vector<std::string> touches_head(const Study& study);
+std::vector<std::vector<std::string>> touches_rows(const Study& study);
+/// Sentences on what the columns mean; there must be such elements.
+std::vector<std::string> touches_remarks(const jourdain_model_table& table, const Study& study);
+
 /// Other integrators beside the recommended step, for a terminal; empty where nothing was recommended.
 std::string alternatives_text(const jourdain_model_table& table, const Study& study);
 std::vector<std::string> alternatives_head();

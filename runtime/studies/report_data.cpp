@@ -269,6 +269,28 @@ std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain
   return files;
 }
 
+Json touches_json(const jourdain_model_table& table, const Study& study) {
+  if (!study.touches) return nullptr;
+  Json elements = Json::array();
+  for (std::size_t i = 0; i < study.touches->runs.size(); ++i) {
+    const TouchFacts& element = study.options.touches[i];
+    const TouchRun& run = study.touches->runs[i];
+    Json json = {{"name", element.name},        {"unit", element.unit},
+                 {"deepest", run.deepest},      {"at_s", run.at},
+                 {"share", run.share},          {"stiffness", element.stiffness},
+                 {"exponent", element.exponent}};
+    if (study.options.penetration && run.deepest > *study.options.penetration) {
+      const Stiffening needed = stiffening(element, run.deepest, *study.options.penetration);
+      json["stiffness_within_depth"] = needed.stiffness;
+      json["steps_within_depth"] = needed.step_share;
+    }
+    elements.push_back(std::move(json));
+  }
+  return {{"method", table.methods[study.touches->method].name},
+          {"h_s", study.touches->h},
+          {"elements", elements}};
+}
+
 std::string report_json(const ReportHead& head, const jourdain_model_table& table, const Study& study) {
   const Json report = {{"generator", head.generator},
                        {"name", head.name},
@@ -290,6 +312,7 @@ std::string report_json(const ReportHead& head, const jourdain_model_table& tabl
                        {"rounding", roundings_json(table, study)},
                        {"stability", stability_json(table, study)},
                        {"loops", loops_json(head, table, study)},
+                       {"one_sided_elements", touches_json(table, study)},
                        {"extremes", extremes_json(study)},
                        {"first_kind", forms_json(study)},
                        {"alternatives", alternatives_json(table, study)},

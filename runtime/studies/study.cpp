@@ -231,6 +231,7 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
       study.alternatives = study_alternatives(flow, *study.advice, options.question.tolerance, sampling,
                                               study.reference, options.seconds / 16, progress);
   }
+  study.touches = study_touches(flow, options.touches, study.work, study.judged);
   study.loops = study_loops(flow, study.work, study.advice ? &*study.advice : nullptr, study.judged);
   progress("", 1);
   return study;

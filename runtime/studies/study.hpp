@@ -14,6 +14,7 @@
 #include "studies/loop_residuals.hpp"
 #include "studies/sensitivity.hpp"
 #include "studies/stability.hpp"
+#include "studies/touches.hpp"
 #include "studies/work_precision.hpp"
 
 namespace jourdain::studies {
@@ -27,7 +28,9 @@ struct StudyOptions {
   bool conserves_energy = false;
   bool hold_inputs = false;  ///< steps hold the inputs of their begin, instead of sampling them at the stages
   bool forms = true;         ///< compare with equations of the first kind
-  double seconds = 8;        ///< of work for each costly part, nominal: counted, see work.hpp
+  std::vector<TouchFacts> touches = {};    ///< of the outputs that come last
+  std::optional<double> penetration = {};  ///< m or rad: depth that is wanted of them
+  double seconds = 8;                      ///< of work for each costly part, nominal: counted, see work.hpp
 };
 
 /// How a method's error comes about, over the steps where the parts could be computed.
@@ -65,6 +68,7 @@ struct Study {
   std::optional<Advice> advice;
   Alternatives alternatives;   ///< to the recommended step
   std::vector<LoopRun> loops;  ///< empty without loops
+  std::optional<Touches> touches;
   /// s: when the loops' closing turns singular, or leaves what is proven, at the shortest step; then there is
   /// no advice.
   std::optional<double> untrusted_from;

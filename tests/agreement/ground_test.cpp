@@ -10,6 +10,7 @@
 
 #include "agreement/judge.hpp"
 #include "ball_in_bowl/ball_in_bowl_kernels.hpp"
+#include "compile/compile.hpp"
 #include "model/read/read.hpp"
 #include "properties/random.hpp"
 
@@ -34,15 +35,18 @@ parent = "world"
 child = "body"
 )";
 
-const std::string kPoint = "[[contact]]\nframe = \"body\"\nstiffness = 1e5\nexponent = 1.5\ndamping = 0.3\n"
-                           "friction = 0.4\nslip_speed = 0.1\n",
+const std::string kPoint =
+                      "[[contact]]\nframe = \"body\"\nstiffness = 1e5\nexponent = 1.5\ndamping = 0.3\n"
+                      "friction = 0.4\nslip_speed = 0.1\n",
                   kBall = kPoint + "radius = 0.31\n",
-                  kBristles = "[[contact]]\nname = \"sole\"\nframe = \"body\"\nstiffness = 1e5\nradius = 0.31\n"
-                              "friction = 0.4\nfriction_model = \"lugre\"\nbristle_stiffness = 1e4\n"
-                              "bristle_damping = 5\n",
-                  kTyre = "[[tyre]]\nname = \"tyre\"\nframe = \"body\"\nradius = 0.31\nstiffness = 2e5\n"
-                          "damping = 500\nfriction = 0.9\nrelaxation_length = 0.3\nlaw = \"brush\"\n"
-                          "slip_stiffness = 14\n";
+                  kBristles =
+                      "[[contact]]\nname = \"sole\"\nframe = \"body\"\nstiffness = 1e5\nradius = 0.31\n"
+                      "friction = 0.4\nfriction_model = \"lugre\"\nbristle_stiffness = 1e4\n"
+                      "bristle_damping = 5\n",
+                  kTyre =
+                      "[[tyre]]\nname = \"tyre\"\nframe = \"body\"\nradius = 0.31\nstiffness = 2e5\n"
+                      "damping = 500\nfriction = 0.9\nrelaxation_length = 0.3\nlaw = \"brush\"\n"
+                      "slip_stiffness = 14\n";
 
 Derived scene(const std::string& element, const std::string& ground) {
   support::Diagnostics diagnostics("thrown.toml", kBody + element + ground);
@@ -93,7 +97,7 @@ TEST(Ground, ThatRisesEvenlyIsATiltedPlane) {
          {std::tuple(kPoint, 0.0, 0), std::tuple(kBall, 0.31, 0), std::tuple(kBristles, 0.31, 2),
           std::tuple(kTyre, 0.31, 2)}) {
       const Derived level = scene(element, slope.height), tilted = scene(element, slope.plane);
-      const Vector3 on = slope.height.find("normal = [0, 1") == 0 ? Vector3(0, 0.1, 0)
+      const Vector3 on = slope.height.find("normal = [0, 1") == 0         ? Vector3(0, 0.1, 0)
                          : slope.height.find("0.02") != std::string::npos ? Vector3(0, 0, 0.12)
                                                                           : Vector3(0, 0, 0.1);
       for (int k = 0; k < 8; ++k) {
@@ -121,8 +125,9 @@ TEST(Ground, ThatRisesEvenlyIsATiltedPlane) {
   EXPECT_LT(touching, compared);
 }
 
-/// A ball of radius r in a spherical bowl of radius 1, its centre over x: the normal leans by asin(s), at first with s = x,
-/// then with x + r s, at last with x/(1 - r), where the bowl's centre, the ball's and the point that is touched are in line.
+/// A ball of radius r in a spherical bowl of radius 1, its centre over x: the normal leans by asin(s), at first with
+/// s = x, then with x + r s, at last with x/(1 - r), where the bowl's centre, the ball's and the point that is touched
+/// are in line.
 TEST(Ground, ThatIsASphereIsTouchedAlongItsRadius) {
   const double r = 0.31, angle = 0.7, depth = 0.05;
   const Vector3 centre(std::sin(angle) * (1 - r + depth), 0, 1 - std::cos(angle) * (1 - r + depth));
@@ -141,12 +146,35 @@ TEST(Ground, ThatIsASphereIsTouchedAlongItsRadius) {
   EXPECT_NEAR(leaning, centre.x() / (1 - r), 1e-10);
 }
 
+/// Slopes and their derivatives are computed once: Jacobians of a wheel on a road take a few times what forces take.
+TEST(Ground, CostsLittleInJacobiansToo) {
+  const auto operations = [](const std::string& ground, const std::string& function) {
+    support::Diagnostics diagnostics("thrown.toml", kBody + kTyre + ground);
+    CompileOptions options;
+    options.name = "thrown";
+    options.functions = {"forward_dynamics", "linearize"};
+    const CompiledModel compiled = compile(model::read_mechanism(diagnostics).value(), options);
+    EXPECT_TRUE(compiled.verdict.accepted());
+    for (const ir::Program& program : compiled.module.functions)
+      if (program.name == function) return ir::count_operations(program).arithmetic();
+    return std::size_t(0);
+  };
+  const std::string road = "height = \"0.05*exp(-((x - 10)/0.4)^2)\"\n";
+  const std::size_t forces = operations(road, "forward_dynamics"), slopes = operations(road, "linearize");
+  fmt::print("on a road {} operations, with Jacobians {}; on a plane {} and {}\n", forces, slopes,
+             operations("", "forward_dynamics"), operations("", "linearize"));
+  EXPECT_LE(forces, 2 * operations("", "forward_dynamics"));
+  EXPECT_GT(slopes, forces);
+  EXPECT_LE(slopes, 8 * forces);
+}
+
 /// A hill that moves up, or to the side: what counts is the velocity against it.
 TEST(Ground, ThatMovesIsAPlaneFromWhichVelocitiesAreCounted) {
   for (const std::string& element : {kPoint, kBall, kTyre}) {
     const std::size_t states = element == kTyre ? 2 : 0;
     const Derived moving = scene(element, "height = \"rise*x + 0.05*sin(10*t)\"\n"),
-                  still = scene(element, fmt::format("height = \"rise*x + {:.17g}\"\n", 0.05 * std::sin(3.0)));
+                  still =
+                      scene(element, fmt::format("height = \"rise*x + {:.17g}\"\n", 0.05 * std::sin(3.0)));
     const double reach = element == kPoint ? 0 : 0.31;
     const Vector3 n(-0.6, 0, 0.8), place = Vector3(0, 0, 0.05 * std::sin(3.0)) + (reach - 0.005) * n;
     const Vector3 v(0.3, -0.2, 0.4), up(0, 0, 0.5 * std::cos(3.0)), spin(0.5, 1, -0.7);
@@ -160,8 +188,8 @@ TEST(Ground, ThatMovesIsAPlaneFromWhichVelocitiesAreCounted) {
   }
 }
 
-/// models/ball_in_bowl.toml along a meridian: a pendulum of length (7/5) (R - r), whose period an arithmetic-geometric mean
-/// has in closed form.
+/// models/ball_in_bowl.toml along a meridian: a pendulum of length (7/5) (R - r), whose period an
+/// arithmetic-geometric mean has in closed form.
 TEST(Ground, ABallRollsInABowlAsAPendulumOfSevenFifthsSwings) {
   ball_in_bowl::Parameters<> parameters;
   for (const auto& [radius, angle, bound] : {std::tuple(0.05, 0.3, 5e-5), std::tuple(0.1, 1.0, 5e-5)}) {

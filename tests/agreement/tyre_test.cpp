@@ -164,5 +164,27 @@ TEST(Tyre, SettlesAtTheSlipThatIsAskedFor) {
   EXPECT_NEAR(force.dot(n), 2000, 1e-9);
 }
 
+/// On its side, beside the ground and on it: there is no direction forward, and nothing but the load.
+TEST(Tyre, LyingFlatHasForces) {
+  const Derived derived = scene(kWheel + kMagic);
+  const double half = std::acos(0.8) / 2;  // turns z to the plane's normal; then the axle follows
+  const Eigen::Quaterniond q = Eigen::Quaterniond(std::cos(half), 0, std::sin(half), 0) *
+                               Eigen::Quaterniond(std::sqrt(0.5), std::sqrt(0.5), 0, 0);
+  const Vector3 n(0.6, 0, 0.8);
+  EXPECT_NEAR((q * Vector3(0, 1, 0)).cross(n).norm(), 0, 1e-15);
+  for (const double height : {0.02, -0.001}) {
+    const Vector3 centre = Vector3(0, 0, -0.1) + height * n;
+    Sample sample;
+    sample.y = {centre.x(), centre.y(), centre.z(), q.w(), q.x(), q.y(), q.z()};
+    sample.z = {-0.8, 2, 0.6, 0, 3, 0, 0.01, 0.02};
+    sample.zdot = std::vector<double>(8, 0);
+    const std::vector<double> f = interpreted<double>(derived.module, "q_bar", sample);
+    const Vector3 force(-f[0], -f[1], -f[2]);
+    for (const double entry : f) EXPECT_TRUE(std::isfinite(entry)) << height;
+    EXPECT_LE((force - (height < 0 ? force.dot(n) : 0) * n).norm(), 1e-4) << height;
+    EXPECT_EQ(force.dot(n) > 1, height < 0);
+  }
+}
+
 }  // namespace
 }  // namespace jourdain::tests

@@ -1,5 +1,5 @@
 // What rolls and glides without slip, against closed forms and published digits: a bicycle, a disc, a sleigh, a robot
-// on two wheels, a ball on a turntable, a rattleback.
+// on two wheels, a snakeboard, a ball on a turntable, a rattleback.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -179,6 +179,105 @@ TEST(Rolling, RobotOnTwoWheelsFollowsItsTwoEquations) {
   close("floor_x", forward * std::cos(angle) - v * w * std::sin(angle));
   close("left", (forward - b * turning) / r);
   close("right", (forward + b * turning) / r);
+}
+
+constexpr const char* kSnakeboard = R"toml(
+[model]
+name = "snakeboard"
+gravity = [0, 0, 0]
+[[body]]
+name = "board"
+mass = 4
+inertia = [1, 1, 0.3]
+[[body]]
+name = "rotor"
+mass = 1
+inertia = [1, 1, 0.08]
+[[body]]
+name = "front"
+mass = 0.2
+inertia = [1, 1, 0.01]
+[[body]]
+name = "back"
+mass = 0.2
+inertia = [1, 1, 0.01]
+[[joint]]
+name = "floor"
+type = "planar"
+parent = "world"
+child = "board"
+[[joint]]
+name = "turn"
+type = "revolute"
+parent = "board"
+child = "rotor"
+[[joint]]
+name = "steer"
+type = "revolute"
+parent = "board"
+child = "front"
+position = [0.25, 0, 0]
+motion = "0.6*sin(2*t)"
+[[joint]]
+name = "follow"
+type = "revolute"
+parent = "board"
+child = "back"
+position = [-0.25, 0, 0]
+motion = "-0.6*sin(2*t)"
+[[input]]
+name = "torque"
+[[force]]
+name = "motor"
+joint = "turn"
+value = "torque"
+[[constraint]]
+name = "front_wheels"
+type = "knife_edge"
+frame = "front"
+axis = [0, 1, 0]
+[[constraint]]
+name = "back_wheels"
+type = "knife_edge"
+frame = "back"
+axis = [0, 1, 0]
+)toml";
+
+/// A board on two axles that turn against each other by p and -p, with a rotor: its centre moves straight ahead with u,
+/// and it turns with c u, c = tan(p)/l; projected onto that, with (J_r (c u)' + J_r w') = T of the rotor,
+/// (m + c^2 J) u' = -c (J c' u + T), J without the rotor. After Ostrowski, Burdick, Lewis, Murray, The mechanics of
+/// undulatory locomotion, ICRA 1995.
+TEST(Rolling, SnakeboardFollowsItsEquationOfMomentum) {
+  support::Diagnostics diagnostics("snakeboard.toml", kSnakeboard);
+  const auto mechanism = model::read_mechanism(diagnostics, {});
+  ASSERT_TRUE(mechanism) << diagnostics.format();
+  const ClosedPrograms programs(*mechanism);
+  const Long l = 0.25L, m = 5.4L, J = 0.3L + 2 * (0.01L + 0.2L * l * l), rotor = 0.08L;
+  Random random(11);
+  for (int i = 0; i < 6; ++i) {
+    const Long t = random.uniform(0, 3), u = random.uniform(-2, 2), angle = random.uniform(-3, 3),
+               torque = random.uniform(-1, 1);
+    const Long p = 0.6L * std::sin(2 * t), p_rate = 1.2L * std::cos(2 * t);
+    const Long c = std::tan(p) / l, c_rate = p_rate / (l * std::cos(p) * std::cos(p));
+    const VectorL z = velocities(programs, {{"floor_x", u * std::cos(angle)},
+                                            {"floor_y", u * std::sin(angle)},
+                                            {"floor_angle", c * u},
+                                            {"turn", random.uniform(-3, 3)}});
+    LoopState state = start_of(programs, z);
+    state.t = t;
+    state.y = velocities(programs, {{"floor_x", 1}, {"floor_angle", angle}, {"turn", 2}});
+    const Long ahead = -c * (J * c_rate * u + torque) / (m + c * c * J), turning = c * ahead + c_rate * u;
+    const VectorL zdot = programs.accelerations(state, VectorL{{torque}});
+    const auto close = [&](const std::string& name, Long expected) {
+      EXPECT_NEAR(double(acceleration(programs, zdot, name)), double(expected),
+                  1e-11 * (1 + std::fabs(double(expected))))
+          << name << i;
+    };
+    close("floor_x", ahead * std::cos(angle) - u * c * u * std::sin(angle));
+    close("floor_y", ahead * std::sin(angle) + u * c * u * std::cos(angle));
+    close("floor_angle", turning);
+    close("turn", torque / rotor - turning);
+  }
 }
 
 constexpr const char* kGeared = R"toml(

@@ -25,8 +25,10 @@ class Numbers {
     for (model::Joint& joint : mechanism_.joints) visit_joint(joint);
     for (model::Frame& frame : mechanism_.frames) placement("frame " + frame.name, frame.placement);
     for_each_force_element(mechanism_, [this](auto& element) {
-      for (Expression* number : element.expressions())
-        visit_(fmt::format("{} {}", element.kKind, element.name), *number);
+      std::vector<Expression*> numbers = element.expressions();
+      if constexpr (requires { element.touch; })  // which no equation holds: reports read it
+        if (element.touch) numbers.resize(numbers.size() - 2);
+      for (Expression* number : numbers) visit_(fmt::format("{} {}", element.kKind, element.name), *number);
     });
     for (model::Output& output : mechanism_.outputs)
       if (output.kind == model::OutputKind::kExpression) visit_("output " + output.name, output.value);

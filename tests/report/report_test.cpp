@@ -391,6 +391,69 @@ TEST(Report, FailuresOfTheEnvironmentEndWithStatusThree) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+/// A mass of 2 kg that meets a stop at 1 m/s, without damping: it goes in by v sqrt(m/k), for pi sqrt(m/k).
+TEST(Report, SaysHowDeepAStopIsPressedAndWhatKeepsItWithinADepth) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.path() + "/stop.toml";
+  support::write_file(path, R"([model]
+name = "stop"
+gravity = [0, 0, 0]
+[parameters]
+k = 800
+[[body]]
+name = "mass"
+mass = 2
+[[joint]]
+name = "slide"
+type = "prismatic"
+parent = "world"
+child = "mass"
+axis = [1, 0, 0]
+initial_velocity = 1
+[[stop]]
+name = "buffer"
+joint = "slide"
+upper = 0.1
+stiffness = "k"
+)");
+  const auto buffer = [&](const std::string& stiffness) {
+    const std::string out = folder.path() + "/out" + stiffness;
+    const auto result = jourdain({"report",        path,    "--set",      "k=" + stiffness,
+                                  "--penetration", "0.01",  "--duration", "1s",
+                                  "--halvings",    "6",     "--methods",  "rk4",
+                                  "--reference",   "cvode", "--no-forms", "--no-plots",
+                                  "--effort",      "0.5",   "-o",         out});
+    EXPECT_EQ(result.status, 0) << result.output;
+    EXPECT_NE(result.output.find("one-sided elements"), std::string::npos);
+    return json::parse(support::read_file(out + "/report.json"))["one_sided_elements"]["elements"][0];
+  };
+  const json soft = buffer("800");
+  EXPECT_EQ(soft["name"], "buffer");
+  EXPECT_EQ(soft["unit"], "m");
+  EXPECT_NEAR(soft["deepest"].get<double>(), 0.05, 1e-5);
+  EXPECT_NEAR(soft["at_s"].get<double>(), 0.1 + std::acos(0.0) * 0.05, 1e-3);
+  EXPECT_NEAR(soft["share"].get<double>(), std::acos(-1.0) * 0.05, 1e-3);
+  EXPECT_NEAR(soft["stiffness_within_depth"].get<double>(), 800 * std::pow(0.05 / 0.008, 2), 20);
+  EXPECT_NEAR(soft["steps_within_depth"].get<double>(), 0.16, 1e-4);
+  const json hard = buffer("31250");
+  EXPECT_NEAR(hard["deepest"].get<double>(), 0.008, 1e-5);
+  EXPECT_FALSE(hard.contains("stiffness_within_depth"));
+}
+
+/// A quarter of a car that drives over a bump, its tyre off the road for a while: a run confirms the step.
+TEST(Report, RecommendsAStepForATyreOnABump) {
+  const support::TemporaryFolder folder;
+  const auto result =
+      jourdain({"report", model("quarter_car"), "--tolerance", "1e-3", "--duration", "1s", "--halvings", "6",
+                "--methods", "rk4,adams_bashforth3", "--reference", "cvode", "--no-forms", "--no-plots",
+                "--effort", "0.5", "-o", folder.path() + "/out"});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const json advice = json::parse(support::read_file(folder.path() + "/out/report.json"))["recommendation"];
+  EXPECT_TRUE(advice["confirmed"].get<bool>());
+  EXPECT_LE(advice["largest_error"]["position"].get<double>(), 1e-3);
+  EXPECT_NE(result.output.find("a run confirms it:"), std::string::npos) << result.output;
+}
+
 TEST(Report, KilledHalfWayLeavesNothing) {
   const support::TemporaryFolder folder, temporary;
   const std::string out = folder.path() + "/out";

@@ -9,8 +9,8 @@
 
 namespace jourdain::model {
 
-/// The plane n·(p − o) = 0, in the inertial frame; with `height` h the surface n·(p − o) = h(x, y, z, t) of those p that
-/// lie over the point (x, y, z) of the plane, which moves with ∂h/∂t along n.
+/// The plane n·(p − o) = 0, in the inertial frame; with `height` h the surface n·(p − o) = h(x, y, z, t) of those p
+/// that lie over the point (x, y, z) of the plane, which moves with ∂h/∂t along n.
 class Ground {
  public:
   /// A plane that touches the surface; expressions of what a point's coordinates are made of, in the inertial frame.
@@ -42,7 +42,7 @@ class Ground {
   Vector3 normal_at(const std::array<Expression, 2>& place) const;
 
   std::array<double, 3> n_;
-  Vector3 o_, a_, b_;  ///< a point of the plane, and directions along it
+  Vector3 o_, a_, b_;                             ///< a point of the plane, and directions along it
   Expression height_, slope_a_, slope_b_, rise_;  ///< h, ∂h/∂a, ∂h/∂b, ∂h/∂t
   int approaches_ = 4;
 };

@@ -137,17 +137,21 @@ class Members {
     auto& [name, joint, coordinate, gear_ratio, rotor_inertia, where, implied] = actuator;
     each(name, joint, coordinate, gear_ratio, rotor_inertia, where, implied);
   }
+  void one(Touch& touch) {
+    auto& [depth, stiffness, exponent] = touch;
+    each(depth, stiffness, exponent);
+  }
   void one(CoordinateForce& force) {
-    auto& [name, joint, coordinate, value, where] = force;
-    each(name, joint, coordinate, value, where);
+    auto& [name, joint, coordinate, value, touch, where] = force;
+    each(name, joint, coordinate, value, touch, where);
   }
   void one(Spring& spring) {
     auto& [name, from, to, stiffness, damping, free_length, law, potential, where] = spring;
     each(name, from, to, stiffness, damping, free_length, law, potential, where);
   }
   void one(Load& load) {
-    auto& [name, frame, axes, force, moment, where] = load;
-    each(name, frame, axes, force, moment, where);
+    auto& [name, frame, axes, force, moment, touch, where] = load;
+    each(name, frame, axes, force, moment, touch, where);
   }
   void one(Bushing& bushing) {
     auto& [name, from, to, stiffness, damping, torsional_stiffness, torsional_damping, where] = bushing;

@@ -61,7 +61,8 @@ class ContactReader {
     load.axes = LoadAxes::kWorld;
     load.where = table_.where("frame");
     const Vector3 p = frame_components(Variable::Kind::kFramePosition, *frame);
-    const Ground::Plane plane = ground.touched(p, [&radius](const Vector3& n) { return times(times(-1.0, radius), n); });
+    const Ground::Plane plane =
+        ground.touched(p, [&radius](const Vector3& n) { return times(times(-1.0, radius), n); });
     const Vector3& n = plane.normal;
     const Vector3 v = minus(frame_components(Variable::Kind::kFrameVelocity, *frame), plane.velocity);
     const Expression depth = plus(plane.behind, radius), out = dot(n, v);
@@ -94,6 +95,7 @@ class ContactReader {
           {times(drag, times(radius, along[0])), times(drag, times(radius, along[1])),
            times(drag, times(radius, along[2]))});
     }
+    load.touch = {settled(depth, mechanism_), stiffness, exponent};
     mechanism_.loads.push_back(load);
   }
 

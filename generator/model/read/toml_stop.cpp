@@ -34,6 +34,11 @@ void read_stop(TomlFile& file, const TomlTable& table, const std::string& name, 
   stop.coordinate = coordinate;
   if (has_lower) stop.force = force(minus(lower, at), Expression::unary(Expression::Op::kNegate, rate));
   if (has_upper) stop.force = minus(stop.force, force(minus(at, upper), rate));
+  const Expression below = minus(lower, at), above = minus(at, upper);
+  const Expression depth = !has_upper   ? below
+                           : !has_lower ? above
+                                        : Expression::function(support::Function::kMax, below, above);
+  stop.touch = {depth, stiffness, 1};
   mechanism.coordinate_forces.push_back(stop);
 }
 

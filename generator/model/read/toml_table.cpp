@@ -136,7 +136,7 @@ Expression TomlTable::number(std::string_view key, const Needed& needed, const E
 }
 
 Expression TomlTable::not_negative(std::string_view key, const Needed& needed) const {
-  const Expression value = number(key, needed);
+  Expression value = number(key, needed);
   if (file_.value(value) < 0) error(key, fmt::format("{} is negative", quoted(key)));
   return value;
 }

@@ -27,10 +27,15 @@ Expression negative(const Expression& a) { return Expression::unary(Expression::
 Expression root(const Expression& a) { return Expression::unary(Expression::Op::kSqrt, a); }
 Expression call(support::Function function, const Expression& a) { return Expression::function(function, a); }
 
+/// Wheels that lie as flat as this, rad, have no direction forward, and no force along it.
+constexpr double kFlat = 1e-9;
+
+/// Its length, but for wheels that lie flat.
+Expression length_of(const Vector3& across) { return root(plus(dot(across, across), kFlat * kFlat)); }
+
 /// The direction from a wheel's centre, axle a, down to a plane with the normal n.
 Vector3 down_to(const Vector3& n, const Vector3& a) {
-  const Vector3 across = cross(a, n);
-  return times(over(1.0, root(dot(across, across))), minus(times(dot(n, a), a), n));
+  return times(over(1.0, length_of(cross(a, n))), minus(times(dot(n, a), a), n));
 }
 
 /// With the axle a and the normal n, c = |a × n|: forward f = a × n/c, to the left l = n × f, down in the wheel's plane
@@ -42,8 +47,8 @@ Vector3 down_to(const Vector3& n, const Vector3& a) {
 /// with, by the Magic Formula, g = μ sin(C atan(B ρ − E (B ρ − atan(B ρ)))), and by a brush with a parabolic load,
 /// θ = K/(3 μ), g = 3 μ θρ (1 − θρ + (θρ)²/3), μ from θρ = 1 on. H. B. Pacejka, Tyre and Vehicle Dynamics, 2nd ed.
 /// 2006: chapters 3, 4, 7 (relaxation), of which these are the isotropic similarity and the single-contact-point forms.
-/// Where the ground has a height, the plane is the one that touches it where r q leads from the centre (see ground.hpp),
-/// and v is counted from the ground's.
+/// Where the ground has a height, the plane is the one that touches it where r q leads from the centre (see
+/// ground.hpp), and v is counted from the ground's.
 class TyreReader {
  public:
   TyreReader(TomlFile& file, const TomlTable& table, std::string name, Mechanism& mechanism)
@@ -77,7 +82,7 @@ class TyreReader {
     const Vector3& n = plane.normal;
     const Vector3 v = minus(frame_components(Variable::Kind::kFrameVelocity, *frame), plane.velocity);
     const Vector3 across = cross(a, n);
-    const Expression upright = root(dot(across, across)), height = negative(plane.behind);
+    const Expression upright = length_of(across), height = negative(plane.behind);
     const Vector3 forward = times(over(1.0, upright), across), left = cross(n, forward);
     const Vector3 down = down_to(n, a);
     const Expression depth = minus(times(radius, upright), height);
@@ -99,7 +104,8 @@ class TyreReader {
       own.nominal = over(relaxation, 10.0);
       force = plus(force, times(times(load, times(over(strength(i, total), total), slip[i])), along[i]));
     }
-    act(*frame, force, cross(times(over(height, upright), down), force));
+    act(*frame, force, cross(times(over(height, upright), down), force),
+        {settled(depth, mechanism_), stiffness, 1});
   }
 
  private:
@@ -132,8 +138,7 @@ class TyreReader {
   }
 
   /// Along and across; both are 1 after a diagnostic.
-  std::array<Expression, 2> pair(const char* key,
-                                 const std::optional<std::array<Expression, 2>>& otherwise) {
+  std::array<Expression, 2> pair(const char* key, const std::optional<std::array<Expression, 2>>& otherwise) {
     const std::array<Expression, 2> one = {1.0, 1.0};
     if (table_.has(key)) return table_.pair(key, needed::kPure).value_or(one);
     if (!otherwise) table_.missing(key, "two numbers, forward and sideways");
@@ -194,8 +199,9 @@ class TyreReader {
     return times(friction_, Expression::unary(Expression::Op::kSin, times(C_[i], arctangent(bent))));
   }
 
-  void act(FrameIndex frame, const Vector3& force, const Vector3& moment) {
+  void act(FrameIndex frame, const Vector3& force, const Vector3& moment, const Touch& touch) {
     Load load;
+    load.touch = touch;
     load.name = name_;
     load.frame = frame;
     load.axes = LoadAxes::kWorld;
