@@ -136,7 +136,7 @@ class Graph {
   using Guard = std::vector<std::pair<std::size_t, Op>>;
   /// A sum of values each of which is taken where its guard holds.
   using Parts = std::map<Guard, Signed>;
-  static constexpr std::size_t kMostParts = 16;
+  static constexpr std::size_t kMostParts = 4;
 
   /// Zero times what has no value would have none: where a factor is only taken where a sign says so, and the other
   /// need not exist, the other is taken there alone as well.

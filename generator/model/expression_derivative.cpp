@@ -49,8 +49,11 @@ Symbol rate_with_kinks(Function function, const Symbol& a, const Symbol& b, cons
       return chosen(b - a, db, da);
     case Function::kMax:
       return chosen(a - b, db, da);
-    default:  // choices: the condition has no part in the slope
+    case Function::kWhereNegative:
+    case Function::kWhereNotNegative:  // the condition has no part in the slope
       return value_of(function, a, db);
+    default:
+      throw support::InternalError("a function without kinks");
   }
 }
 
