@@ -113,8 +113,9 @@ TEST(Ground, ThatRisesEvenlyIsATiltedPlane) {
         for (std::size_t i = 0; i < 6; ++i) size = std::max(size, std::fabs(g[i]));
         for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(f[i], g[i], 1e-11 * (1 + size)) << i << slope.height;
         // Directions of bristles are chosen in the plane: without a deflection their rates are one vector.
-        if (states > 0 && !tyre)
+        if (states > 0 && !tyre) {
           EXPECT_NEAR(std::hypot(f[6], f[7]), std::hypot(g[6], g[7]), 1e-12 * (1 + std::hypot(g[6], g[7])));
+        }
         for (std::size_t i = 6; tyre && i < 8; ++i) EXPECT_NEAR(f[i], g[i], 1e-12 * (1 + std::fabs(g[i])));
         touching += size > 0;
         ++compared;
@@ -205,7 +206,7 @@ TEST(Ground, ABallRollsInABowlAsAPendulumOfSevenFifthsSwings) {
     for (int n = 0; crossings.size() < 5 && n < 100000; ++n) {
       const double before = state.y[0];
       rk4_step(model, state, {}, h);
-      if (before > 0 != state.y[0] > 0) crossings.push_back(h * (n + before / (before - state.y[0])));
+      if ((before > 0) != (state.y[0] > 0)) crossings.push_back(h * (n + before / (before - state.y[0])));
     }
     ASSERT_EQ(crossings.size(), 5u);
     double a = 1, b = std::cos(angle / 2);
