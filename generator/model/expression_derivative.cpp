@@ -19,7 +19,9 @@ struct Symbol {
   NodeList* list;
   std::size_t node;
 
-  Symbol with(Op op, const Symbol& b) const { return {list, list->add({.op = op, .left = node, .right = b.node})}; }
+  Symbol with(Op op, const Symbol& b) const {
+    return {list, list->add({.op = op, .left = node, .right = b.node})};
+  }
   Symbol number(double value) const { return {list, list->add({.op = Op::kLiteral, .value = value})}; }
 
   friend Symbol operator-(const Symbol& a) { return a.with(Op::kNegate, a); }
@@ -39,7 +41,8 @@ Symbol chosen(const Symbol& sign, const Symbol& negative, const Symbol& other) {
          value_of(Function::kWhereNotNegative, sign, other);
 }
 
-Symbol rate_with_kinks(Function function, const Symbol& a, const Symbol& b, const Symbol& da, const Symbol& db) {
+Symbol rate_with_kinks(Function function, const Symbol& a, const Symbol& b, const Symbol& da,
+                       const Symbol& db) {
   switch (function) {
     case Function::kAbs:
       return chosen(a, -da, da);
@@ -57,8 +60,8 @@ Symbol rate_with_kinks(Function function, const Symbol& a, const Symbol& b, cons
   }
 }
 
-Symbol rate_of_function(Function function, const Symbol& a, const Symbol& b, const Symbol& da, const Symbol& db,
-                      bool of_a_alone) {
+Symbol rate_of_function(Function function, const Symbol& a, const Symbol& b, const Symbol& da,
+                        const Symbol& db, bool of_a_alone) {
   const support::FunctionFacts& facts = support::facts_of(function);
   if (facts.has_kinks) return rate_with_kinks(function, a, b, da, db);
   const Symbol one = a.number(1);
@@ -104,7 +107,8 @@ Expression derivative(const Expression& expression, const std::function<Expressi
           slope = (da - value * db) / b;
           break;
         case Op::kPower: {
-          const Symbol less{&list, list.add({.op = Op::kPower, .exponent = node.exponent - 1, .left = a.node})};
+          const Symbol less{&list,
+                            list.add({.op = Op::kPower, .exponent = node.exponent - 1, .left = a.node})};
           slope = a.number(node.exponent) * less * da;
           break;
         }

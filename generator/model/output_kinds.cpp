@@ -10,11 +10,11 @@ using Clock = OutputClock;
 using Subject = OutputSubject;
 
 constexpr OutputMemberKind kPoseMembers[] = {{"position", MemberShape::kVector, "m"},
-                                      {"rotation", MemberShape::kRotation, "1"}};
+                                             {"rotation", MemberShape::kRotation, "1"}};
 constexpr OutputMemberKind kVelocityMembers[] = {{"v", MemberShape::kVector, "m/s"},
-                                          {"omega", MemberShape::kVector, "rad/s"}};
+                                                 {"omega", MemberShape::kVector, "rad/s"}};
 constexpr OutputMemberKind kAccelerationMembers[] = {{"a", MemberShape::kVector, "m/s^2"},
-                                              {"omega_dot", MemberShape::kVector, "rad/s^2"}};
+                                                     {"omega_dot", MemberShape::kVector, "rad/s^2"}};
 constexpr OutputMemberKind kJacobianMembers[] = {
     {"J_t", MemberShape::kPerVelocity},       {"J_r", MemberShape::kPerVelocity},
     {"v_bar", MemberShape::kVector, "m/s"},   {"omega_bar", MemberShape::kVector, "rad/s"},

@@ -64,7 +64,9 @@ TEST(ExpressionDerivative, OfEachFunctionIsThatOfNumbersThatCarryIt) {
       const std::vector<Taylor<double>> parameters = {{kParameters[0]}};
       const auto number = function.evaluate<Taylor<double>>(
           parameters, [](double v) { return Taylor<double>{v}; },
-          [&](const Variable& v) { return v == kX ? Taylor<double>{x, 1, 0} : Taylor<double>{0.3}; });
+          [&](const Variable& v) {
+            return v == kX ? Taylor<double>{x, 1, 0} : Taylor<double>{0.3};
+          });
       EXPECT_NEAR(value(slope, x, 0.3), number.first, 1e-13 * (1 + std::fabs(number.first))) << text << x;
     }
   }

@@ -32,8 +32,7 @@ Expression with_arguments(const Expression& function, std::span<const Expression
 }
 
 Expression reciprocal_root(const Expression& square) {
-  return Expression::binary(Expression::Op::kDivide, 1.0,
-                            Expression::unary(Expression::Op::kSqrt, square));
+  return Expression::binary(Expression::Op::kDivide, 1.0, Expression::unary(Expression::Op::kSqrt, square));
 }
 
 Vector3 constant(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
@@ -95,8 +94,8 @@ Ground::Plane Ground::touched(const Vector3& centre, const Reach& reach) const {
   const Vector3 normal = normal_at(place);
   // From the centre to the surface's point, along a, b, n.
   const Expression down = minus(at(height_, place), dot(n, minus(centre, o_)));
-  const Expression behind =
-      plus(times(down, dot(normal, n)), plus(times(step[0], dot(normal, a_)), times(step[1], dot(normal, b_))));
+  const Expression behind = plus(times(down, dot(normal, n)),
+                                 plus(times(step[0], dot(normal, a_)), times(step[1], dot(normal, b_))));
   return {normal, behind, times(at(rise_, place), n)};
 }
 
