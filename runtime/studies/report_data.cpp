@@ -185,6 +185,28 @@ Json stability_json(const jourdain_model_table& table, const Study& study) {
       {"remarks", stability_remarks(table, study)}};
 }
 
+Json touches_json(const jourdain_model_table& table, const Study& study) {
+  if (!study.touches) return nullptr;
+  Json elements = Json::array();
+  for (std::size_t i = 0; i < study.touches->runs.size(); ++i) {
+    const TouchFacts& element = study.options.touches[i];
+    const TouchRun& run = study.touches->runs[i];
+    Json json = {{"name", element.name},        {"unit", element.unit},
+                 {"deepest", run.deepest},      {"at_s", run.at},
+                 {"share", run.share},          {"stiffness", element.stiffness},
+                 {"exponent", element.exponent}};
+    if (study.options.penetration && run.deepest > *study.options.penetration) {
+      const Stiffening needed = stiffening(element, run.deepest, *study.options.penetration);
+      json["stiffness_within_depth"] = needed.stiffness;
+      json["steps_within_depth"] = needed.step_share;
+    }
+    elements.push_back(std::move(json));
+  }
+  return {{"method", table.methods[study.touches->method].name},
+          {"h_s", study.touches->h},
+          {"elements", elements}};
+}
+
 Json loops_json(const ReportHead& head, const jourdain_model_table& table, const Study& study) {
   Json runs = Json::array();
   for (const LoopRun& run : study.loops)
@@ -267,28 +289,6 @@ std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain
   if (!study.alternatives.rows.empty()) files.push_back({"alternatives.csv", alternatives_csv(study)});
   if (!study.loops.empty()) files.push_back({"loops.csv", loops_csv(head, table, study)});
   return files;
-}
-
-Json touches_json(const jourdain_model_table& table, const Study& study) {
-  if (!study.touches) return nullptr;
-  Json elements = Json::array();
-  for (std::size_t i = 0; i < study.touches->runs.size(); ++i) {
-    const TouchFacts& element = study.options.touches[i];
-    const TouchRun& run = study.touches->runs[i];
-    Json json = {{"name", element.name},        {"unit", element.unit},
-                 {"deepest", run.deepest},      {"at_s", run.at},
-                 {"share", run.share},          {"stiffness", element.stiffness},
-                 {"exponent", element.exponent}};
-    if (study.options.penetration && run.deepest > *study.options.penetration) {
-      const Stiffening needed = stiffening(element, run.deepest, *study.options.penetration);
-      json["stiffness_within_depth"] = needed.stiffness;
-      json["steps_within_depth"] = needed.step_share;
-    }
-    elements.push_back(std::move(json));
-  }
-  return {{"method", table.methods[study.touches->method].name},
-          {"h_s", study.touches->h},
-          {"elements", elements}};
 }
 
 std::string report_json(const ReportHead& head, const jourdain_model_table& table, const Study& study) {

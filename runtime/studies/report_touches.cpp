@@ -32,17 +32,15 @@ std::vector<std::vector<std::string>> touches_rows(const Study& study) {
 std::vector<std::string> touches_remarks(const jourdain_model_table& table, const Study& study) {
   std::vector<std::string> list = {fmt::format(
       "depths at the ends of steps of {}, h = {}, the most accurate run (position error {:.1e}); touches: "
-      "share "
-      "of its steps that end so",
+      "share of its steps that end so",
       table.methods[study.touches->method].name, time_text(study.touches->h), study.touches->error.position)};
   if (study.options.penetration)
     list.push_back(fmt::format(
         "estimated, to stay within a depth of {:g} with a fifth of it in reserve: the depth of an impact "
-        "falls with stiffness^(-1/(e + 1)) for a "
-        "force k d^e, that of what rests with stiffness^(-1/e), so that less does for it; what touches then "
-        "lasts "
-        "that much shorter, and steps have to be shorter alike. Run the report again with that stiffness: it "
-        "measures",
+        "falls with stiffness^(-1/(e + 1)) for a force k d^e, that of what rests with stiffness^(-1/e), so "
+        "that less does for it; what touches then "
+        "lasts that much shorter, and steps have to be shorter alike. Run the report again with that "
+        "stiffness: it measures",
         *study.options.penetration));
   return list;
 }

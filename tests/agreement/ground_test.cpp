@@ -75,18 +75,20 @@ std::vector<double> forces(const Derived& derived, const Sample& sample) {
 /// The same ground, as a height and as a tilted plane through one of its points; the plane's normal.
 struct Slope {
   std::string height, plane;
-  Vector3 normal;
+  Vector3 normal, point;  ///< of the plane
 };
 
 const std::vector<Slope> kSlopes = {
     {"point = [0, 0, 0.1]\nheight = \"rise*x\"\n", "point = [0, 0, 0.1]\nnormal = [-0.75, 0, 1]\n",
-     Vector3(-0.6, 0, 0.8)},
+     Vector3(-0.6, 0, 0.8), Vector3(0, 0, 0.1)},
     {"point = [3, 4, 0.1]\nheight = \"rise*x + 0.2*y + 0.02\"\n",
-     "point = [0, 0, 0.12]\nnormal = [-0.75, -0.2, 1]\n", Vector3(-0.75, -0.2, 1).normalized()},
+     "point = [0, 0, 0.12]\nnormal = [-0.75, -0.2, 1]\n", Vector3(-0.75, -0.2, 1).normalized(),
+     Vector3(0, 0, 0.12)},
     {"point = [0, 0, 0.1]\nnormal = [0.6, 0, 0.8]\nheight = \"0.3*y\"\n",
-     "point = [0, 0, 0.1]\nnormal = [0.6, -0.3, 0.8]\n", Vector3(0.6, -0.3, 0.8).normalized()},
+     "point = [0, 0, 0.1]\nnormal = [0.6, -0.3, 0.8]\n", Vector3(0.6, -0.3, 0.8).normalized(),
+     Vector3(0, 0, 0.1)},
     {"normal = [0, 1, 0]\nheight = \"0.1 - 0.5*x\"\n", "point = [0, 0.1, 0]\nnormal = [0.5, 1, 0]\n",
-     Vector3(0.5, 1, 0).normalized()}};
+     Vector3(0.5, 1, 0).normalized(), Vector3(0, 0.1, 0)}};
 
 TEST(Ground, ThatRisesEvenlyIsATiltedPlane) {
   Random random(5);
@@ -97,13 +99,10 @@ TEST(Ground, ThatRisesEvenlyIsATiltedPlane) {
          {std::tuple(kPoint, 0.0, 0), std::tuple(kBall, 0.31, 0), std::tuple(kBristles, 0.31, 2),
           std::tuple(kTyre, 0.31, 2)}) {
       const Derived level = scene(element, slope.height), tilted = scene(element, slope.plane);
-      const Vector3 on = slope.height.find("normal = [0, 1") == 0         ? Vector3(0, 0.1, 0)
-                         : slope.height.find("0.02") != std::string::npos ? Vector3(0, 0, 0.12)
-                                                                          : Vector3(0, 0, 0.1);
       for (int k = 0; k < 8; ++k) {
         const Vector3 side(number(1), number(1), number(1));
-        const Vector3 place =
-            on + side - side.dot(slope.normal) * slope.normal + (radius - 0.01 + number(0.02)) * slope.normal;
+        const Vector3 place = slope.point + side - side.dot(slope.normal) * slope.normal +
+                              (radius - 0.01 + number(0.02)) * slope.normal;
         const Vector3 velocity(number(2), number(2), number(2)), spin(number(3), number(3), number(3));
         Sample sample = at(place, velocity, spin, states);
         const bool tyre = element == kTyre;

@@ -71,12 +71,8 @@ void Ground::read_approaches(const TomlTable& table) {
   approaches_ = static_cast<int>(number);
 }
 
-Expression Ground::at(const Expression& function, const std::array<Expression, 2>& place) const {
-  return with_arguments(function, place);
-}
-
 Vector3 Ground::normal_at(const std::array<Expression, 2>& place) const {
-  const Expression a = at(slope_a_, place), b = at(slope_b_, place);
+  const Expression a = with_arguments(slope_a_, place), b = with_arguments(slope_b_, place);
   const Expression length = reciprocal_root(plus(1.0, plus(times(a, a), times(b, b))));
   return times(length, minus(minus(constant(n_), times(a, a_)), times(b, b_)));
 }
@@ -93,10 +89,10 @@ Ground::Plane Ground::touched(const Vector3& centre, const Reach& reach) const {
   }
   const Vector3 normal = normal_at(place);
   // From the centre to the surface's point, along a, b, n.
-  const Expression down = minus(at(height_, place), dot(n, minus(centre, o_)));
+  const Expression down = minus(with_arguments(height_, place), dot(n, minus(centre, o_)));
   const Expression behind = plus(times(down, dot(normal, n)),
                                  plus(times(step[0], dot(normal, a_)), times(step[1], dot(normal, b_))));
-  return {normal, behind, times(at(rise_, place), n)};
+  return {normal, behind, times(with_arguments(rise_, place), n)};
 }
 
 std::array<Vector3, 2> Ground::along(const Plane& plane) const {

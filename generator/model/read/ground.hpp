@@ -37,12 +37,11 @@ class Ground {
 
  private:
   void read_approaches(const TomlTable& table);
-  /// A function of the two coordinates along the plane, at some.
-  Expression at(const Expression& function, const std::array<Expression, 2>& place) const;
   Vector3 normal_at(const std::array<Expression, 2>& place) const;
 
   std::array<double, 3> n_;
-  Vector3 o_, a_, b_;                             ///< a point of the plane, and directions along it
+  Vector3 o_, a_, b_;  ///< a point of the plane, and directions along it
+  // Of the two coordinates along the plane:
   Expression height_, slope_a_, slope_b_, rise_;  ///< h, ∂h/∂a, ∂h/∂b, ∂h/∂t
   int approaches_ = 4;
 };
