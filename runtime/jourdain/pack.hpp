@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Several numbers side by side for emitted code, in vectors of GCC and Clang: include NAME_kernels.hpp and use
+// NAME::Model<jourdain::Pack<double, 4>>; best with what `jourdain compile --packs` writes, which takes sine and cosine
+// of an angle at once.
+//
+// Each lane has the bits that double, or float, has under the same options, where sums and products are not fused
+// (-ffp-contract=off) and but for: sines of floats, which are those of double rounded, less than 0.51 ulp off; angles
+// that close loops, which are the C library's. Functions other than + - * /, roots, sines, absolute values and
+// comparisons are called lane by lane.
+#pragma once
+
+#if !defined(__GNUC__)
+#error "jourdain/pack.hpp needs vectors as GCC and Clang have them"
+#endif
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace jourdain {
+
+/// Lanes that the vectors of the machine hold that is compiled for: 64 bytes with AVX-512, 32 with AVX, else 16.
+template <class Real>
+inline constexpr std::size_t natural_lanes =
+#if defined(__AVX512F__)
+    64
+#elif defined(__AVX__)
+    32
+#else
+    16
+#endif
+    / sizeof(Real);
+
+namespace detail {
+
+template <class T, std::size_t count>
+struct VectorOf {
+  typedef T Type __attribute__((vector_size(count * sizeof(T))));
+};
+
+}  // namespace detail
+
+/// `lanes` numbers, double or float; a power of two from 2 on.
+template <class Real, std::size_t lanes>
+struct Pack {
+  static_assert(std::is_same_v<Real, double> || std::is_same_v<Real, float>, "of double or float");
+  static_assert(lanes >= 2 && (lanes & (lanes - 1)) == 0, "a power of two");
+  using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
+  static constexpr std::size_t size = lanes;
+  using Vector = typename detail::VectorOf<Real, lanes>::Type;
+  using BitVector = typename detail::VectorOf<Bits, lanes>::Type;
+  /// All bits of a lane where something holds, none where not.
+  struct Mask {
+    BitVector bits;
+  };
+
+  Vector values;
+
+  Pack() noexcept : values{} {}
+  explicit Pack(double x) noexcept : values(Vector{} + static_cast<Real>(x)) {
+    // x + 0 would lose the sign of a negative zero.
+    if (x == 0) values = std::signbit(x) ? -Vector{} : Vector{};
+  }
+
+  Real operator[](std::size_t lane) const noexcept { return values[lane]; }
+  void set(std::size_t lane, Real x) noexcept { values[lane] = x; }
+
+  friend Pack operator+(const Pack& a, const Pack& b) noexcept { return of(a.values + b.values); }
+  friend Pack operator-(const Pack& a, const Pack& b) noexcept { return of(a.values - b.values); }
+  friend Pack operator*(const Pack& a, const Pack& b) noexcept { return of(a.values * b.values); }
+  friend Pack operator/(const Pack& a, const Pack& b) noexcept { return of(a.values / b.values); }
+  friend Pack operator-(const Pack& a) noexcept { return of(-a.values); }
+
+  friend Mask operator<(const Pack& a, const Pack& b) noexcept { return {(BitVector)(a.values < b.values)}; }
+  friend Pack select(const Mask& mask, const Pack& a, const Pack& b) noexcept {
+    return of((Vector)(((BitVector)a.values & mask.bits) | ((BitVector)b.values & ~mask.bits)));
+  }
+  friend Pack fabs(const Pack& a) noexcept {
+    const Bits one = 1;
+    return of((Vector)((BitVector)a.values & ~(BitVector{} + (one << (8 * sizeof(Real) - 1)))));
+  }
+
+  /// f of each lane.
+  template <class F>
+  friend Pack each(const Pack& a, const F& f) noexcept {
+    Pack result;
+    for (std::size_t k = 0; k < lanes; ++k) result.values[k] = f(a.values[k]);
+    return result;
+  }
+  template <class F>
+  friend Pack each(const Pack& a, const Pack& b, const F& f) noexcept {
+    Pack result;
+    for (std::size_t k = 0; k < lanes; ++k) result.values[k] = f(a.values[k], b.values[k]);
+    return result;
+  }
+
+  friend Pack sqrt(const Pack& a) noexcept {
+    return each(a, [](Real x) { return std::sqrt(x); });
+  }
+  friend Pack floor(const Pack& a) noexcept {
+    return each(a, [](Real x) { return std::floor(x); });
+  }
+  friend Pack exp(const Pack& a) noexcept {
+    return each(a, [](Real x) { return std::exp(x); });
+  }
+  friend Pack log(const Pack& a) noexcept {
+    return each(a, [](Real x) { return std::log(x); });
+  }
+  friend Pack sinh(const Pack& a) noexcept {
+    return each(a, [](Real x) { return std::sinh(x); });
+  }
+  friend Pack cosh(const Pack& a) noexcept {
+    return each(a, [](Real x) { return std::cosh(x); });
+  }
+  friend Pack tanh(const Pack& a) noexcept {
+    return each(a, [](Real x) { return std::tanh(x); });
+  }
+  friend Pack atan(const Pack& a) noexcept {
+    return each(a, [](Real x) { return std::atan(x); });
+  }
+  friend Pack pow(const Pack& a, const Pack& b) noexcept {
+    return each(a, b, [](Real x, Real p) { return std::pow(x, p); });
+  }
+  friend Pack atan2(const Pack& a, const Pack& b) noexcept {
+    return each(a, b, [](Real y, Real x) { return std::atan2(y, x); });
+  }
+
+  friend void sine_cosine(const Pack& x, Pack& s, Pack& c) noexcept {
+    if constexpr (sizeof(Real) == 8) {
+      sines_of_doubles<lanes>(x.values, s.values, c.values);
+    } else {
+      using Doubles = typename detail::VectorOf<double, lanes>::Type;
+      Doubles sines, cosines;
+      sines_of_doubles<lanes>(__builtin_convertvector(x.values, Doubles), sines, cosines);
+      s.values = __builtin_convertvector(sines, Vector);
+      c.values = __builtin_convertvector(cosines, Vector);
+    }
+  }
+  friend Pack sin(const Pack& x) noexcept {
+    Pack s, c;
+    sine_cosine(x, s, c);
+    return s;
+  }
+  friend Pack cos(const Pack& x) noexcept {
+    Pack s, c;
+    sine_cosine(x, s, c);
+    return c;
+  }
+
+ private:
+  static Pack of(const Vector& values) noexcept {
+    Pack result;
+    result.values = values;
+    return result;
+  }
+  template <std::size_t count, class V>
+  static void sines_of_doubles(const V& x, V& s, V& c) noexcept;
+};
+
+/// Up to 2^30 as the emitted functions for double do it (see there for its sources); beyond, and for what is no number,
+/// by the C library.
+template <class Real, std::size_t lanes>
+template <std::size_t count, class V>
+__attribute__((always_inline)) inline void Pack<Real, lanes>::sines_of_doubles(const V& x, V& s,
+                                                                               V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  using I = typename detail::VectorOf<std::uint64_t, count>::Type;
+  const std::uint64_t one = 1, zero = 0;
+  const I bits = (I)x, sign = bits & (one << 63);
+  const V a = (V)(bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+  const I n = (I)shifted;
+  const V k = shifted - 6755399441055744.0;
+  const V r = (a - k * 1.570796251296997) - k * 7.549789415861596e-08;
+  const V p = k * 5.39030083589187e-15, q = k * 2.0222659584103533e-21;
+  const V g = r - p, h = g - q;
+  const V l = (((g - h) - q) + ((r - g) - p)) - k * 2.9038559739793605e-28;
+  const V z = h * h, y = z * z, half = z * 0.5, w = 1.0 - half;
+  const V odd = (-0.1666666666666663 + z * 0.008333333333321915) +
+                y * ((-0.00019841269829453883 + z * 2.7557313580182605e-06) +
+                     y * (-2.505074193536228e-08 + z * 1.589591844424868e-10));
+  const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
+                 y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
+                      y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
+  const I sine_bits = (I)(h + (h * z * odd + l * w));
+  const I cosine_bits = (I)(w + (((1.0 - w) - half) + (y * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = (V)(sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = (V)(cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+  const I in_range = (I)(a <= 1073741824.0);
+  std::uint64_t all = ~zero;
+  for (std::size_t i = 0; i < count; ++i) all &= in_range[i];
+  if (__builtin_expect(all == 0, 0))
+    for (std::size_t i = 0; i < count; ++i)
+      if (in_range[i] == 0) {
+        s[i] = std::sin(x[i]);
+        c[i] = std::cos(x[i]);
+      }
+}
+
+}  // namespace jourdain
