@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random numbers by index: a draw is a function of a seed, a stream (a state of an ensemble, say) and a number in it, so
-// that it is the same in whatever order, by however many threads, and on however many machines the draws are made.
+// Random numbers by index: a draw is a function of a seed, a stream (a state of an ensemble, say) and a number in it,
+// the same in whatever order, by however many threads, and on however many machines the draws are made.
 #pragma once
 
 #include <cmath>
@@ -27,8 +27,8 @@ inline double uniform(std::uint64_t seed, std::uint64_t stream, std::uint64_t nu
   return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
 }
 
-/// Normal, of mean zero and deviation one (Box and Muller, Ann. Math. Stat. 29, 1958), from the uniform draws 2 number and
-/// 2 number + 1; the C library's logarithm and cosine.
+/// Normal, of mean zero and deviation one (Box and Muller, Ann. Math. Stat. 29, 1958), from the uniform draws 2 number
+/// and 2 number + 1 by the C library's logarithm and cosine.
 inline double normal(std::uint64_t seed, std::uint64_t stream, std::uint64_t number) noexcept {
   return std::sqrt(-2 * std::log(uniform(seed, stream, 2 * number))) *
          std::cos(6.283185307179586 * uniform(seed, stream, 2 * number + 1));

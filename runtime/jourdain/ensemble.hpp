@@ -98,8 +98,8 @@ class Ensemble {
   }
 
   /// `steps` steps of length h (s). Before each of a block `before(block, step)` may set the block's inputs by its
-  /// state. Blocks are shared evenly among the threads (0: as many as the machine runs at once), which call `before` and
-  /// `stepper` at the same time for different ones. A stepper is called with model, state, input and h, and where it
+  /// state. Blocks are shared evenly among the threads (0: as many as the machine runs at once), which call `before`
+  /// and `stepper` at the same time for different ones. A stepper is called with model, state, input and h, and where it
   /// takes that, the block's index, for what methods remember from step to step.
   template <class Stepper, class Before>
   void run(const Stepper& stepper, Real h, std::size_t steps, std::size_t threads, const Before& before) {
@@ -121,7 +121,7 @@ class Ensemble {
     run(stepper, h, steps, threads, [](const Block&, std::size_t) {});
   }
 
-  /// Whether all of state k was finite after every step since it was set, and its loops closed, as the model judges that
+  /// Whether all of state k was finite after every step since it was set, and its loops closed, as the model judges
   /// (loops_closed), with parameters for which that is proven (loops_proven).
   bool trusted(std::size_t k) const { return !failed_[k] && is_proven<Model>(parameters(k), 0); }
   std::size_t untrusted_count() const {
