@@ -20,6 +20,8 @@ namespace jourdain::commands {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// "y[2]", "y[0..6]", or "prescribed" where the joint has no entry.
 std::string entries_text(const model::JointEntries& entries) {
   if (entries.position_count == 0) return "prescribed";
@@ -111,7 +113,6 @@ std::string info_text(const LoadedMechanism& loaded, const CompiledModel& compil
 
 /// The facts, and what the emitted NAME.json says of functions and loops.
 std::string info_json(const LoadedMechanism& loaded, const CompiledModel& compiled) {
-  using Json = nlohmann::ordered_json;
   Json info = model_facts(loaded, compiled);
   const Json manifest = Json::parse(compiled.files.back().text);
   for (const auto& [key, value] : manifest.items())

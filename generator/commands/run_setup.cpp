@@ -67,20 +67,6 @@ bool apply_settings(const std::vector<std::string>& settings, const model::Mecha
   return true;
 }
 
-/// False after diagnostics where the mechanism fails the checks of its description at the parameters' values.
-bool is_sound_at(const RunModel& model, const std::string& path) {
-  model::Mechanism mechanism = model.loaded.mechanism;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    mechanism.parameters[i].value = model.parameters[i];
-  support::Diagnostics diagnostics(path, support::read_file(path));
-  model::check_mechanism(mechanism, diagnostics, support::Severity::kError);
-  if (!diagnostics.has_errors()) check_inertia(mechanism, diagnostics);
-  if (!diagnostics.has_errors()) check_start(mechanism, diagnostics);
-  if (!diagnostics.has_errors()) return true;
-  fmt::print(stderr, "{}error: --set leads to this\n", diagnostics.format());
-  return false;
-}
-
 std::optional<RunInputs> read_scenario_file(const std::string& path, const RunModel& model,
                                             const jourdain_model_table& table,
                                             const jourdain_model_table* long_table) {
@@ -122,6 +108,19 @@ void RunArguments::add_to(CLI::App& command) {
   command.add_flag("--no-lanes", no_lanes, kNoLanesHelp);
 }
 
+bool is_sound_at(const RunModel& model, const std::string& path, const std::string& cause) {
+  model::Mechanism mechanism = model.loaded.mechanism;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    mechanism.parameters[i].value = model.parameters[i];
+  support::Diagnostics diagnostics(path, support::read_file(path));
+  model::check_mechanism(mechanism, diagnostics, support::Severity::kError);
+  if (!diagnostics.has_errors()) check_inertia(mechanism, diagnostics);
+  if (!diagnostics.has_errors()) check_start(mechanism, diagnostics);
+  if (!diagnostics.has_errors()) return true;
+  fmt::print(stderr, "{}error: {}\n", diagnostics.format(), cause);
+  return false;
+}
+
 std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   status = kModelWrong;
@@ -136,7 +135,8 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
       fmt::print(stderr, "error: --set: {}\n", *failure);
       return {};
     }
-  if (!arguments.settings.empty() && !is_sound_at(model, arguments.model.path)) return {};
+  if (!arguments.settings.empty() && !is_sound_at(model, arguments.model.path, "--set leads to this"))
+    return {};
   const std::size_t inputs = model::lay_out_coordinates(model.loaded.mechanism).input_count();
   if (!arguments.constant_input.empty() && arguments.constant_input.size() != inputs) {
     fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",

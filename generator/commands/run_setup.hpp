@@ -33,6 +33,10 @@ struct RunModel {
 /// Reads the model and the settings. On a mistake of the user prints it and leaves the exit status in `status`.
 std::optional<RunModel> read_run(const RunArguments& arguments, int& status);
 
+/// False after diagnostics, and `cause`, where the mechanism fails the checks of its description at the parameters'
+/// values.
+bool is_sound_at(const RunModel& model, const std::string& path, const std::string& cause);
+
 /// Inputs of a run and the state that it starts from (empty: the description's).
 struct RunInputs {
   std::unique_ptr<studies::Inputs> inputs;

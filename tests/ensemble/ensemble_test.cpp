@@ -114,7 +114,7 @@ TEST(Ensembles, DependOnNeitherThreadsNorNeighbours) {
   }
   Many reversed(kCount);
   for (std::size_t k = 0; k < kCount; ++k) {
-    reversed.set_state(k, start<Many>({}, kCount - 1 - k));
+    reversed.set_state(k, start<Many>(Many::Model(), kCount - 1 - k));
     reversed.set_input(k, input<Many>(kCount - 1 - k));
   }
   reversed.run(rk4, kStep, 30);

@@ -1,0 +1,142 @@
+#include "commands/ensemble_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "commands/build_model.hpp"
+#include "commands/tool.hpp"
+#include "emit/templates.hpp"
+#include "support/check.hpp"
+#include "support/files.hpp"
+
+namespace jourdain::commands {
+
+namespace {
+
+std::string real_of(double value) { return fmt::format("Real({})", fmt::format("{:#}", value)); }
+
+/// "start.drawn[0] = normal_about(1, 0.05, seed, k, 0);", and what takes it.
+std::string drawing(const Spread& spread, std::size_t number, const std::string& base,
+                    const std::string& target) {
+  return fmt::format(
+      "  start.drawn[{0}] = {1}_about({2}, {3:#}, seed, k, {0});\n  {4} = Real(start.drawn[{0}]);\n", number,
+      spread.is_normal ? "normal" : "uniform", base, spread.width, target);
+}
+
+struct Drawing {
+  std::string parameters, state;  ///< before and after there is a start
+};
+
+Drawing drawing_of(const RunModel& model, const CompiledModel& compiled, const std::vector<Spread>& spreads,
+                   const std::vector<double>& inputs) {
+  Drawing text;
+  const programs::SceneFacts& facts = compiled.facts;
+  for (std::size_t i = 0; i < facts.parameters.size(); ++i)
+    text.parameters +=
+        fmt::format("  start.parameters.{} = {};\n", facts.parameters[i].name, real_of(model.parameters[i]));
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    text.state += fmt::format("  start.input.u[{}] = {};\n", i, real_of(inputs[i]));
+  for (std::size_t i = 0; i < spreads.size(); ++i) {
+    const Spread& spread = spreads[i];
+    const std::string base = fmt::format("{:#}", spread.base);
+    const auto about_start = [&](const char* array) {
+      const std::string entry = fmt::format("start.state.{}[{}]", array, spread.entry);
+      text.state += drawing(spread, i, fmt::format("static_cast<double>({})", entry), entry);
+    };
+    switch (spread.of) {
+      case Spread::Of::kParameter:
+        text.parameters +=
+            drawing(spread, i, base, fmt::format("start.parameters.{}", facts.parameters[spread.entry].name));
+        break;
+      case Spread::Of::kInput:
+        text.state += drawing(spread, i, base, fmt::format("start.input.u[{}]", spread.entry));
+        break;
+      case Spread::Of::kPosition:
+        about_start("y");
+        break;
+      case Spread::Of::kVelocity:
+        about_start("z");
+        break;
+    }
+  }
+  if (const char* correction = programs::correction(facts); *correction)
+    text.state += fmt::format("  ::{}::{}(model, start.state);\n", model.loaded.options.name, correction);
+  return text;
+}
+
+/// What writes the end of a state, and how many numbers that are.
+std::string writing(const std::string& name, const programs::SceneFacts& facts, std::size_t& numbers) {
+  std::string text;
+  const auto array = [&](const char* member, std::size_t count) {
+    numbers += count;
+    if (count > 0) text += fmt::format("    if (!write(state.{}, {}, file)) return false;\n", member, count);
+  };
+  array("y", facts.positions.size());
+  array("z", facts.velocities.size());
+  if (const std::size_t count = facts.output_numbers(); count > 0) {
+    numbers += count;
+    text += fmt::format(
+        "    Many::Model::Outputs outputs;  // numbers only, one after the other\n"
+        "    ::{}::outputs(Many::Model(start.parameters), state, start.input, outputs);\n"
+        "    if (!write(reinterpret_cast<const Real*>(&outputs), output_count, file)) return false;\n",
+        name);
+  }
+  return text;
+}
+
+}  // namespace
+
+EnsembleProgram::EnsembleProgram(const RunModel& model, const CompiledModel& compiled,
+                                 const std::vector<Spread>& spreads, const EnsembleChoices& choices)
+    : choices_(choices), drawn_(spreads.size()), numbers_(spreads.size() + 1) {
+  const std::string& name = model.loaded.options.name;
+  const Drawing drawing = drawing_of(model, compiled, spreads, choices.inputs);
+  const std::string write = writing(name, compiled.facts, numbers_);
+  const bool own = !model.parameters.empty();
+  for (const emit::File& file : compiled.files)
+    support::write_file(folder_.path() + "/" + file.name, file.text);
+  for (const char* header : {"ensemble.hpp", "pack.hpp", "draws.hpp"})
+    support::write_file(folder_.path() + "/" + header, emit::template_text(header));
+  support::write_file(folder_.path() + "/main.cpp",
+                      emit::fill(emit::template_text("ensemble.cpp.in"),
+                                 {{"NAME", name},
+                                  {"REAL", choices.real},
+                                  {"METHOD", choices.method},
+                                  {"DRAWN_COUNT", fmt::format("{}", spreads.size())},
+                                  {"OUTPUT_COUNT", fmt::format("{}", compiled.facts.output_numbers())},
+                                  {"PARAMETERS", drawing.parameters},
+                                  {"STATE", drawing.state},
+                                  {"OWN_PARAMETERS",
+                                   own ? "    ensemble.set_parameters(k - begin, start.parameters);\n" : ""},
+                                  {"WRITE", write}}));
+  std::vector<std::string> command = machine_compiler();
+  for (const char* word : {"-std=c++17", "-O2", "-march=native", "-ffp-contract=off", "-pthread", "-w", "-o"})
+    command.emplace_back(word);
+  command.push_back(folder_.path() + "/ensemble");
+  command.push_back(folder_.path() + "/main.cpp");
+  run_tool(command);
+}
+
+std::vector<EnsembleRow> EnsembleProgram::run(std::uint64_t begin, std::uint64_t end, std::uint64_t steps,
+                                              double h) const {
+  const std::string file = folder_.path() + "/rows";
+  run_tool({folder_.path() + "/ensemble", file, fmt::format("{}", choices_.seed), fmt::format("{}", begin),
+            fmt::format("{}", end), fmt::format("{}", steps), fmt::format("{}", h),
+            fmt::format("{}", choices_.threads)});
+  const std::string bytes = support::read_file(file);
+  JD_CHECK(bytes.size() == (end - begin) * numbers_ * sizeof(double), "{} bytes of {} states", bytes.size(),
+           end - begin);
+  std::vector<EnsembleRow> rows;
+  std::vector<double> numbers(numbers_);
+  for (std::uint64_t k = begin; k < end; ++k) {
+    std::memcpy(numbers.data(), bytes.data() + (k - begin) * numbers_ * sizeof(double),
+                numbers_ * sizeof(double));
+    const auto after_drawn = numbers.begin() + static_cast<std::ptrdiff_t>(drawn_);
+    rows.push_back(
+        {k, {numbers.begin(), after_drawn}, {after_drawn, numbers.end() - 1}, numbers.back() == 1});
+  }
+  return rows;
+}
+
+}  // namespace jourdain::commands

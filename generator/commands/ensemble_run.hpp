@@ -1,0 +1,47 @@
+// Ensembles of a model: drawn, stepped in vectors and threads by a program that the machine's compiler makes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "commands/run_setup.hpp"
+#include "commands/spreads.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::commands {
+
+struct EnsembleChoices {
+  std::string method = "rk4", real = "double";
+  std::uint64_t seed = 1, begin = 0, end = 0;  ///< states begin to end - 1
+  std::uint64_t threads = 0;                   ///< 0: as many as the machine runs at once
+  std::vector<double> inputs;                  ///< one value each
+};
+
+/// Where a state ended.
+struct EnsembleRow {
+  std::uint64_t state = 0;
+  std::vector<double> drawn;  ///< in the order of the spreads
+  std::vector<double> end;    ///< y, z, outputs
+  bool trusted = false;       ///< finite throughout, loops closed
+};
+
+/// Compiles once; runs as often as asked for.
+class EnsembleProgram {
+ public:
+  /// Of a model that was emitted for packs, with `initial_state`, the step of the method, outputs and what closes
+  /// loops.
+  /// Throws EnvironmentError where the compiler cannot be run or fails.
+  EnsembleProgram(const RunModel& model, const CompiledModel& compiled, const std::vector<Spread>& spreads,
+                  const EnsembleChoices& choices);
+
+  /// `steps` steps of length `h`, s, of the states begin to end - 1, by their numbers.
+  std::vector<EnsembleRow> run(std::uint64_t begin, std::uint64_t end, std::uint64_t steps, double h) const;
+
+ private:
+  EnsembleChoices choices_;
+  std::size_t drawn_ = 0, numbers_ = 0;  ///< of a row
+  support::TemporaryFolder folder_;
+};
+
+}  // namespace jourdain::commands
