@@ -37,15 +37,20 @@ Statistics statistics_of(std::vector<double> values) {
 
 std::string statistics_table(const std::vector<std::string>& columns, const std::vector<std::string>& units,
                              const std::vector<Statistics>& statistics, std::size_t first) {
-  std::string text = fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "mean",
+  std::vector<std::string> names;
+  std::size_t width = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    names.push_back(columns[i] + (units[i].empty() ? "" : ", " + units[i]));
+    width = std::max(width, names.back().size());
+  }
+  std::string text = fmt::format("    {:<{}}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", width, "mean",
                                  "deviation", "least", "5 %", "median", "95 %", "greatest");
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i == 0 && first > 0) text += "  drawn\n";
     if (i == first) text += "  at the end\n";
-    const std::string name = columns[i] + (units[i].empty() ? "" : ", " + units[i]);
     const Statistics& s = statistics[i];
-    text += fmt::format("    {:<32}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", name,
-                        s.mean, s.deviation, s.least, s.low, s.median, s.high, s.greatest);
+    text += fmt::format("    {:<{}}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n",
+                        names[i], width, s.mean, s.deviation, s.least, s.low, s.median, s.high, s.greatest);
   }
   return text;
 }

@@ -128,7 +128,7 @@ TEST_F(EnsembleCommand, PrintsStatisticsOfItsRows) {
   for (Row row : rows) ends.push_back(row["rail"]);
   const commands::Statistics s = commands::statistics_of(ends);
   expect(run(kSpreads), 0,
-         fmt::format("    {:<32}{:>12.5g}{:>12.5g}{:>12.5g}", "rail, m", s.mean, s.deviation, s.least));
+         fmt::format("    {:<27}{:>12.5g}{:>12.5g}{:>12.5g}", "rail, m", s.mean, s.deviation, s.least));
 }
 
 TEST(EnsembleStatistics, AreThoseOfSamples) {
