@@ -21,7 +21,8 @@ namespace jourdain::commands {
 namespace {
 
 constexpr double kMostSteps = 1e9;
-constexpr std::uint64_t kJudged = 32;  ///< states that are stepped with half the step, too
+constexpr std::uint64_t kMostNumbers = 100000000;  ///< of all rows, which are kept until they are written
+constexpr std::uint64_t kJudged = 32;              ///< states that are stepped with half the step, too
 
 struct EnsembleArguments {
   RunArguments run;
@@ -53,11 +54,13 @@ bool is_sound_where_drawn(const EnsembleArguments& arguments, const RunModel& mo
   for (std::size_t i = 0; i < spreads.size(); ++i) {
     const Spread& spread = spreads[i];
     if (spread.of != Spread::Of::kParameter) continue;
-    std::vector<double> values;
-    for (std::uint64_t k = 0; k < arguments.states; ++k)
-      values.push_back(spread.value(arguments.choices.seed, k, i));
-    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    for (const double value : {*least, *greatest}) {
+    double least = spread.value(arguments.choices.seed, 0, i), greatest = least;
+    for (std::uint64_t k = 1; k < arguments.states; ++k) {
+      const double value = spread.value(arguments.choices.seed, k, i);
+      least = std::min(least, value);
+      greatest = std::max(greatest, value);
+    }
+    for (const double value : {least, greatest}) {
       RunModel drawn = model;
       drawn.parameters[spread.entry] = value;
       const auto& range = model.loaded.mechanism.parameters[spread.entry].range;
@@ -179,6 +182,11 @@ int run(EnsembleArguments arguments) {
   int status = kSuccess;
   std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
+  if (model->loaded.velocity_count() == 0) {
+    fmt::print(stderr, "error: '{}' has no degree of freedom: nothing is integrated\n",
+               model->loaded.mechanism.name);
+    return kModelWrong;
+  }
   CompileOptions& options = model->loaded.options;
   options.functions = loadable_functions({arguments.choices.method});
   options.choices.packs = true;
@@ -194,15 +202,20 @@ int run(EnsembleArguments arguments) {
   const auto spreads = read_spreads(arguments.spreads, *model, compiled, signals, arguments.choices.inputs);
   if (!spreads) return kUsage;
   if (!is_sound_where_drawn(arguments, *model, *spreads)) return kModelWrong;
+  const Columns columns = columns_of(*model, signals, *spreads);
+  const std::uint64_t begin = arguments.choices.begin, end = arguments.choices.end;
+  if ((end - begin) * columns.names.size() > kMostNumbers) {
+    fmt::print(stderr, "error: {} states have {} numbers each, together more than {}; cut them by --shard\n",
+               end - begin, columns.names.size(), kMostNumbers);
+    return kUsage;
+  }
   bar.show("compiling and stepping", 0);
   const EnsembleProgram program(*model, compiled, *spreads, arguments.choices);
   const auto steps = static_cast<std::uint64_t>(std::llround(exact_steps));
-  const std::uint64_t begin = arguments.choices.begin, end = arguments.choices.end;
   const std::vector<EnsembleRow> rows = program.run(begin, end, steps, arguments.step);
   const std::vector<EnsembleRow> halved =
       program.run(begin, std::min(end, begin + kJudged), 2 * steps, arguments.step / 2);
   bar.clear();
-  const Columns columns = columns_of(*model, signals, *spreads);
   if (!arguments.output.empty()) support::write_file(arguments.output, ensemble_csv(columns.names, rows));
   const auto untrusted = static_cast<std::size_t>(
       std::count_if(rows.begin(), rows.end(), [](const EnsembleRow& row) { return !row.trusted; }));

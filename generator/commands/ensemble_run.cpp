@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "commands/build_model.hpp"
@@ -61,7 +63,8 @@ Drawing drawing_of(const RunModel& model, const CompiledModel& compiled, const s
     }
   }
   if (const char* correction = programs::correction(facts); *correction)
-    text.state += fmt::format("  ::{}::{}(model, start.state);\n", model.loaded.options.name, correction);
+    text.state += fmt::format("  for (int i = 0; i < {}; ++i) ::{}::{}(model, start.state);\n",
+                              facts.closings, model.loaded.options.name, correction);
   return text;
 }
 
@@ -133,8 +136,12 @@ std::vector<EnsembleRow> EnsembleProgram::run(std::uint64_t begin, std::uint64_t
     std::memcpy(numbers.data(), bytes.data() + (k - begin) * numbers_ * sizeof(double),
                 numbers_ * sizeof(double));
     const auto after_drawn = numbers.begin() + static_cast<std::ptrdiff_t>(drawn_);
-    rows.push_back(
-        {k, {numbers.begin(), after_drawn}, {after_drawn, numbers.end() - 1}, numbers.back() == 1});
+    const bool is_finite =
+        std::all_of(numbers.begin(), numbers.end(), [](double value) { return std::isfinite(value); });
+    rows.push_back({k,
+                    {numbers.begin(), after_drawn},
+                    {after_drawn, numbers.end() - 1},
+                    is_finite && numbers.back() == 1});
   }
   return rows;
 }

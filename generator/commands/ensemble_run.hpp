@@ -23,7 +23,7 @@ struct EnsembleRow {
   std::uint64_t state = 0;
   std::vector<double> drawn;  ///< in the order of the spreads
   std::vector<double> end;    ///< y, z, outputs
-  bool trusted = false;       ///< finite throughout, loops closed
+  bool trusted = false;       ///< finite throughout, outputs at the end, loops closed
 };
 
 /// Compiles once; runs as often as asked for.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/printable.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::commands {
@@ -56,7 +57,9 @@ std::string statistics_table(const std::vector<std::string>& columns, const std:
 }
 
 std::string ensemble_csv(const std::vector<std::string>& columns, const std::vector<EnsembleRow>& rows) {
-  std::string text = fmt::format("state,{},trusted\n", fmt::join(columns, ","));
+  std::string text = "state";
+  for (const std::string& column : columns) text += "," + csv_field(column);
+  text += ",trusted\n";
   for (const EnsembleRow& row : rows) {
     text += fmt::format("{}", row.state);
     for (const double value : row.drawn) text += fmt::format(",{}", value);

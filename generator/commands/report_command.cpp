@@ -240,6 +240,10 @@ int run(ReportArguments arguments) {
   bar.show("deriving the equations", 0);
   report::Figure figure = report::make_figure(model->loaded.mechanism, model->parameters);
   arguments.study.touches = add_depths(figure.mechanism, model->parameters);
+  if (arguments.study.penetration && arguments.study.touches.empty()) {
+    fmt::print(stderr, "error: --penetration is of contacts, tyres and stops, and '{}' has none\n", name);
+    return kUsage;
+  }
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
   if (velocities <= kMostVelocities) options.functions.push_back("forward_dynamics_derivatives");

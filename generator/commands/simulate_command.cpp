@@ -11,6 +11,7 @@
 #include "commands/commands.hpp"
 #include "commands/loop_guard.hpp"
 #include "commands/method_names.hpp"
+#include "commands/printable.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_bounds.hpp"
 #include "commands/run_setup.hpp"
@@ -43,14 +44,6 @@ struct SimulateArguments {
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-/// A CSV field; names from a URDF may hold commas and quotes.
-std::string field(const std::string& name) {
-  if (name.find_first_of(",\"") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 struct Trajectory {
@@ -129,7 +122,7 @@ class Simulation {
 
   void header(std::string& csv) const {
     csv += "time";
-    for (const std::size_t i : selection_.written) csv += "," + field(signals_.list()[i].name);
+    for (const std::size_t i : selection_.written) csv += "," + csv_field(signals_.list()[i].name);
     csv += "\n";
   }
 

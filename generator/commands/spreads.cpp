@@ -24,7 +24,7 @@ struct Meaning {
 };
 
 std::vector<Meaning> meanings_of(const RunModel& model, const Signals& signals,
-                               const std::vector<double>& inputs) {
+                                 const std::vector<double>& inputs) {
   std::vector<Meaning> meanings;
   const std::vector<model::Parameter>& parameters = model.loaded.mechanism.parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i)

@@ -205,6 +205,20 @@ class Ensemble {
   template <class M>
   struct HasLoops<M, decltype(void(M::loops_closed(std::declval<const State&>())))> : std::true_type {};
 
+  // Differences of numbers with themselves; structs have no arrays of length zero.
+  template <class S>
+  static auto add_positions(const S& state, Number& sum, int) -> decltype(void(state.y)) {
+    for (const Number& y : state.y) sum = sum + (y - y);
+  }
+  template <class S>
+  static void add_positions(const S&, Number&, long) {}
+  template <class S>
+  static auto add_velocities(const S& state, Number& sum, int) -> decltype(void(state.z)) {
+    for (const Number& z : state.z) sum = sum + (z - z);
+  }
+  template <class S>
+  static void add_velocities(const S&, Number&, long) {}
+
   template <class Stepper, class Before>
   void run_block(std::size_t index, const Stepper& stepper, Real h, std::size_t steps, const Before& before) {
     Stored& stored = blocks_[index];
@@ -223,8 +237,8 @@ class Ensemble {
         stepper(model, state, input, length, index);
       else
         stepper(model, state, input, length);
-      for (const Number& y : state.y) nothing = nothing + (y - y);
-      for (const Number& z : state.z) nothing = nothing + (z - z);
+      add_positions(state, nothing, 0);
+      add_velocities(state, nothing, 0);
       if constexpr (HasLoops<Model>::value)
         for (std::size_t k = 0; k < lanes && first + k < count_; ++k)
           if (!is_closed<Model>(get<State>(state, k), 0)) failed_[first + k] = 1;

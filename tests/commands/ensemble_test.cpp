@@ -184,6 +184,14 @@ TEST_F(EnsembleCommand, RefusesWhatItCannotDraw) {
          "it follows from others");
 }
 
+TEST_F(EnsembleCommand, NeedsSomethingThatMoves) {
+  std::string driven = kSlowing;
+  driven.replace(driven.find("initial_velocity = 3.0"), 22, "motion = \"0.1*sin(t)\"");
+  driven.erase(driven.find("[[actuator]]"));
+  support::write_file(model_, driven);
+  expect(run({}), 1, "has no degree of freedom");
+}
+
 TEST(EnsembleOfLoops, ClosesThem) {
   const support::ProcessResult result =
       jourdain({"ensemble", "models/four_bar.toml", "--real", "float", "--states", "20", "--duration", "0.1",
