@@ -438,8 +438,8 @@ stiffness = "k"
   const json hard = buffer("31250");
   EXPECT_NEAR(hard["deepest"].get<double>(), 0.008, 1e-5);
   EXPECT_FALSE(hard.contains("stiffness_within_depth"));
-  const auto none =
-      jourdain({"report", "models/pendulum.toml", "--penetration", "0.01", "-o", folder.path() + "/none"});
+  const auto none = jourdain({"report", JOURDAIN_SOURCE_DIR "/models/pendulum.toml", "--penetration", "0.01",
+                              "-o", folder.path() + "/none"});
   EXPECT_EQ(none.status, 2);
   EXPECT_NE(none.output.find("'pendulum' has none"), std::string::npos) << none.output;
 }
