@@ -99,8 +99,8 @@ class Ensemble {
 
   /// `steps` steps of length h (s). Before each of a block `before(block, step)` may set the block's inputs by its
   /// state. Blocks are shared evenly among the threads (0: as many as the machine runs at once), which call `before`
-  /// and `stepper` at the same time for different ones. A stepper is called with model, state, input and h, and where it
-  /// takes that, the block's index, for what methods remember from step to step.
+  /// and `stepper` at the same time for different ones. A stepper is called with model, state, input and h, and where
+  /// it takes that, the block's index, for what methods remember from step to step.
   template <class Stepper, class Before>
   void run(const Stepper& stepper, Real h, std::size_t steps, std::size_t threads, const Before& before) {
     const std::size_t parts =
