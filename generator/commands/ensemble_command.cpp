@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "commands/commands.hpp"
@@ -137,8 +138,9 @@ StepError step_error(const std::vector<EnsembleRow>& rows, const std::vector<Ens
       const Statistics& s = statistics[column];
       const double size = std::max(std::fabs(s.least), std::fabs(s.greatest));
       const double apart = std::fabs(rows[k].end[i] - halved[k].end[i]);
-      const double ratio = apart / std::max({s.deviation, kRounding * size, 1e-12});
-      if (!(ratio <= worst.ratio)) worst = {ratio, columns.names[column]};
+      const double ratio = halved[k].trusted ? apart / std::max({s.deviation, kRounding * size, 1e-12})
+                                             : std::numeric_limits<double>::infinity();
+      if (ratio > worst.ratio) worst = {ratio, columns.names[column]};
     }
   return worst;
 }

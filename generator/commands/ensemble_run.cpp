@@ -18,12 +18,13 @@ namespace {
 
 std::string real_of(double value) { return fmt::format("Real({})", fmt::format("{:#}", value)); }
 
-/// "start.drawn[0] = normal_about(1, 0.05, seed, k, 0);", and what takes it.
+/// "start.drawn[0] = jourdain::normal_about(1, 0.05, seed, k, 0);", and what takes it.
 std::string drawing(const Spread& spread, std::size_t number, const std::string& base,
                     const std::string& target) {
   return fmt::format(
-      "  start.drawn[{0}] = {1}_about({2}, {3:#}, seed, k, {0});\n  {4} = Real(start.drawn[{0}]);\n", number,
-      spread.is_normal ? "normal" : "uniform", base, spread.width, target);
+      "  start.drawn[{0}] = jourdain::{1}_about({2}, {3:#}, seed, k, {0});\n  {4} = "
+      "Real(start.drawn[{0}]);\n",
+      number, spread.is_normal ? "normal" : "uniform", base, spread.width, target);
 }
 
 struct Drawing {

@@ -111,7 +111,7 @@ std::optional<Spread> read_spread(const std::string& word, const std::vector<Mea
 }  // namespace
 
 double Spread::value(std::uint64_t seed, std::uint64_t k, std::size_t number) const {
-  return base + width * (is_normal ? normal(seed, k, number) : 2 * uniform(seed, k, 2 * number) - 1);
+  return is_normal ? normal_about(base, width, seed, k, number) : uniform_about(base, width, seed, k, number);
 }
 
 std::optional<std::vector<Spread>> read_spreads(const std::vector<std::string>& words, const RunModel& model,

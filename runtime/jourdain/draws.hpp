@@ -34,4 +34,15 @@ inline double normal(std::uint64_t seed, std::uint64_t stream, std::uint64_t num
          std::cos(6.283185307179586 * uniform(seed, stream, 2 * number + 1));
 }
 
+/// Of mean `base` and deviation `width`; and uniform from base - width to base + width. Different numbers share no
+/// draw.
+inline double normal_about(double base, double width, std::uint64_t seed, std::uint64_t stream,
+                           std::uint64_t number) noexcept {
+  return base + width * normal(seed, stream, number);
+}
+inline double uniform_about(double base, double width, std::uint64_t seed, std::uint64_t stream,
+                            std::uint64_t number) noexcept {
+  return base + width * (2 * uniform(seed, stream, 2 * number) - 1);
+}
+
 }  // namespace jourdain

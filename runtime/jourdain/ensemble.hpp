@@ -192,14 +192,6 @@ class Ensemble {
   static bool is_proven(const Parameters&, long) {
     return true;
   }
-  template <class M>
-  static auto is_closed(const State& state, int) -> decltype(bool(M::loops_closed(state))) {
-    return M::loops_closed(state);
-  }
-  template <class M>
-  static bool is_closed(const State&, long) {
-    return true;
-  }
   template <class M, class = void>
   struct HasLoops : std::false_type {};
   template <class M>
@@ -241,7 +233,7 @@ class Ensemble {
       add_velocities(state, nothing, 0);
       if constexpr (HasLoops<Model>::value)
         for (std::size_t k = 0; k < lanes && first + k < count_; ++k)
-          if (!is_closed<Model>(get<State>(state, k), 0)) failed_[first + k] = 1;
+          if (!Model::loops_closed(get<State>(state, k))) failed_[first + k] = 1;
     }
     for (std::size_t k = 0; k < lanes && first + k < count_; ++k)
       if (!(nothing[k] == 0)) failed_[first + k] = 1;
