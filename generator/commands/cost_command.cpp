@@ -9,6 +9,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/cost_text.hpp"
+#include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
@@ -116,7 +117,17 @@ int run(CostArguments arguments) {
                model->loaded.options.name);
     return kModelWrong;
   }
-  if (arguments.methods.empty()) arguments.methods = default_methods(terms, velocities);
+  if (const std::string conflict = check_multistep(arguments.methods, model->loaded.mechanism);
+      !conflict.empty()) {
+    fmt::print(stderr, "error: {}\n", conflict);
+    return kUsage;
+  }
+  if (arguments.methods.empty()) {
+    arguments.methods = default_methods(terms, velocities);
+    std::erase_if(arguments.methods, [&](const std::string& m) {
+      return !check_multistep({m}, model->loaded.mechanism).empty();
+    });
+  }
   ProgressBar bar;
   bar.show("deriving the equations", 0);
   CompileOptions options = model->loaded.options;

@@ -79,6 +79,7 @@ class EquationPrinter {
       case ir::LeafKind::kConstant:
       case ir::LeafKind::kAcceleration:
       case ir::LeafKind::kMultiplier:
+      case ir::LeafKind::kStepLength:
         break;
     }
     JD_CHECK(false, "leaf {}", ir::leaf_name(node.leaf));

@@ -103,6 +103,11 @@ int run(const FmuArguments& arguments) {
     fmt::print(stderr, "error: --step {} is no length of time\n", arguments.step);
     return kUsage;
   }
+  if (has_samples(loaded->mechanism)) {
+    fmt::print(stderr, "error: '{}' has memories; units with events, which samples are, are not written\n",
+               options.name);
+    return kUsage;
+  }
   if (options.name == "fmi2" || options.name == "fmi3") {
     fmt::print(stderr, "error: {}.h is the header of the standard: choose another name with --name\n",
                options.name);

@@ -10,7 +10,7 @@ std::optional<std::size_t> function_index(const CompiledModel& compiled, ir::Fun
   std::size_t index = 0;
   for (const FunctionInfo& function : compiled.functions) {
     if (function.id == id) return index;
-    if (function.shape != programs::Shape::kState && !function.stepper) ++index;
+    if (is_listed(function)) ++index;
   }
   return std::nullopt;
 }

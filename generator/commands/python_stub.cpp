@@ -43,6 +43,7 @@ std::string result_type(const FunctionInfo& function, const programs::SceneFacts
     case Shape::kOutputs:
       return "dict[str, Any]";
     case Shape::kCorrection:
+    case Shape::kSampling:
     case Shape::kStep:
     case Shape::kState:
       return "None";
@@ -88,7 +89,7 @@ std::string stub_text(const CompiledModel& compiled, const std::string& title) {
     members += member(parameter);
   }
   for (const FunctionInfo& function : compiled.functions) {
-    if (function.shape == Shape::kState) continue;
+    if (!function.stepper && !is_listed(function)) continue;
     results += results_class(function, scene);
     functions += method(function, scene);
   }

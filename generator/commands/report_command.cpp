@@ -227,6 +227,14 @@ int run(ReportArguments arguments) {
   const std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
   const std::string& name = model->loaded.options.name;
+  if (has_samples(model->loaded.mechanism)) {
+    fmt::print(
+        stderr,
+        "error: '{}' has memories; the solutions that a report compares with follow rates without samples. "
+        "Compare runs of `jourdain simulate` with a step and its half\n",
+        name);
+    return kUsage;
+  }
   const std::string folder = arguments.folder.empty() ? name + "_report" : arguments.folder;
   support::check_writable(folder);
   if (arguments.plots) report::check_plotter();

@@ -10,6 +10,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/loop_guard.hpp"
+#include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
 #include "commands/printable.hpp"
 #include "commands/progress.hpp"
@@ -202,11 +203,14 @@ int run(const SimulateArguments& arguments) {
   std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
   CompileOptions& options = model->loaded.options;
-  const std::string conflict = check_derivative_terms({arguments.method}, options.derivative_terms);
-  if (!conflict.empty()) {
-    fmt::print(stderr, "error: {}\n", conflict);
-    return kUsage;
-  }
+  for (const std::string& conflict :
+       {check_derivative_terms({arguments.method}, options.derivative_terms),
+        check_multistep({arguments.method}, model->loaded.mechanism),
+        check_sampling(model->loaded.mechanism, model->parameters, arguments.step)})
+    if (!conflict.empty()) {
+      fmt::print(stderr, "error: {}\n", conflict);
+      return kUsage;
+    }
   if (const std::string unknown = unknown_output(model->loaded.mechanism, arguments.outputs);
       !unknown.empty()) {
     fmt::print(stderr, "error: {}\n", unknown);

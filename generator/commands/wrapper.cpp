@@ -40,6 +40,7 @@ std::string needs_plain_rates(const SceneFacts& scene) {
   if (!scene.constraints.empty()) return "of a mechanism with closed loops";
   if (!scene.tangent.quaternions.empty()) return "of quaternions, whose derivatives are of rotations";
   if (scene.velocities.empty()) return "of a mechanism that moves as prescribed";
+  if (*programs::sampling(scene)) return "of memories, which are sampled";
   return scene.time.dynamics ? "that depend on time" : "";
 }
 

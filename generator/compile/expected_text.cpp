@@ -86,6 +86,7 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   expected.positions = facts.positions;
   expected.velocities = facts.velocities;
   expected.states = facts.states.size();
+  expected.has_samples = *programs::sampling(facts) != '\0';
   expected.inputs = facts.inputs;
   for (const model::Parameter& parameter : facts.parameters)
     expected.parameters.push_back({parameter.name, parameter.value, parameter.range});

@@ -50,6 +50,7 @@ SlopePrecision moved_along(const ExactDirection& direction, const kinematics::St
       case LeafKind::kParameter:
       case LeafKind::kAcceleration:
       case LeafKind::kMultiplier:
+      case LeafKind::kStepLength:
         break;
     }
     return {value};

@@ -50,6 +50,8 @@ Ex variable_value(const Scene& scene, const Variable& variable, Inputs inputs) {
       const Taylor motion = kinematics::coordinate_motion(scene.tree.links[link], scene.states[link]);
       return variable.kind == Variable::Kind::kPosition ? motion.value : motion.first;
     }
+    case Variable::Kind::kStepLength:
+      return scene.leaves.h;
     case Variable::Kind::kState:
       return scene.leaves.z[scene.layout.first_state() + variable.index];
     case Variable::Kind::kFramePosition:

@@ -60,6 +60,7 @@ class Derivation {
       equations_.load = with_states(load(applied), applied, -1);
     }
     equations_.potential_energy = derive_potential_energy(scene_);
+    derive_samples();
     set_initial_state();
     for (const model::Output& output : mechanism_.outputs) equations_.output_names.push_back(output.name);
     equations_.closures = derive_closure(scene_, rates);
@@ -105,6 +106,14 @@ class Derivation {
         ydot[first + k] = statements_.bind(named("qdot", i, k), ydot[first + k]);
     }
     return ydot;
+  }
+
+  void derive_samples() {
+    for (std::size_t i = 0; i < mechanism_.states.size(); ++i)
+      if (const model::StateVariable& state = mechanism_.states[i]; state.sampled)
+        equations_.samples.push_back(
+            {scene_.layout.first_state() + i,
+             general_value(scene_, state.name + "_sampled", *state.sampled, Inputs::kGiven)});
   }
 
   void derive_forces(const AppliedForces& applied) {
@@ -344,6 +353,12 @@ class Derivation {
 
 Equations derive_equations(const model::Mechanism& mechanism, const DerivationOptions& options) {
   return Derivation(mechanism, options).derive();
+}
+
+std::vector<Ex> sampled_values(const Equations& equations) {
+  std::vector<Ex> values;
+  for (const SampledState& state : equations.samples) values.push_back(state.value);
+  return values;
 }
 
 }  // namespace jourdain::dynamics

@@ -57,6 +57,12 @@ struct KinematicValues {
   std::vector<Ex> values;
 };
 
+/// What a state is in the step that begins; h is a leaf.
+struct SampledState {
+  std::size_t entry = 0;  ///< in z
+  Ex value;
+};
+
 /// The symbolic equations of motion M ż = k̄ − q̄ (signs as printed; generator/README.md) and what belongs to
 /// them. Entries are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout; rows of
 /// states are those of unit inertias, ẋ = −q̄, without kinetic energy.
@@ -73,6 +79,7 @@ struct Equations {
   std::vector<LoopClosure> closures;  ///< by loop
   Ex kinetic_energy;                  ///< J
   Ex potential_energy;                ///< J; gravity (zero at the inertial origin), springs, force elements
+  std::vector<SampledState> samples;  ///< in the order of their entries
   std::vector<Ex> initial_position;
   std::vector<Ex> initial_velocity;
   std::vector<std::string> output_names;
@@ -82,5 +89,8 @@ struct Equations {
 };
 
 Equations derive_equations(const model::Mechanism& mechanism, const DerivationOptions& options = {});
+
+/// The values of `samples`.
+std::vector<Ex> sampled_values(const Equations& equations);
 
 }  // namespace jourdain::dynamics

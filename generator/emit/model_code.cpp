@@ -94,6 +94,7 @@ class CodeBuilder {
                                       "initial", "detail", "Real",  "closed", "result", info.result};
     for (const programs::ArrayResult& array : info.arrays) reserved.insert(array.name);
     if (info.shape == Shape::kArrays || info.shape == Shape::kLinearization) reserved.insert({"i", "j"});
+    if (info.shape == Shape::kSampling) reserved.insert("sampled");
     CutFunction made = cut(
         {info.name, "", parameters_of(info, scene_)},
         body_of(
@@ -104,6 +105,7 @@ class CodeBuilder {
     for (const programs::ArrayResult& array : info.arrays)
       if (programs::has_entries(scene_, array)) clear(info, array, body);
     if (info.shape == Shape::kCorrection) frame_correction(body);
+    if (info.shape == Shape::kSampling) frame_sampling(program(info), body);
     if (info.shape == Shape::kState) {
       frame_state(body);
       made.function.result = struct_type("State");
@@ -123,12 +125,14 @@ class CodeBuilder {
     return kind == LeafKind::kConstant ? name("model").dot(constants_[index]) : place_of(kind, index);
   }
 
-  static Statement result(const FunctionInfo& info, const ir::Output& output, const Expression& value) {
+  Statement result(const FunctionInfo& info, const ir::Output& output, const Expression& value) const {
     switch (info.shape) {
       case Shape::kState:
         return set(entry(name("initial").dot(output.name), output), value);
       case Shape::kCorrection:
         return set(entry(name("closed").dot(output.name), output), value);
+      case Shape::kSampling:
+        return set(sampled(output), value);
       case Shape::kScalar:
         return {Return{value}};
       case Shape::kVector:
@@ -197,6 +201,18 @@ class CodeBuilder {
     body.insert(body.begin(),
                 {Declare{struct_type("State"), Declare::Change::kFree, {{"closed", {}, state}}}});
     body.push_back(set(state, closed));
+  }
+
+  /// Where a state's value waits until all are known.
+  Expression sampled(const ir::Output& output) const {
+    return name("sampled")[static_cast<std::size_t>(output.row) - scene_.displacements()];
+  }
+
+  void frame_sampling(const ir::Program& program, Statements& body) const {
+    body.insert(body.begin(),
+                {Declare{kRealType, Declare::Change::kFree, {{"sampled", {scene_.states.size()}}}}});
+    for (const ir::Output& output : program.outputs)
+      body.push_back(set(name("state").dot("z")[output.row], sampled(output)));
   }
 
   void frame_state(Statements& body) const {

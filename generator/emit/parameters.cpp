@@ -27,6 +27,8 @@ Expression place_of(ir::LeafKind kind, std::size_t index) {
       return name("input").dot("u")[index];
     case ir::LeafKind::kTime:
       return name("state").dot("t");
+    case ir::LeafKind::kStepLength:
+      return name("h");
     case ir::LeafKind::kParameter:
     case ir::LeafKind::kConstant:
     case ir::LeafKind::kMultiplier:
@@ -39,19 +41,19 @@ Expression place_of(ir::LeafKind kind, std::size_t index) {
 std::vector<Parameter> parameters_of(const programs::FunctionInfo& function,
                                      const programs::SceneFacts& scene) {
   const std::size_t nz = scene.velocities.size();
-  const bool step = function.shape == Shape::kStep;
+  const bool step = function.shape == Shape::kStep, sampling = function.shape == Shape::kSampling;
   const auto array = [](const std::string& of, std::vector<std::size_t> extents) {
     return Parameter{kRealType, of, Access::kWrite, std::move(extents)};
   };
   std::vector<Parameter> list = {{struct_type("Model"), "model"}};
   if (function.shape == Shape::kState) return list;
   list.push_back({struct_type("State"), "state",
-                  step || function.shape == Shape::kCorrection ? Access::kWrite : Access::kRead});
+                  step || sampling || function.shape == Shape::kCorrection ? Access::kWrite : Access::kRead});
   if (function.takes_input)
     list.push_back(
         {struct_type("Input"), "input", Access::kRead, {}, false, step && nz > 0 && !scene.inputs.empty()});
   if (function.takes_acceleration) list.push_back({kRealType, "zdot", Access::kRead, {nz}});
-  if (step) list.push_back({kRealType, "h", Access::kValue});
+  if (step || sampling) list.push_back({kRealType, "h", Access::kValue});
   if (step && function.stepper->history > 0)
     list.push_back(
         {{Type::Kind::kStruct, "RateHistory", false, function.stepper->history}, "history", Access::kWrite});
@@ -80,6 +82,7 @@ std::vector<Parameter> parameters_of(const programs::FunctionInfo& function,
     case Shape::kState:
     case Shape::kScalar:
     case Shape::kCorrection:
+    case Shape::kSampling:
     case Shape::kStep:
       break;
   }

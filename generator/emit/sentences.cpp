@@ -9,11 +9,12 @@ namespace jourdain::emit {
 namespace {
 
 /// "current (A), voltage"
-std::string state_names(const programs::SceneFacts& scene) {
+std::string state_names(const programs::SceneFacts& scene, bool sampled) {
   std::string names;
   for (const model::StateVariable& state : scene.states)
-    names += fmt::format("{}{}{}", names.empty() ? "" : ", ", state.name,
-                         state.unit.empty() ? "" : fmt::format(" ({})", comment_text(state.unit)));
+    if (state.sampled || !sampled)
+      names += fmt::format("{}{}{}", names.empty() ? "" : ", ", state.name,
+                           state.unit.empty() ? "" : fmt::format(" ({})", comment_text(state.unit)));
   return names;
 }
 
@@ -23,8 +24,10 @@ std::vector<std::string> state_sentences(const ModelText& model) {
   std::vector<std::string> sentences = {
       fmt::format("{} coordinates y (rad, m, quaternions w x y z) and generalized velocities z (rad/s, m/s).",
                   model.facts.clock ? "Time t (s), generalized" : "Generalized")};
-  if (const std::string states = state_names(model.facts); !states.empty())
+  if (const std::string states = state_names(model.facts, false); !states.empty())
     sentences.push_back(fmt::format("The last entries of z are the states {}.", states));
+  if (const std::string sampled = state_names(model.facts, true); !sampled.empty())
+    sentences.push_back(fmt::format("Steps begin with samples of {}, which are held in between.", sampled));
   if (model.facts.dependents.empty()) return sentences;
   std::string names;
   for (const std::size_t entry : model.facts.dependents)

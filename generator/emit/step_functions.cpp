@@ -56,7 +56,7 @@ Function normalise() {
 
 Statements step_body(const programs::SceneFacts& scene, const programs::Stepper& stepper) {
   const Expression model = name("model"), state = name("state");
-  const std::string correction = programs::correction(scene);
+  const std::string correction = programs::correction(scene), sampling = programs::sampling(scene);
   Statements body;
   int corrections = 1;
   if (scene.velocities.empty()) {
@@ -70,6 +70,8 @@ Statements step_body(const programs::SceneFacts& scene, const programs::Stepper&
     for (const model::Tangent::Scalar& quaternion : scene.tangent.quaternions)
       body.push_back({Call{"normalise", {state.dot("y").from(quaternion.position)}, true}});
   }
+  if (!sampling.empty())
+    body.insert(body.begin(), {Call{sampling, {model, state, inputs_at(state), name("h")}}});
   if (!correction.empty())
     for (int k = 0; k < corrections; ++k) body.push_back({Call{correction, {model, state}}});
   return body;

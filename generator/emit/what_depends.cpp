@@ -62,6 +62,7 @@ class Reader {
       case LeafKind::kConstant:
       case LeafKind::kAcceleration:
       case LeafKind::kMultiplier:
+      case LeafKind::kStepLength:
         break;
     }
   }

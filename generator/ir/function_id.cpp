@@ -28,7 +28,8 @@ constexpr std::array kNames = {"initial_state",
                                "residual",
                                "residual_derivatives",
                                "forward_dynamics_derivatives",
-                               "linearize"};
+                               "linearize",
+                               "sample"};
 static_assert(kNames.size() == support::entry_count<FunctionId>());
 
 }  // namespace

@@ -26,6 +26,7 @@ enum class FunctionId {
   kResidualDerivatives,
   kForwardDynamicsDerivatives,
   kLinearize,
+  kSample,
 };
 
 /// As in emitted code: "forward_dynamics".

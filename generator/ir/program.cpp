@@ -74,6 +74,8 @@ const char* leaf_name(LeafKind kind) {
       return "u";
     case LeafKind::kTime:
       return "t";
+    case LeafKind::kStepLength:
+      return "h";
   }
   return "";
 }

@@ -27,6 +27,7 @@ Leaves::Leaves(const model::Mechanism& mechanism, const model::CoordinateLayout&
   lambda = declare(LeafKind::kMultiplier, "lambda", rows, statements);
   u = declare(LeafKind::kInput, "u", layout.input_count(), statements);
   t = statements.leaf(LeafKind::kTime, 0, "t");
+  h = statements.leaf(LeafKind::kStepLength, 0, "h");
 }
 
 std::size_t LinkState::column_count(const Link& link) const {

@@ -14,7 +14,7 @@ namespace jourdain::kinematics {
 /// The symbols that the equations are functions of.
 struct Leaves {
   std::vector<Ex> parameters, y, z, zdot, lambda, u;
-  Ex t = 0;
+  Ex t = 0, h = 0;
 
   Leaves(const model::Mechanism& mechanism, const model::CoordinateLayout& layout, Statements& statements);
 };

@@ -30,6 +30,7 @@ std::string in_words(const Needed& needed);
 namespace needed {
 inline constexpr Needed kAnything{};
 inline constexpr Needed kPure{{"1"}};
+inline constexpr Needed kTime{{"s"}};
 inline constexpr Needed kAngle{{"rad"}};
 inline constexpr Needed kAngularRate{{"rad/s"}};
 inline constexpr Needed kLength{{"m"}};

@@ -35,6 +35,7 @@ struct Variable {
     kFrameSpin,       ///< component of the frame's angular velocity, in its own axes, rad/s
     kFrameWorldSpin,  ///< of the same, inertial frame
     kState,           ///< number `index` of the states beside the mechanism
+    kStepLength,      ///< of the step that begins, s; in what a state is sampled to
     kArgument  ///< `component` of what it is a function of: a curve's coordinate; a spring's length (0), rate (1)
   };
   Kind kind = Kind::kTime;

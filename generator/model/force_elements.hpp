@@ -83,6 +83,12 @@ bool any_variable(Element element, const Holds& holds) {
                      [&](const Expression* e) { return any_variable(*e, holds); });
 }
 
+/// Whether a state is sampled where a step begins.
+inline bool has_samples(const ForceElements& all) {
+  return std::any_of(all.states.begin(), all.states.end(),
+                     [](const StateVariable& state) { return state.sampled.has_value(); });
+}
+
 /// Whether there is no element but actuators, whose forces are inputs.
 inline bool has_inputs_alone(const ForceElements& all) {
   std::size_t count = 0;

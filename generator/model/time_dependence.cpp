@@ -65,6 +65,7 @@ class OutputTime {
         return frame_depends(FrameIndex(variable.index));
       case Variable::Kind::kInput:
       case Variable::Kind::kState:
+      case Variable::Kind::kStepLength:
       case Variable::Kind::kArgument:
         return false;
     }

@@ -74,6 +74,12 @@ std::vector<FunctionInfo> function_table() {
        .shape = Shape::kOutputs,
        .takes_input = true,
        .comment = "The outputs that the model description asks for."},
+      {.id = FunctionId::kSample,
+       .shape = Shape::kSampling,
+       .takes_input = true,
+       .comment =
+           "Sets the states that are sampled to what they are in the step of length h (s) that begins at "
+           "this state.\nSteps begin with it."},
       {.id = FunctionId::kCloseLoops,
        .shape = Shape::kCorrection,
        .comment = "Sets the dependent positions to those that close the loops at state.t and the independent "
@@ -155,7 +161,8 @@ FunctionInfo step_function(const Stepper& stepper) {
   info.name = stepper.name + "_step";
   info.shape = Shape::kStep;
   info.takes_input = true;
-  info.needs = {name_of(FunctionId::kPositionRate), name_of(FunctionId::kForwardDynamics)};
+  info.needs = {name_of(FunctionId::kPositionRate), name_of(FunctionId::kForwardDynamics),
+                name_of(FunctionId::kSample)};
   if (stepper.implicit)
     info.needs.insert(info.needs.end(),
                       {name_of(FunctionId::kResidual), name_of(FunctionId::kResidualDerivatives)});
@@ -222,6 +229,17 @@ const char* correction(const SceneFacts& scene) {
   return name_of(scene.is_reduced ? FunctionId::kCloseLoops : FunctionId::kProject);
 }
 
+const char* sampling(const SceneFacts& scene) {
+  const bool any = std::any_of(scene.states.begin(), scene.states.end(),
+                               [](const model::StateVariable& state) { return state.sampled.has_value(); });
+  return any ? name_of(FunctionId::kSample) : "";
+}
+
+bool is_listed(const FunctionInfo& function) {
+  return function.shape != Shape::kState && function.shape != Shape::kSampling &&
+         function.shape != Shape::kStep;
+}
+
 const std::vector<FunctionInfo>& all_functions() {
   static const std::vector<FunctionInfo> functions = [] {
     std::vector<FunctionInfo> list = function_table();
@@ -261,8 +279,9 @@ bool has_function(const FunctionInfo& function, const SceneFacts& scene) {
   switch (function.shape) {
     case Shape::kState:
     case Shape::kScalar:
-    case Shape::kStep:
       return true;
+    case Shape::kStep:
+      return function.stepper->history == 0 || !*sampling(scene);
     case Shape::kVector:
     case Shape::kMatrix:
     case Shape::kLinearization:
@@ -274,6 +293,8 @@ bool has_function(const FunctionInfo& function, const SceneFacts& scene) {
       return scene.has_rate();
     case Shape::kCorrection:
       return function.name == correction(scene);
+    case Shape::kSampling:
+      return function.name == sampling(scene);
     case Shape::kOutputs:
       return !scene.outputs.empty();
   }

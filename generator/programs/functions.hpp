@@ -21,6 +21,7 @@ enum class Shape {
   kArrays,         ///< fills several arrays
   kLinearization,  ///< fills a Linearization, whose members are the arrays
   kCorrection,     ///< replaces entries of a State
+  kSampling,       ///< replaces entries of a State where a step begins: takes inputs and the step's length
   kStep            ///< advances a State; it calls other functions and has no program
 };
 
@@ -68,6 +69,12 @@ bool has_entries(const SceneFacts& scene, const ArrayResult& array);
 
 /// The function that brings a state back to the closed loops at the end of a step; empty for trees.
 const char* correction(const SceneFacts& scene);
+
+/// What a step begins with, "sample"; empty where no state is sampled.
+const char* sampling(const SceneFacts& scene);
+
+/// Whether tables of functions of an emitted model list it: it works on a state, and is no step or part of one.
+bool is_listed(const FunctionInfo& function);
 
 /// Whether the scene has the function: vectors and matrices of length zero are left out, the rate of the
 /// positions where it is z, outputs where there are none.

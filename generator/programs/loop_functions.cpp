@@ -62,6 +62,8 @@ class LoopProgram {
         return write("lambda", constraint_forces(zdot()));
       case FunctionId::kResidual:
         return write("r", residual(acceleration_leaves()));
+      case FunctionId::kSample:
+        return write_samples(builder_, system_, dependence_, insert(system_.tree(FunctionId::kSample), {}));
       case FunctionId::kCloseLoops:
       case FunctionId::kProject:
       case FunctionId::kResidualDerivatives:

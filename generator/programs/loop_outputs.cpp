@@ -72,4 +72,15 @@ void write_outputs(Builder& builder, const loops::LoopSystem& system, const loop
   }
 }
 
+void write_samples(Builder& builder, const loops::LoopSystem& system, const loops::Dependence& dependence,
+                   const ir::Column& values) {
+  const std::vector<model::StateVariable>& states = system.mechanism.states;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!states[i].sampled) continue;
+    const std::size_t entry = dependence.independent_count() - states.size() + i;
+    builder.output("z", static_cast<int>(entry), -1, values[next++]);
+  }
+}
+
 }  // namespace jourdain::programs

@@ -13,4 +13,8 @@ bool takes_multipliers(const ir::Program& tree);
 void write_outputs(ir::Builder& builder, const loops::LoopSystem& system, const loops::Dependence& dependence,
                    const ir::Program& tree, const ir::Column& values);
 
+/// Declares the values of the states that are sampled, which are the last of the independent velocities, or of all.
+void write_samples(ir::Builder& builder, const loops::LoopSystem& system, const loops::Dependence& dependence,
+                   const ir::Column& values);
+
 }  // namespace jourdain::programs

@@ -28,6 +28,14 @@ std::vector<lowering::Target> matrix_targets(const std::vector<std::vector<Ex>>&
   return targets;
 }
 
+/// Entries of z that are sampled.
+std::vector<lowering::Target> sample_targets(const Equations& equations) {
+  std::vector<lowering::Target> targets;
+  for (const dynamics::SampledState& sampled : equations.samples)
+    targets.push_back({"z", static_cast<int>(sampled.entry), -1, sampled.value});
+  return targets;
+}
+
 std::vector<lowering::Target> output_targets(const Equations& equations) {
   std::vector<lowering::Target> targets;
   for (std::size_t k = 0; k < equations.outputs.size(); ++k)
@@ -69,6 +77,8 @@ std::vector<lowering::Target> targets_of(FunctionId function, const Equations& e
       return {{"V", -1, -1, equations.potential_energy}};
     case FunctionId::kOutputs:
       return output_targets(equations);
+    case FunctionId::kSample:
+      return sample_targets(equations);
     case FunctionId::kResidual:
       return vector_targets("r", equations.residual);
     case FunctionId::kCloseLoops:

@@ -41,6 +41,12 @@ FunctionApi in_struct(const std::string& name, const std::string& structure) {
   return api;
 }
 
+FunctionApi sampling() {
+  FunctionApi api = returning("sample", Result::kSampling);
+  api.takes_input = true;
+  return api;
+}
+
 FunctionApi mass_matrix(std::size_t n) {
   FunctionApi api = arrays("mass_matrix", {{"M", {n, n}}});
   api.symmetric = true;
@@ -57,6 +63,7 @@ std::vector<FunctionApi> programs(const Expected& expected) {
           returning("potential_energy", Result::kNumber),
           returning("close_loops", Result::kCorrection),
           returning("project", Result::kCorrection),
+          sampling(),
           arrays("position_rate", {{"ydot", {expected.positions.size()}}}),
           mass_matrix(n),
           arrays("k_bar", {{"k", {n}}}),
@@ -108,11 +115,12 @@ std::string FunctionApi::signature(const Expected& expected, const std::string& 
   const char sign = in_c ? '*' : '&';
   std::string list = fmt::format("const Model<{}>{}", real, sign);
   const auto add = [&list](const std::string& argument) { list += ", " + argument; };
-  const bool changes = result == Result::kCorrection || result == Result::kStep;
+  const bool changes =
+      result == Result::kCorrection || result == Result::kSampling || result == Result::kStep;
   if (result != Result::kState) add(fmt::format("{}State<{}>{}", changes ? "" : "const ", real, sign));
   if (takes_input) add(fmt::format("const Input<{}>{}", real, sign));
   if (takes_acceleration) add(fmt::format("const {} (&)[{}]", real, expected.velocities.size()));
-  if (result == Result::kStep) add(real);
+  if (result == Result::kStep || result == Result::kSampling) add(real);
   if (history > 0)
     add(in_c ? fmt::format("RateHistory{}<{}>*", history, real)
              : fmt::format("RateHistory<{}, {}>&", history, real));
@@ -134,7 +142,7 @@ std::vector<std::string> FunctionApi::parameter_names() const {
   if (result != Result::kState) names.push_back("state");
   if (takes_input) names.push_back("input");
   if (takes_acceleration) names.push_back("zdot");
-  if (result == Result::kStep) names.push_back("h");
+  if (result == Result::kStep || result == Result::kSampling) names.push_back("h");
   if (history > 0) names.push_back("history");
   if (implicit) names.push_back("accelerations");
   for (const ArrayArgument& array : arrays) names.push_back(array.name);

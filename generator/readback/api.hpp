@@ -17,6 +17,7 @@ enum class Result {
   kArrays,      ///< fills arrays
   kStruct,      ///< fills members of a struct
   kCorrection,  ///< changes entries of a State
+  kSampling,    ///< the same where a step of length h begins
   kStep         ///< advances a State by a method
 };
 

@@ -76,7 +76,8 @@ struct Expected {
   std::vector<support::FileHash> imported;  ///< files that it imports
   std::vector<std::string> options;         ///< of the command line
   std::vector<std::string> positions, velocities, inputs, constraints;  ///< names in order
-  std::size_t states = 0;  ///< last entries of z, which displace nothing
+  std::size_t states = 0;    ///< last entries of z, which displace nothing
+  bool has_samples = false;  ///< some of them are sampled where a step begins
   std::vector<ExpectedParameter> parameters;
   std::vector<ExpectedVariable> variables;
   std::vector<ExpectedOutput> outputs;

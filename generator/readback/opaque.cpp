@@ -98,6 +98,16 @@ Derivatives OpaqueSystem::residual_derivatives(const Motion& motion, const Exact
   return result;
 }
 
+void OpaqueSystem::take_samples(Motion& motion, const ExactVector& input, const Exact& h) {
+  if (!expected_.has_samples) return;
+  const std::vector<ir::Output>& outputs = program("sample").outputs;
+  ExactVector arguments = arguments_of(expected_, motion, input);
+  arguments.push_back(h);
+  const ExactVector& values = answer("sample", std::move(arguments), outputs.size());
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    motion.z.at(static_cast<std::size_t>(outputs[i].row)) = values[i];
+}
+
 void OpaqueSystem::correct(Motion& motion) {
   const std::string name = correction_of(expected_);
   if (name.empty()) return;

@@ -35,6 +35,8 @@ class OpaqueSystem {
                                    const ExactVector& accelerations);
   /// close_loops or project: replaces what its program sets.
   void correct(Motion& motion);
+  /// sample, with which a step begins: replaces what its program sets.
+  void take_samples(Motion& motion, const ExactVector& input, const Exact& h);
   /// An input that is a function of the state.
   ExactVector sample(const Motion& motion);
 

@@ -48,10 +48,11 @@ class FunctionCheck {
     values_ = table_.insert(program);
     std::vector<Value> arguments = {Interpreter::as_const(model())};
     const Value state = this->state();
-    const bool changes = api.result == Result::kCorrection;
+    const bool changes = api.result == Result::kCorrection || api.result == Result::kSampling;
     if (api.result != Result::kState) arguments.push_back(changes ? state : Interpreter::as_const(state));
     if (api.takes_input) arguments.push_back(Interpreter::as_const(input()));
     if (api.takes_acceleration) arguments.push_back(Interpreter::as_const(leaves(LeafKind::kAcceleration)));
+    if (api.result == Result::kSampling) arguments.push_back(step_length());
     std::vector<Value> arrays;
     for (const ArrayArgument& array : api.arrays) arrays.push_back(run_.make(array_type(array)));
     arguments.insert(arguments.end(), arrays.begin(), arrays.end());
@@ -71,6 +72,7 @@ class FunctionCheck {
       case Result::kStruct:
         return compare(arguments.back(), after(program, zeros(arguments.back(), api.sparse)));
       case Result::kCorrection:
+      case Result::kSampling:
         return compare(state, after(program, results(state, before)));
       case Result::kStep:
         return;
@@ -132,6 +134,12 @@ class FunctionCheck {
   Value input() {
     const Value place = run_.make(of_number("Input"));
     if (!expected_.inputs.empty()) fill(run_.field(place, "u"), LeafKind::kInput);
+    return place;
+  }
+
+  Value step_length() {
+    const Value place = run_.make(run_.types().number());
+    run_.set(place, table_.leaf(LeafKind::kStepLength, 0));
     return place;
   }
 

@@ -108,6 +108,7 @@ ExactVector input_at(OpaqueSystem& system, const StepData& data, const Motion& m
 
 void step_by_definition(const Expected& expected, const std::string& method, OpaqueSystem& system,
                         StepData& data) {
+  if (expected.has_samples) system.take_samples(data.motion, input_at(system, data, data.motion), data.h);
   if (expected.velocities.empty()) {
     data.motion.t = data.motion.t + data.h;
     for (int i = 0; i < expected.closings; ++i) system.correct(data.motion);

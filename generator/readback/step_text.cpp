@@ -126,6 +126,11 @@ class TextStep {
     run_.replace("forward_dynamics", [this](const std::vector<Value>& arguments) {
       write(arguments[3], system_.forward_dynamics(read_motion(arguments[1]), read(arguments[2])));
     });
+    run_.replace("sample", [this](const std::vector<Value>& arguments) {
+      Motion motion = read_motion(arguments[1]);
+      system_.take_samples(motion, read(arguments[2]), read(arguments[3])[0]);
+      write_motion(arguments[1], motion);
+    });
     run_.replace("residual", [this](const std::vector<Value>& arguments) {
       write(arguments[4],
             system_.residual(read_motion(arguments[1]), read(arguments[2]), read(arguments[3])));

@@ -6,8 +6,9 @@
 
 namespace jourdain::support {
 
-/// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed
-/// once; no symbol stands for one. kMultiplier: of a loop's row; none is left in an emitted function.
+/// Where a leaf's value comes from. kConstant: a value of the model that depends on parameters only, computed once; no
+/// symbol stands for one. kMultiplier: of a loop's row; none is left in an emitted function. kStepLength: in what is
+/// sampled at the start of a step.
 enum class LeafKind : std::uint8_t {
   kParameter,
   kConstant,
@@ -16,8 +17,9 @@ enum class LeafKind : std::uint8_t {
   kAcceleration,
   kMultiplier,
   kInput,
-  kTime
+  kTime,
+  kStepLength
 };
-inline constexpr std::size_t kLeafKinds = 8;
+inline constexpr std::size_t kLeafKinds = 9;
 
 }  // namespace jourdain::support

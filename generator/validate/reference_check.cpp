@@ -49,6 +49,9 @@ void compare_with_reference(const model::Mechanism& mechanism, const dynamics::E
       same(mechanism.kinematics[k].name.c_str(), symbolic.values(equations.kinematics[k][a].values),
            kinematics[k][a].second);
   }
+  if (!equations.samples.empty())
+    same("samples", symbolic.values(dynamics::sampled_values(equations)),
+         to_list(reference.sampled_states(state, u, leaves[LeafKind::kStepLength][0])));
   if (mechanism.outputs.empty()) return;
   const ExactVector zdot =
       equations.outputs_take_leaves ? to_exact(leaves[LeafKind::kAcceleration]) : symbolic.zdot();

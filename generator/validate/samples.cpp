@@ -78,6 +78,7 @@ Point point_at(const model::Mechanism& mechanism, const Sample& sample) {
   take(LeafKind::kAcceleration, sample.zdot);
   take(LeafKind::kInput, sample.u);
   take(LeafKind::kTime, {sample.t});
+  take(LeafKind::kStepLength, {sample.h});
   std::vector<ScaledReal>& y = point.exact[LeafKind::kPosition];
   for (const std::size_t q : model::lay_out_coordinates(mechanism).quaternions) {
     ScaledReal square;
@@ -103,6 +104,13 @@ double drawn(const model::StateVariable& state, double share, const Sample& samp
          share * state.nominal.evaluate<double>(sample.parameters);
 }
 
+/// A step that is about as long as a state is large: whether one that counts down is due is as likely as not.
+double step_length(const model::Mechanism& mechanism, const Sample& sample, Uniform& uniform) {
+  const std::size_t first = sample.z.size() - mechanism.states.size();
+  const auto any = static_cast<std::size_t>(uniform(0, static_cast<double>(mechanism.states.size())));
+  return std::fabs(sample.z[first + any]) * uniform(0.1, 8);
+}
+
 /// Positions, velocities and inputs of these sizes, states about their initial values; angles go round once. Parameters
 /// within a tenth of their values, or as they are.
 Sample drawn(const model::Mechanism& mechanism, bool is_varied, double length, double speed, double input,
@@ -125,6 +133,7 @@ Sample drawn(const model::Mechanism& mechanism, bool is_varied, double length, d
   }
   for (std::size_t i = 0; i < layout.input_count(); ++i) sample.u.push_back(input * uniform(-5, 5));
   for (const std::size_t q : layout.quaternions) normalise(&sample.y[q]);
+  if (has_samples(mechanism)) sample.h = step_length(mechanism, sample, directions);
   draw_direction(layout.first_state(), directions, sample);
   return sample;
 }

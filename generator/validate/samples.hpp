@@ -16,6 +16,7 @@ namespace jourdain::validate {
 struct Sample {
   double t = 0;
   std::vector<double> parameters, y, z, u, zdot;
+  double h = 0;                   ///< of a step that begins, s
   dynamics::Direction direction;  ///< for derivatives
 };
 

@@ -85,6 +85,8 @@ std::vector<Expected> TreeOracle::operator()(const ir::Program& program) const {
       return expecting("V of the equations", {exact_.value(equations_.potential_energy)});
     case FunctionId::kOutputs:
       return expecting("outputs of the equations", exact_.values(dynamics::output_entries(equations_)));
+    case FunctionId::kSample:
+      return expecting("samples of the equations", exact_.values(dynamics::sampled_values(equations_)));
     case FunctionId::kResidualDerivatives:
       return {{"M of the equations", mass_entries(program, "M")},
               {"the residual's derivative along a direction", to_list(residual_rate())}};

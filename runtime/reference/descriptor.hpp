@@ -131,6 +131,11 @@ class DescriptorReference {
   DescriptorSolution<Scalar> solve(Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z,
                                    const Eigen::VectorX<Scalar>& u) const;
 
+  /// What the states that are sampled are in the step of length `h` (s) that begins there, in their order.
+  Eigen::VectorX<Scalar> sampled_states(Scalar t, const Eigen::VectorX<Scalar>& y,
+                                        const Eigen::VectorX<Scalar>& z, const Eigen::VectorX<Scalar>& u,
+                                        Scalar h) const;
+
   /// Constraints of the loops at that state.
   LoopConstraints<Scalar> loop_constraints(Scalar t, const Eigen::VectorX<Scalar>& y,
                                            const Eigen::VectorX<Scalar>& z) const;

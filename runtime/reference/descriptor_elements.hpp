@@ -39,6 +39,8 @@ Scalar value(const model::Expression& expression, const Scene<Scalar>& scene,
         return scene.frames.at(i).R_WF.row(component).dot(scene.frames.at(i).omega);
       case Variable::Kind::kState:
         return scene.states.at(i);
+      case Variable::Kind::kStepLength:
+        return scene.h;
       case Variable::Kind::kArgument:
         JD_CHECK(v.component < arguments.size(), "argument {} of {}", v.component, arguments.size());
         return arguments[v.component];

@@ -142,6 +142,14 @@ Eigen::VectorX<Scalar> state_rates(const model::Mechanism& mechanism, const Scen
 }
 
 template <class Scalar>
+Eigen::VectorX<Scalar> sampled_states(const model::Mechanism& mechanism, const Scene<Scalar>& scene) {
+  std::vector<Scalar> values;
+  for (const model::StateVariable& state : mechanism.states)
+    if (state.sampled) values.push_back(value(*state.sampled, scene));
+  return Eigen::Map<const Eigen::VectorX<Scalar>>(values.data(), Eigen::Index(values.size()));
+}
+
+template <class Scalar>
 std::vector<Eigen::VectorX<Scalar>> rotor_inertias(const model::Mechanism& mechanism,
                                                    std::span<const Scalar> parameters) {
   std::vector<Eigen::VectorX<Scalar>> inertias;
@@ -166,6 +174,7 @@ std::vector<Eigen::VectorX<Scalar>> rotor_inertias(const model::Mechanism& mecha
                                          const std::vector<AbsoluteBody<S>>&);                         \
   template std::vector<Eigen::VectorX<S>> coordinate_forces(const model::Mechanism&, const Scene<S>&); \
   template Eigen::VectorX<S> state_rates(const model::Mechanism&, const Scene<S>&);                    \
+  template Eigen::VectorX<S> sampled_states(const model::Mechanism&, const Scene<S>&);                 \
   template std::vector<Eigen::VectorX<S>> rotor_inertias(const model::Mechanism&, std::span<const S>);
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE

@@ -66,6 +66,7 @@ struct Scene {
   std::vector<std::vector<Scalar>> position, rate;  ///< by joint and scalar coordinate, prescribed ones too
   std::vector<FrameMotion<Scalar>> frames;          ///< as in the mechanism
   std::vector<Scalar> states = {};                  ///< as in the mechanism
+  Scalar h = 0;                                     ///< s, of the step that begins; of samples
 };
 
 /// Motion of each of the frames on the given bodies.
@@ -91,6 +92,10 @@ std::vector<Eigen::VectorX<Scalar>> coordinate_forces(const model::Mechanism& me
 /// Rates of the states.
 template <class Scalar>
 Eigen::VectorX<Scalar> state_rates(const model::Mechanism& mechanism, const Scene<Scalar>& scene);
+
+/// What the states that are sampled are in the step of length `h` of the scene, in their order.
+template <class Scalar>
+Eigen::VectorX<Scalar> sampled_states(const model::Mechanism& mechanism, const Scene<Scalar>& scene);
 
 /// gear_ratio² rotor_inertia of the actuators, summed on each scalar coordinate of each joint; kg m² or kg.
 template <class Scalar>

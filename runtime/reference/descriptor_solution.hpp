@@ -167,6 +167,17 @@ DescriptorSolution<Scalar> DescriptorReference<Scalar>::solve(Scalar t, const Ei
 }
 
 template <class Scalar>
+Eigen::VectorX<Scalar> DescriptorReference<Scalar>::sampled_states(Scalar t, const Eigen::VectorX<Scalar>& y,
+                                                                   const Eigen::VectorX<Scalar>& z,
+                                                                   const Eigen::VectorX<Scalar>& u,
+                                                                   Scalar h) const {
+  const System system = linearise(t, absolute_state(t, y, z), coordinates_at(t, y, z));
+  descriptor::Scene<Scalar> scene = scene_at(t, u, system, z.tail(Eigen::Index(layout_.state_count)));
+  scene.h = h;
+  return descriptor::sampled_states(mechanism_, scene);
+}
+
+template <class Scalar>
 LoopConstraints<Scalar> DescriptorReference<Scalar>::loop_constraints(Scalar t,
                                                                       const Eigen::VectorX<Scalar>& y,
                                                                       const Eigen::VectorX<Scalar>& z) const {

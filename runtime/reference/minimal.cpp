@@ -208,6 +208,17 @@ Terms<Scalar> Reference<Scalar>::evaluate(const State<Scalar>& state, const Vect
   return terms;
 }
 
+template <class Scalar>
+VectorX<Scalar> Reference<Scalar>::sampled_states(const State<Scalar>& state, const VectorX<Scalar>& u,
+                                                  const Scalar& h) const {
+  Forces at = forces(state, u);
+  at.h = h;
+  std::vector<Scalar> values;
+  for (const model::StateVariable& variable : mechanism_.states)
+    if (variable.sampled) values.push_back(general(*variable.sampled, at).value);
+  return VectorX<Scalar>(Eigen::Map<const VectorX<Scalar>>(values.data(), Eigen::Index(values.size())));
+}
+
 template class Reference<JOURDAIN_SCALAR>;
 
 }  // namespace jourdain::reference

@@ -118,6 +118,8 @@ class Reference {
   std::vector<BodyMotion<Scalar>> frame_motion(const State<Scalar>& state) const;
   /// `u` as in model::CoordinateLayout (N or N m); sizes that do not fit throw InternalError.
   Terms<Scalar> evaluate(const State<Scalar>& state, const VectorX<Scalar>& u) const;
+  /// What the states that are sampled are in the step of length `h` (s) that begins there, in their order.
+  VectorX<Scalar> sampled_states(const State<Scalar>& state, const VectorX<Scalar>& u, const Scalar& h) const;
   /// In the order of `Mechanism::outputs`, with the accelerations ż and a bound `zdot_scale` of what those come from.
   std::vector<OutputValue<Scalar>> outputs(const State<Scalar>& state, const VectorX<Scalar>& u,
                                            const VectorX<Scalar>& zdot,

@@ -12,6 +12,7 @@ struct Reference<Scalar>::Forces {
   const VectorX<Scalar>& u;
   std::vector<FrameMotion> bodies, frames;
   VectorX<Scalar> rates;  // of all columns, prescribed ones too
+  Scalar h = 0;           // of the step that begins; of samples
 
   /// Component of a frame's velocity in the inertial frame.
   Bounded<Scalar> velocity(std::size_t frame, Eigen::Index component) const {
@@ -34,6 +35,8 @@ Bounded<Scalar> Reference<Scalar>::general(const model::Expression& expression, 
         return coordinate(v.index, v.component, at.state).first;
       case Kind::kInput:
         return at.u[Eigen::Index(v.index)];
+      case Kind::kStepLength:
+        return at.h;
       case Kind::kState:
         return at.state.z[Eigen::Index(layout_.first_state() + v.index)];
       case Kind::kFramePosition:

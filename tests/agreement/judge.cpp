@@ -55,6 +55,7 @@ Sample random_sample(const model::Mechanism& mechanism, std::uint64_t seed, bool
     sample.zdot.push_back(rounded(random.uniform(-5, 5)));
   }
   for (Eigen::Index i = 0; i < u.size(); ++i) sample.u.push_back(rounded(u[i]));
+  sample.h = rounded(random.uniform(0, 0.1));
   return sample;
 }
 
@@ -71,6 +72,7 @@ std::vector<Real> interpreted(const ir::Module& module, const std::string& name,
   leaves[LeafKind::kAcceleration] = cast(sample.zdot);
   leaves[LeafKind::kInput] = cast(sample.u);
   leaves[LeafKind::kTime] = {static_cast<Real>(sample.t)};
+  leaves[LeafKind::kStepLength] = {static_cast<Real>(sample.h)};
   for (const ir::Program& program : module.functions)
     if (program.name == name) return ir::interpret(program, leaves);
   JD_CHECK(false, "no function '{}'", name);

@@ -15,6 +15,7 @@ namespace jourdain::tests {
 struct Sample {
   double t = 0;
   std::vector<double> parameters, y, z, u, zdot;
+  double h = 0;  ///< of a step that begins, s
 };
 
 /// Seeded: state and inputs as in random_tree.hpp, parameters within a tenth of their defaults, accelerations

@@ -22,6 +22,8 @@ inline double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::s
       return sample.u[i];
     case kinematics::LeafKind::kTime:
       return sample.t;
+    case kinematics::LeafKind::kStepLength:
+      return sample.h;
   }
   return 0;
 }

@@ -89,6 +89,23 @@ class Comparison {
     return worst;
   }
 
+  /// What memories are sampled to: of the program, and of the descriptor form, against the reference.
+  double samples(const ir::Module& module) const {
+    if (!has_samples(derived_.mechanism)) return 0;
+    const Vector u = to_vector(sample_.u);
+    const auto expected = reference::Reference<long double>(derived_.mechanism, parameters_)
+                              .sampled_states(state_, u, sample_.h);
+    const auto by_form = reference::DescriptorReference<long double>(derived_.mechanism, parameters_)
+                             .sampled_states(state_.t, state_.y, state_.z, u, sample_.h);
+    const std::vector<double> values = interpreted<double>(module, "sample", sample_);
+    EXPECT_EQ(values.size(), std::size_t(expected.size()));
+    double worst = 0;
+    for (Eigen::Index i = 0; i < expected.size(); ++i)
+      for (const long double value : {static_cast<long double>(values.at(std::size_t(i))), by_form[i]})
+        worst = larger_error(worst, double(std::fabs(value - expected[i]) / (1 + std::fabs(expected[i]))));
+    return worst;
+  }
+
   /// Accelerations, reactions and drives of the descriptor form against the reference in minimal coordinates.
   double descriptor() const {
     const reference::DescriptorReference<long double> form(derived_.mechanism, parameters_);
@@ -129,8 +146,9 @@ class Comparison {
 };
 
 struct Worst {
-  int scenes = 0;
-  double backward = 0, forward = 0, entries = 0, outputs = 0, reference = 0, descriptor = 0, condition = 0;
+  int scenes = 0, sampled = 0;
+  double backward = 0, forward = 0, entries = 0, outputs = 0, samples = 0, reference = 0, descriptor = 0,
+         condition = 0;
 };
 
 const char* group(const model::Mechanism& mechanism) {
@@ -150,13 +168,15 @@ bool is_on_a_kink(const Derived& derived, const Sample& sample) {
   take(ir::LeafKind::kAcceleration, sample.zdot);
   take(ir::LeafKind::kInput, sample.u);
   take(ir::LeafKind::kTime, {sample.t});
+  take(ir::LeafKind::kStepLength, {sample.h});
   const validate::KinkSurvey survey(derived.module);
   return survey.look(leaves).is_near;
 }
 
 using Draw = model::Mechanism (*)(std::uint64_t seed);
 
-void expect_agreement(Draw draw, std::uint64_t scenes, double forward) {
+/// How many of the scenes have memories.
+int expect_agreement(Draw draw, std::uint64_t scenes, double forward) {
   std::map<std::string, Worst> worst;
   for (std::uint64_t seed = 0; seed < scenes; ++seed) {
     const Derived derived = derive(draw(seed));
@@ -177,18 +197,25 @@ void expect_agreement(Draw draw, std::uint64_t scenes, double forward) {
       check(w.reference, compare.reference(), kForward, "reference");
     }
     check(w.outputs, compare.outputs(derived.module), kEntries, "outputs");
+    check(w.samples, compare.samples(derived.module), kEntries, "samples");
+    w.sampled += has_samples(derived.mechanism);
     check(w.descriptor, compare.descriptor(), kDescriptor, "descriptor");
     w.condition = std::max(w.condition, compare.condition());
-    ASSERT_FALSE(testing::Test::HasFailure());
+    if (testing::Test::HasFailure()) return 0;
   }
-  int compared = 0;
-  for (const auto& [name, w] : worst) compared += w.scenes;
+  int compared = 0, sampled = 0;
+  for (const auto& [name, w] : worst) {
+    compared += w.scenes;
+    sampled += w.sampled;
+  }
   EXPECT_GE(compared, 0.95 * double(scenes));
-  fmt::print("{:<13} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9}\n", "scenes", "", "backward",
-             "fwd/cond", "entries", "outputs", "reference", "descriptor", "cond(M)");
+  fmt::print("{:<13} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9}\n", "scenes", "", "backward",
+             "fwd/cond", "entries", "outputs", "samples", "reference", "descriptor", "cond(M)");
   for (const auto& [name, w] : worst)
-    fmt::print("{:<13} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>10.1e} {:>9.1e}\n", name,
-               w.scenes, w.backward, w.forward, w.entries, w.outputs, w.reference, w.descriptor, w.condition);
+    fmt::print("{:<13} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>10.1e} {:>9.1e}\n",
+               name, w.scenes, w.backward, w.forward, w.entries, w.outputs, w.samples, w.reference,
+               w.descriptor, w.condition);
+  return sampled;
 }
 
 TEST(RandomScenes, AgreeInInterpreterReferencesAndSixtyDigits) {
@@ -196,7 +223,7 @@ TEST(RandomScenes, AgreeInInterpreterReferencesAndSixtyDigits) {
 }
 
 TEST(RandomScenes, WithLawsOfAllFunctionsAgree) {
-  expect_agreement(random_scene_with_laws, kScenesWithLaws, kForwardWithLaws);
+  EXPECT_GE(expect_agreement(random_scene_with_laws, kScenesWithLaws, kForwardWithLaws), kScenesWithLaws / 8);
 }
 
 TEST(RandomScenes, GiveTheSameOutputsWithEverySimplificationOff) {

@@ -26,6 +26,7 @@ double leaf(const model::Mechanism& mechanism, const StateNumbers& state, LeafKi
       return state.t;
     case LeafKind::kAcceleration:
     case LeafKind::kMultiplier:
+    case LeafKind::kStepLength:
       return 0;
   }
   return 0;

@@ -51,6 +51,9 @@ struct Pack {
   friend Pack atan(const Pack& a) {
     return each([&](std::size_t i) { return std::atan(a.v[i]); });
   }
+  friend Pack floor(const Pack& a) {
+    return each([&](std::size_t i) { return std::floor(a.v[i]); });
+  }
   friend Pack exp(const Pack& a) {
     return each([&](std::size_t i) { return std::exp(a.v[i]); });
   }

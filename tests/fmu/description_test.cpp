@@ -7,6 +7,7 @@
 
 #include "fmu/importer.hpp"
 #include "properties/effort.hpp"
+#include "support/files.hpp"
 #include "support/process.hpp"
 
 namespace jourdain::tests {
@@ -52,10 +53,13 @@ void expect_consistent(const Fmu& fmu, const std::string& model) {
 
 class Schema : public testing::TestWithParam<int> {};
 
+/// But of those with memories, of which units are refused.
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(fs::path(JOURDAIN_SOURCE_DIR) / "models"))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".toml" &&
+        support::read_file(entry.path().string()).find("[[memory]]") == std::string::npos)
+      names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }

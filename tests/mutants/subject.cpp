@@ -86,6 +86,7 @@ std::vector<ir::LeafValues<double>> random_states(const Subject& subject, std::s
     leaves[LeafKind::kAcceleration] = sample.zdot;
     leaves[LeafKind::kInput] = sample.u;
     leaves[LeafKind::kTime] = {sample.t};
+    leaves[LeafKind::kStepLength] = {sample.h};
   }
   return states;
 }

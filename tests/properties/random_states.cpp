@@ -17,7 +17,8 @@ using model::Variable;
 
 class States {
  public:
-  States(model::Mechanism& mechanism, std::uint64_t seed) : mechanism_(mechanism), random_(seed * 131 + 7) {
+  States(model::Mechanism& mechanism, std::uint64_t seed)
+      : mechanism_(mechanism), seed_(seed), random_(seed * 131 + 7) {
     for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
       for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
         coordinates_.push_back({model::JointIndex(j), c});
@@ -41,12 +42,24 @@ class States {
     output.kind = model::OutputKind::kExpression;
     output.value = own(0) * quantity();
     mechanism_.outputs.push_back(output);
+    turn_into_memories();
   }
 
  private:
   double number(double low, double high) { return random_.uniform(low, high); }
 
   static Expression own(std::size_t i) { return variable(Variable::Kind::kState, i); }
+
+  /// Some of them, by numbers of their own.
+  void turn_into_memories() {
+    random_ = Random(seed_ * 977 + 5);
+    for (std::size_t i = 0; i < mechanism_.states.size(); ++i) {
+      if (!random_.chance(0.4)) continue;
+      mechanism_.states[i].rate = 0.0;
+      mechanism_.states[i].sampled =
+          number(-1, 1) * own(i) + number(-2, 2) * sine(quantity() * own(i)) + quantity();
+    }
+  }
 
   /// By a state on some coordinate, where joints have any that forces name.
   void push(std::size_t i) {
@@ -80,6 +93,7 @@ class States {
   }
 
   model::Mechanism& mechanism_;
+  std::uint64_t seed_;
   Random random_;
   std::vector<model::ScalarCoordinate> coordinates_;
 };

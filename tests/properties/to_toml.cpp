@@ -114,6 +114,8 @@ class Writer {
         return fmt::format("{}.world_w{}", mechanism_.frames[v.index].name, kAxes[v.component]);
       case Kind::kState:
         return mechanism_.states[v.index].name;
+      case Kind::kStepLength:
+        return "no name";
       case Kind::kArgument:
         return arguments_[v.component];
     }
@@ -130,8 +132,11 @@ class Writer {
   }
 
   void add(const model::StateVariable& state) {
-    text_ += fmt::format("\n[[state]]\nname = \"{}\"\nrate = {}\ninitial = {}\n", state.name,
-                         value(state.rate), value(state.initial));
+    text_ += state.sampled
+                 ? fmt::format("\n[[memory]]\nname = \"{}\"\nperiod = 0\nupdate = {}\ninitial = {}\n",
+                               state.name, value(*state.sampled), value(state.initial))
+                 : fmt::format("\n[[state]]\nname = \"{}\"\nrate = {}\ninitial = {}\n", state.name,
+                               value(state.rate), value(state.initial));
     if (!state.unit.empty()) text_ += fmt::format("unit = \"{}\"\n", state.unit);
   }
 

@@ -62,7 +62,7 @@ class Interface {
                   {"SHA256", c_string(model_.sha256)}});
     std::string calls, functions, steppers;
     for (const FunctionInfo& function : functions_) {
-      if (function.shape == Shape::kState) continue;
+      if (!function.stepper && !is_listed(function)) continue;
       calls += function.stepper ? step(function) : calls_.call(function);
       (function.stepper ? steppers : functions) +=
           function.stepper ? stepper_row(function) : calls_.row(function);
@@ -265,7 +265,7 @@ class Interface {
   std::string table() const {
     std::size_t functions = 0, steppers = 0;
     for (const FunctionInfo& function : functions_) {
-      if (function.shape == Shape::kState) continue;
+      if (!function.stepper && !is_listed(function)) continue;
       ++(function.stepper ? steppers : functions);
     }
     return fmt::format("    {}, {}, {}, {}, {}, {},\n    {}, {}, {},\n    {}, {}, {},\n",

@@ -65,6 +65,7 @@ std::vector<InterfaceCalls::PassedArray> InterfaceCalls::results(const FunctionI
       return list;
     case Shape::kState:
     case Shape::kCorrection:
+    case Shape::kSampling:
     case Shape::kStep:
       break;
   }
@@ -138,7 +139,7 @@ std::string InterfaceCalls::output_numbers() const {
 std::string InterfaceCalls::argument_arrays() const {
   std::string text;
   for (const FunctionInfo& function : functions_) {
-    if (function.stepper || function.shape == Shape::kState) continue;
+    if (!is_listed(function)) continue;
     if (function.takes_acceleration)
       text += fmt::format("static const jourdain_argument {}_given[] = {{{}}};\n", function.name,
                           argument_rows({passed("zdot", {scene_.velocities.size()})}));

@@ -67,7 +67,8 @@ class ExpressionPrinter {
       case Kind::kToAngle:
         return {fmt::format("detail::Angle<Real>({})", whole(e, 0))};
       case Kind::kInputsAt:
-        return {place_.samples_inputs ? fmt::format("input_at(input, {})", whole(e, 0)) : "input"};
+        if (!place_.samples_inputs) return {"input"};
+        return {fmt::format("{}input_at(input, {})", place_.in_detail ? "" : "detail::", whole(e, 0))};
     }
     return {};
   }

@@ -114,6 +114,7 @@ class Renumber {
   Variable renumbered(Variable variable) const {
     switch (variable.kind) {
       case Kind::kTime:
+      case Kind::kStepLength:
       case Kind::kArgument:
         break;
       case Kind::kPosition:

@@ -26,6 +26,36 @@ description = "what the pressure's line leaves of it"
 )"};
 }
 
+KeySection memory_section() {
+  return {"memory",
+          "[[memory]]",
+          "A number that is sampled where a step begins and held until the next sample: what a digital "
+          "controller or a "
+          "transport delay keeps. Expressions use its name. All memories are sampled at once, by what was "
+          "before. In "
+          "the emitted code memories are among the last entries of z, with NAME_timer (s, to the next "
+          "sample) and, of a "
+          "delay, NAME_1, NAME_2, ...",
+          {{"name", "name", "", kRequired, "an identifier that is no coordinate, input or state"},
+           {"update", "expression", "unit", kRequired, "its next value; as of a force, of memories too"},
+           {"period", "number", "s", kRequired,
+            "between samples, the first of which is at the start: the steps are samples that begin nearest "
+            "to those "
+            "times; 0: every step"},
+           {"delay", "integer", "", "0", "by how many samples it lags, up to 64"},
+           {"initial", "number", "unit", "0", "before its first sample"},
+           {"nominal", "number", "unit", "initial or 1", "as of a state"},
+           {"unit", "text", "", "none", "an SI unit"},
+           {"description", "text", "", "empty", ""}},
+          R"([[memory]]
+name = "measured_pressure"
+update = "gas_pressure"
+period = 0.01
+unit = "Pa"
+description = "what a controller knows of it"
+)"};
+}
+
 KeySection signal_section() {
   return {"signal",
           "[[signal]]",

@@ -6,6 +6,7 @@
 namespace jourdain::model {
 
 KeySection state_section();
+KeySection memory_section();
 KeySection signal_section();
 KeySection friction_section();
 

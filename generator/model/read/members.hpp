@@ -159,8 +159,8 @@ class Members {
   }
 
   void one(StateVariable& state) {
-    auto& [name, rate, initial, nominal, unit, description, where] = state;
-    each(name, rate, initial, nominal, unit, description, where);
+    auto& [name, rate, initial, nominal, unit, sampled, period, description, where] = state;
+    each(name, rate, initial, nominal, unit, sampled, period, description, where);
   }
 
   Visit& visit_;

@@ -22,9 +22,9 @@ using support::Diagnostics;
 
 /// Tables that a file may have any number of, and that [[repeat]] may hold.
 const std::vector<std::string> kLists{
-    "import", "override", "body",     "joint",      "frame", "actuator",  "input",      "force",
-    "spring", "bushing",  "output",   "kinematics", "loop",  "coupler",   "stop",       "contact",
-    "table",  "state",    "friction", "signal",     "cable", "gear_mesh", "constraint", "tyre"};
+    "import",   "override", "body",       "joint",     "frame",      "actuator", "input",   "force", "spring",
+    "bushing",  "output",   "kinematics", "loop",      "coupler",    "stop",     "contact", "table", "state",
+    "friction", "signal",   "cable",      "gear_mesh", "constraint", "tyre",     "memory"};
 
 class TomlReader {
  public:
@@ -56,7 +56,8 @@ class TomlReader {
     attach_imports(file_, imports, mechanism);
     read_inputs(file_, repeats_.tables("input"), mechanism);
     read_frictions(file_, repeats_.tables("friction"), mechanism);
-    read_states(file_, repeats_.tables("state"), repeats_.tables("signal"), mechanism);
+    read_states(file_, {repeats_.tables("state"), repeats_.tables("memory"), repeats_.tables("signal")},
+                mechanism);
     read_forces(file_, repeats_.tables("force"), mechanism);
     read_stops(file_, repeats_.tables("stop"), mechanism);
     read_contacts(file_, repeats_.tables("contact"), mechanism);

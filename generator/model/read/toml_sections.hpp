@@ -83,9 +83,13 @@ bool check_signal_name(TomlFile& file, const TomlTable& table, const char* what,
 /// All [[friction]] tables: forces on coordinates and a state each.
 void read_frictions(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
 
-/// All [[state]] and [[signal]] tables: rates may name all of them, and what forces may name; a signal those before it.
-/// `file` has declared the signals then.
-void read_states(TomlFile& file, const TomlTables& section, const TomlTables& signals, Mechanism& mechanism);
+struct StateTables {
+  const TomlTables &states, &memories, &signals;
+};
+
+/// All [[state]], [[memory]] and [[signal]] tables: rates and updates may name all of them, and what forces may name; a
+/// signal those before it. `file` has declared the signals then.
+void read_states(TomlFile& file, const StateTables& tables, Mechanism& mechanism);
 
 /// [[force]], [[spring]], [[bushing]], [[cable]], [[gear_mesh]], [[output]], [[loop]], [[coupler]] and
 /// [[constraint]]: what refers to bodies, joints, frames, inputs and states, which `mechanism` has already. Bodies that

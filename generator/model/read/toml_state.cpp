@@ -8,6 +8,7 @@
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
+#include "model/read/toml_state.hpp"
 
 namespace jourdain::model {
 
@@ -49,20 +50,8 @@ std::string read_si_unit(const TomlTable& table, const char* what, const std::st
 
 /// All but its rate, whose expression may name states that are declared later.
 std::optional<StateVariable> read_state(TomlFile& file, const TomlTable& table, const Mechanism& mechanism) {
-  StateVariable state;
-  state.name = table.required_text("name").value_or("");
-  state.where = table.where("name");
-  state.unit = read_si_unit(table, "state", state.name);
-  state.initial = table.number("initial", {{state.unit}});
-  if (table.has("nominal"))
-    state.nominal = table.positive("nominal", {{state.unit}});
-  else if (const double size = std::fabs(file.value(state.initial)); size > 1)
-    state.nominal = size;
-  state.description = table.text("description").value_or("");
   if (!table.has("rate")) table.missing("rate", "an expression of t, coordinates, inputs, frames and states");
-  if (state.name.empty()) return {};
-  if (!check_signal_name(file, table, "state", state.name, mechanism)) return {};
-  return state;
+  return read_state_variable(file, table, "state", mechanism);
 }
 
 /// An expression that later ones may name.
@@ -83,13 +72,29 @@ void read_signal(TomlFile& file, const toml::node& node, const Mechanism& mechan
 
 }  // namespace
 
-void read_states(TomlFile& file, const TomlTables& section, const TomlTables& signals, Mechanism& mechanism) {
+std::optional<StateVariable> read_state_variable(TomlFile& file, const TomlTable& table, const char* what,
+                                                 const Mechanism& mechanism) {
+  StateVariable state;
+  state.name = table.required_text("name").value_or("");
+  state.where = table.where("name");
+  state.unit = read_si_unit(table, what, state.name);
+  state.initial = table.number("initial", {{state.unit}});
+  if (table.has("nominal"))
+    state.nominal = table.positive("nominal", {{state.unit}});
+  else if (const double size = std::fabs(file.value(state.initial)); size > 1)
+    state.nominal = size;
+  state.description = table.text("description").value_or("");
+  if (state.name.empty() || !check_signal_name(file, table, what, state.name, mechanism)) return {};
+  return state;
+}
+
+void read_states(TomlFile& file, const StateTables& tables, Mechanism& mechanism) {
   struct Read {
     TomlTable table;
     std::optional<std::size_t> index;  // in the mechanism
   };
   std::vector<Read> read;
-  for (const toml::node& node : section) {
+  for (const toml::node& node : tables.states) {
     const TomlTable table(file, *node.as_table(),
                           fmt::format("state '{}'", shown(file.text_or(*node.as_table(), "name"))),
                           file.range(node.source()), keys_of("state"));
@@ -99,16 +104,18 @@ void read_states(TomlFile& file, const TomlTables& section, const TomlTables& si
     read.back().index = mechanism.states.size();
     mechanism.states.push_back(std::move(*state));
   }
-  for (const toml::node& node : signals) read_signal(file, node, mechanism);
+  Memories memories(file, tables.memories, mechanism);
+  for (const toml::node& node : tables.signals) read_signal(file, node, mechanism);
   const Scope scope = general_scope(file, mechanism);
   auto item = read.begin();
-  for ([[maybe_unused]] const toml::node& node : section) {  // with the index of its repetition
+  for ([[maybe_unused]] const toml::node& node : tables.states) {  // with the index of its repetition
     const auto& [table, index] = *item++;
     if (!index) continue;
     const std::string unit = unit_per_second(mechanism.states[*index].unit);
     const Expression rate = table.function("rate", {{unit}}, scope);
     mechanism.states[*index].rate = settled(rate, mechanism);
   }
+  memories.read_updates(scope);
 }
 
 }  // namespace jourdain::model

@@ -82,6 +82,8 @@ std::vector<Expected> LoopOracle::operator()(const ir::Program& program) const {
                        to_list(multipliers(of_tree(accelerations()))));
     case FunctionId::kOutputs:
       return expecting("outputs of the constrained system", outputs());
+    case FunctionId::kSample:
+      return expecting("samples of the equations", samples());
     case FunctionId::kResidualDerivatives:
       return {{"B^T M B", mass_entries(program)},
               {"differences of the residual", change([](const LoopOracle& o) { return o.residual(); }, true),
@@ -246,6 +248,13 @@ std::vector<ScaledReal> LoopOracle::outputs() const {
         for (Eigen::Index j = 0; j < member.cols(); ++j) numbers.push_back(member(i, j));
   }
   return numbers;
+}
+
+std::vector<ScaledReal> LoopOracle::samples() const {
+  ir::LeafValues<ScaledReal> tree = point_.exact;
+  tree[LeafKind::kVelocity] = to_list(e_.z);
+  return dynamics::HighPrecision(scene_.equations.statements, leaves_at(tree))
+      .values(dynamics::sampled_values(scene_.equations));
 }
 
 std::vector<ScaledReal> LoopOracle::mass_entries(const ir::Program& program) const {

@@ -54,6 +54,7 @@ class LoopOracle {
   ExactMatrix inverse_inertia(const ExactMatrix& J) const;
   std::vector<ScaledReal> position_rate() const;
   std::vector<ScaledReal> outputs() const;
+  std::vector<ScaledReal> samples() const;
   std::vector<ScaledReal> mass_entries(const ir::Program& program) const;
   std::vector<ScaledReal> start(const ir::Program& program) const;
   std::vector<ScaledReal> displacement_rate() const;

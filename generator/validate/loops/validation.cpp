@@ -81,6 +81,9 @@ Point point_of(const Ray& ray, const std::vector<double>& parameters, const Exac
   point.exact[LeafKind::kAcceleration] = exact(ray.zdot);
   point.exact[LeafKind::kInput] = exact(ray.u);
   point.exact[LeafKind::kTime] = {static_cast<double>(ray.configuration.t)};
+  const double last =
+      ray.z.empty() ? 0.0 : std::fabs(ray.z.back());  // of states there are some that count down
+  point.exact[LeafKind::kStepLength] = {last * (0.1 + 4 * std::fabs(ray.time))};
   point.direction = {exact(ray.displacement), exact(ray.velocity), exact(ray.input), ray.time};
   point.exact = closure.closed(std::move(point.exact));
   point.rounded = rounded(point.exact);

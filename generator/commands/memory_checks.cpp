@@ -1,0 +1,41 @@
+#include "commands/memory_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "programs/steppers.hpp"
+
+namespace jourdain::commands {
+
+std::string check_multistep(const std::vector<std::string>& functions, const model::Mechanism& mechanism) {
+  if (!has_samples(mechanism)) return "";
+  for (const std::string& function : functions) {
+    const programs::Stepper* stepper = programs::find_stepper(function.substr(0, function.rfind("_step")));
+    if (stepper && stepper->history > 0)
+      return fmt::format(
+          "{} goes on with rates of earlier steps, and '{}' has memories, at whose samples rates jump; "
+          "take a method of one step",
+          stepper->name, mechanism.name);
+  }
+  return "";
+}
+
+std::string check_sampling(const model::Mechanism& mechanism, const std::vector<double>& parameters,
+                           double h) {
+  constexpr double kRounding = 1e-6;  // of a step
+  for (const model::StateVariable& state : mechanism.states) {
+    if (!state.period) continue;
+    const double period = state.period->evaluate<double>(parameters), steps = period / h;
+    if (!(period > 0))
+      return fmt::format("the period of {} is {:g} s at these parameters", state.name, period);
+    if (std::round(steps) < 1 || std::fabs(steps - std::round(steps)) > kRounding * steps)
+      return fmt::format(
+          "{} has a period of {:g} s, which is {:g} steps of {:g} s: a whole number is needed, or samples "
+          "are not evenly spaced",
+          state.name, period, steps, h);
+  }
+  return "";
+}
+
+}  // namespace jourdain::commands

@@ -1,0 +1,89 @@
+// Memories on the command line: where they are stepped, and where they are refused.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "commands/run_jourdain.hpp"
+#include "support/files.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+constexpr const char* kServo = "models/digital_servo.toml";
+
+class MemoriesOnTheCommandLine : public testing::Test {
+ protected:
+  /// The command on the servo, with what it writes into a folder of the test.
+  support::ProcessResult run(const std::string& command, std::vector<std::string> options) {
+    options.insert(options.begin(), {command, kServo});
+    return jourdain(options);
+  }
+
+  const support::TemporaryFolder folder_;
+  const std::string csv_ = folder_.path() + "/run.csv", out_ = folder_.path() + "/out";
+};
+
+TEST_F(MemoriesOnTheCommandLine, StepsDivideThePeriod) {
+  expect(run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1"}), 0, "last_reading_timer");
+  EXPECT_NE(support::read_file(csv_).find("torque"), std::string::npos);
+  for (const char* step : {"1.3e-3", "0.01", "0.00500001"})
+    expect(run("simulate", {"--output", csv_, "--step", step, "--duration", "0.1"}), 2,
+           "last_reading_timer has a period of 0.005 s");
+  expect(
+      run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=2.5e-3"}),
+      2, "2.5 steps of 0.001 s");
+  expect(run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=-1"}),
+         2, "the period of last_reading_timer is -1 s at these parameters");
+  expect(
+      run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=0.003"}),
+      0, "at t = 0.1 s");
+}
+
+/// At the ends of whole periods runs agree that take the same samples.
+TEST_F(MemoriesOnTheCommandLine, ShorterStepsTakeTheSameSamples) {
+  const auto after = [&](const char* step) {
+    const std::string output = run("simulate", {"--output", "-", "--step", step, "--duration", "0.25",
+                                                "--every", "1", "--constant-input", "0.2"})
+                                   .output;
+    const std::size_t row = output.rfind('\n', output.size() - 2) + 1;
+    return std::stod(output.substr(output.find(',', row) + 1));
+  };
+  const double coarse = after("5e-3"), fine = after("1e-3"), finer = after("5e-4");
+  EXPECT_NEAR(fine, finer, 1e-11);
+  EXPECT_NEAR(coarse, fine, 1e-7);
+}
+
+TEST_F(MemoriesOnTheCommandLine, MethodsOfSeveralStepsAreRefused) {
+  const std::string why = "adams_bashforth2 goes on with rates of earlier steps";
+  expect(run("simulate", {"--method", "adams_bashforth2", "--output", csv_}), 2, why);
+  expect(run("compile", {"--functions", "adams_bashforth2_step", "-o", out_}), 2, why);
+  expect(run("wrap", {"--for", "simulink", "--method", "adams_bashforth2", "-o", out_}), 2, why);
+  expect(run("cost", {"--methods", "rk4,adams_bashforth2"}), 2, why);
+}
+
+TEST_F(MemoriesOnTheCommandLine, WhatFollowsRatesAloneIsRefused) {
+  expect(run("report", {"-o", out_}), 2, "has memories; the solutions that a report compares with");
+  expect(run("fmu", {"-o", out_ + ".fmu"}), 2, "has memories; units with events");
+  expect(run("wrap", {"--for", "casadi", "-o", out_}), 2, "casadi is not given rates of memories");
+}
+
+TEST_F(MemoriesOnTheCommandLine, AreSteppedInCAndPython) {
+  expect(run("wrap", {"--for", "simulink", "-o", out_}), 0, "_sfunction.c");
+  expect(run("compile", {"--language", "c", "--interface", "-o", out_}), 0, "2 steps as defined");
+  EXPECT_NE(support::read_file(out_ + "/digital_servo.h").find("digital_servo_sample("), std::string::npos);
+  expect(run("python", {"-o", out_}), 0, "5 steps as defined");
+  EXPECT_EQ(support::read_file(out_ + "/digital_servo.py").find("adams_bashforth2_step("), std::string::npos);
+}
+
+TEST_F(MemoriesOnTheCommandLine, TheHeaderSaysWhatIsSampled) {
+  expect(run("compile", {"-o", out_}), 0, "sample");
+  const std::string header = support::read_file(out_ + "/digital_servo.hpp");
+  EXPECT_NE(
+      header.find("Steps begin with samples of last_reading (rad), last_reading_timer (s), integral (N m), "),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace jourdain::tests
