@@ -17,6 +17,7 @@ void add_info(CLI::App& app, int& status);
 void add_equations(CLI::App& app, int& status);
 void add_simulate(CLI::App& app, int& status);
 void add_ensemble(CLI::App& app, int& status);
+void add_merge(CLI::App& app, int& status);
 void add_fmu(CLI::App& app, int& status);
 void add_python(CLI::App& app, int& status);
 void add_wrap(CLI::App& app, int& status);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <fstream>
+#include <limits>
 
 #include "commands/build_model.hpp"
+#include "commands/content_hash.hpp"
 #include "commands/tool.hpp"
 #include "emit/templates.hpp"
 #include "support/check.hpp"
@@ -93,27 +95,33 @@ std::string writing(const std::string& name, const programs::SceneFacts& facts, 
 
 EnsembleProgram::EnsembleProgram(const RunModel& model, const CompiledModel& compiled,
                                  const std::vector<Spread>& spreads, const EnsembleChoices& choices)
-    : choices_(choices), drawn_(spreads.size()), numbers_(spreads.size() + 1) {
+    : choices_(choices), numbers_(spreads.size() + 1) {
   const std::string& name = model.loaded.options.name;
   const Drawing drawing = drawing_of(model, compiled, spreads, choices.inputs);
   const std::string write = writing(name, compiled.facts, numbers_);
   const bool own = !model.parameters.empty();
-  for (const emit::File& file : compiled.files)
-    support::write_file(folder_.path() + "/" + file.name, file.text);
+  std::vector<support::FileText> sources;
+  for (const emit::File& file : compiled.files) sources.push_back({file.name, file.text});
   for (const char* header : {"ensemble.hpp", "pack.hpp", "draws.hpp"})
-    support::write_file(folder_.path() + "/" + header, emit::template_text(header));
-  support::write_file(folder_.path() + "/main.cpp",
-                      emit::fill(emit::template_text("ensemble.cpp.in"),
-                                 {{"NAME", name},
-                                  {"REAL", choices.real},
-                                  {"METHOD", choices.method},
-                                  {"DRAWN_COUNT", fmt::format("{}", spreads.size())},
-                                  {"OUTPUT_COUNT", fmt::format("{}", compiled.facts.output_numbers())},
-                                  {"PARAMETERS", drawing.parameters},
-                                  {"STATE", drawing.state},
-                                  {"OWN_PARAMETERS",
-                                   own ? "    ensemble.set_parameters(k - begin, start.parameters);\n" : ""},
-                                  {"WRITE", write}}));
+    sources.push_back({header, std::string(emit::template_text(header))});
+  sources.push_back(
+      {"main.cpp", emit::fill(emit::template_text("ensemble.cpp.in"),
+                              {{"NAME", name},
+                               {"REAL", choices.real},
+                               {"METHOD", choices.method},
+                               {"DRAWN_COUNT", fmt::format("{}", spreads.size())},
+                               {"OUTPUT_COUNT", fmt::format("{}", compiled.facts.output_numbers())},
+                               {"PARAMETERS", drawing.parameters},
+                               {"STATE", drawing.state},
+                               {"OWN_PARAMETERS",
+                                own ? "    ensemble.set_parameters(k - begin, start.parameters);\n" : ""},
+                               {"WRITE", write}})});
+  std::string all;
+  for (const support::FileText& source : sources) {
+    support::write_file(folder_.path() + "/" + source.name, source.text);
+    all += source.text;
+  }
+  sha256_ = sha256_of(all);
   std::vector<std::string> command = machine_compiler();
   for (const char* word : {"-std=c++17", "-O2", "-march=native", "-ffp-contract=off", "-pthread", "-w", "-o"})
     command.emplace_back(word);
@@ -122,27 +130,23 @@ EnsembleProgram::EnsembleProgram(const RunModel& model, const CompiledModel& com
   run_tool(command);
 }
 
-std::vector<EnsembleRow> EnsembleProgram::run(std::uint64_t begin, std::uint64_t end, std::uint64_t steps,
-                                              double h) const {
+EnsembleRows EnsembleProgram::run(std::uint64_t begin, std::uint64_t end, std::uint64_t steps,
+                                  double h) const {
   const std::string file = folder_.path() + "/rows";
   run_tool({folder_.path() + "/ensemble", file, fmt::format("{}", choices_.seed), fmt::format("{}", begin),
             fmt::format("{}", end), fmt::format("{}", steps), fmt::format("{}", h),
             fmt::format("{}", choices_.threads)});
-  const std::string bytes = support::read_file(file);
-  JD_CHECK(bytes.size() == (end - begin) * numbers_ * sizeof(double), "{} bytes of {} states", bytes.size(),
-           end - begin);
-  std::vector<EnsembleRow> rows;
-  std::vector<double> numbers(numbers_);
+  std::ifstream in(file, std::ios::binary);
+  EnsembleRows rows{std::vector<std::vector<double>>(numbers_ - 1), {}};
+  for (std::vector<double>& column : rows.columns) column.reserve(end - begin);
+  std::vector<double> row(numbers_);
   for (std::uint64_t k = begin; k < end; ++k) {
-    std::memcpy(numbers.data(), bytes.data() + (k - begin) * numbers_ * sizeof(double),
-                numbers_ * sizeof(double));
-    const auto after_drawn = numbers.begin() + static_cast<std::ptrdiff_t>(drawn_);
-    const bool is_finite =
-        std::all_of(numbers.begin(), numbers.end(), [](double value) { return std::isfinite(value); });
-    rows.push_back({k,
-                    {numbers.begin(), after_drawn},
-                    {after_drawn, numbers.end() - 1},
-                    is_finite && numbers.back() == 1});
+    in.read(reinterpret_cast<char*>(row.data()), static_cast<std::streamsize>(row.size() * sizeof(double)));
+    JD_CHECK(in.good(), "state {} of {} to {} is missing", k, begin, end);
+    const bool is_finite = std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); });
+    for (std::size_t i = 0; i + 1 < row.size(); ++i)
+      rows.columns[i].push_back(std::isnan(row[i]) ? std::numeric_limits<double>::quiet_NaN() : row[i]);
+    rows.trusted.push_back(is_finite && row.back() == 1 ? 1 : 0);
   }
   return rows;
 }

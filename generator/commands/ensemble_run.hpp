@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/ensemble_result.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/spreads.hpp"
 #include "support/temporary_folder.hpp"
@@ -13,17 +14,9 @@ namespace jourdain::commands {
 
 struct EnsembleChoices {
   std::string method = "rk4", real = "double";
-  std::uint64_t seed = 1, begin = 0, end = 0;  ///< states begin to end - 1
-  std::uint64_t threads = 0;                   ///< 0: as many as the machine runs at once
-  std::vector<double> inputs;                  ///< one value each
-};
-
-/// Where a state ended.
-struct EnsembleRow {
-  std::uint64_t state = 0;
-  std::vector<double> drawn;  ///< in the order of the spreads
-  std::vector<double> end;    ///< y, z, outputs
-  bool trusted = false;       ///< finite throughout, outputs at the end, loops closed
+  std::uint64_t seed = 1;
+  std::uint64_t threads = 0;   ///< 0: as many as the machine runs at once
+  std::vector<double> inputs;  ///< one value each
 };
 
 /// Compiles once; runs as often as asked for.
@@ -35,12 +28,17 @@ class EnsembleProgram {
   EnsembleProgram(const RunModel& model, const CompiledModel& compiled, const std::vector<Spread>& spreads,
                   const EnsembleChoices& choices);
 
-  /// `steps` steps of length `h`, s, of the states begin to end - 1, by their numbers.
-  std::vector<EnsembleRow> run(std::uint64_t begin, std::uint64_t end, std::uint64_t steps, double h) const;
+  /// `steps` steps of length `h`, s, of the states begin to end - 1, by their numbers. All that is no number is the
+  /// same NaN.
+  EnsembleRows run(std::uint64_t begin, std::uint64_t end, std::uint64_t steps, double h) const;
+
+  /// SHA-256 of all that is compiled: of the same programs the same.
+  const std::string& sha256() const { return sha256_; }
 
  private:
   EnsembleChoices choices_;
-  std::size_t drawn_ = 0, numbers_ = 0;  ///< of a row
+  std::size_t numbers_ = 0;  ///< of a row
+  std::string sha256_;
   support::TemporaryFolder folder_;
 };
 

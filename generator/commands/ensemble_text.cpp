@@ -36,19 +36,19 @@ Statistics statistics_of(std::vector<double> values) {
   return result;
 }
 
-std::string statistics_table(const std::vector<std::string>& columns, const std::vector<std::string>& units,
-                             const std::vector<Statistics>& statistics, std::size_t first) {
+std::string statistics_table(const std::vector<EnsembleColumn>& columns,
+                             const std::vector<Statistics>& statistics) {
   std::vector<std::string> names;
   std::size_t width = 0;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    names.push_back(columns[i] + (units[i].empty() ? "" : ", " + units[i]));
+  for (const EnsembleColumn& column : columns) {
+    names.push_back(column.name + (column.unit.empty() ? "" : ", " + column.unit));
     width = std::max(width, names.back().size());
   }
   std::string text = fmt::format("    {:<{}}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", width, "mean",
                                  "deviation", "least", "5 %", "median", "95 %", "greatest");
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (i == 0 && first > 0) text += "  drawn\n";
-    if (i == first) text += "  at the end\n";
+    if (i == 0 && columns[i].is_drawn) text += "  drawn\n";
+    if (!columns[i].is_drawn && (i == 0 || columns[i - 1].is_drawn)) text += "  at the end\n";
     const Statistics& s = statistics[i];
     text += fmt::format("    {:<{}}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n",
                         names[i], width, s.mean, s.deviation, s.least, s.low, s.median, s.high, s.greatest);
@@ -56,15 +56,18 @@ std::string statistics_table(const std::vector<std::string>& columns, const std:
   return text;
 }
 
-std::string ensemble_csv(const std::vector<std::string>& columns, const std::vector<EnsembleRow>& rows) {
+std::string ensemble_csv(const EnsembleResult& result) {
+  std::vector<std::vector<double>> columns;
   std::string text = "state";
-  for (const std::string& column : columns) text += "," + csv_field(column);
+  for (std::size_t i = 0; i < result.columns.size(); ++i) {
+    columns.push_back(result.values(i));
+    text += "," + csv_field(result.columns[i].name);
+  }
   text += ",trusted\n";
-  for (const EnsembleRow& row : rows) {
-    text += fmt::format("{}", row.state);
-    for (const double value : row.drawn) text += fmt::format(",{}", value);
-    for (const double value : row.end) text += fmt::format(",{}", value);
-    text += row.trusted ? ",1\n" : ",0\n";
+  for (std::size_t k = 0; k < result.trusted.size(); ++k) {
+    text += fmt::format("{}", result.shard.begin + k);
+    for (const std::vector<double>& column : columns) text += fmt::format(",{}", column[k]);
+    text += result.trusted[k] ? ",1\n" : ",0\n";
   }
   return text;
 }

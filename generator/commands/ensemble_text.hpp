@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/ensemble_run.hpp"
+#include "commands/ensemble_result.hpp"
 
 namespace jourdain::commands {
 
@@ -18,12 +18,11 @@ struct Statistics {
 /// American Statistician 50, 1996).
 Statistics statistics_of(std::vector<double> values);
 
-/// A table of the columns' statistics, over the states that may be trusted; the first `first` columns are what was
-/// drawn.
-std::string statistics_table(const std::vector<std::string>& columns, const std::vector<std::string>& units,
-                             const std::vector<Statistics>& statistics, std::size_t first);
+/// A table of the columns' statistics, over the states that may be trusted.
+std::string statistics_table(const std::vector<EnsembleColumn>& columns,
+                             const std::vector<Statistics>& statistics);
 
 /// "state,mass,slide,...,trusted" and a row for each.
-std::string ensemble_csv(const std::vector<std::string>& columns, const std::vector<EnsembleRow>& rows);
+std::string ensemble_csv(const EnsembleResult& result);
 
 }  // namespace jourdain::commands

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <random>
 
 #include "support/check.hpp"
@@ -166,6 +167,27 @@ void write_file(const std::string& given, std::string_view text) {
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
   fail(path, "written", error.message());
+}
+
+void write_file_by(const std::string& given, const std::function<void(const std::string&)>& make) {
+  if (is_stream(given)) fail(given, "written", "it is a device");
+  const std::string path = behind_links(given);
+  std::filesystem::path temporary;
+  std::optional<RemovedOnInterruption> removed;
+  {
+    const Uninterrupted until_known;
+    temporary = write_temporary(path, "");
+    removed.emplace(temporary.string());
+  }
+  std::error_code error;
+  try {
+    make(temporary.string());
+    std::filesystem::rename(temporary, path, error);
+    if (error) fail(path, "written", error.message());
+  } catch (...) {
+    std::filesystem::remove(temporary, error);
+    throw;
+  }
 }
 
 void write_files(const std::string& folder, const std::vector<FileText>& files) {

@@ -1,6 +1,7 @@
 // Whole files in, whole files out.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,10 @@ std::string read_file(const std::string& path);
 /// file with that text stays as it is. Devices and pipes are written to, links followed.
 /// Throws EnvironmentError naming the path.
 void write_file(const std::string& path, std::string_view text);
+
+/// The same with a file that `make` writes under the name that it is given, which is not `path`, however large it is.
+/// An interruption leaves nothing behind; no file is made in place of a device.
+void write_file_by(const std::string& path, const std::function<void(const std::string&)>& make);
 
 /// Writes all files into `folder`, which is made where it is missing: all under temporary names, then all
 /// renamed; those with that text stay as they are. Throws

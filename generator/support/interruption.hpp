@@ -11,7 +11,7 @@ namespace jourdain::support {
 /// processes below were removed. Call it once, before any thread starts.
 void handle_interruptions();
 
-/// A folder that is removed when the program is interrupted, while this lives.
+/// A folder, or a file, that is removed when the program is interrupted, while this lives.
 class RemovedOnInterruption {
  public:
   explicit RemovedOnInterruption(std::string folder);

@@ -177,6 +177,8 @@ TEST_F(EnsembleCommand, RefusesWhatItCannotDraw) {
   expect(run({"--shard", "3"}), 2, "as in 3/16");
   expect(run({"--shard", "4/3"}), 2, "as in 3/16");
   expect(run({"--shard", "1/2000"}), 2, "with a state for each of 1000 states");
+  for (const char* file : {"rows.hdf5", "rows.H5", "rows.txt", "all.h5.old"})
+    expect(run({"--output", file}), 2, ".csv or .h5 (HDF5) is expected, or no ending, for CSV");
   expect(run({"--inputs", "no.csv"}), 2, "--constant-input and what is spread");
   expect(jourdain({"ensemble", "models/crane.toml", "--spread", "suspension_qw=normal(0.1)"}), 2,
          "it is an entry of a quaternion");
@@ -190,6 +192,16 @@ TEST_F(EnsembleCommand, NeedsSomethingThatMoves) {
   driven.erase(driven.find("[[actuator]]"));
   support::write_file(model_, driven);
   expect(run({}), 1, "has no degree of freedom");
+}
+
+TEST_F(EnsembleCommand, TellsColumnsApart) {
+  std::string named = kSlowing;
+  named.replace(named.find("\"rail\""), 6, "\"trusted\"");
+  named.replace(named.find("joint = \"rail\""), 14, "joint = \"trusted\"");
+  support::write_file(model_, named);
+  const std::string text = csv({"--spread", "trusted=normal(0.1)", "--states", "2"});
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "state,trusted_at_start,trusted_at_end,trusted_velocity,trusted");
 }
 
 TEST(EnsembleOfLoops, ClosesThem) {
