@@ -9,6 +9,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/ensemble_file.hpp"
+#include "commands/ensemble_plot.hpp"
 #include "commands/ensemble_run.hpp"
 #include "commands/ensemble_setup.hpp"
 #include "commands/ensemble_text.hpp"
@@ -30,7 +31,7 @@ struct EnsembleArguments {
   EnsembleChoices choices;
   std::uint64_t states = 1000;
   std::vector<std::string> spreads;
-  std::string shard = "1/1", output;
+  std::string shard = "1/1", output, plot;
   double duration = 10, step = 1e-3, accuracy = 0.1;
 };
 
@@ -79,7 +80,7 @@ int run(EnsembleArguments arguments) {
     return kUsage;
   }
   const std::optional<OutputKind> output = output_kind(arguments.output);
-  if (!output) return kUsage;
+  if (!output || !is_plot_possible(arguments.plot)) return kUsage;
   if (!arguments.run.inputs.empty()) {
     fmt::print(stderr,
                "error: --inputs is of single runs; an ensemble holds --constant-input and what is spread\n");
@@ -138,7 +139,9 @@ int run(EnsembleArguments arguments) {
       write_ensemble_file(arguments.output, result);
       break;
   }
-  return report_ensemble(result, judge(result), arguments.output);
+  const Verdict verdict = judge(result);
+  return report_ensemble(result, verdict,
+                         with_plot(arguments.output, arguments.plot, result, verdict.statistics));
 }
 
 }  // namespace
@@ -176,6 +179,7 @@ void add_ensemble(CLI::App& app, int& status) {
       ->capture_default_str();
   command->add_option("--output", arguments->output,
                       "file with a row for each state: .h5 (HDF5, for merge), else CSV");
+  command->add_option("--plot", arguments->plot, kEnsemblePlotHelp);
   command
       ->add_option("--accuracy", arguments->accuracy,
                    "what half the step may move ends by, in deviations, without an error")

@@ -40,6 +40,14 @@ std::size_t EnsembleResult::drawn_count() const {
       std::count_if(columns.begin(), columns.end(), [](const EnsembleColumn& c) { return c.is_drawn; }));
 }
 
+std::vector<double> EnsembleResult::of_trusted(const std::vector<double>& values_of_all) const {
+  std::vector<double> chosen;
+  chosen.reserve(values_of_all.size());
+  for (std::size_t k = 0; k < values_of_all.size(); ++k)
+    if (trusted[k]) chosen.push_back(values_of_all[k]);
+  return chosen;
+}
+
 std::uint64_t judged_count(const Shard& shard) { return std::min(shard.size(), kJudged); }
 
 std::string difference(const EnsembleResult& of, const EnsembleResult& from) {

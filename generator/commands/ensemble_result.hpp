@@ -76,6 +76,8 @@ struct EnsembleResult {
   std::function<std::vector<double>(std::size_t column)> values;  ///< one for each state
 
   std::size_t drawn_count() const;
+  /// The values, one for each state, of those that are trusted.
+  std::vector<double> of_trusted(const std::vector<double>& values_of_all) const;
 };
 
 /// How many of a shard's first states are stepped with half the step.

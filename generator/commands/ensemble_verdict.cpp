@@ -12,15 +12,6 @@ namespace jourdain::commands {
 
 namespace {
 
-std::vector<double> trusted_ones(const std::vector<double>& values,
-                                 const std::vector<std::uint8_t>& trusted) {
-  std::vector<double> chosen;
-  chosen.reserve(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k)
-    if (trusted[k]) chosen.push_back(values[k]);
-  return chosen;
-}
-
 /// The most that half the step changes an end in a column by, over its deviation.
 double column_error(const EnsembleResult& result, const std::vector<double>& values,
                     const std::vector<double>& halved, const Statistics& s) {
@@ -89,7 +80,7 @@ Verdict judge(const EnsembleResult& result) {
     for (std::size_t shown = 0; i < drawn && shown < verdict.drawn.size(); ++shown)
       verdict.drawn[shown].push_back(values[verdict.first_untrusted[shown]]);
     if (verdict.untrusted == result.trusted.size()) continue;
-    verdict.statistics.push_back(statistics_of(trusted_ones(values, result.trusted)));
+    verdict.statistics.push_back(statistics_of(result.of_trusted(values)));
   }
   if (!verdict.statistics.empty()) verdict.error = step_error(result, verdict.statistics);
   return verdict;

@@ -8,6 +8,7 @@
 #include "commands/commands.hpp"
 #include "commands/ensemble_file.hpp"
 #include "commands/ensemble_merge.hpp"
+#include "commands/ensemble_plot.hpp"
 #include "commands/ensemble_verdict.hpp"
 #include "commands/load.hpp"
 #include "commands/printable.hpp"
@@ -17,7 +18,7 @@ namespace jourdain::commands {
 namespace {
 
 struct MergeArguments {
-  std::string output;
+  std::string output, plot;
   std::vector<std::string> shards;
 };
 
@@ -74,7 +75,7 @@ int report_shards(const std::vector<StoredShard>& shards, const std::vector<Stat
 }
 
 int run(const MergeArguments& arguments) {
-  if (!is_output_sound(arguments)) return kUsage;
+  if (!is_output_sound(arguments) || !is_plot_possible(arguments.plot)) return kUsage;
   const std::vector<StoredShard> shards = read_shards(arguments.shards);
   if (shards.empty()) return kModelWrong;
   const std::vector<std::string> problems = merge_problems(shards);
@@ -83,7 +84,8 @@ int run(const MergeArguments& arguments) {
   const EnsembleResult whole = merged(shards);
   write_ensemble_file(arguments.output, whole);
   const Verdict verdict = judge(whole);
-  const int status = report_ensemble(whole, verdict, arguments.output);
+  const int status =
+      report_ensemble(whole, verdict, with_plot(arguments.output, arguments.plot, whole, verdict.statistics));
   const int of_shards = report_shards(shards, verdict.statistics);
   return status != kSuccess ? status : of_shards;
 }
@@ -98,6 +100,7 @@ void add_merge(CLI::App& app, int& status) {
       ->required();
   command->add_option("SHARDS", arguments->shards, "what 'jourdain ensemble --shard' wrote, in any order")
       ->required();
+  command->add_option("--plot", arguments->plot, kEnsemblePlotHelp);
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

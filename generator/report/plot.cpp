@@ -46,10 +46,23 @@ bool has_data(const Plot& plot, const Series& series) {
   return false;
 }
 
+/// What follows "with".
+std::string style_of(const Series& series) {
+  const auto index = static_cast<std::size_t>(series.colour) % std::size(kPalette);
+  const char* const colour = kPalette[index];
+  if (series.filled)
+    return fmt::format("filledcurves closed fc rgb '{0}' fs transparent solid 0.35 border lc rgb '{0}'",
+                       colour);
+  const char* style = series.lines && series.marks ? "linespoints" : series.lines ? "lines" : "points";
+  return fmt::format(
+      "{} lc rgb '{}' lw 1.6{}{}", style, colour, series.dashed ? " dt 2" : "",
+      series.marks ? fmt::format(" pt {} ps {}", kMarks[index], series.lines ? 0.6 : 1.1) : "");
+}
+
 std::string script(const Plot& plot, const std::string& output) {
   std::string text = "set encoding utf8\n";
   text += fmt::format("set terminal svg size {},{} dynamic font 'sans-serif,13' name {} enhanced\n",
-                      kPlotWidth, plot.height, quoted(plot.name));
+                      plot.width, plot.height, quoted(plot.name));
   text += "set output " + quoted(output) + "\n";
   text += "set title " + quoted(plot.title) + " noenhanced\nset xlabel " + quoted(plot.x_title) +
           " noenhanced\nset ylabel " + quoted(plot.y_title) + " noenhanced\n";
@@ -57,6 +70,12 @@ std::string script(const Plot& plot, const std::string& output) {
       "set key bmargin center horizontal noenhanced samplen 2 width -2 height 1\nset grid lc rgb '#808080' "
       "lw "
       "0.4\nset border lw 0.8\n";
+  const auto any = [&plot](auto&& is) { return std::any_of(plot.series.begin(), plot.series.end(), is); };
+  if (!any([](const Series& series) { return !series.title.empty(); })) text += "unset key\n";
+  if (any([](const Series& series) { return series.filled; }))
+    text += "set autoscale xfix\nset offsets graph 0.03, graph 0.03, graph 0.06, 0\n";
+  if (plot.width < kPlotWidth) text += "set lmargin 9\nset rmargin 3\nset tmargin 2.5\nset bmargin 3.5\n";
+  if (plot.x_step > 0) text += fmt::format("set xtics {:.9g}\n", plot.x_step);
   if (plot.x_logarithmic) text += "set logscale x 10\nset format x '10^{%L}'\n";
   if (plot.y_logarithmic) text += "set logscale y 10\nset format y '10^{%L}'\n";
   std::string list;
@@ -64,13 +83,8 @@ std::string script(const Plot& plot, const std::string& output) {
     const Series& series = plot.series[i];
     if (!has_data(plot, series)) continue;
     text += data_block(plot, series, i);
-    const auto colour = static_cast<std::size_t>(series.colour) % std::size(kPalette);
-    const char* style = series.lines && series.marks ? "linespoints" : series.lines ? "lines" : "points";
-    list +=
-        fmt::format("{}$data{} using 1:2 with {} lc rgb '{}' lw 1.6{}{} {}", list.empty() ? "" : ", ", i,
-                    style, kPalette[colour], series.dashed ? " dt 2" : "",
-                    series.marks ? fmt::format(" pt {} ps {}", kMarks[colour], series.lines ? 0.6 : 1.1) : "",
-                    series.title.empty() ? "notitle" : "title " + quoted(series.title));
+    list += fmt::format("{}$data{} using 1:2 with {} {}", list.empty() ? "" : ", ", i, style_of(series),
+                        series.title.empty() ? "notitle" : "title " + quoted(series.title));
   }
   JD_CHECK(!list.empty(), "plot '{}' shows nothing", plot.name);
   return text + "plot " + list + "\nset output\nreset session\n";
@@ -139,13 +153,26 @@ std::vector<std::string> draw(const std::vector<Plot>& plots) {
 }
 
 std::string stacked(const std::vector<std::string>& drawn, int height) {
-  const int count = static_cast<int>(drawn.size());
-  std::string text = fmt::format("<svg viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\">\n",
-                                 kPlotWidth, count * height);
+  return tiled(drawn, "", 1, kPlotWidth, height);
+}
+
+std::string tiled(const std::vector<std::string>& drawn, const std::string& heading, int per_row, int width,
+                  int height) {
+  constexpr int kHeading = 34;
+  const int count = static_cast<int>(drawn.size()), top = heading.empty() ? 0 : kHeading;
+  std::string text =
+      fmt::format("<svg viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\">\n",
+                  std::min(count, per_row) * width, (count + per_row - 1) / per_row * height + top);
+  if (!heading.empty())
+    text += fmt::format(
+        "<text x=\"12\" y=\"24\" font-family=\"sans-serif\" font-size=\"16\" fill=\"#808080\">"
+        "{}</text>\n",
+        heading);
   for (int i = 0; i < count; ++i) {
     std::string panel = drawn[static_cast<std::size_t>(i)];
-    panel.insert(panel.find("<svg") + 4,
-                 fmt::format(" y=\"{}\" width=\"{}\" height=\"{}\"", i * height, kPlotWidth, height));
+    const std::string column = i % per_row > 0 ? fmt::format(" x=\"{}\"", i % per_row * width) : "";
+    panel.insert(panel.find("<svg") + 4, fmt::format("{} y=\"{}\" width=\"{}\" height=\"{}\"", column,
+                                                     i / per_row * height + top, width, height));
     text += panel;
   }
   return text + "</svg>\n";

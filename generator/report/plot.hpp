@@ -16,6 +16,7 @@ struct Series {
   bool lines = true;  ///< join the points
   bool marks = true;  ///< mark the points
   bool dashed = false;
+  bool filled = false;  ///< the polygon of the points
 };
 
 struct Plot {
@@ -23,7 +24,8 @@ struct Plot {
   std::string title, x_title, y_title;
   bool x_logarithmic = true, y_logarithmic = true;
   std::vector<Series> series;
-  int height = 520;  ///< of kPlotWidth
+  int height = 520, width = kPlotWidth;
+  double x_step = 0;  ///< between marks of the axis; 0: gnuplot's choice
 };
 
 /// Has it a point that its axes can show?
@@ -38,5 +40,9 @@ std::vector<std::string> draw(const std::vector<Plot>& plots);
 
 /// SVG texts of plots of that height as one, from top to bottom.
 std::string stacked(const std::vector<std::string>& drawn, int height);
+
+/// SVG texts of plots of that size as one, row by row of so many, below a heading.
+std::string tiled(const std::vector<std::string>& drawn, const std::string& heading, int per_row, int width,
+                  int height);
 
 }  // namespace jourdain::report

@@ -2,6 +2,7 @@
 // is compiled; tests/commands/ensemble_shards_test.cpp has those that are computed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <tinyxml2.h>
 
 #include <cmath>
 #include <filesystem>
@@ -344,6 +345,36 @@ TEST_F(EnsembleFile, MergedHasTheVerdictOfTheWholeAndThoseOfItsShards) {
   EnsembleResult shaky = part_of_whole(1, 2);
   shaky.halved.trusted[4] = 0;
   expect(merge({write("1.h5", shaky), write("2.h5", part_of_whole(2, 2))}), 1, "the step is too long");
+}
+
+TEST_F(EnsembleFile, IsDrawn) {
+  EnsembleResult result = part_of_whole(1, 1);
+  result.trusted[0] = 0;
+  result.values = [](std::size_t column) {
+    constexpr double kGreatest = std::numeric_limits<double>::max();
+    std::vector<double> values(kStates, column == 0 ? 2 : column == 1 ? 1e-310 : 3);
+    for (std::size_t k = 0; k < kStates; k += 2) values[k] += column == 1 ? 1e-310 : column == 3 ? 1e-9 : 0;
+    if (column == 2) values[3] = kGreatest, values[4] = -kGreatest;
+    values[0] = kNaN;
+    return values;
+  };
+  const std::string file = write("whole.h5", result);
+  const auto draw = [&](const std::string& picture) {
+    return jourdain({"merge", path("merged.h5"), file, "--plot", path(picture)});
+  };
+  expect(draw("plot.svg"), 1, "merged.h5, " + path("plot.svg"));
+  tinyxml2::XMLDocument picture;
+  ASSERT_EQ(picture.LoadFile(path("plot.svg").c_str()), tinyxml2::XML_SUCCESS);
+  const std::string text = support::read_file(path("plot.svg"));
+  for (const char* words : {"cart: 100 states; lines at 5 %, the median and 95 %", ">mass, kg<", ">slide, m<",
+                            ">a/b%.<", ">. less 3, 1<"})
+    EXPECT_NE(text.find(words), std::string::npos) << words;
+  expect(draw("plot.png"), 2, "plot.png: a file that ends in .svg is expected");
+  result.trusted.assign(kStates, 0);
+  write("whole.h5", result);
+  std::filesystem::remove(path("plot.svg"));
+  expect(draw("plot.svg"), 1, "note: no plot: no state is to be trusted");
+  EXPECT_FALSE(std::filesystem::exists(path("plot.svg")));
 }
 
 TEST_F(EnsembleFile, IsNotLeftHalfWritten) {

@@ -102,7 +102,7 @@ TEST_F(EnsembleShards, OfAJobArrayAreTheWholeThoughOneWasKilled) {
 TEST_F(EnsembleShards, OfRanksAreTheWhole) {
   const support::ProcessResult merged =
       run("export OMPI_MCA_rmaps_base_oversubscribe=1\n" + page_block("sh", "mpirun"));
-  expect(merged, 0, "wrote falls.h5");
+  expect(merged, 0, "wrote falls.h5, falls.svg");
   EXPECT_TRUE(std::filesystem::exists(path("rank_3.h5")));
   expect(run_whole("--output whole.h5"), 0, "wrote");
   EXPECT_EQ(bytes_of("falls.h5"), bytes_of("whole.h5"));
