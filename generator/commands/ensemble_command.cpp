@@ -14,6 +14,7 @@
 #include "commands/ensemble_setup.hpp"
 #include "commands/ensemble_text.hpp"
 #include "commands/ensemble_verdict.hpp"
+#include "commands/memory_checks.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/spread_check.hpp"
@@ -93,6 +94,11 @@ int run(EnsembleArguments arguments) {
     fmt::print(stderr, "error: '{}' has no degree of freedom: nothing is integrated\n",
                model->loaded.mechanism.name);
     return kModelWrong;
+  }
+  if (const std::string uneven = check_sampling(model->loaded.mechanism, model->parameters, arguments.step);
+      !uneven.empty()) {
+    fmt::print(stderr, "error: {}\n", uneven);
+    return kUsage;
   }
   CompileOptions& options = model->loaded.options;
   options.functions = loadable_functions({arguments.choices.method});

@@ -41,6 +41,13 @@ TEST_F(MemoriesOnTheCommandLine, StepsDivideThePeriod) {
       0, "at t = 0.1 s");
 }
 
+TEST_F(MemoriesOnTheCommandLine, AreSteppedInEnsembles) {
+  expect(run("ensemble", {"--states", "20", "--duration", "0.1", "--spread", "target=normal(0.01)"}), 0,
+         "torque_1");
+  expect(run("ensemble", {"--states", "20", "--duration", "0.1", "--step", "2e-3"}), 2,
+         "2.5 steps of 0.002 s");
+}
+
 /// At the ends of whole periods runs agree that take the same samples.
 TEST_F(MemoriesOnTheCommandLine, ShorterStepsTakeTheSameSamples) {
   const auto after = [&](const char* step) {
