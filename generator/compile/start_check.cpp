@@ -33,18 +33,26 @@ bool starts(const model::Mechanism& mechanism) {
   const auto state = reference.initial_state();
   const Vector u = Vector::Zero(Eigen::Index(reference.input_count()));
   const auto terms = reference.evaluate(state, u);
+  constexpr double kStep = 1;  // of any length: at t = 0 all memories are sampled
   const Vector none = Vector::Zero(Eigen::Index(reference.coordinate_count()));
   return std::isfinite(terms.kinetic_energy + terms.potential_energy) && terms.M.allFinite() &&
          terms.k_bar.allFinite() && terms.q_bar.allFinite() &&
          has_accelerations(terms.M, terms.k_bar - terms.q_bar) &&
+         reference.sampled_states(state, u, kStep).allFinite() &&
          is_finite(reference.outputs(state, u, none, none));
 }
 
-/// The mechanism without forces and outputs; actuators stay, inputs are numbered by them and zero.
+/// The mechanism without forces and outputs. What expressions have numbers of stays: actuators, whose inputs are zero,
+/// and states, which stand still.
 model::Mechanism bare(const model::Mechanism& mechanism) {
   model::Mechanism rest = mechanism;
   for_each_force_list(rest, [](auto& list) { list.clear(); });
   rest.actuators = mechanism.actuators;
+  rest.states = mechanism.states;
+  for (model::StateVariable& state : rest.states) {
+    state.rate = 0.0;
+    state.sampled.reset();
+  }
   rest.outputs.clear();
   return rest;
 }
@@ -65,12 +73,22 @@ support::SourceRange suspect(const model::Mechanism& mechanism) {
   return mechanism.joints.front().where;
 }
 
+template <class Element>
+void put(const model::Mechanism&, const Element& element, std::vector<Element>& list) {
+  list = {element};
+}
+
+void put(const model::Mechanism& mechanism, const model::StateVariable& state,
+         std::vector<model::StateVariable>& list) {
+  list[std::size_t(&state - mechanism.states.data())] = state;
+}
+
 /// Tries an element alone, put into the `list` of its kind, and reports it if it has no value.
 template <class Element, class List>
 void report(const model::Mechanism& mechanism, const Element& element, const List& list,
             std::string_view kind, support::Diagnostics& diagnostics) {
   model::Mechanism alone = bare(mechanism);
-  list(alone) = {element};
+  put(mechanism, element, list(alone));
   if (starts(alone)) return;
   diagnostics.error(
       element.where,

@@ -42,7 +42,7 @@ TEST_F(MemoriesOnTheCommandLine, StepsDivideThePeriod) {
 }
 
 TEST_F(MemoriesOnTheCommandLine, AreSteppedInEnsembles) {
-  expect(run("ensemble", {"--states", "20", "--duration", "0.1", "--spread", "target=normal(0.01)"}), 0,
+  expect(run("ensemble", {"--states", "20", "--duration", "0.1", "--spread", "target_input=normal(0.01)"}), 0,
          "torque_1");
   expect(run("ensemble", {"--states", "20", "--duration", "0.1", "--step", "2e-3"}), 2,
          "2.5 steps of 0.002 s");
@@ -82,6 +82,35 @@ TEST_F(MemoriesOnTheCommandLine, AreSteppedInCAndPython) {
   EXPECT_NE(support::read_file(out_ + "/digital_servo.h").find("digital_servo_sample("), std::string::npos);
   expect(run("python", {"-o", out_}), 0, "5 steps as defined");
   EXPECT_EQ(support::read_file(out_ + "/digital_servo.py").find("adams_bashforth2_step("), std::string::npos);
+}
+
+/// What is named stands behind the one that names it; each is looked at alone.
+TEST_F(MemoriesOnTheCommandLine, AndStatesHaveAValueAtTheStart) {
+  const auto check = [&](const std::string& more) {
+    const std::string file = folder_.path() + "/scene.toml";
+    support::write_file(file, R"toml([model]
+name = "scene"
+[[body]]
+name = "bob"
+mass = 1
+[[joint]]
+name = "slide"
+type = "prismatic"
+parent = "world"
+child = "bob"
+[[state]]
+name = "first"
+rate = "third + held"
+)toml" + more);
+    return jourdain({"check", file});
+  };
+  const std::string held = "[[memory]]\nname = \"held\"\nperiod = 0.01\nupdate = ",
+                    third = "[[state]]\nname = \"third\"\nrate = ";
+  expect(check(held + "\"slide + third\"\n" + third + "\"held\"\n"), 0, "ok: scene");
+  expect(check(held + "\"third/slide\"\n" + third + "\"held\"\n"), 1,
+         ":15:8: error: state 'held' has no finite value at the initial state");
+  expect(check(held + "\"third\"\n" + third + "\"1/(slide + held)\"\n"), 1,
+         ":19:8: error: state 'third' has no finite value at the initial state");
 }
 
 TEST_F(MemoriesOnTheCommandLine, TheHeaderSaysWhatIsSampled) {
