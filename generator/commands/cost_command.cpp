@@ -117,16 +117,16 @@ int run(CostArguments arguments) {
                model->loaded.options.name);
     return kModelWrong;
   }
-  if (const std::string conflict = check_multistep(arguments.methods, model->loaded.mechanism);
-      !conflict.empty()) {
-    fmt::print(stderr, "error: {}\n", conflict);
-    return kUsage;
-  }
+  const auto conflict = [&](const std::vector<std::string>& methods) {
+    return check_multistep(methods, model->loaded.mechanism);
+  };
   if (arguments.methods.empty()) {
     arguments.methods = default_methods(terms, velocities);
-    std::erase_if(arguments.methods, [&](const std::string& m) {
-      return !check_multistep({m}, model->loaded.mechanism).empty();
-    });
+    std::erase_if(arguments.methods, [&](const std::string& method) { return !conflict({method}).empty(); });
+  }
+  if (const std::string why = conflict(arguments.methods); !why.empty()) {
+    fmt::print(stderr, "error: {}\n", why);
+    return kUsage;
   }
   ProgressBar bar;
   bar.show("deriving the equations", 0);
