@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "commands/build_model.hpp"
 #include "commands/commands.hpp"
 #include "commands/content_hash.hpp"
 #include "commands/emission.hpp"
@@ -15,6 +16,7 @@
 #include "commands/python_names.hpp"
 #include "commands/report_text.hpp"
 #include "commands/shared_library.hpp"
+#include "emit/templates.hpp"
 #include "support/files.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -30,7 +32,8 @@ struct PythonArguments {
   std::string folder;
   std::vector<std::string> functions, frames;
   std::string compiler, flags = "-O2";
-  bool libm = false;
+  std::string cpp_compiler, cpp_flags = "-O2 -march=native -ffp-contract=off -fno-tree-slp-vectorize";
+  bool libm = false, packs = false;
 };
 
 /// All functions, every step of a cost that is easily compiled, and A, B, C, D where these are not long.
@@ -58,23 +61,52 @@ std::string choose(const PythonArguments& arguments, LoadedMechanism& loaded) {
   return emission.apply(loaded);
 }
 
-/// The library, NAME.py and NAME.pyi, compiled where nobody sees it.
+/// The model as C++ of packs: its start, and the steps that ensembles know.
+CompileOptions options_of_packs(const CompileOptions& options, const CompiledModel& compiled) {
+  CompileOptions result = options;
+  result.choices.language = ir::Language::kCpp;
+  result.choices.has_interface = false;
+  result.choices.packs = true;
+  result.functions = {std::string(ir::name_of(FunctionId::kInitialState))};
+  for (const programs::FunctionInfo& function : compiled.functions)
+    if (function.stepper && !function.stepper->implicit && function.stepper->history == 0)
+      result.functions.push_back(function.name);
+  return result;
+}
+
+/// The library, NAME.py and NAME.pyi, compiled where nobody sees it. With `packs` batches are stepped by them.
 std::vector<FileText> module_files(const PythonArguments& arguments, const LoadedMechanism& loaded,
-                                   const CompiledModel& compiled) {
+                                   const CompiledModel& compiled, const CompiledModel* packs) {
   const CompileOptions& options = loaded.options;
   const std::string& name = options.name;
   const std::vector<std::string> compiler =
       arguments.compiler.empty() ? machine_c_compiler() : words_of(arguments.compiler);
   std::string all = arguments.flags + batch_text(options, compiled, "");
-  for (const emit::File& file : compiled.files) all += file.text;
+  std::vector<FileText> sources(compiled.files.begin(), compiled.files.end());
+  if (packs) {
+    all += arguments.cpp_flags;
+    for (const emit::File& file : packs->files)
+      if (file.name != name + ".json") sources.push_back({file.name, file.text});
+    for (const char* header : {"pack.hpp", "ensemble.hpp", "ensemble_interface.hpp", "jourdain_ensemble.h"})
+      sources.push_back({header, std::string(emit::template_text(header))});
+    sources.push_back({name + "_packs.cpp", packs_text(name)});
+  }
+  for (const FileText& source : sources) all += source.text;
   const std::string build = sha256_of(all);
   const support::TemporaryFolder folder;
-  std::vector<FileText> sources(compiled.files.begin(), compiled.files.end());
   sources.push_back({name + "_batch.c", batch_text(options, compiled, build)});
   support::write_files(folder.path(), sources);
   const std::string library = fmt::format("lib{}.so", name);
-  build_shared_library(folder.path(), {name + ".c", name + "_interface.c", name + "_batch.c"}, library,
-                       compiler, words_of(arguments.flags));
+  const std::vector<std::string> in_c = {name + ".c", name + "_interface.c", name + "_batch.c"};
+  if (packs)
+    build_shared_library(
+        folder.path(), in_c,
+        {name + "_packs.cpp",
+         arguments.cpp_compiler.empty() ? machine_compiler() : words_of(arguments.cpp_compiler),
+         words_of(arguments.cpp_flags)},
+        library, compiler, words_of(arguments.flags));
+  else
+    build_shared_library(folder.path(), in_c, library, compiler, words_of(arguments.flags));
   return {{library, support::read_file(folder.path() + "/" + library)},
           {name + ".py", module_text(options, loaded.mechanism.name, build)},
           {name + ".pyi", stub_text(compiled, loaded.mechanism.name)}};
@@ -90,7 +122,19 @@ int run(const PythonArguments& arguments) {
   support::check_writable(arguments.folder);
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
-  const std::vector<FileText> files = module_files(arguments, *loaded, compiled);
+  std::optional<CompiledModel> packs;
+  if (arguments.packs) {
+    const CompileOptions of_packs = options_of_packs(loaded->options, compiled);
+    if (of_packs.functions.size() == 1) {
+      fmt::print(stderr,
+                 "error: --packs: none of the functions is a step that takes nothing from earlier ones, as "
+                 "rk4_step\n");
+      return kUsage;
+    }
+    packs = compile(loaded->mechanism, of_packs);
+    if (!packs->verdict.accepted()) return refuse(*loaded, packs->verdict);
+  }
+  const std::vector<FileText> files = module_files(arguments, *loaded, compiled, packs ? &*packs : nullptr);
   support::write_files(arguments.folder, files);
   fmt::print("{}: {}\n", loaded->options.name, freedom_text(*loaded));
   for (const FileText& file : files) fmt::print("  wrote {}/{}\n", arguments.folder, file.name);
@@ -119,6 +163,19 @@ void add_python(CLI::App& app, int& status) {
       ->add_option("--flags", arguments->flags, "options of the compiler, in one word: \"-O3 -march=native\"")
       ->capture_default_str();
   command->add_flag("--libm", arguments->libm, kLibmHelp);
+  CLI::Option* packs = command->add_flag("--packs", arguments->packs,
+                                         "batches are stepped in vectors by euler, semi_implicit_euler, "
+                                         "heun, rk4 and rk5; needs a compiler of C++17");
+  command
+      ->add_option(
+          "--cxx-compiler", arguments->cpp_compiler,
+          "compiler of C++ for --packs, with options (default: the environment variable CXX, else c++)")
+      ->needs(packs);
+  command
+      ->add_option("--cxx-flags", arguments->cpp_flags,
+                   "its options in one word; with sums and products fused, bits are not those of one state")
+      ->capture_default_str()
+      ->needs(packs);
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

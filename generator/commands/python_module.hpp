@@ -17,4 +17,7 @@ std::string stub_text(const CompiledModel& compiled, const std::string& title);
 std::string batch_text(const CompileOptions& options, const CompiledModel& compiled,
                        const std::string& build);
 
+/// NAME_packs.cpp: the functions of ensembles, of C linkage.
+std::string packs_text(const std::string& name);
+
 }  // namespace jourdain::commands

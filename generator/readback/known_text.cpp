@@ -38,7 +38,7 @@ Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
 }
 )";
 
-constexpr const char* kAngle =
+constexpr const char* kProductError =
     R"(template <class Real> JOURDAIN_FUNCTION
 Real product_error(const Real& a, const Real& b, const Real& product, const Real& scale) noexcept {
   const Real more = a * scale, much = b * scale, a1 = (more + a) - more, b1 = (much + b) - much, a0 = a - a1, b0 = b - b1;
@@ -48,9 +48,35 @@ JOURDAIN_FUNCTION inline double product_error(double a, double b, double product
   return product_error<double>(a, b, product, 134217728);
 }
 JOURDAIN_FUNCTION inline float product_error(float a, float b, float product) noexcept { return product_error<float>(a, b, product, 4096); }
-template <class Real> JOURDAIN_FUNCTION
+)";
+
+constexpr const char* kWideProductError = R"(template <class Real> JOURDAIN_FUNCTION
 Real product_error(const Real&, const Real&, const Real&) noexcept { return Real(0.0); }
-template <class Real>
+)";
+
+// Of packs: split as their lanes have to be.
+constexpr const char* kPacksProductError = R"(namespace hooks {
+
+JOURDAIN_FUNCTION inline double splitting(double) noexcept { return 134217728; }
+JOURDAIN_FUNCTION inline double splitting(float) noexcept { return 4096; }
+
+template <class Real> JOURDAIN_FUNCTION
+auto product_error(const Real& a, const Real& b, const Real& product, int) noexcept
+    -> decltype(void(splitting(a[0])), Real{}) {
+  return detail::product_error(a, b, product, detail::number<Real>(splitting(a[0])));
+}
+template <class Real> JOURDAIN_FUNCTION
+Real product_error(const Real&, const Real&, const Real&, long) noexcept { return detail::number<Real>(0.0); }
+
+}  // namespace hooks
+
+template <class Real> JOURDAIN_FUNCTION
+Real product_error(const Real& a, const Real& b, const Real& product) noexcept {
+  return hooks::product_error(a, b, product, 0);
+}
+)";
+
+constexpr const char* kAngle = R"(template <class Real>
 struct Angle {
   Real high, low;
 
@@ -221,7 +247,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
   static const std::vector<KnownText> plain = [] {
     std::vector<KnownText> list;
     list.push_back(known("", "Time", kTime));
-    list.push_back(known("detail", "Angle", kAngle));
+    list.push_back(known("detail", "Angle", std::string(kProductError) + kWideProductError + kAngle));
     list.push_back(sines());
     list.push_back(known("detail", "", own_sine_blocks()));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
@@ -232,7 +258,8 @@ const std::vector<KnownText>& known_texts(bool packs) {
   static const std::vector<KnownText> of_packs = [] {
     std::vector<KnownText> list;
     list.push_back(known("", "Time", for_packs(kTime)));
-    list.push_back(known("detail", "Angle", for_packs(kAngle)));
+    list.push_back(
+        known("detail", "Angle", for_packs(kProductError) + kPacksProductError + for_packs(kAngle)));
     list.push_back(sines());
     list.push_back(known("detail", "", own_sine_blocks()));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <future>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -25,14 +26,15 @@
 
 namespace jourdain {
 
-// Steppers of emitted code, for Ensemble::run.
-#define JOURDAIN_STEPPER(name, function)                                             \
-  struct name##_stepper {                                                            \
-    template <class Model, class State, class Input, class Real>                     \
-    void operator()(const Model& m, State& s, const Input& u, const Real& h) const { \
-      function(m, s, u, h);                                                          \
-    }                                                                                \
-  };                                                                                 \
+// Steppers of emitted code, for Ensemble::run. They can be called where the model has theirs.
+#define JOURDAIN_STEPPER(name, function)                                           \
+  struct name##_stepper {                                                          \
+    template <class Model, class State, class Input, class Real>                   \
+    auto operator()(const Model& m, State& s, const Input& u, const Real& h) const \
+        -> decltype(function(m, s, u, h)) {                                        \
+      function(m, s, u, h);                                                        \
+    }                                                                              \
+  };                                                                               \
   inline constexpr name##_stepper name {}
 JOURDAIN_STEPPER(euler, euler_step);
 JOURDAIN_STEPPER(semi_implicit_euler, semi_implicit_euler_step);
@@ -111,8 +113,14 @@ class Ensemble {
         run_block(b, stepper, h, steps, before);
     };
     std::vector<std::future<void>> others;
-    for (std::size_t begin = size; begin < blocks_.size(); begin += size)
-      others.push_back(std::async(std::launch::async, run_part, begin));
+    others.reserve(std::min(parts, blocks_.size()));
+    for (std::size_t begin = size; begin < blocks_.size(); begin += size) {
+      try {
+        others.push_back(std::async(std::launch::async, run_part, begin));
+      } catch (const std::system_error&) {  // the system has no more threads
+        run_part(begin);
+      }
+    }
     run_part(0);
     for (std::future<void>& other : others) other.get();
   }

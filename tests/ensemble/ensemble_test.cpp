@@ -70,12 +70,12 @@ template <template <class> class Model, class Real, std::size_t lanes>
 void expect_scalars(double tolerance) {
   using Many = Ensemble<Model, Real, lanes>;
   Many ensemble = started<Many>();
-  ensemble.run(rk4, static_cast<Real>(kStep), 25, 2);
+  ensemble.run(rk4, static_cast<Real>(kStep), 60, 2);
   const Model<Real> model;
   for (std::size_t k = 0; k < kCount; ++k) {
     auto state = start<Many>(model, k);
     const auto begin = state;
-    for (int i = 0; i < 25; ++i) rk4_step(model, state, input<Many>(k), static_cast<Real>(kStep));
+    for (int i = 0; i < 60; ++i) rk4_step(model, state, input<Many>(k), static_cast<Real>(kStep));
     EXPECT_GT(difference(begin, state), 1e-6) << k;
     EXPECT_LE(difference(ensemble.state(k), state), tolerance) << k << " of " << lanes << " lanes";
     EXPECT_TRUE(ensemble.trusted(k)) << k;
@@ -96,6 +96,31 @@ TEST(Ensembles, HaveTheBitsOfScalars) {
   expect_scalars_of<cart_pole_ensemble::Model>(kNone);
   expect_scalars_of<quadrotor_packs::Model>(kNone);
   expect_scalars_of<quadruped_packs::Model>(kNone);
+}
+
+/// After 12 days, where a product of rate and time in one number is off by 1e-10 rad.
+template <class Real>
+void expect_exact_angles(double t, double tolerance) {
+  using Many = Ensemble<crane_packs::Model, Real, 4>;
+  Many ensemble(kCount);
+  const typename Many::Model model;
+  std::vector<typename Many::State> states;
+  for (std::size_t k = 0; k < kCount; ++k) {
+    states.push_back(start<Many>(model, k));
+    states[k].t = static_cast<Real>(t + 0.37 * static_cast<double>(k));
+    ensemble.set_state(k, states[k]);
+  }
+  const auto h = static_cast<Real>(0.01);
+  ensemble.run(rk4, h, 200);
+  for (std::size_t k = 0; k < kCount; ++k) {
+    for (int i = 0; i < 200; ++i) rk4_step(model, states[k], {}, h);
+    EXPECT_LE(difference(ensemble.state(k), states[k]), tolerance) << k;
+  }
+}
+
+TEST(Ensembles, KeepAnglesOfLongTimes) {
+  expect_exact_angles<double>(1e6, kNone);
+  expect_exact_angles<float>(1e3, kRoundedSines);
 }
 
 TEST(Ensembles, ChooseInEachLane) { expect_scalars_of<cart_stops_packs::Model>(kNone); }

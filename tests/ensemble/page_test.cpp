@@ -34,6 +34,18 @@ TEST(EnsemblesPage, SwingsThePoleUp) {
   EXPECT_LT(std::fabs(place), 0.5);
 }
 
+TEST(EnsemblesPage, StepsManyStatesInC) {
+  const std::string text = support::read_file(kSource + "/runtime/ensembles.md"),
+                    section = text.substr(text.find("## From C")), fence = "```sh\n";
+  const std::size_t first = section.find(fence) + fence.size();
+  const support::TemporaryFolder folder;
+  const support::ProcessResult result =
+      run_script(kSource, section.substr(first, section.find("\n```", first) - first),
+                 {"BUILD=" + build_folder(), "PROJECT=" + folder.path() + "/crane"});
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("1000 of 1000 states are to be trusted"), std::string::npos) << result.output;
+}
+
 TEST(EnsemblesPage, ProgramsOfThreadsDoNotMeet) {
   const support::TemporaryFolder folder;
   const auto run_checked = [](const std::vector<std::string>& command) {

@@ -32,9 +32,16 @@ ProcessResult make(const std::string& model, const std::string& folder,
 const std::string& modules() {
   static const support::TemporaryFolder folder;
   static const bool done = [] {
-    for (const char* model : {"cart_pole", "crane", "panda", "quadrotor", "squeezer", "ur5"}) {
-      const ProcessResult made = make(fmt::format("{}/models/{}.toml", kSource, model), folder.path());
+    const auto made_well = [](const std::string& model, const std::vector<std::string>& options) {
+      const ProcessResult made =
+          make(fmt::format("{}/models/{}.toml", kSource, model), folder.path(), options);
       EXPECT_EQ(made.status, 0) << made.output;
+    };
+    for (const char* model : {"panda", "quadrotor", "ur5"}) made_well(model, {});
+    for (const char* model :
+         {"cart_pole", "crane", "squeezer"}) {  // both ways: a batch, and one state by itself
+      made_well(model, {"--packs"});
+      made_well(model, {"--name", fmt::format("plain_{}", model)});
     }
     return true;
   }();
@@ -97,6 +104,12 @@ TEST(Python, ModulesDoWhatTheyPromise) {
   const ProcessResult result = run_python({kSource + "/tests/python/checks.py"}, modules());
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_THAT(result.output, testing::ContainsRegex("Ran 2[0-9] tests"));
+}
+
+TEST(Python, BatchesInVectorsAreThoseOfScalarCode) {
+  const ProcessResult result = run_python({kSource + "/tests/python/packs_checks.py"}, modules());
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, testing::ContainsRegex("Ran 5 tests"));
 }
 
 struct Run {
@@ -187,14 +200,18 @@ TEST(Python, WhatCannotBeMadeIsSaidAndNothingIsWritten) {
     std::vector<std::string> options;
     int status;
     const char* words;
-  } cases[] = {{{"--name", "lambda"},
-                2,
-                "'lambda' is a word of Python and no name of a module; choose another with --name"},
-               {{"--name", "json"}, 2, "a module 'json' would hide Python's own module"},
-               {{"--name", "numpy"}, 2, "a module 'numpy' would hide"},
-               {{"--functions", "forwrd"}, 2, "no function 'forwrd'"},
-               {{"--compiler", "no-such-compiler"}, 3, "cannot run 'no-such-compiler'"},
-               {{"--flags", "--no-such-flag"}, 3, "'cc' fails"}};
+  } cases[] = {
+      {{"--name", "lambda"},
+       2,
+       "'lambda' is a word of Python and no name of a module; choose another with --name"},
+      {{"--name", "json"}, 2, "a module 'json' would hide Python's own module"},
+      {{"--name", "numpy"}, 2, "a module 'numpy' would hide"},
+      {{"--functions", "forwrd"}, 2, "no function 'forwrd'"},
+      {{"--packs", "--functions", "forward_dynamics"}, 2, "--packs: none of the functions is a step"},
+      {{"--cxx-flags", "-O3"}, 2, "--cxx-flags requires --packs"},
+      {{"--packs", "--cxx-compiler", "no-such-compiler"}, 3, "cannot run 'no-such-compiler'"},
+      {{"--compiler", "no-such-compiler"}, 3, "cannot run 'no-such-compiler'"},
+      {{"--flags", "--no-such-flag"}, 3, "'cc' fails"}};
   for (const auto& [options, status, words] : cases) {
     const ProcessResult made = make(pendulum, folder.path() + "/module", options);
     EXPECT_EQ(made.status, status) << made.output;
@@ -205,11 +222,14 @@ TEST(Python, WhatCannotBeMadeIsSaidAndNothingIsWritten) {
 
 TEST(Python, LibrariesCompileWithoutAWarning) {
   const support::TemporaryFolder folder;
+  const std::string warnings = "-O1 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror";
   for (const char* model : {"pendulum", "squeezer"})
-    for (const char* compiler : {"gcc", "clang"}) {
-      const ProcessResult made = make(
-          fmt::format("{}/models/{}.toml", kSource, model), folder.path(),
-          {"--compiler", compiler, "--flags", "-O1 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"});
+    for (const std::vector<std::string>& compilers :
+         {std::vector<std::string>{"gcc", "g++"}, std::vector<std::string>{"clang", "clang++"}}) {
+      const ProcessResult made =
+          make(fmt::format("{}/models/{}.toml", kSource, model), folder.path(),
+               {"--compiler", compilers[0], "--flags", warnings, "--packs", "--cxx-compiler", compilers[1],
+                "--cxx-flags", warnings + " -Wno-psabi -march=native"});
       EXPECT_EQ(made.status, 0) << made.output;
     }
 }

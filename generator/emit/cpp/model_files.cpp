@@ -78,7 +78,10 @@ class Emitter {
         {"ARCTANGENT",
          if_any(ir::has_arctangent(module_), own_sines() ? "own_arctangent.in" : "arctangent.in")},
         {"FUNCTIONS", function_texts()},
-        {"ANGLE", if_any(code_.has_angle, "angle.in") + if_any(code_.has_angle && packs(), "packs_angle.in")},
+        {"ANGLE", if_any(code_.has_angle, "product_error.in") +
+                      if_any(code_.has_angle, packs() ? "packs_product_error.in" : "wide_product_error.in") +
+                      if_any(code_.has_angle, "angle.in") +
+                      if_any(code_.has_angle && packs(), "packs_angle.in")},
         {"STEP_SUPPORT", support_text(code_.support, !scene_.inputs.empty())},
         {"HISTORY", memories()},
         {"CONSTANTS", constant_members()},

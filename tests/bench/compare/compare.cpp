@@ -100,7 +100,7 @@ void compare(const std::string& robot, Quantity quantity, const std::vector<Samp
     if (apart <= kTolerance)
       rows.push_back({library.get(), apart});
     else
-      fmt::print("{:<16} {:<17} {:<14} differs by {:.1e}: not timed\n", robot, name_of(quantity),
+      fmt::print("{:<16} {:<17} {:<20} differs by {:.1e}: not timed\n", robot, name_of(quantity),
                  library->name(), apart);
   }
   for (Timed& row : rows)
@@ -109,7 +109,7 @@ void compare(const std::string& robot, Quantity quantity, const std::vector<Samp
     for (Timed& row : rows) row.nanoseconds.push_back(row.block(quantity));
   for (Timed& row : rows) std::sort(row.nanoseconds.begin(), row.nanoseconds.end());
   for (const Timed& row : rows)
-    fmt::print("{:<16} {:<17} {:<14} {:>10.1f} {:>10.1f} {:>7.2f} {:>9.0e}   {}\n", robot, name_of(quantity),
+    fmt::print("{:<16} {:<17} {:<20} {:>10.1f} {:>10.1f} {:>7.2f} {:>9.0e}   {}\n", robot, name_of(quantity),
                row.library->name(), row.nanoseconds.front(), row.nanoseconds[kBlocks / 2],
                row.nanoseconds.front() / rows.front().nanoseconds.front(), row.apart,
                row.library->calls(quantity));
@@ -122,6 +122,7 @@ void compare_robot(const std::string& name, const std::string& path, bool free_r
   const std::vector<Sample> samples = draw(robot);
   std::vector<std::unique_ptr<Library>> libraries;
   libraries.push_back(std::make_unique<Emitted<Model>>(samples));
+  libraries.push_back(make_ensemble(name, samples));
   for (const auto make : {make_kdl, make_mujoco, make_simbody, make_bullet}) try {
       if (std::unique_ptr<Library> library = make(robot, samples)) libraries.push_back(std::move(library));
     } catch (const std::exception& error) {
@@ -138,7 +139,7 @@ int main() {
   fmt::print("emitted code by {}; libraries as Debian built them; one thread, ratios of the least times\n",
              kEmittedBy);
   fmt::print("{}", kLeftOut);
-  fmt::print("{:<16} {:<17} {:<14} {:>10} {:>10} {:>7} {:>9}   {}\n", "robot", "", "", "ns, least",
+  fmt::print("{:<16} {:<17} {:<20} {:>10} {:>10} {:>7} {:>9}   {}\n", "robot", "", "", "ns, least",
              "ns, median", "ratio", "differs", "calls");
 #define JOURDAIN_COMPARE(name, path, is_free, ...) \
   compare_robot<bench_##name::Model<double>>(#name, path, is_free, {__VA_ARGS__});

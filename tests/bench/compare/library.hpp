@@ -38,6 +38,9 @@ class Library {
   virtual void run(Quantity quantity, int times) = 0;
 };
 
+/// The emitted robot again, many samples at once as lanes of vectors.
+std::unique_ptr<Library> make_ensemble(const std::string& robot, const std::vector<Sample>& samples);
+
 /// Each may be missing: nothing is returned where the library was not found, or does not take the robot.
 std::unique_ptr<Library> make_kdl(const Robot& robot, const std::vector<Sample>& samples);
 std::unique_ptr<Library> make_mujoco(const Robot& robot, const std::vector<Sample>& samples);
