@@ -4,8 +4,8 @@
 // of an angle at once.
 //
 // Each lane has the bits that double, or float, has under the same options, where sums and products are not fused
-// (-ffp-contract=off) and but for: sines of floats, which are those of double rounded, less than 0.51 ulp off; angles
-// that close loops, which are the C library's. Functions other than + - * /, roots, sines, absolute values and
+// (-ffp-contract=off) and but for: sines of floats, which are taken in double, less than 0.51 ulp off; angles that close
+// loops, which are the C library's. Functions other than + - * /, roots, sines, absolute values and
 // comparisons are called lane by lane.
 #pragma once
 
@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 namespace jourdain {
@@ -128,13 +129,9 @@ struct Pack {
 
   friend void sine_cosine(const Pack& x, Pack& s, Pack& c) noexcept {
     if constexpr (sizeof(Real) == 8) {
-      sines_of_doubles<lanes>(x.values, s.values, c.values);
+      sines_of_doubles(x.values, s.values, c.values);
     } else {
-      using Doubles = typename detail::VectorOf<double, lanes>::Type;
-      Doubles sines, cosines;
-      sines_of_doubles<lanes>(__builtin_convertvector(x.values, Doubles), sines, cosines);
-      s.values = __builtin_convertvector(sines, Vector);
-      c.values = __builtin_convertvector(cosines, Vector);
+      sines_of_floats(x.values, s.values, c.values);
     }
   }
   friend Pack sin(const Pack& x) noexcept {
@@ -154,21 +151,51 @@ struct Pack {
     result.values = values;
     return result;
   }
-  template <std::size_t count, class V>
-  static void sines_of_doubles(const V& x, V& s, V& c) noexcept;
+  static void sines_of_doubles(const Vector& x, Vector& s, Vector& c) noexcept;
+  static void sines_of_floats(const Vector& x, Vector& s, Vector& c) noexcept;
+  static void call_library(const Vector& x, const BitVector& in_range, Vector& s, Vector& c) noexcept;
 };
+
+namespace detail {
+
+/// Sine and cosine of |x| in a quadrant, of what is left of it: exchanged and with the signs that they have there.
+template <class I, class V>
+__attribute__((always_inline)) inline void turn(const I& sine_bits, const I& cosine_bits, const I& n,
+                                                const I& sign, V& s, V& c) noexcept {
+  const std::uint64_t one = 1, zero = 0;
+  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
+  s = (V)(sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
+  c = (V)(cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
+}
+
+}  // namespace detail
+
+/// By the C library where a lane is out of range.
+template <class Real, std::size_t lanes>
+__attribute__((always_inline)) inline void Pack<Real, lanes>::call_library(const Vector& x,
+                                                                           const BitVector& in_range,
+                                                                           Vector& s, Vector& c) noexcept {
+  Bits all = ~Bits{0};
+  for (std::size_t i = 0; i < lanes; ++i) all &= in_range[i];
+  if (__builtin_expect(all == 0, 0))
+    for (std::size_t i = 0; i < lanes; ++i)
+      if (in_range[i] == 0) {
+        s[i] = static_cast<Real>(std::sin(static_cast<double>(x[i])));
+        c[i] = static_cast<Real>(std::cos(static_cast<double>(x[i])));
+      }
+}
 
 /// Up to 2^30 as the emitted functions for double do it (see there for its sources); beyond, and for what is no number,
 /// by the C library.
 template <class Real, std::size_t lanes>
-template <std::size_t count, class V>
-__attribute__((always_inline)) inline void Pack<Real, lanes>::sines_of_doubles(const V& x, V& s,
-                                                                               V& c) noexcept {
+__attribute__((always_inline)) inline void Pack<Real, lanes>::sines_of_doubles(const Vector& x, Vector& s,
+                                                                               Vector& c) noexcept {
 #if defined(__clang__)
 #pragma clang fp reassociate(off)
 #endif
-  using I = typename detail::VectorOf<std::uint64_t, count>::Type;
-  const std::uint64_t one = 1, zero = 0;
+  using V = Vector;
+  using I = BitVector;
+  const std::uint64_t one = 1;
   const I bits = (I)x, sign = bits & (one << 63);
   const V a = (V)(bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
   const I n = (I)shifted;
@@ -184,20 +211,46 @@ __attribute__((always_inline)) inline void Pack<Real, lanes>::sines_of_doubles(c
   const V even = (0.0416666666666666 + z * -0.0013888888888874474) +
                  y * ((2.4801587289670344e-05 + z * -2.755731440021842e-07) +
                       y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
-  const I sine_bits = (I)(h + (h * z * odd + l * w));
-  const I cosine_bits = (I)(w + (((1.0 - w) - half) + (y * even - h * l)));
-  const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
-  s = (V)(sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
-  c = (V)(cosine_bits ^ exchange ^ (((n + one) << 62) & (one << 63)));
-  const I in_range = (I)(a <= 1073741824.0);
-  std::uint64_t all = ~zero;
-  for (std::size_t i = 0; i < count; ++i) all &= in_range[i];
-  if (__builtin_expect(all == 0, 0))
-    for (std::size_t i = 0; i < count; ++i)
-      if (in_range[i] == 0) {
-        s[i] = std::sin(x[i]);
-        c[i] = std::cos(x[i]);
-      }
+  detail::turn((I)(h + (h * z * odd + l * w)), (I)(w + (((1.0 - w) - half) + (y * even - h * l))), n, sign, s,
+               c);
+  call_library(x, (I)(a <= 1073741824.0), s, c);
+}
+
+/// Up to 2^30 in double, with pi/2 in parts whose products with n are exact but for the last, and with polynomials that
+/// are good to 2^-33 (Remez exchange); beyond, and for what is no number, by the C library.
+template <class Real, std::size_t lanes>
+__attribute__((always_inline)) inline void Pack<Real, lanes>::sines_of_floats(const Vector& x, Vector& s,
+                                                                              Vector& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  constexpr std::size_t count = natural_lanes<double> < lanes ? natural_lanes<double> : lanes;
+  using F = typename detail::VectorOf<float, count>::Type;
+  using V = typename detail::VectorOf<double, count>::Type;
+  using I = typename detail::VectorOf<std::uint64_t, count>::Type;
+  const std::uint64_t one = 1;
+  F part, sines, cosines;
+  for (std::size_t first = 0; first < lanes; first += count) {
+    std::memcpy(&part, reinterpret_cast<const char*>(&x) + first * sizeof(float), sizeof part);
+    const V wide = __builtin_convertvector(part, V);
+    const I bits = (I)wide, sign = bits & (one << 63);
+    const V a = (V)(bits ^ sign), shifted = a * 0.6366197723675814 + 6755399441055744.0;
+    const I n = (I)shifted;
+    const V k = shifted - 6755399441055744.0;
+    const V h = ((a - k * 1.570796251296997) - k * 7.549789415861596e-08) - k * 5.390302858158119e-15;
+    const V z = h * h, y = z * z;
+    const V odd = (-0.1666666664162689 + z * 0.00833332938593308) +
+                  y * (-0.000198393348503717 + z * 2.7183116319069146e-06);
+    const V even = (0.04166664686638351 + z * -0.0013887367512708504) + y * 2.4438451232557072e-05;
+    V wide_sines, wide_cosines;
+    detail::turn((I)(h + h * z * odd), (I)((1.0 - z * 0.5) + y * even), n, sign, wide_sines, wide_cosines);
+    sines = __builtin_convertvector(wide_sines, F);
+    cosines = __builtin_convertvector(wide_cosines, F);
+    std::memcpy(reinterpret_cast<char*>(&s) + first * sizeof(float), &sines, sizeof part);
+    std::memcpy(reinterpret_cast<char*>(&c) + first * sizeof(float), &cosines, sizeof part);
+  }
+  const Bits magnitude = 0x7fffffff;
+  call_library(x, (BitVector)((Vector)((BitVector)x & magnitude) <= 1073741824.0f), s, c);
 }
 
 }  // namespace jourdain

@@ -60,7 +60,7 @@ TEST(Packs, HaveNoSineOfWhatIsNoNumber) {
   EXPECT_TRUE(same_bits(c[3], emitted_cosine(1.0)));
 }
 
-TEST(Packs, RoundSinesOfFloatsFromDoubles) {
+TEST(Packs, HaveSinesOfFloatsFromDoubles) {
   double worst = 0;
   const auto miss = [&worst](float found, double exact) {
     int exponent = 0;
