@@ -235,7 +235,7 @@ class EnsembleInterface {
       for (std::size_t k = 0; k < count; ++k)
         static_cast<Many*>(ensemble)->set_parameters(first + k, read<Parameters>(parameters + k * numbers));
     } catch (const std::bad_alloc&) {  // by the first of them
-      return JOURDAIN_NO_MEMORY;
+      return JOURDAIN_WRONG_CALL;
     }
     return JOURDAIN_OK;
   }
@@ -281,7 +281,7 @@ class EnsembleInterface {
     try {
       steppers().runs[static_cast<std::size_t>(stepper)](*many, h, steps, threads, inputs);
     } catch (const std::bad_alloc&) {  // before the first step
-      return JOURDAIN_NO_MEMORY;
+      return JOURDAIN_WRONG_CALL;
     }
     return JOURDAIN_OK;
   }

@@ -2,7 +2,8 @@
  *
  * Many states of one model, stepped side by side in vectors and by several threads, for C and for programs that load
  * models that they do not know. jourdain/ensemble_interface.hpp makes the functions from an emitted model. Every number
- * passes as a double, states one after the other. An ensemble takes memory of its own and is for one thread at a time. */
+ * passes as a double, states one after the other. An ensemble takes memory of its own and is for one thread at a time.
+ * Where a call needs more and there is none it answers JOURDAIN_WRONG_CALL, and nothing was done. */
 #ifndef JOURDAIN_ENSEMBLE_H
 #define JOURDAIN_ENSEMBLE_H
 

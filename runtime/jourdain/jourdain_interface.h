@@ -53,8 +53,7 @@ typedef enum jourdain_status {
   JOURDAIN_OK = 0,
   JOURDAIN_WRONG_CALL = 1, /* a null pointer, or something that the model does not have; nothing was done */
   JOURDAIN_NOT_FINITE = 2, /* a number that was given or computed is not finite */
-  JOURDAIN_LOOPS_OPEN = 3, /* a step could not be trusted to close the loops of the mechanism */
-  JOURDAIN_NO_MEMORY = 4   /* of ensembles alone: there was none; nothing was done */
+  JOURDAIN_LOOPS_OPEN = 3  /* a step could not be trusted to close the loops of the mechanism */
 } jourdain_status;
 
 typedef struct jourdain_variable {

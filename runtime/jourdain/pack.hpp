@@ -4,8 +4,8 @@
 // of an angle at once.
 //
 // Each lane has the bits that double, or float, has under the same options, where sums and products are not fused
-// (-ffp-contract=off) and but for: sines of floats, which are taken in double, less than 0.51 ulp off; angles that close
-// loops, which are the C library's. Functions other than + - * /, roots, sines, absolute values and
+// (-ffp-contract=off) and but for: sines of floats, which are taken in double, less than 0.51 ulp off; angles that
+// close loops, which are the C library's. Functions other than + - * /, roots, sines, absolute values and
 // comparisons are called lane by lane.
 #pragma once
 
