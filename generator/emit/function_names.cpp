@@ -17,7 +17,8 @@ const char* function_name(support::Function function) {
                                                                    "smaller",
                                                                    "larger",
                                                                    "where_negative",
-                                                                   "where_not_negative"};
+                                                                   "where_not_negative",
+                                                                   "entry"};
   return kNames[static_cast<std::size_t>(function)];
 }
 

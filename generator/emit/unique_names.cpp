@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "emit/constant_tables.hpp"
 #include "model/names.hpp"
 
 namespace jourdain::emit {
@@ -22,7 +23,7 @@ std::string Names::unique(const std::string& wanted, const std::string& fallback
   }
   if (name.empty() || name == "_") name = fallback;
   if (!(name[0] >= 'a' && name[0] <= 'z') && !(name[0] >= 'A' && name[0] <= 'Z')) name = "v" + name;
-  if (model::is_reserved(name)) name += "_value";
+  if (model::is_reserved(name) || is_table_function(name)) name += "_value";
   std::string candidate = name;
   for (int i = 2; !taken_.insert(candidate).second; ++i)
     candidate = fmt::format("{}{}{}", name, name.back() == '_' ? "" : "_", i);

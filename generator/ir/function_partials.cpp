@@ -33,6 +33,7 @@ std::pair<Signed, Signed> partials(Builder& builder, Function function, Signed a
       return {builder.add(below, builder.function(Function::kWhereNotNegative, a, one)), zero};
     }
     case Function::kFloor:
+    case Function::kEntry:
       return {zero, zero};
     case Function::kMin:
     case Function::kMax: {

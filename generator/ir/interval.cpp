@@ -103,6 +103,16 @@ Interval taken(bool may_be, bool must_be, Interval value) {
   return may_be ? Interval{std::min(value.low, 0.0), std::max(value.high, 0.0)} : Interval::point(0);
 }
 
+/// All entries whose numbers are in `a`, of the array with the number `array`.
+Interval entries(Interval a, Interval array) {
+  const std::vector<double>& values =
+      support::array_of(support::whole_part(array.low, support::kLargestArrayNumber));
+  const auto last = static_cast<std::uint32_t>(values.size() - 1);
+  const auto [low, high] = std::minmax_element(values.begin() + support::whole_part(a.low, last),
+                                               values.begin() + support::whole_part(a.high, last) + 1);
+  return {*low, *high};
+}
+
 /// Where they exist.
 Interval function_of(Op op, Interval a, Interval b) {
   const auto size = [&a] {
@@ -147,6 +157,8 @@ Interval function_of(Op op, Interval a, Interval b) {
       return taken(a.low < 0, a.high < 0, b);
     case Op::kWhereNotNegative:
       return taken(a.high >= 0, a.low >= 0, b);
+    case Op::kEntry:
+      return entries(a, b);
     default:
       return Interval::line();
   }

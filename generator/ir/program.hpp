@@ -40,7 +40,8 @@ enum class Op : std::uint8_t {
   kMin,
   kMax,
   kWhereNegative,
-  kWhereNotNegative
+  kWhereNotNegative,
+  kEntry
 };
 
 constexpr Op op_of(support::Function function) {
@@ -105,8 +106,9 @@ struct Program {
 struct Operations {
   std::size_t add = 0, subtract = 0, multiply = 0, divide = 0, sqrt = 0, negate = 0, sin = 0, cos = 0,
               atan2 = 0;
-  std::size_t functions = 0;   ///< exp, log, sinh, cosh, tanh and powers with real exponents
-  std::size_t selections = 0;  ///< abs, floor, min, max and what is taken where a sign says so
+  std::size_t functions = 0;  ///< exp, log, sinh, cosh, tanh and powers with real exponents
+  std::size_t selections =
+      0;  ///< abs, floor, min, max, what is taken where a sign says so, entries of arrays
 
   /// add + subtract + multiply + divide + sqrt; the others are counted apart.
   std::size_t arithmetic() const { return add + subtract + multiply + divide + sqrt; }

@@ -47,6 +47,7 @@ Symbol rate_with_kinks(Function function, const Symbol& a, const Symbol& b, cons
     case Function::kAbs:
       return chosen(a, -da, da);
     case Function::kFloor:
+    case Function::kEntry:
       return a.number(0);
     case Function::kMin:
       return chosen(b - a, db, da);

@@ -23,8 +23,10 @@ enum class Beyond {
   kExtend  ///< a straight line with the slope at the end
 };
 
+/// Of a table whose values are not constant.
 inline constexpr std::size_t kMaximumTableValues = 400;
-inline constexpr std::size_t kMaximumCurvePoints = 100;  ///< of cubics
+/// Coefficients of all intervals or cells, and places of points.
+inline constexpr std::size_t kMaximumTableNumbers = 20000;
 
 /// Values at points of an axis, or on the grid of two. Points rise, two or more an axis.
 struct LookupTable {
@@ -36,7 +38,7 @@ struct LookupTable {
   std::vector<Axis> axes;          ///< x, or x and y
   std::vector<Expression> values;  ///< those of the first x first
   Measure measure = Measure::open();
-  Interpolation interpolation = Interpolation::kLinear;  ///< cubics: of one axis, values are constant
+  Interpolation interpolation = Interpolation::kLinear;  ///< cubics: values are constant; of two axes splines
   Beyond beyond = Beyond::kHold;
   support::SourceRange where;
 
@@ -47,10 +49,16 @@ struct LookupTable {
   }
 };
 
-/// The table's value, of as many arguments as it has axes: pieces of which the one is taken that the argument is in, or
-/// on a grid values by their weights. No search, no branch: the cost is the same everywhere, 4 operations and 2
-/// selections an interval, of cubics 8 and 2; on a grid 2 operations a value, 4 and 4 selections an interval. It has
-/// its values at its points, and there the slopes of the intervals above.
+/// Are its coefficients entries of arrays? Of few intervals, or where values are not constant, all are computed.
+bool has_entries(const LookupTable& table);
+
+/// The table's value, of as many arguments as it has axes, without a branch and at one cost everywhere. It has its
+/// values at its points, and there the slopes of the intervals above.
+///   has_entries   the polynomial of the interval that the argument is in: where points have equal distances by a
+///                 quotient, at a cost that does not depend on their number (at a point rounding may choose the
+///                 interval below), else by as many comparisons as their number has binary digits
+///   otherwise     pieces of which one is taken: 4 operations and 2 selections an interval, of cubics 8 and 2; on a
+///                 grid values by their weights, 2 operations a value, 4 and 4 selections an interval
 Expression looked_up(const LookupTable& table, std::span<const Expression> arguments);
 
 /// Slopes at the points of a curve through `values`, of these kinds:

@@ -64,7 +64,7 @@ class CFileParser : public StatementParser {
 
   void item() {
     if (peek().kind == TokenKind::kEnd) refuse_here("a declaration");
-    if (known_text()) return;
+    if (known_text() || table_function()) return;
     if (is_word("typedef")) return structure();
     if (is_word("enum")) return enumeration();
     if (is_word("extern")) return declared_constant();

@@ -143,6 +143,7 @@ Value Interpreter::call(const Expression& expression) {
     if (const Value& value = arguments.back(); value.kind == Value::Kind::kNothing)
       refuse_at(argument->place, "an argument without a value");
   }
+  if (const std::vector<double>* table = table_of(callee)) return entry(*table, arguments, expression);
   if (!callee.type && !callee.global && meaning_[callee.name] > frame().base)
     return call_object(variables_[meaning_[callee.name] - 1].value, arguments, expression);
   std::string scope = frame().scope;

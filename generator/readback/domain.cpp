@@ -42,6 +42,8 @@ Number Domain::operate(ir::Op op, Number a, Number b) {
   return apply(op, a, b);
 }
 
+Number Domain::array(std::vector<double> values) { return literal(support::number_of_array(values)); }
+
 bool Domain::is_less(Number, Number) {
   throw Refusal("numbers are compared where the result must not depend on them");
 }

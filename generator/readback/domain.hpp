@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "ir/program.hpp"
 
@@ -17,6 +18,8 @@ class Domain {
   virtual ~Domain() = default;
 
   virtual Number literal(double value) = 0;
+  /// The number of an array of constants, as operations take it.
+  virtual Number array(std::vector<double> values);
   /// Counts the operation. `b` of binary operations only.
   Number operate(ir::Op op, Number a, Number b = 0);
   /// Is a < b, a ≤ b? Throws Refusal where numbers have no order.

@@ -307,6 +307,11 @@ const Expression* ExpressionParser::primary() {
 }
 
 const Expression* ExpressionParser::number(bool is_negative) {
+  const Expression& made = plain_number(is_negative);
+  return made.kind == ExpressionKind::kFloating && known_.c ? as_real(&made) : &made;
+}
+
+Expression& ExpressionParser::plain_number(bool is_negative) {
   const bool floating = peek().kind == TokenKind::kFloating, is_float = known_.c && known_.c->is_float;
   Expression& made = make(floating ? ExpressionKind::kFloating : ExpressionKind::kInteger);
   std::string_view text = peek().text;
@@ -322,7 +327,7 @@ const Expression* ExpressionParser::number(bool is_negative) {
   if (floating && is_float) made.floating = static_cast<double>(rounded);
   if (is_negative) made.floating = -made.floating;
   take();
-  return floating && known_.c ? as_real(&made) : &made;
+  return made;
 }
 
 /// A name, `true`, a call of a type, or a name with template arguments.

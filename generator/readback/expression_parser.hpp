@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "readback/syntax.hpp"
 #include "readback/tokens.hpp"
@@ -58,6 +59,8 @@ class ExpressionParser {
   bool starts_type() const;
   Declarator declarator(bool may_be_unnamed);
   void bounds(Declarator& declarator);
+  /// Takes a function that takes entries of an array of constants, if one begins here.
+  bool table_function();
 
   Unit& unit_;
   Known& known_;
@@ -69,10 +72,15 @@ class ExpressionParser {
   const Expression* primary();
   const Expression* name();
   const Expression* number(bool is_negative = false);
+  Expression& plain_number(bool is_negative);
   const Expression* list();
   void arguments(Expression& call, std::string_view close);
   void template_arguments(TypeName& type);
   bool is_known_type(Symbol name) const;
+  // in table_functions.cpp
+  bool begins_table() const;
+  void expect_text(const std::string& text);
+  std::vector<double> listed_numbers();
   // of C, in c_expression_parser.cpp
   TypeName c_type();
   const Expression* c_name();

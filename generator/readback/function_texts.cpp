@@ -98,6 +98,62 @@ Real where_not_negative(const Real& d, const Real& x) noexcept {
   return texts;
 }
 
+const char* entries() {
+  return R"(namespace hooks {
+
+template <class Real, class Value = float>
+struct TableOf { using Type = double; };
+template <>
+struct TableOf<float, float> { using Type = float; };
+template <class Real>
+struct TableOf<Real, typename Real::value_type> { using Type = float; };
+
+struct ByComparison {};
+struct BySearch : ByComparison {};
+struct ByLane : BySearch {};
+struct ByOwnEntry : ByLane {};
+
+template <class Value> JOURDAIN_FUNCTION
+int place(const Value& i, int last) noexcept { return i > 0 ? (i < static_cast<Value>(last) ? static_cast<int>(i) : last) : 0; }
+
+template <class Value, int n> JOURDAIN_FUNCTION
+double entry(const Value (&values)[n], const double& i, ByOwnEntry) noexcept { return values[place(i, n - 1)]; }
+template <class Value, int n> JOURDAIN_FUNCTION
+float entry(const Value (&values)[n], const float& i, ByOwnEntry) noexcept { return static_cast<float>(values[place(i, n - 1)]); }
+template <class Real, class Value, int n> JOURDAIN_FUNCTION
+auto entry(const Value (&values)[n], const Real& i, ByOwnEntry) noexcept -> decltype(table_entry(values, n - 1, i)) {
+  return table_entry(values, n - 1, i);
+}
+template <class Real, class Value, int n> JOURDAIN_FUNCTION
+auto entry(const Value (&values)[n], const Real& i, ByLane) noexcept
+    -> decltype(void((*static_cast<Real*>(nullptr))[0] = values[0]), Real{}) {
+  Real result = i;
+  auto lane = i[0];
+  for (unsigned k = 0; k < sizeof(result) / sizeof(lane); ++k) {
+    lane = i[k];
+    result[k] = static_cast<decltype(lane)>(values[place(lane, n - 1)]);
+  }
+  return result;
+}
+template <class Real, class Value, int n> JOURDAIN_FUNCTION
+auto entry(const Value (&values)[n], const Real& i, BySearch) noexcept -> decltype(void(i < i ? 0 : 1), Real{}) {
+  int found = 0, step = 1;
+  while (2 * step < n) step *= 2;
+  for (; step > 0; step /= 2)
+    if (found + step < n && !(i < Real(found + step))) found += step;
+  return Real(values[found]);
+}
+template <class Real, class Value, int n> JOURDAIN_FUNCTION
+Real entry(const Value (&values)[n], const Real& i, ByComparison) noexcept {
+  Real result = Real(values[0]);
+  for (int k = 1; k < n; ++k) result = hooks::chosen(i < Real(k), result, Real(values[k]), hooks::BySelect());
+  return result;
+}
+
+}
+)";
+}
+
 const char* choice() {
   return R"(namespace hooks {
 

@@ -30,7 +30,8 @@ struct ChoosingText {
 
 const std::vector<ChoosingText>& choosing_texts();
 
-/// What those call.
+/// What those call, and what functions that take entries of arrays call.
 const char* choice();
+const char* entries();
 
 }  // namespace jourdain::readback

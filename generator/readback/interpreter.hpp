@@ -124,6 +124,9 @@ class Interpreter {
   // calls
   Value call(const Expression& expression);
   Value call_c_library(const Expression& expression, const std::vector<Value>& arguments);
+  const std::vector<double>* table_of(const Expression& callee);
+  Value entry(const std::vector<double>& table, const std::vector<Value>& arguments,
+              const Expression& expression);
   Value call_object(const Value& object, const std::vector<Value>& arguments, const Expression& expression);
   static std::vector<Value> as_pointers(const Function& function, const std::vector<Value>& arguments);
   Value invoke(const Candidate& candidate, const std::vector<Value>& arguments);

@@ -231,6 +231,7 @@ KnownText known(const char* scope, const char* type, const std::string& text, co
 
 void add_choosing_texts(std::vector<KnownText>& list, bool packs) {
   list.push_back(known("detail", "", choice()));
+  list.push_back(known("detail", "", packs ? for_packs(entries()) : entries()));
   for (const ChoosingText& text : choosing_texts())
     list.push_back(known("detail", "", packs ? for_packs(text.cpp) : text.cpp, text.cpp_meaning.c_str()));
 }

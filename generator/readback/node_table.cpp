@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <utility>
 
 namespace jourdain::readback {
 
@@ -25,8 +26,17 @@ Number NodeTable::intern(const Node& node) {
   return it->second;
 }
 
+double NodeTable::rounded(double value) const {
+  return rounds_to_float_ ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
+Number NodeTable::array(std::vector<double> values) {
+  for (double& value : values) value = rounded(value);
+  return Domain::array(std::move(values));
+}
+
 Number NodeTable::literal(double given) {
-  const double value = rounds_to_float_ ? static_cast<double>(static_cast<float>(given)) : given;
+  const double value = rounded(given);
   return intern({static_cast<std::uint32_t>(ir::Op::kLiteral), 0, 0, std::bit_cast<std::uint64_t>(value)});
 }
 
@@ -51,6 +61,9 @@ std::vector<Number> NodeTable::insert(const ir::Program& program) {
       values.push_back(literal(node.literal));
     else if (node.op == ir::Op::kLeaf)
       values.push_back(leaf(node.leaf, node.index));
+    else if (node.op == ir::Op::kEntry)
+      values.push_back(apply(node.op, values[node.a.value],
+                             array(support::array_of(static_cast<std::uint32_t>(program[node.b].literal)))));
     else
       values.push_back(apply(node.op, values[node.a.value],
                              ir::operand_count(node.op) == 2 ? values[node.b.value] : Number(0)));

@@ -16,6 +16,7 @@ class NodeTable : public Domain {
   explicit NodeTable(bool rounds_to_float = false) : rounds_to_float_(rounds_to_float) {}
 
   Number literal(double value) override;
+  Number array(std::vector<double> values) override;
   Number leaf(ir::LeafKind kind, std::size_t index);
   /// A leaf that no program has: what stood in a place before.
   Number mark(std::size_t index);
@@ -41,6 +42,7 @@ class NodeTable : public Domain {
     std::size_t operator()(const Node& node) const;
   };
   Number intern(const Node& node);
+  double rounded(double value) const;
 
   bool rounds_to_float_;
   std::vector<Node> nodes_;

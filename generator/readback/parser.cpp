@@ -36,7 +36,7 @@ class FileParser : public StatementParser {
  private:
   void namespace_body() {
     while (!accept("}"))
-      if (known_text())
+      if (known_text() || (scope_ == "detail" && table_function()))
         continue;
       else if (accept_word("namespace"))
         inner_namespace();

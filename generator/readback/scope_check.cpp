@@ -14,6 +14,7 @@ class ScopeCheck {
       : unit_(unit), findings_(findings), count_(unit.symbols.size(), 0) {
     for (const Function* function : unit.functions)
       functions_.insert({function->scope, unit.symbols.text(function->name)});
+    for (const auto& [name, values] : unit.tables) functions_.insert({"detail", name});
     for (const LibraryName& known : library_names()) functions_.insert({"", std::string(known.name)});
   }
 

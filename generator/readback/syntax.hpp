@@ -191,7 +191,9 @@ struct Unit {
   std::vector<const Struct*> structs;
   std::vector<const Constant*> constants;
   std::vector<const Constant*> declared_constants;  ///< of C: without their values
-  std::set<Symbol> numbers;    ///< struct templates that stand for the type of their numbers
+  std::set<Symbol> numbers;  ///< struct templates that stand for the type of their numbers
+  std::map<std::string, std::vector<double>>
+      tables;                  ///< of namespace detail: functions that take entries, with these
   bool has_own_sines = false;  ///< sines that are written out, not the C library's
   // Where all of it lives.
   std::deque<Expression> expressions;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "support/check.hpp"
+#include "support/constant_array.hpp"
 
 namespace jourdain::support {
 
@@ -21,12 +23,13 @@ enum class Function : std::uint8_t {
   kPower,  ///< a^b; a ≥ 0, or b a whole number
   kAbs,
   kFloor,
-  kMin,              ///< b < a ? b : a
-  kMax,              ///< a < b ? b : a
-  kWhereNegative,    ///< a < 0 ? b : 0, whatever b is where it is not taken, not a number too
-  kWhereNotNegative  ///< a < 0 ? 0 : b, likewise
+  kMin,               ///< b < a ? b : a
+  kMax,               ///< a < b ? b : a
+  kWhereNegative,     ///< a < 0 ? b : 0, whatever b is where it is not taken, not a number too
+  kWhereNotNegative,  ///< a < 0 ? 0 : b, likewise
+  kEntry  ///< entry a of the array whose number is b, a constant; that at the end where a, a whole number, is beyond it
 };
-inline constexpr std::size_t kFunctions = 13;
+inline constexpr std::size_t kFunctions = 14;
 
 struct FunctionFacts {
   std::string_view name;  ///< as it is printed
@@ -47,13 +50,38 @@ inline constexpr std::array<FunctionFacts, kFunctions> kFunctionFacts = {{{"atan
                                                                           {"min", 2, true},
                                                                           {"max", 2, true},
                                                                           {"where_negative", 2, true},
-                                                                          {"where_not_negative", 2, true}}};
+                                                                          {"where_not_negative", 2, true},
+                                                                          {"entry", 2, true}}};
 
 constexpr const FunctionFacts& facts_of(Function function) {
   return kFunctionFacts[static_cast<std::size_t>(function)];
 }
 
-/// Of functions with kinks, for any type with <, fabs and floor whose Real{} is zero.
+template <class Real>
+Real number_in(double x) {
+  if constexpr (requires(Real number) { number.value + number.value; })  // which carries more, here nothing
+    return Real{number_in<decltype(Real::value)>(x)};
+  else
+    return Real(x);
+}
+
+/// The largest whole number up to x of 0 … most; 0 where there is none.
+template <class Real>
+std::uint32_t whole_part(const Real& x, std::uint32_t most) {
+  std::uint32_t whole = 0;
+  for (std::uint32_t step = std::bit_floor(most); step > 0; step /= 2)
+    if (whole + step <= most && !(x < number_in<Real>(whole + step))) whole += step;
+  return whole;
+}
+
+/// Entry a, a whole number, of the array with the number b.
+template <class Real>
+Real entry_of(const Real& a, const Real& b) {
+  const std::vector<double>& values = array_of(whole_part(b, kLargestArrayNumber));
+  return number_in<Real>(values[whole_part(a, static_cast<std::uint32_t>(values.size() - 1))]);
+}
+
+/// Of functions with kinks, for any type with <, fabs and floor that is made from doubles, and whose Real{} is zero.
 template <class Real>
 Real value_with_kinks(Function function, const Real& a, const Real& b) {
   using std::fabs, std::floor;
@@ -70,6 +98,8 @@ Real value_with_kinks(Function function, const Real& a, const Real& b) {
       return a < Real{} ? b : Real{};
     case Function::kWhereNotNegative:
       return a < Real{} ? Real{} : b;
+    case Function::kEntry:
+      return entry_of(a, b);
     default:
       throw InternalError("a function without kinks");
   }

@@ -23,6 +23,9 @@ ValueId appended(ir::Program& program, const ir::Node& node) {
   return ValueId(program.nodes.size() - 1);
 }
 
+/// Entries of arrays have none of their own: their places are whole numbers.
+bool has_kink(Op op) { return ir::is_selection(op) && op != Op::kEntry; }
+
 /// How far an operand is beyond the kink of node `i`; of floor, the sine of π times that.
 ValueId distance(ir::Program& program, std::size_t i) {
   const ir::Node node = program.nodes[i];
@@ -55,7 +58,7 @@ KinkSurvey::KinkSurvey(const ir::Module& module)
     program.outputs.clear();
     const std::size_t count = program.nodes.size();
     for (std::size_t i = 0; i < count; ++i)
-      if (ir::is_selection(program.nodes[i].op))
+      if (has_kink(program.nodes[i].op))
         program.outputs.push_back({"distance", -1, -1, distance(program, i)});
     seen_.resize(seen_.size() + program.outputs.size());
     if (!program.outputs.empty()) programs_.push_back(std::move(program));

@@ -49,6 +49,7 @@ struct Pack {
   static_assert(lanes >= 2 && (lanes & (lanes - 1)) == 0, "a power of two");
   using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
   static constexpr std::size_t size = lanes;
+  using value_type = Real;
   using Vector = typename detail::VectorOf<Real, lanes>::Type;
   using BitVector = typename detail::VectorOf<Bits, lanes>::Type;
   /// All bits of a lane where something holds, none where not.
@@ -94,6 +95,15 @@ struct Pack {
     Pack result;
     for (std::size_t k = 0; k < lanes; ++k) result.values[k] = f(a.values[k], b.values[k]);
     return result;
+  }
+
+  /// Of each lane the value at its number, that of an end beyond the ends.
+  template <class Value>
+  friend Pack table_entry(const Value* table, int last, const Pack& numbers) noexcept {
+    const Real end = static_cast<Real>(last);
+    return each(numbers, [table, last, end](Real i) {
+      return static_cast<Real>(table[i > 0 ? (i < end ? static_cast<int>(i) : last) : 0]);
+    });
   }
 
   friend Pack sqrt(const Pack& a) noexcept {

@@ -87,6 +87,8 @@ struct Bounded {
       case Function::kMax:
         moved = std::max(a.scale, b.scale);
         break;
+      case Function::kEntry:
+        break;
       case Function::kWhereNegative:
       case Function::kWhereNotNegative:
         return {result,

@@ -8,6 +8,8 @@
 
 #include "agreement/judge.hpp"
 #include "model/read/read.hpp"
+#include "properties/random.hpp"
+#include "support/constant_array.hpp"
 #include "validate/translation.hpp"
 
 namespace jourdain::tests {
@@ -92,6 +94,72 @@ TEST(Laws, MayStayOnAKink) {
     EXPECT_TRUE(verdict.accepted()) << law << ": " << verdict.failures.front();
     EXPECT_GE(verdict.states, 6u) << law;
   }
+}
+
+std::string points(Random& random, std::size_t count, bool at_equal_distances) {
+  std::string text;
+  const double first = random.uniform(-1.5, -1);
+  double point = first;
+  for (std::size_t i = 0; i < count; ++i) {
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", at_equal_distances ? first + 0.125 * double(i) : point);
+    point += random.uniform(0.1, 5) / double(count);
+  }
+  return text;
+}
+
+/// Of one number or two, of a few points or many.
+std::string random_table(Random& random, bool is_grid) {
+  const std::size_t n = 2 + random.below(is_grid ? 7 : 40), m = is_grid ? 2 + random.below(7) : 1;
+  const char* const kinds[] = {"linear", "spline", "monotone"};
+  const bool extends = random.chance(0.3);
+  std::string text =
+      fmt::format("[[table]]\nname = \"f\"\nx = [{}]\n", points(random, n, random.chance(0.5)));
+  if (is_grid) text += fmt::format("y = [{}]\n", points(random, m, random.chance(0.5)));
+  text +=
+      fmt::format("interpolation = \"{}\"\n", kinds[is_grid && extends ? 0 : random.below(is_grid ? 2 : 3)]);
+  if (extends) text += "beyond = \"extend\"\n";
+  text += "values = [";
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_grid) text += "[";
+    for (std::size_t j = 0; j < m; ++j) text += fmt::format("{:.3f}, ", random.uniform(-2, 2));
+    if (is_grid) text += "], ";
+  }
+  return text + "]\n";
+}
+
+TEST(Laws, MayBeTables) {
+  Random random(9);
+  for (int i = 0; i < 40; ++i) {
+    const bool is_grid = i % 2 == 1;
+    const std::string table = random_table(random, is_grid);
+    const Derived derived = with_law(is_grid ? "f(s, r + 0.1*u)*a" : "f(s + 0.3*r.rate) + f(r)", table);
+    const validate::Verdict verdict = verdict_of(derived);
+    EXPECT_TRUE(verdict.accepted()) << table << verdict.failures.front();
+    EXPECT_GT(verdict.states, 3u);
+  }
+}
+
+/// All of them, so that those count that the states take.
+TEST(Laws, AreRefusedWhereEntriesOfATableAreOthers) {
+  const std::string table =
+      "[[table]]\nname = \"f\"\nx = [-3, -2, -1, 0, 1, 2, 3]\nvalues = [0, 2, 1, 4, -1, 3, 2]\n"
+      "interpolation = \"spline\"\n";
+  const Derived correct = with_law("f(s) + f(r)", table);
+  ASSERT_TRUE(verdict_of(correct).accepted());
+  int planted = 0;
+  for (std::size_t p = 0; p < correct.module.functions.size(); ++p)
+    for (const ir::Node& node : correct.module.functions[p].nodes) {
+      if (node.op != Op::kEntry) continue;
+      Derived mutant = correct;
+      ir::Node& number = mutant.module.functions[p].nodes[node.b.value];
+      std::vector<double> values = support::array_of(static_cast<std::uint32_t>(number.literal));
+      for (double& value : values) value += 1e-6;
+      number.literal = support::number_of_array(values);
+      number.tail = {};
+      EXPECT_FALSE(verdict_of(mutant).accepted()) << mutant.module.functions[p].name;
+      ++planted;
+    }
+  EXPECT_GT(planted, 4);
 }
 
 std::vector<Op> others(Op op) {

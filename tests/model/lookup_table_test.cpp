@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -190,25 +191,134 @@ std::size_t operations_in(const LookupTable& table) {
   return count;
 }
 
-TEST(LookupTable, CostsAFewOperationsAnInterval) {
+TEST(LookupTable, CostsTheSameForAnyNumberOfPointsAtEqualDistances) {
   const auto size = [](std::size_t n, Interpolation kind) {
     std::vector<double> x, y;
-    for (std::size_t k = 0; k < n; ++k) x.push_back(0.1 * double(k)), y.push_back(std::sin(double(k)));
-    return operations_in(curve(x, y, kind));
+    for (std::size_t k = 0; k < n; ++k) x.push_back(-3 + 0.1 * double(k)), y.push_back(std::sin(double(k)));
+    return operations_in(curve(x, y, kind, Beyond::kExtend));
   };
-  EXPECT_EQ(size(40, Interpolation::kLinear) - size(30, Interpolation::kLinear), 60u);
-  EXPECT_EQ(size(40, Interpolation::kSpline) - size(30, Interpolation::kSpline), 100u);
+  for (const std::size_t n : {5u, 30u, 1000u}) {
+    EXPECT_EQ(size(n, Interpolation::kLinear), 9u) << n;
+    EXPECT_EQ(size(n, Interpolation::kSpline), size(5, Interpolation::kSpline)) << n;
+  }
+  EXPECT_EQ(size(5, Interpolation::kSpline),
+            15u + 2 + 7);  // clamped, straight ends, of which a difference is there
+}
+
+TEST(LookupTable, CostsFiveOperationsAStepOfTheSearchAtOtherDistances) {
+  const auto size = [](std::size_t n) {
+    std::vector<double> x, y;
+    for (std::size_t k = 0; k < n; ++k) x.push_back(double(k * k)), y.push_back(std::sin(double(k)));
+    return operations_in(curve(x, y, Interpolation::kLinear, Beyond::kExtend));
+  };
+  for (const std::size_t intervals : {5u, 16u, 17u, 600u})
+    EXPECT_EQ(size(intervals + 1), 3 + 5 * std::size_t(std::bit_width(intervals - 1))) << intervals;
+}
+
+LookupTable grid(std::size_t rows, std::size_t columns, Interpolation kind) {
+  LookupTable table{.name = "f", .axes = {{}, {}}, .values = {}, .interpolation = kind, .where = {}};
+  for (std::size_t k = 0; k < rows; ++k) table.axes[0].points.push_back(1 + 0.1 * double(k));
+  for (std::size_t k = 0; k < columns; ++k) table.axes[1].points.push_back(2 + 0.3 * double(k));
+  for (std::size_t k = 0; k < rows * columns; ++k) table.values.emplace_back(std::sin(double(k) + 1));
+  return table;
+}
+
+TEST(LookupTable, CostsTheSameForAnyGridOfEqualDistances) {
+  for (const std::size_t n : {4u, 10u, 30u}) {
+    EXPECT_EQ(operations_in(grid(n, n + 1, Interpolation::kLinear)), 13 + 10 + 4u) << n;
+    EXPECT_EQ(operations_in(grid(n, n + 1, Interpolation::kSpline)), 37 + 22 + 4u) << n;
+  }
+}
+
+TEST(LookupTable, CostsAFewOperationsAnIntervalWhereValuesAreParameters) {
+  const auto size = [](std::size_t n) {
+    std::vector<double> x, y;
+    for (std::size_t k = 0; k < n; ++k) x.push_back(0.1 * double(k)), y.push_back(std::sin(double(k)));
+    LookupTable table = curve(x, y, Interpolation::kLinear);
+    table.values[1] = Expression::parameter(ParameterIndex(0));
+    return operations_in(table);
+  };
+  EXPECT_EQ(size(40) - size(30), 60u);
 }
 
 /// 2 a value, 4 operations and 4 selections an interval; a row's first value is added to nothing, the row to others.
-TEST(LookupTable, CostsTwoOperationsAValueOfAGrid) {
+TEST(LookupTable, CostsTwoOperationsAValueOfAGridWhereOneIsAParameter) {
   const auto size = [](std::size_t n) {
-    LookupTable table{.name = "f", .axes = {{}, {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}}, .values = {}, .where = {}};
-    for (std::size_t k = 0; k < n; ++k) table.axes[0].points.push_back(0.1 * double(k));
-    for (std::size_t k = 0; k < 10 * n; ++k) table.values.emplace_back(std::sin(double(k) + 1));
+    LookupTable table = grid(n, 10, Interpolation::kLinear);
+    table.values[1] = Expression::parameter(ParameterIndex(0));
     return operations_in(table);
   };
   EXPECT_EQ(size(30) - size(20), 10 * (2 * 10u - 1 + 2 + 8));
+}
+
+/// The interval that x is in, of all.
+std::size_t interval_of(const std::vector<double>& points, double x) {
+  std::size_t k = 0;
+  while (k + 2 < points.size() && x >= points[k + 1]) ++k;
+  return k;
+}
+
+/// Hermite's formula, with slopes that other tests compare with those of SciPy.
+double hermite(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& slope,
+               double at) {
+  const std::size_t k = interval_of(x, at);
+  const double h = x[k + 1] - x[k], t = (at - x[k]) / h, s = 1 - t;
+  return y[k] * (1 + 2 * t) * s * s + h * slope[k] * t * s * s + y[k + 1] * t * t * (3 - 2 * t) -
+         h * slope[k + 1] * t * t * s;
+}
+
+TEST(LookupTable, FindsTheIntervalOfManyPoints) {
+  Random random(6);
+  for (const bool are_uniform : {false, true})
+    for (const std::size_t n : {5u, 64u, 65u, 66u, 1000u}) {
+      std::vector<double> x = rising(random, n, 2), y;
+      if (are_uniform)
+        for (std::size_t k = 0; k < n; ++k) x[k] = 0.1 + 1e-3 * double(k);
+      for (std::size_t k = 0; k < n; ++k) y.push_back(random.uniform(-3, 3));
+      const Function lines = curve(x, y, Interpolation::kLinear),
+                     spline = curve(x, y, Interpolation::kSpline);
+      ASSERT_TRUE(has_entries(curve(x, y, Interpolation::kLinear)));
+      const std::vector<double> slope = slopes(Interpolation::kSpline, x, y);
+      for (int sample = 0; sample < 300; ++sample) {
+        const double at_x = sample < 50 ? x[random.below(n)] : random.uniform(x.front(), x.back());
+        const std::size_t k = interval_of(x, at_x);
+        const double line = y[k] + (y[k + 1] - y[k]) * (at_x - x[k]) / (x[k + 1] - x[k]);
+        const double rounding = are_uniform ? 1e-10 : 1e-12 * (n / 5.0);
+        EXPECT_NEAR(at(lines, at_x), line, rounding) << n << " " << at_x;
+        EXPECT_NEAR(at(spline, at_x), hermite(x, y, slope, at_x), rounding) << n << " " << at_x;
+      }
+      for (const double far : {0.1, 1e300}) {
+        EXPECT_EQ(at(spline, x[0] - far), y[0]);
+        EXPECT_NEAR(at(lines, x[n - 1] + far), y[n - 1], 1e-11);
+      }
+    }
+}
+
+/// A natural spline in y of each row, then one in x of what those give, by curves.
+TEST(LookupTable, IsASplineOfSplinesOnAGrid) {
+  Random random(7);
+  for (int i = 0; i < 30; ++i) {
+    const std::vector<double> x = rising(random, 2 + random.below(9), 2),
+                              y = rising(random, 2 + random.below(9), 2);
+    LookupTable table{
+        .name = "f", .axes = {{x}, {y}}, .values = {}, .interpolation = Interpolation::kSpline, .where = {}};
+    std::vector<std::vector<double>> rows(x.size());
+    for (std::vector<double>& row : rows)
+      for (std::size_t k = 0; k < y.size(); ++k) {
+        row.push_back(random.uniform(-3, 3));
+        table.values.emplace_back(row.back());
+      }
+    const Function function = table;
+    for (int sample = 0; sample < 50; ++sample) {
+      const double px = random.uniform(x.front() - 0.2, x.back() + 0.2),
+                   py = random.uniform(y.front() - 0.2, y.back() + 0.2);
+      std::vector<double> in_y;
+      for (const std::vector<double>& row : rows)
+        in_y.push_back(at(curve(y, row, Interpolation::kSpline), py));
+      const double expected = at(curve(x, in_y, Interpolation::kSpline), px);
+      EXPECT_NEAR(at(function, px, py), expected, 1e-8 * std::max(1.0, std::fabs(expected)));
+    }
+  }
 }
 
 std::string model_with(const std::string& table, const std::string& force) {

@@ -2,7 +2,7 @@
 // angles.
 #include <gtest/gtest.h>
 
-#include "readback/compiled_text.hpp"
+#include "readback/every_change.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -13,46 +13,9 @@ CompiledText with_own_sines(ir::Language language) {
   return compiled_text("double_pendulum", {"initial_state", "forward_dynamics"}, choices);
 }
 
-/// Another token where `c` stands, or 0.
-char other(char c) {
-  if (c >= '0' && c <= '9') return static_cast<char>('0' + (c - '0' + 1) % 10);
-  const std::string tokens = "+-*/^&|", others = "-+/*|^&";
-  const std::size_t at = tokens.find(c);
-  return at == std::string::npos ? '\0' : others[at];
-}
-
-/// Positions in `text` of what can be changed outside of comments, from `first` up to `end`.
-std::vector<std::size_t> places(const std::string& text, const std::string& first, const std::string& end) {
-  std::vector<std::size_t> found;
-  const std::size_t stop = text.find(end, text.find(first));
-  for (std::size_t i = text.find(first); i < stop; ++i) {
-    if (text.compare(i, 2, "//") == 0) i = text.find('\n', i);
-    if (text.compare(i, 2, "/*") == 0) i = text.find("*/", i) + 2;
-    if (other(text[i])) found.push_back(i);
-  }
-  return found;
-}
-
-/// Changes every place of a file, one at a time; each must be seen.
 void expect_every_change_seen(ir::Language language, const std::string& file, const std::string& first,
                               const std::string& end) {
-  const CompiledText text = with_own_sines(language);
-  ASSERT_EQ(text.differences(text.compiled.files), std::vector<std::string>());
-  for (std::size_t k = 0; k < text.compiled.files.size(); ++k) {
-    std::vector<emit::File> files = text.compiled.files;
-    std::string& changed = files[k].text;
-    if (files[k].name != file) continue;
-    const std::vector<std::size_t> all = places(changed, first, end);
-    EXPECT_GT(all.size(), 100u) << file;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const char before = changed[all[i]];
-      changed[all[i]] = other(before);
-      EXPECT_FALSE(text.differences(files).empty()) << file << ": " << changed.substr(all[i] - 30, 60);
-      changed[all[i]] = before;
-    }
-    return;
-  }
-  FAIL() << "no " << file;
+  tests::expect_every_change_seen(with_own_sines(language), file, first, end);
 }
 
 TEST(OwnSinesText, IsReadTokenByTokenInCpp) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "emit/constant_tables.hpp"
 #include "emit/function_names.hpp"
 #include "support/check.hpp"
 
@@ -159,6 +160,8 @@ CExpressions::Text CExpressions::operation(const Expression& e) const {
       return {call(turns ? "angle_sine" : "sine", e)};
     case ir::Op::kCos:
       return {call(turns ? "angle_cosine" : "cosine", e)};
+    case ir::Op::kEntry:
+      return {fmt::format("{}({})", names_.internal(table_function(e.operands[1].number)), whole(e, 0))};
     default:
       return {call(function_name(ir::function_of(e.operation)), e)};
     case ir::Op::kLiteral:

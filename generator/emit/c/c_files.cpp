@@ -11,6 +11,8 @@
 
 #include "emit/c/c_printer.hpp"
 #include "emit/c/c_structs.hpp"
+#include "emit/c/c_tables.hpp"
+#include "emit/constant_tables.hpp"
 #include "emit/layout.hpp"
 #include "emit/manifest.hpp"
 #include "emit/operations.hpp"
@@ -245,6 +247,8 @@ class CEmitter {
 
   std::vector<Passage> passages() const {
     std::vector<Passage> list = library(names(), model_.choices.own_sines);
+    for (const std::uint32_t array : arrays_in(module_))
+      list.push_back({names().internal(table_function(array)), table_text(array, names())});
     for (const Struct& of : code_.support.structs)
       list.push_back({names().type({Type::Kind::kStruct, of.name}), "\n" + c_internal_struct(names(), of)});
     for (const Table& table : code_.support.tables)
@@ -314,7 +318,10 @@ bool overflows_float(const ModelText& model, const ir::Module& module) {
       return node.op == ir::Op::kLiteral && is_beyond(node.literal);
     });
   };
+  const std::set<std::uint32_t> arrays = arrays_in(module);
   return has_literal(module.constants) ||
+         std::any_of(arrays.begin(), arrays.end(),
+                     [](std::uint32_t array) { return emit::overflows_float(array); }) ||
          std::any_of(module.functions.begin(), module.functions.end(), has_literal) ||
          std::any_of(model.facts.parameters.begin(), model.facts.parameters.end(),
                      [&](const model::Parameter& parameter) { return is_beyond(parameter.value); });

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <utility>
 
+#include "emit/constant_tables.hpp"
 #include "emit/cpp/comments.hpp"
+#include "emit/cpp/cpp_tables.hpp"
 #include "emit/cpp/definitions.hpp"
 #include "emit/cpp/index_constants.hpp"
 #include "emit/cpp/structs.hpp"
@@ -129,6 +131,7 @@ class Emitter {
       if (text.find("chosen(") != std::string::npos) texts += std::exchange(choice, "");
       texts += text;
     }
+    for (const std::uint32_t array : arrays_in(module_)) texts += "\n" + table_text(array);
     return texts;
   }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "emit/constant_tables.hpp"
 #include "emit/function_names.hpp"
 #include "emit/layout.hpp"
 
@@ -88,6 +89,10 @@ class ExpressionPrinter {
     return {at_least(e, 0, strength) + sign + at_least(e, 1, right), strength};
   }
 
+  Text call(const Expression& argument, const std::string& function) const {
+    return {fmt::format("{}{}({})", place_.in_detail ? "" : "detail::", function, print(argument).text)};
+  }
+
   Text call(const Expression& e, const char* function) const {
     std::string arguments = whole(e, 0);
     if (e.operands.size() > 1) arguments += ", " + whole(e, 1);
@@ -115,6 +120,8 @@ class ExpressionPrinter {
       case ir::Op::kLiteral:
       case ir::Op::kLeaf:
         break;
+      case ir::Op::kEntry:
+        return call(e.operands[0], table_function(e.operands[1].number));
       default:
         return call(e, function_name(ir::function_of(e.operation)));
     }

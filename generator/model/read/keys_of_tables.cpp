@@ -11,9 +11,8 @@ KeySection table_section() {
            {"x", "list of constants", "x_unit", kRequired, "two or more, rising"},
            {"y", "list of constants", "y_unit", "none", "makes it a function of two numbers"},
            {"values", "list of numbers or lists", "unit", kRequired,
-            "one for each x; with y a list for each x, one number for each y. Cubics have constants; up to "
-            "400, of "
-            "cubics 100"},
+            "one for each x; with y a list for each x, one number for each y. Cubics have constants; how "
+            "many there may be says [Tables](expressions.md#tables)"},
            {"file", "text", "", "none",
             "instead of x, y and values: lines of x, value; or a line of a word and the points of y, then "
             "lines of x "

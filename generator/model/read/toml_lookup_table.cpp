@@ -1,6 +1,7 @@
 // [[table]]: functions given by points, in the file or in one of comma-separated columns.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/expression_functions.hpp"
@@ -219,10 +220,14 @@ class LookupTableReader {
   }
 
   void check_kind() {
-    const bool is_curved = table_.interpolation != Interpolation::kLinear;
-    if (is_curved && table_.axes.size() == 2)
-      return keys_.error("interpolation", fmt::format("{} has two axes: it is linear", keys_.what()));
-    const std::size_t most = is_curved ? kMaximumCurvePoints : kMaximumTableValues;
+    const bool is_curved = table_.interpolation != Interpolation::kLinear, is_grid = table_.axes.size() == 2;
+    if (table_.interpolation == Interpolation::kMonotone && is_grid)
+      return keys_.error("interpolation",
+                         fmt::format("{} has two axes: it is linear or a spline", keys_.what()));
+    if (is_curved && is_grid && table_.beyond == Beyond::kExtend)
+      return keys_.error("beyond", fmt::format("{} is a spline of two axes: it holds", keys_.what()));
+    const std::size_t most =
+        has_entries(table_) ? kMaximumTableNumbers / numbers_a_value() : kMaximumTableValues;
     if (table_.values.size() > most)
       return keys_.error(
           keys_.has("file") ? "file" : "values",
@@ -230,20 +235,32 @@ class LookupTableReader {
     for (const Expression& value : table_.values)
       if (!std::isfinite(file_.value(value)))
         return keys_.error("values", fmt::format("a value of {} is not finite in SI units", keys_.what()));
-    for (const Expression& coefficient : test_values())
-      if (!std::isfinite(file_.value(coefficient)))
-        return keys_.error("name", fmt::format("{} is too steep: a slope is not finite", keys_.what()));
+    if (!is_finite_at_points())
+      keys_.error("name", fmt::format("{} is too steep: a slope is not finite", keys_.what()));
+  }
+
+  /// Coefficients, and of a curve the beginning of an interval.
+  std::size_t numbers_a_value() const {
+    const bool is_linear = table_.interpolation == Interpolation::kLinear;
+    if (table_.axes.size() == 2) return is_linear ? 4 : 16;
+    return is_linear ? 3 : 5;
   }
 
   /// Where each interval ends.
-  std::vector<Expression> test_values() const {
-    std::vector<Expression> values;
-    for (const double x : table_.axes[0].points) {
-      std::vector<Expression> arguments = {x};
-      if (table_.axes.size() == 2) arguments.emplace_back(table_.axes[1].points.back());
-      values.push_back(looked_up(table_, arguments));
-    }
-    return values;
+  bool is_finite_at_points() const {
+    std::vector<Variable> arguments(table_.axes.size(), {Variable::Kind::kArgument});
+    if (arguments.size() == 2) arguments[1].component = 1;
+    std::vector<Expression> given;
+    for (const Variable& argument : arguments) given.push_back(Expression::variable(argument));
+    const Expression value = looked_up(table_, given);
+    const std::vector<double>& x = table_.axes[0].points;
+    const std::vector<double> y = table_.axes.size() == 2 ? table_.axes[1].points : std::vector<double>{0};
+    return std::all_of(x.begin(), x.end(), [&](double at_x) {
+      return std::all_of(y.begin(), y.end(), [&](double at_y) {
+        return std::isfinite(file_.value(
+            value, [&](const Variable& argument) { return argument == arguments[0] ? at_x : at_y; }));
+      });
+    });
   }
 
   TomlFile& file_;

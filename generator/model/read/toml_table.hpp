@@ -2,8 +2,10 @@
 #pragma once
 
 #include <toml++/toml.h>
+
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -105,6 +107,10 @@ class TomlFile {
   const std::vector<double>& values() const { return values_; }
   /// At the parameters' default values.
   double value(const Expression& expression) const { return expression.evaluate<double>(values_); }
+  double value(const Expression& expression, const std::function<double(const Variable&)>& variable) const {
+    return expression.evaluate<double>(
+        values_, [](double literal) { return literal; }, variable);
+  }
 
   /// The unit of measurement from `offset` in the text on; nothing after a diagnostic.
   std::optional<Unit> unit(const toml::value<std::string>& text, std::size_t offset = 0);

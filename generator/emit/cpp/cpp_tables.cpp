@@ -1,0 +1,30 @@
+#include "emit/cpp/cpp_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "emit/constant_tables.hpp"
+#include "support/constant_array.hpp"
+
+namespace jourdain::emit::cpp {
+
+std::string table_text(std::uint32_t array) {
+  std::vector<std::string> numbers;
+  for (const double value : support::array_of(array)) {
+    const std::string digits = fmt::format("{}", value);
+    numbers.push_back(
+        fmt::format("Value({}{})", digits, digits.find_first_of(".e") == std::string::npos ? ".0" : ""));
+  }
+  return fmt::format(
+      "template <class Real> JOURDAIN_FUNCTION\n"
+      "Real {}(const Real& i) noexcept {{\n"
+      "  using Value = {};\n"
+      "  static constexpr Value values[] = {{{}}};\n"
+      "  return hooks::entry(values, i, hooks::ByOwnEntry());\n"
+      "}}\n",
+      table_function(array), overflows_float(array) ? "double" : "typename hooks::TableOf<Real>::Type",
+      listed(numbers));
+}
+
+}  // namespace jourdain::emit::cpp
