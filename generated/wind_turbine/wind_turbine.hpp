@@ -53,12 +53,12 @@ namespace wind_turbine {
 /// Parameters that may change at run time; the values below are those of the model description.
 template <class Real = double>
 struct Parameters {
-  Real rotor_inertia = Real(38700000.0);   ///< of blades and hub about the shaft, kg m^2
+  Real rotor_inertia = Real(38700000.0);  ///< of blades and hub about the shaft, kg m^2
   Real generator_inertia = Real(534.116);  ///< about its own shaft, kg m^2
-  Real gear = Real(97.0);                  ///< turns of the generator per turn of the rotor, 1
-  Real radius = Real(63.0);                ///< of the rotor, m
-  Real density = Real(1.225);              ///< of the air, kg/m^3
-  Real calm = Real(0.5);                   ///< wind below this counts as this, m/s
+  Real gear = Real(97.0);  ///< turns of the generator per turn of the rotor, 1
+  Real radius = Real(63.0);  ///< of the rotor, m
+  Real density = Real(1.225);  ///< of the air, kg/m^3
+  Real calm = Real(0.5);  ///< wind below this counts as this, m/s
 };
 
 /// Time in s, as a sum of three numbers: where steps are many, t = t + h in one number drifts, or stands still. It reads
@@ -73,8 +73,8 @@ struct Time {
   JOURDAIN_FUNCTION operator Real() const noexcept { return high; }
 };
 
-template <class Real>
-JOURDAIN_FUNCTION Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Time<Real> operator+(const Time<Real>& t, const Real& h) noexcept {
   Time<Real> later;
   const Real step = h + t.rest;
   const Real low = t.low + step;
@@ -84,8 +84,8 @@ JOURDAIN_FUNCTION Time<Real> operator+(const Time<Real>& t, const Real& h) noexc
   return later;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Time<Real>& operator+=(Time<Real>& t, const Real& h) noexcept {
   t = t + h;
   return t;
 }
@@ -147,8 +147,8 @@ inline constexpr const char* position_names[3] = {"rotor", "twist", nullptr};
 inline constexpr const char* velocity_names[3] = {"rotor", "twist", nullptr};
 inline constexpr const char* input_names[3] = {"wind", "pitch", nullptr};
 inline constexpr const char* output_names[2] = {"power", nullptr};
-inline constexpr const char* parameter_names[7] = {
-    "rotor_inertia", "generator_inertia", "gear", "radius", "density", "calm", nullptr};
+inline constexpr const char* parameter_names[7] = {"rotor_inertia", "generator_inertia", "gear", "radius",
+    "density", "calm", nullptr};
 
 // Entries by name: state.y[index::y_rotor], state.z[index::z_rotor], input.u[index::u_wind].
 namespace index {
@@ -162,62 +162,60 @@ inline constexpr int u_pitch = 1;
 
 /// The state that the model description starts from, at t = 0.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
-JOURDAIN_FUNCTION State<Real> initial_state(const Model<Real>& model) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+State<Real> initial_state(const Model<Real>& model) noexcept;
 
 /// Mass matrix M(y) of M zdot = k_bar - q_bar; symmetric positive definite, both triangles are filled.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
-JOURDAIN_FUNCTION void mass_matrix(const Model<Real>& model, const State<Real>& state,
-                                   Real (&M)[2][2]) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
-JOURDAIN_FUNCTION void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept;
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// 62 operations (27 mul, 34 add and sub, 1 div), 0 sin and cos, 39 selections.
-template <class Real>
-JOURDAIN_FUNCTION void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input,
-                             Real (&q)[2]) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
+    noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// 65 operations (29 mul, 35 add and sub, 1 div), 0 sin and cos, 39 selections.
-template <class Real>
-JOURDAIN_FUNCTION void forward_dynamics(const Model<Real>& model, const State<Real>& state,
-                                        const Input<Real>& input, Real (&zdot)[2]) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
+    (&zdot)[2]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// 38 operations (14 mul, 24 add and sub, 0 div), 0 sin and cos, 21 selections.
-template <class Real>
-JOURDAIN_FUNCTION void inverse_dynamics(const Model<Real>& model, const State<Real>& state,
-                                        const Real (&zdot)[2], Real (&tau)[2]) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
+    (&tau)[2]) noexcept;
 
 /// Kinetic energy, J.
 /// 6 operations (4 mul, 2 add and sub, 0 div), 0 sin and cos.
-template <class Real>
-JOURDAIN_FUNCTION Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// Potential energy of gravity (zero at the origin of the inertial frame) and of springs, J.
 /// 2 operations (2 mul, 0 add and sub, 0 div), 0 sin and cos.
-template <class Real>
-JOURDAIN_FUNCTION Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
 /// The outputs that the model description asks for.
 /// 17 operations (5 mul, 12 add and sub, 0 div), 0 sin and cos, 12 selections.
-template <class Real>
-JOURDAIN_FUNCTION void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input,
-                               Outputs<Real>& result) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Outputs<Real>&
+    result) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
 /// 331 operations. For inputs sampled at the stages include wind_turbine_kernels.hpp and pass a function of
 /// the state instead of `input`.
-template <class Real>
-JOURDAIN_FUNCTION void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input,
-                                Real h) noexcept;
+template <class Real> JOURDAIN_FUNCTION
+void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 
 }  // namespace wind_turbine

@@ -16,24 +16,16 @@ JOURDAIN_FUNCTION inline double square_root(double x) noexcept { return ::sqrt(x
 JOURDAIN_FUNCTION inline float sine(float x) noexcept { return ::sinf(x); }
 JOURDAIN_FUNCTION inline float cosine(float x) noexcept { return ::cosf(x); }
 JOURDAIN_FUNCTION inline float square_root(float x) noexcept { return ::sqrtf(x); }
-template <class Real>
-JOURDAIN_FUNCTION Real sine(const Real& x) noexcept {
-  return sin(x);
-}
-template <class Real>
-JOURDAIN_FUNCTION Real cosine(const Real& x) noexcept {
-  return cos(x);
-}
-template <class Real>
-JOURDAIN_FUNCTION Real square_root(const Real& x) noexcept {
-  return sqrt(x);
-}
+template <class Real> JOURDAIN_FUNCTION
+Real sine(const Real& x) noexcept { return sin(x); }
+template <class Real> JOURDAIN_FUNCTION
+Real cosine(const Real& x) noexcept { return cos(x); }
+template <class Real> JOURDAIN_FUNCTION
+Real square_root(const Real& x) noexcept { return sqrt(x); }
 JOURDAIN_FUNCTION inline double whole_below(double x) noexcept { return ::floor(x); }
 JOURDAIN_FUNCTION inline float whole_below(float x) noexcept { return ::floorf(x); }
-template <class Real>
-JOURDAIN_FUNCTION Real whole_below(const Real& x) noexcept {
-  return floor(x);
-}
+template <class Real> JOURDAIN_FUNCTION
+Real whole_below(const Real& x) noexcept { return floor(x); }
 namespace hooks {
 
 struct ByCondition {};
@@ -42,78 +34,58 @@ struct BySelect : ByWhere {};
 
 // By `select(mask, a, b)` or `where(mask, b) = a` of the number type's namespace where it has them, as packs may; otherwise
 // the mask is a condition, of one number or of each lane.
-template <class Mask, class Real>
-JOURDAIN_FUNCTION auto chosen(const Mask& mask, const Real& a, const Real& b, BySelect) noexcept
-    -> decltype(Real(select(mask, a, b))) {
+template <class Mask, class Real> JOURDAIN_FUNCTION
+auto chosen(const Mask& mask, const Real& a, const Real& b, BySelect) noexcept -> decltype(Real(select(mask, a, b))) {
   return select(mask, a, b);
 }
-template <class Mask, class Real>
-JOURDAIN_FUNCTION auto chosen(const Mask& mask, const Real& a, Real b, ByWhere) noexcept
-    -> decltype(void(where(mask, b) = a), Real(b)) {
+template <class Mask, class Real> JOURDAIN_FUNCTION
+auto chosen(const Mask& mask, const Real& a, Real b, ByWhere) noexcept -> decltype(void(where(mask, b) = a), Real(b)) {
   where(mask, b) = a;
   return b;
 }
-template <class Mask, class Real>
-JOURDAIN_FUNCTION Real chosen(const Mask& mask, const Real& a, const Real& b, ByCondition) noexcept {
-  return mask ? a : b;
-}
+template <class Mask, class Real> JOURDAIN_FUNCTION
+Real chosen(const Mask& mask, const Real& a, const Real& b, ByCondition) noexcept { return mask ? a : b; }
 
 }  // namespace hooks
-template <class Real>
-JOURDAIN_FUNCTION Real smaller(const Real& a, const Real& b) noexcept {
-  return hooks::chosen(b < a, b, a, hooks::BySelect());
-}
-template <class Real>
-JOURDAIN_FUNCTION Real larger(const Real& a, const Real& b) noexcept {
-  return hooks::chosen(a < b, b, a, hooks::BySelect());
-}
-template <class Real>
-JOURDAIN_FUNCTION Real where_not_negative(const Real& d, const Real& x) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real smaller(const Real& a, const Real& b) noexcept { return hooks::chosen(b < a, b, a, hooks::BySelect()); }
+template <class Real> JOURDAIN_FUNCTION
+Real larger(const Real& a, const Real& b) noexcept { return hooks::chosen(a < b, b, a, hooks::BySelect()); }
+template <class Real> JOURDAIN_FUNCTION
+Real where_not_negative(const Real& d, const Real& x) noexcept {
   return hooks::chosen(d < Real(0.0), Real(0.0), x, hooks::BySelect());
 }
 namespace hooks {
 
 // A table has floats for floats and for packs that say that they are of floats.
 template <class Real, class Value = float>
-struct TableOf {
-  using Type = double;
-};
+struct TableOf { using Type = double; };
 template <>
-struct TableOf<float, float> {
-  using Type = float;
-};
+struct TableOf<float, float> { using Type = float; };
 template <class Real>
-struct TableOf<Real, typename Real::value_type> {
-  using Type = float;
-};
+struct TableOf<Real, typename Real::value_type> { using Type = float; };
 
 struct ByComparison {};
 struct BySearch : ByComparison {};
 struct ByLane : BySearch {};
+template <class Real>
 struct ByOwnEntry : ByLane {};
 
-template <class Value>
-JOURDAIN_FUNCTION int place(const Value& i, int last) noexcept {
-  return i > 0 ? (i < static_cast<Value>(last) ? static_cast<int>(i) : last) : 0;
-}
+template <class Value> JOURDAIN_FUNCTION
+int place(const Value& i, int last) noexcept { return i > 0 ? (i < static_cast<Value>(last) ? static_cast<int>(i) : last) : 0; }
 
 // By `table_entry(values, last, i)` of the number type's namespace where it has one; otherwise lane by lane, by a search where
 // numbers are compared one at a time, or of all by comparison with each.
-template <class Value, int n>
-JOURDAIN_FUNCTION double entry(const Value (&values)[n], const double& i, ByOwnEntry) noexcept {
-  return values[place(i, n - 1)];
-}
-template <class Value, int n>
-JOURDAIN_FUNCTION float entry(const Value (&values)[n], const float& i, ByOwnEntry) noexcept {
-  return static_cast<float>(values[place(i, n - 1)]);
-}
-template <class Real, class Value, int n>
-JOURDAIN_FUNCTION auto entry(const Value (&values)[n], const Real& i, ByOwnEntry) noexcept
-    -> decltype(table_entry(values, n - 1, i)) {
+template <class Value, int n> JOURDAIN_FUNCTION
+double entry(const Value (&values)[n], const double& i, ByOwnEntry<double>) noexcept { return values[place(i, n - 1)]; }
+template <class Value, int n> JOURDAIN_FUNCTION
+float entry(const Value (&values)[n], const float& i, ByOwnEntry<float>) noexcept { return static_cast<float>(values[place(i, n - 1)]); }
+template <class Real, class Value, int n> JOURDAIN_FUNCTION
+auto entry(const Value (&values)[n], const Real& i, ByOwnEntry<Real>) noexcept -> decltype(table_entry(values, n - 1, i)) {
   return table_entry(values, n - 1, i);
 }
-template <class Real, class Value, int n>
-JOURDAIN_FUNCTION auto entry(const Value (&values)[n], const Real& i, ByLane) noexcept
+template <class Real, class Value, int n> JOURDAIN_FUNCTION
+auto entry(const Value (&values)[n], const Real& i, ByLane) noexcept
     -> decltype(void((*static_cast<Real*>(nullptr))[0] = values[0]), Real{}) {
   Real result = i;
   auto lane = i[0];
@@ -123,17 +95,16 @@ JOURDAIN_FUNCTION auto entry(const Value (&values)[n], const Real& i, ByLane) no
   }
   return result;
 }
-template <class Real, class Value, int n>
-JOURDAIN_FUNCTION auto entry(const Value (&values)[n], const Real& i, BySearch) noexcept
-    -> decltype(void(i < i ? 0 : 1), Real{}) {
+template <class Real, class Value, int n> JOURDAIN_FUNCTION
+auto entry(const Value (&values)[n], const Real& i, BySearch) noexcept -> decltype(void(i < i ? 0 : 1), Real{}) {
   int found = 0, step = 1;
   while (2 * step < n) step *= 2;
   for (; step > 0; step /= 2)
     if (found + step < n && !(i < Real(found + step))) found += step;
   return Real(values[found]);
 }
-template <class Real, class Value, int n>
-JOURDAIN_FUNCTION Real entry(const Value (&values)[n], const Real& i, ByComparison) noexcept {
+template <class Real, class Value, int n> JOURDAIN_FUNCTION
+Real entry(const Value (&values)[n], const Real& i, ByComparison) noexcept {
   Real result = Real(values[0]);
   for (int k = 1; k < n; ++k) result = hooks::chosen(i < Real(k), result, Real(values[k]), hooks::BySelect());
   return result;
@@ -141,543 +112,463 @@ JOURDAIN_FUNCTION Real entry(const Value (&values)[n], const Real& i, ByComparis
 
 }  // namespace hooks
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_147b62(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_147b62(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(-0.019551837708346773),  Value(-0.013105720938636406),   Value(-0.008909351233320317),
-      Value(-0.008417939235428253),  Value(0.020192980748058864),    Value(0.010614692585572225),
-      Value(0.005900752885027567),   Value(0.008882699393630594),    Value(0.009124808013298236),
-      Value(0.00562602398908435),    Value(0.0019364396968820016),   Value(0.000990721512072898),
-      Value(0.0010332850581788317),  Value(0.0013159749454529912),   Value(0.0012790388906023242),
-      Value(0.0006189227436524114),  Value(-0.0027359875940035847),  Value(-0.0006503494607726767),
-      Value(0.000596391305705074),   Value(-0.0002987743907445911),  Value(-0.0029583760163707368),
-      Value(-0.0011660179543865274), Value(0.0001025933895627551),   Value(-0.00035283531992170297),
-      Value(-0.002566038970604076),  Value(-0.000979929356761059),   Value(5.320705703622253e-05),
-      Value(-0.000360717503399003),  Value(-0.0017296202762880353),  Value(-0.0007625266845830009),
-      Value(-0.0001292103342905096), Value(-0.0003201459527868364),  Value(-0.0009453580734644917),
-      Value(-0.0005495337102740666), Value(-9.05590085672342e-06),   Value(-0.0001389604060388185),
+      Value(-0.019551837708346773), Value(-0.013105720938636406), Value(-0.008909351233320317),
+      Value(-0.008417939235428253), Value(0.020192980748058864), Value(0.010614692585572225),
+      Value(0.005900752885027567), Value(0.008882699393630594), Value(0.009124808013298236),
+      Value(0.00562602398908435), Value(0.0019364396968820016), Value(0.000990721512072898),
+      Value(0.0010332850581788317), Value(0.0013159749454529912), Value(0.0012790388906023242),
+      Value(0.0006189227436524114), Value(-0.0027359875940035847), Value(-0.0006503494607726767),
+      Value(0.000596391305705074), Value(-0.0002987743907445911), Value(-0.0029583760163707368),
+      Value(-0.0011660179543865274), Value(0.0001025933895627551), Value(-0.00035283531992170297),
+      Value(-0.002566038970604076), Value(-0.000979929356761059), Value(5.320705703622253e-05),
+      Value(-0.000360717503399003), Value(-0.0017296202762880353), Value(-0.0007625266845830009),
+      Value(-0.0001292103342905096), Value(-0.0003201459527868364), Value(-0.0009453580734644917),
+      Value(-0.0005495337102740666), Value(-9.05590085672342e-06), Value(-0.0001389604060388185),
       Value(-0.0007792055092547406), Value(-0.00027245746113001984), Value(-0.00020698862911791224),
-      Value(-0.0002453726792422213), Value(-0.0006156110311917873),  Value(-0.0003496185054455113),
-      Value(6.35173939015736e-05),   Value(1.546108954110254e-05),   Value(0.0015309613599883282),
-      Value(0.0002794625518798659),  Value(-0.0006773345211320905),  Value(-0.0003730592513355457)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(-0.0002453726792422213), Value(-0.0006156110311917873), Value(-0.0003496185054455113),
+      Value(6.35173939015736e-05), Value(1.546108954110254e-05), Value(0.0015309613599883282),
+      Value(0.0002794625518798659), Value(-0.0006773345211320905), Value(-0.0003730592513355457)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_383df6(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_383df6(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(1.734723475976807e-18),   Value(8.673617379884035e-19),   Value(0.0),
-      Value(-1.734723475976807e-18),  Value(0.007560522333883737),    Value(0.0030043929994875603),
-      Value(0.0005020554290269263),   Value(-0.001983850950862608),   Value(-0.0015920893355349328),
-      Value(-0.0016975719979502382),  Value(-0.0026682217161077284),  Value(-0.002924596196549569),
-      Value(-0.004162164991744005),   Value(-0.002184105007686615),   Value(-0.00230916856459602),
-      Value(-0.0021577642629391266),  Value(-0.004289250697489037),   Value(-0.002016007971303307),
-      Value(-0.001775104025508175),   Value(-0.0013743467516939027),  Value(-0.0031908322182998316),
-      Value(-0.0014518631071001587),  Value(-0.0010904153333712906),  Value(-0.000684848730285262),
-      Value(-0.002027420429311624),   Value(-0.0009065396002960638),  Value(-0.0005832346410066611),
-      Value(-0.00023625832716505854), Value(-0.001119486064453678),   Value(-0.0005319784917155465),
-      Value(-0.0002366461026020658),  Value(3.988203894550631e-05),   Value(-0.0004546353128736559),
-      Value(-0.00023554643284176557), Value(-1.8094858509048323e-07), Value(0.00019673017138302322),
-      Value(-6.197268405169418e-05),  Value(-5.58357769173852e-05),   Value(0.0001173698969424335),
-      Value(0.00031319727552240294),  Value(0.00019252604908045166),  Value(3.8889540511306137e-05),
-      Value(0.00019070136081534954),  Value(0.0002904807265273566),   Value(0.0004618684877298867),
-      Value(0.00017027761487217394),  Value(0.0002898246597961632),   Value(0.0004148798183681605)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(1.734723475976807e-18), Value(8.673617379884035e-19), Value(0.0), Value(-1.734723475976807e-18),
+      Value(0.007560522333883737), Value(0.0030043929994875603), Value(0.0005020554290269263),
+      Value(-0.001983850950862608), Value(-0.0015920893355349328), Value(-0.0016975719979502382),
+      Value(-0.0026682217161077284), Value(-0.002924596196549569), Value(-0.004162164991744005),
+      Value(-0.002184105007686615), Value(-0.00230916856459602), Value(-0.0021577642629391266),
+      Value(-0.004289250697489037), Value(-0.002016007971303307), Value(-0.001775104025508175),
+      Value(-0.0013743467516939027), Value(-0.0031908322182998316), Value(-0.0014518631071001587),
+      Value(-0.0010904153333712906), Value(-0.000684848730285262), Value(-0.002027420429311624),
+      Value(-0.0009065396002960638), Value(-0.0005832346410066611), Value(-0.00023625832716505854),
+      Value(-0.001119486064453678), Value(-0.0005319784917155465), Value(-0.0002366461026020658),
+      Value(3.988203894550631e-05), Value(-0.0004546353128736559), Value(-0.00023554643284176557),
+      Value(-1.8094858509048323e-07), Value(0.00019673017138302322), Value(-6.197268405169418e-05),
+      Value(-5.58357769173852e-05), Value(0.0001173698969424335), Value(0.00031319727552240294),
+      Value(0.00019252604908045166), Value(3.8889540511306137e-05), Value(0.00019070136081534954),
+      Value(0.0002904807265273566), Value(0.0004618684877298867), Value(0.00017027761487217394),
+      Value(0.0002898246597961632), Value(0.0004148798183681605)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_3c994a(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_3c994a(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(0.636822212414535),     Value(-0.21979770875742619), Value(-0.2391442063497549),
-      Value(-0.17788029730735425),  Value(2.0004815913190757),   Value(-2.5389591076392164),
-      Value(-0.045410529070905946), Value(0.5838880453910469),   Value(4.355648971831056),
-      Value(-6.129077917795578),    Value(0.9452913684701799),   Value(0.8281375774943447),
-      Value(6.154335845207802),     Value(-8.697325473178747),   Value(1.7454840049978053),
-      Value(0.7975056229731387),    Value(6.377089268875165),    Value(-9.058728796257885),
-      Value(1.9601763880016894),    Value(0.7214631393810256),   Value(5.0115489804824875),
-      Value(-7.301959334331199),    Value(1.595279947301702),    Value(0.6951304065470125),
-      Value(2.513701180226995),     Value(-4.066795014723206),   Value(0.8128216002337301),
-      Value(0.7402722342624662),    Value(-0.6419275381680755),  Value(0.019615198947800457),
-      Value(-0.21899160469108428),  Value(0.8413039439113603),   Value(-4.056853064571579),
-      Value(4.424436518826051),     Value(-1.3322213203170066),  Value(0.9646378660625333),
-      Value(-7.475003007240482),    Value(8.815285368220948),    Value(-2.4314785654595608),
-      Value(1.0911962044790915),    Value(-10.762564091161082),  Value(13.049750028744427),
-      Value(-3.5323480187348095),   Value(1.2451620811514652),   Value(-13.80184512264665),
-      Value(16.945650981401954),    Value(-4.5203629027214),     Value(1.3765570439661101)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(0.636822212414535), Value(-0.21979770875742619), Value(-0.2391442063497549), Value(-0.17788029730735425),
+      Value(2.0004815913190757), Value(-2.5389591076392164), Value(-0.045410529070905946), Value(0.5838880453910469),
+      Value(4.355648971831056), Value(-6.129077917795578), Value(0.9452913684701799), Value(0.8281375774943447),
+      Value(6.154335845207802), Value(-8.697325473178747), Value(1.7454840049978053), Value(0.7975056229731387),
+      Value(6.377089268875165), Value(-9.058728796257885), Value(1.9601763880016894), Value(0.7214631393810256),
+      Value(5.0115489804824875), Value(-7.301959334331199), Value(1.595279947301702), Value(0.6951304065470125),
+      Value(2.513701180226995), Value(-4.066795014723206), Value(0.8128216002337301), Value(0.7402722342624662),
+      Value(-0.6419275381680755), Value(0.019615198947800457), Value(-0.21899160469108428), Value(0.8413039439113603),
+      Value(-4.056853064571579), Value(4.424436518826051), Value(-1.3322213203170066), Value(0.9646378660625333),
+      Value(-7.475003007240482), Value(8.815285368220948), Value(-2.4314785654595608), Value(1.0911962044790915),
+      Value(-10.762564091161082), Value(13.049750028744427), Value(-3.5323480187348095), Value(1.2451620811514652),
+      Value(-13.80184512264665), Value(16.945650981401954), Value(-4.5203629027214), Value(1.3765570439661101)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_3d38da(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_3d38da(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(-9.020562075079397e-17),  Value(1.6653345369377348e-16),  Value(-2.220446049250313e-16),
-      Value(2.220446049250313e-16),   Value(-2.7755575615628914e-16), Value(0.22160117109174138),
-      Value(-0.07734060705704077),    Value(0.09423410714582595),     Value(-3.885780586188048e-16),
-      Value(-0.10767612091061585),    Value(0.08988337511309719),     Value(0.029521894781722062),
-      Value(6.245004513516506e-16),   Value(-0.227955455719767),      Value(0.08332414506167525),
-      Value(0.0035697284741396627),   Value(-2.858824288409778e-15),  Value(-0.21823729324866675),
-      Value(0.07233621455768995),     Value(-0.00813546254707723),    Value(2.886579864025407e-15),
-      Value(-0.14653833567325214),    Value(0.04349704742192431),     Value(-0.010069825234188493),
-      Value(1.5057399771478686e-15),  Value(-0.08492160427649242),    Value(0.025491961535580476),
-      Value(-0.007721225101369696),   Value(-2.1718737919229625e-15), Value(-0.03039517224549415),
-      Value(0.006482143207719948),    Value(-0.002941084983356816),   Value(-5.551115123125783e-17),
-      Value(0.002851056473816227),    Value(-0.0049922731305711565),  Value(0.001969448295802541),
-      Value(-1.2212453270876722e-15), Value(0.01645849573736835),     Value(-1.9453954063108903e-05),
-      Value(-0.007469158812712255),   Value(1.0547118733938987e-15),  Value(0.03387921039778807),
-      Value(-0.015189515956115451),   Value(0.006381356745688675),    Value(-5.551115123125783e-16),
-      Value(0.04302335986216854),     Value(-0.010131099381734454),   Value(-0.00032911387999037117)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(-9.020562075079397e-17), Value(1.6653345369377348e-16), Value(-2.220446049250313e-16),
+      Value(2.220446049250313e-16), Value(-2.7755575615628914e-16), Value(0.22160117109174138),
+      Value(-0.07734060705704077), Value(0.09423410714582595), Value(-3.885780586188048e-16),
+      Value(-0.10767612091061585), Value(0.08988337511309719), Value(0.029521894781722062),
+      Value(6.245004513516506e-16), Value(-0.227955455719767), Value(0.08332414506167525),
+      Value(0.0035697284741396627), Value(-2.858824288409778e-15), Value(-0.21823729324866675),
+      Value(0.07233621455768995), Value(-0.00813546254707723), Value(2.886579864025407e-15),
+      Value(-0.14653833567325214), Value(0.04349704742192431), Value(-0.010069825234188493),
+      Value(1.5057399771478686e-15), Value(-0.08492160427649242), Value(0.025491961535580476),
+      Value(-0.007721225101369696), Value(-2.1718737919229625e-15), Value(-0.03039517224549415),
+      Value(0.006482143207719948), Value(-0.002941084983356816), Value(-5.551115123125783e-17),
+      Value(0.002851056473816227), Value(-0.0049922731305711565), Value(0.001969448295802541),
+      Value(-1.2212453270876722e-15), Value(0.01645849573736835), Value(-1.9453954063108903e-05),
+      Value(-0.007469158812712255), Value(1.0547118733938987e-15), Value(0.03387921039778807),
+      Value(-0.015189515956115451), Value(0.006381356745688675), Value(-5.551115123125783e-16),
+      Value(0.04302335986216854), Value(-0.010131099381734454), Value(-0.00032911387999037117)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_4909f7(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_4909f7(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(-0.01872038096101426), Value(2.0851277961370522),
-                                     Value(-0.11687125576237574), Value(-0.02174075897154153),
-                                     Value(9.718715548761336),    Value(-7.659295622896957)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+  static constexpr Value values[] = {
+      Value(-0.01872038096101426), Value(2.0851277961370522), Value(-0.11687125576237574), Value(-0.02174075897154153),
+      Value(9.718715548761336), Value(-7.659295622896957)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_4da9ec(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_4da9ec(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
       Value(1.5543122344752192e-15), Value(-8.881784197001252e-16), Value(1.3322676295501878e-15),
-      Value(1.3322676295501878e-15), Value(0.8464541225808901),     Value(-1.1418734805374173),
-      Value(0.6553671329991649),     Value(-0.35994777504262976),   Value(-0.4112924855012443),
-      Value(0.7546216883260215),     Value(-0.23056387120999122),   Value(-0.11276533161479861),
-      Value(-0.8707257019816008),    Value(1.189000491552915),      Value(-0.3046394311996058),
-      Value(-0.013635358371723957),  Value(-0.8336050557004626),    Value(1.1099090423743887),
-      Value(-0.30737916456285774),   Value(0.03107517788895762),    Value(-0.559735211396617),
-      Value(0.725881693967005),      Value(-0.20461038166064727),   Value(0.03846389909020858),
-      Value(-0.32437663430154906),   Value(0.4217487548014889),     Value(-0.12686502789850063),
-      Value(0.029492907398604343),   Value(-0.11610100581598104),   Value(0.14086096901608425),
-      Value(-0.03599408031582163),   Value(0.011234117115709583),   Value(0.010890233540191474),
-      Value(-0.029959312244074),     Value(0.026591817058456924),   Value(-0.007522738354577896),
-      Value(0.062866822859029),      Value(-0.06294113148985936),   Value(-0.02845577646791786),
-      Value(0.028530085098757624),   Value(0.1294090512686088),     Value(-0.18742872841072966),
-      Value(0.08239466441518728),    Value(-0.024374987273030557),  Value(0.16433712937163625),
-      Value(-0.2030350784650392),    Value(0.03744082667321735),    Value(0.0012571224201861353)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(1.3322676295501878e-15), Value(0.8464541225808901), Value(-1.1418734805374173), Value(0.6553671329991649),
+      Value(-0.35994777504262976), Value(-0.4112924855012443), Value(0.7546216883260215), Value(-0.23056387120999122),
+      Value(-0.11276533161479861), Value(-0.8707257019816008), Value(1.189000491552915), Value(-0.3046394311996058),
+      Value(-0.013635358371723957), Value(-0.8336050557004626), Value(1.1099090423743887), Value(-0.30737916456285774),
+      Value(0.03107517788895762), Value(-0.559735211396617), Value(0.725881693967005), Value(-0.20461038166064727),
+      Value(0.03846389909020858), Value(-0.32437663430154906), Value(0.4217487548014889), Value(-0.12686502789850063),
+      Value(0.029492907398604343), Value(-0.11610100581598104), Value(0.14086096901608425),
+      Value(-0.03599408031582163), Value(0.011234117115709583), Value(0.010890233540191474), Value(-0.029959312244074),
+      Value(0.026591817058456924), Value(-0.007522738354577896), Value(0.062866822859029), Value(-0.06294113148985936),
+      Value(-0.02845577646791786), Value(0.028530085098757624), Value(0.1294090512686088), Value(-0.18742872841072966),
+      Value(0.08239466441518728), Value(-0.024374987273030557), Value(0.16433712937163625), Value(-0.2030350784650392),
+      Value(0.03744082667321735), Value(0.0012571224201861353)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_4fd93c(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_4fd93c(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(0.28215137419363034),   Value(-0.3806244935124812),   Value(0.21845571099972672),
-      Value(-0.11998259168087799),  Value(-0.4192488693607128),   Value(0.6321650562878092),
-      Value(-0.2953103347363828),   Value(0.08239414780928109),   Value(-0.15314440549345476),
-      Value(0.1447929344089698),    Value(-0.024691853329868563), Value(0.03304332441436232),
-      Value(0.012373548760371111),  Value(-0.026363816392844797), Value(-0.0009132444544071999),
-      Value(0.014903512086890891),  Value(0.09128994810128166),   Value(-0.1280091161357908),
-      Value(0.03425626096740664),   Value(0.0024629070670845812), Value(0.0784528590317004),
-      Value(-0.10137764638850433),  Value(0.025915117920706998),  Value(-0.00299033056386859),
-      Value(0.06942520949518771),   Value(-0.09362926192847265),  Value(0.030290315860891592),
-      Value(-0.00608626342763538),  Value(0.042330413118721655),  Value(-0.056940093753383714),
-      Value(0.02086196579143107),   Value(-0.006252285156764237), Value(0.01732552977294599),
-      Value(-0.010993939748595416), Value(-0.018349197842129295), Value(0.012017607817781939),
-      Value(0.02218074280319149),   Value(-0.04149586564029484),  Value(0.03695014696102494),
-      Value(-0.01763502412392806),  Value(0.011642692701010038),  Value(-0.005202116684772662),
-      Value(-0.014984612580661305), Value(0.008544036564400254),  Value(-0.05477904312387727),
-      Value(0.06767835948834433),   Value(-0.012480275557733678), Value(-0.00041904080673352273)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(0.28215137419363034), Value(-0.3806244935124812), Value(0.21845571099972672), Value(-0.11998259168087799),
+      Value(-0.4192488693607128), Value(0.6321650562878092), Value(-0.2953103347363828), Value(0.08239414780928109),
+      Value(-0.15314440549345476), Value(0.1447929344089698), Value(-0.024691853329868563), Value(0.03304332441436232),
+      Value(0.012373548760371111), Value(-0.026363816392844797), Value(-0.0009132444544071999),
+      Value(0.014903512086890891), Value(0.09128994810128166), Value(-0.1280091161357908), Value(0.03425626096740664),
+      Value(0.0024629070670845812), Value(0.0784528590317004), Value(-0.10137764638850433),
+      Value(0.025915117920706998), Value(-0.00299033056386859), Value(0.06942520949518771),
+      Value(-0.09362926192847265), Value(0.030290315860891592), Value(-0.00608626342763538),
+      Value(0.042330413118721655), Value(-0.056940093753383714), Value(0.02086196579143107),
+      Value(-0.006252285156764237), Value(0.01732552977294599), Value(-0.010993939748595416),
+      Value(-0.018349197842129295), Value(0.012017607817781939), Value(0.02218074280319149),
+      Value(-0.04149586564029484), Value(0.03695014696102494), Value(-0.01763502412392806),
+      Value(0.011642692701010038), Value(-0.005202116684772662), Value(-0.014984612580661305),
+      Value(0.008544036564400254), Value(-0.05477904312387727), Value(0.06767835948834433),
+      Value(-0.012480275557733678), Value(-0.00041904080673352273)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_5b1b74(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(0.0), Value(0.08726646259971647), Value(0.17453292519943295),
-                                     Value(0.26179938779914946)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_68299d(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(1264.303356796601),  Value(571.0639559047714),
-                                     Value(461.15117183564087), Value(488.16797214220077),
-                                     Value(512.6057903126502),  Value(804.0546741570308)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_737fa6(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(2.0816681711721685e-17),
-                                     Value(0.16671966534702526),
-                                     Value(0.1091767597546757),
-                                     Value(0.04656895293659585),
-                                     Value(2.7755575615628914e-17),
-                                     Value(0.5237248559108023),
-                                     Value(-0.1409730841162189),
-                                     Value(-0.1528615328266179),
-                                     Value(-5.551115123125783e-17),
-                                     Value(1.1403062342933648),
-                                     Value(-0.4642826123588035),
-                                     Value(-0.2168059108014901),
-                                     Value(-3.3306690738754696e-16),
-                                     Value(1.6112013565857635),
-                                     Value(-0.6657531277823806),
-                                     Value(-0.20878648386074705),
-                                     Value(0.0),
-                                     Value(1.669518066532044),
-                                     Value(-0.7020515865667961),
-                                     Value(-0.18887860820960467),
-                                     Value(-9.43689570931383e-16),
-                                     Value(1.3120204550157637),
-                                     Value(-0.5996280284464282),
-                                     Value(-0.181984714874581),
-                                     Value(0.0),
-                                     Value(0.6580854300934269),
-                                     Value(-0.40659901506573876),
-                                     Value(-0.19380281773462274),
-                                     Value(6.314393452555578e-16),
-                                     Value(-0.16805623650381632),
-                                     Value(-0.16292098942772484),
-                                     Value(-0.22025285746900397),
-                                     Value(1.1102230246251565e-16),
-                                     Value(-1.062081648695943),
-                                     Value(0.09623312328891828),
-                                     Value(-0.252541602783049),
-                                     Value(1.1102230246251565e-16),
-                                     Value(-1.956951211092358),
-                                     Value(0.3508851015826855),
-                                     Value(-0.2856744983013812),
-                                     Value(-3.3306690738754696e-16),
-                                     Value(-2.81763269021508),
-                                     Value(0.5987838782421431),
-                                     Value(-0.3259826705561679),
-                                     Value(0.0),
-                                     Value(-3.61331460360757),
-                                     Value(0.8230464491815161),
-                                     Value(-0.3603817913809349)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_7c2bbc(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_5b1b74(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(0.00753), Value(0.0085),   Value(0.01144), Value(0.01603),  Value(0.01651), Value(0.01657),
-      Value(0.02159), Value(0.02612),  Value(0.03504), Value(0.02808),  Value(0.03152), Value(0.03259),
-      Value(0.05258), Value(0.0376),   Value(0.03729), Value(0.03378),  Value(0.06261), Value(0.04297),
-      Value(0.0385),  Value(0.03066),  Value(0.06447), Value(0.04444),  Value(0.03621), Value(0.02476),
-      Value(0.05997), Value(0.043),    Value(0.03168), Value(0.01741),  Value(0.05133), Value(0.03969),
-      Value(0.02593), Value(0.00953),  Value(0.04037), Value(0.03529),  Value(0.01967), Value(0.00169),
-      Value(0.02841), Value(0.03038),  Value(0.01337), Value(-0.00577), Value(0.01628), Value(0.02533),
-      Value(0.00729), Value(-0.01265), Value(0.00454), Value(0.02037),  Value(0.0016),  Value(-0.0189)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(0.0), Value(0.08726646259971647), Value(0.17453292519943295), Value(0.26179938779914946)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_988492(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_68299d(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(0.006459825888705422),    Value(0.007068535666837483),  Value(0.009982648190324357),
-      Value(0.01075128365028754),     Value(0.014020348222589154),  Value(0.010072928666325037),
-      Value(0.010484703619351289),    Value(0.008767432699424928),  Value(0.01998878122093796),
-      Value(0.011379749667862364),    Value(0.00831853733227049),   Value(0.003858985552012752),
-      Value(0.014234526893659014),    Value(0.007498072662225512),  Value(0.003341147051566741),
-      Value(-0.001223374907475945),   Value(0.005783111204425969),  Value(0.00329795968323559),
-      Value(-0.0007431255385374538),  Value(-0.004755485922108976), Value(-0.0016969717113628994),
+      Value(1264.303356796601), Value(571.0639559047714), Value(461.15117183564087), Value(488.16797214220077),
+      Value(512.6057903126502), Value(804.0546741570308)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real table_737fa6(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(2.0816681711721685e-17), Value(0.16671966534702526), Value(0.1091767597546757), Value(0.04656895293659585),
+      Value(2.7755575615628914e-17), Value(0.5237248559108023), Value(-0.1409730841162189), Value(-0.1528615328266179),
+      Value(-5.551115123125783e-17), Value(1.1403062342933648), Value(-0.4642826123588035), Value(-0.2168059108014901),
+      Value(-3.3306690738754696e-16), Value(1.6112013565857635), Value(-0.6657531277823806),
+      Value(-0.20878648386074705), Value(0.0), Value(1.669518066532044), Value(-0.7020515865667961),
+      Value(-0.18887860820960467), Value(-9.43689570931383e-16), Value(1.3120204550157637), Value(-0.5996280284464282),
+      Value(-0.181984714874581), Value(0.0), Value(0.6580854300934269), Value(-0.40659901506573876),
+      Value(-0.19380281773462274), Value(6.314393452555578e-16), Value(-0.16805623650381632),
+      Value(-0.16292098942772484), Value(-0.22025285746900397), Value(1.1102230246251565e-16),
+      Value(-1.062081648695943), Value(0.09623312328891828), Value(-0.252541602783049), Value(1.1102230246251565e-16),
+      Value(-1.956951211092358), Value(0.3508851015826855), Value(-0.2856744983013812), Value(-3.3306690738754696e-16),
+      Value(-2.81763269021508), Value(0.5987838782421431), Value(-0.3259826705561679), Value(0.0),
+      Value(-3.61331460360757), Value(0.8230464491815161), Value(-0.3603817913809349)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real table_7c2bbc(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(0.00753), Value(0.0085), Value(0.01144), Value(0.01603), Value(0.01651), Value(0.01657), Value(0.02159),
+      Value(0.02612), Value(0.03504), Value(0.02808), Value(0.03152), Value(0.03259), Value(0.05258), Value(0.0376),
+      Value(0.03729), Value(0.03378), Value(0.06261), Value(0.04297), Value(0.0385), Value(0.03066), Value(0.06447),
+      Value(0.04444), Value(0.03621), Value(0.02476), Value(0.05997), Value(0.043), Value(0.03168), Value(0.01741),
+      Value(0.05133), Value(0.03969), Value(0.02593), Value(0.00953), Value(0.04037), Value(0.03529), Value(0.01967),
+      Value(0.00169), Value(0.02841), Value(0.03038), Value(0.01337), Value(-0.00577), Value(0.01628), Value(0.02533),
+      Value(0.00729), Value(-0.01265), Value(0.00454), Value(0.02037), Value(0.0016), Value(-0.0189)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real table_988492(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(0.006459825888705422), Value(0.007068535666837483), Value(0.009982648190324357),
+      Value(0.01075128365028754), Value(0.014020348222589154), Value(0.010072928666325037),
+      Value(0.010484703619351289), Value(0.008767432699424928), Value(0.01998878122093796),
+      Value(0.011379749667862364), Value(0.00831853733227049), Value(0.003858985552012752),
+      Value(0.014234526893659014), Value(0.007498072662225512), Value(0.003341147051566741),
+      Value(-0.001223374907475945), Value(0.005783111204425969), Value(0.00329795968323559),
+      Value(-0.0007431255385374538), Value(-0.004755485922108976), Value(-0.0016969717113628994),
       Value(-0.00016991139516787574), Value(-0.003608644897416919), Value(-0.006814681404088142),
-      Value(-0.006915224358974361),   Value(-0.002528314102564101), Value(-0.00528229487179487),
-      Value(-0.007735788461538462),   Value(-0.010062130852739659), Value(-0.003966832194575714),
-      Value(-0.006102175615403594),   Value(-0.007932164749758011), Value(-0.011636252230066996),
-      Value(-0.004734357119133029),   Value(-0.006339002666590751), Value(-0.007695552539429483),
-      Value(-0.012152860226992357),   Value(-0.00502573932889218),  Value(-0.006221813718233407),
-      Value(-0.007185625092524055),   Value(-0.012022306861963598), Value(-0.005042685565298261),
-      Value(-0.00591374246047562),    Value(-0.006581947090474292), Value(-0.011367912325153258),
-      Value(-0.004833518409914781),   Value(-0.005433216439864109), Value(-0.0058765865455787745)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(-0.006915224358974361), Value(-0.002528314102564101), Value(-0.00528229487179487),
+      Value(-0.007735788461538462), Value(-0.010062130852739659), Value(-0.003966832194575714),
+      Value(-0.006102175615403594), Value(-0.007932164749758011), Value(-0.011636252230066996),
+      Value(-0.004734357119133029), Value(-0.006339002666590751), Value(-0.007695552539429483),
+      Value(-0.012152860226992357), Value(-0.00502573932889218), Value(-0.006221813718233407),
+      Value(-0.007185625092524055), Value(-0.012022306861963598), Value(-0.005042685565298261),
+      Value(-0.00591374246047562), Value(-0.006581947090474292), Value(-0.011367912325153258),
+      Value(-0.004833518409914781), Value(-0.005433216439864109), Value(-0.0058765865455787745)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_990aa1(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_990aa1(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(-1.734723475976807e-17),  Value(-1.734723475976807e-17), Value(0.0),
-      Value(-1.5612511283791264e-17), Value(-0.05865551312504026),   Value(-0.03931716281590933),
-      Value(-0.02672805369996093),    Value(-0.02525381770628477),   Value(0.001923429119136233),
-      Value(-0.007473085059192627),   Value(-0.009025795044878139),  Value(0.0013942804746068654),
-      Value(0.02929785315903073),     Value(0.00940498690806034),    Value(-0.0032164759542320856),
-      Value(0.004366445010825407),    Value(0.03239770833356712),    Value(0.013352911744419408),
-      Value(0.000620640717574894),    Value(0.006223213241782419),   Value(0.02418974555155636),
-      Value(0.011401863362101437),    Value(0.0024098146346898663),  Value(0.005326890069548791),
-      Value(0.015314617502444006),    Value(0.007903809498941677),   Value(0.0027175948033782565),
-      Value(0.00426838410978379),     Value(0.007616500590631861),   Value(0.004964021428658531),
-      Value(0.002877215974486917),    Value(0.003186231599586826),   Value(0.00242763976176788),
-      Value(0.002676441374909487),    Value(0.0024895849716152912),  Value(0.0022257937412262585),
-      Value(-0.0004084344586256228),  Value(0.0010278402440870513),  Value(0.0024624172690453326),
-      Value(0.001808912523109659),    Value(-0.0027460509863897614), Value(0.0002104678606970438),
-      Value(0.0018414513816915196),   Value(0.001072794485383233),   Value(-0.004592884079965054),
-      Value(-0.0008383876556394658),  Value(0.002032003563396223),   Value(0.0011191777540066842)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(-1.734723475976807e-17), Value(-1.734723475976807e-17), Value(0.0), Value(-1.5612511283791264e-17),
+      Value(-0.05865551312504026), Value(-0.03931716281590933), Value(-0.02672805369996093),
+      Value(-0.02525381770628477), Value(0.001923429119136233), Value(-0.007473085059192627),
+      Value(-0.009025795044878139), Value(0.0013942804746068654), Value(0.02929785315903073),
+      Value(0.00940498690806034), Value(-0.0032164759542320856), Value(0.004366445010825407),
+      Value(0.03239770833356712), Value(0.013352911744419408), Value(0.000620640717574894),
+      Value(0.006223213241782419), Value(0.02418974555155636), Value(0.011401863362101437),
+      Value(0.0024098146346898663), Value(0.005326890069548791), Value(0.015314617502444006),
+      Value(0.007903809498941677), Value(0.0027175948033782565), Value(0.00426838410978379),
+      Value(0.007616500590631861), Value(0.004964021428658531), Value(0.002877215974486917),
+      Value(0.003186231599586826), Value(0.00242763976176788), Value(0.002676441374909487),
+      Value(0.0024895849716152912), Value(0.0022257937412262585), Value(-0.0004084344586256228),
+      Value(0.0010278402440870513), Value(0.0024624172690453326), Value(0.001808912523109659),
+      Value(-0.0027460509863897614), Value(0.0002104678606970438), Value(0.0018414513816915196),
+      Value(0.001072794485383233), Value(-0.004592884079965054), Value(-0.0008383876556394658),
+      Value(0.002032003563396223), Value(0.0011191777540066842)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_9f6915(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(0.0),  Value(4.0),  Value(8.0),  Value(12.0),
-                                     Value(16.0), Value(20.0), Value(24.0), Value(28.0),
-                                     Value(32.0), Value(36.0), Value(40.0), Value(44.0)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_ab1268(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(-15.876475236439589), Value(-32.51793080698516),
-                                     Value(3.4978190854866185),  Value(2.5043912577959415),
-                                     Value(-48.499295112324226), Value(214.26366779315214)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_ab6285(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_9f6915(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(1.249000902703301e-16),  Value(0.07386705703058138),    Value(-0.025780202352347514),
-      Value(0.031411369048608806),   Value(2.7755575615628914e-17), Value(-0.10975909733411893),
-      Value(0.05574132739004595),    Value(-0.021570737454702196),  Value(4.163336342344337e-16),
-      Value(-0.0400931116030514),    Value(-0.0021864100171407608), Value(-0.008650722102528399),
-      Value(-4.579669976578771e-16), Value(0.003239387490367396),   Value(-0.0036626435013293462),
+      Value(0.0), Value(4.0), Value(8.0), Value(12.0), Value(16.0), Value(20.0), Value(24.0), Value(28.0), Value(32.0),
+      Value(36.0), Value(40.0), Value(44.0)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real table_ab1268(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(-15.876475236439589), Value(-32.51793080698516), Value(3.4978190854866185), Value(2.5043912577959415),
+      Value(-48.499295112324226), Value(214.26366779315214)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real table_ab6285(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(1.249000902703301e-16), Value(0.07386705703058138), Value(-0.025780202352347514),
+      Value(0.031411369048608806), Value(2.7755575615628914e-17), Value(-0.10975909733411893),
+      Value(0.05574132739004595), Value(-0.021570737454702196), Value(4.163336342344337e-16),
+      Value(-0.0400931116030514), Value(-0.0021864100171407608), Value(-0.008650722102528399),
+      Value(-4.579669976578771e-16), Value(0.003239387490367396), Value(-0.0036626435013293462),
       Value(-0.0039017303404055813), Value(1.8735013540549517e-15), Value(0.02389965252513826),
-      Value(-0.00961305571192303),   Value(-0.0006447875623699917), Value(-1.887379141862766e-15),
-      Value(0.020538910465585758),   Value(-0.006001695295446752),  Value(0.0007828667109403172),
-      Value(-9.298117831235686e-16), Value(0.018175477343666646),   Value(-0.006336606109286769),
-      Value(0.001593380039338052),   Value(1.3739009929736312e-15), Value(0.011082076239769756),
-      Value(-0.003824805446097701),  Value(0.0016368444263866189),  Value(0.0),
-      Value(0.004535813087850227),   Value(0.001657606392170663),   Value(-0.0031462023695061486),
-      Value(8.326672684688674e-16),  Value(0.0058069048868079065),  Value(-0.005056687334016652),
-      Value(0.004616838519467495),   Value(-7.216449660063518e-16), Value(0.003048049821459564),
-      Value(0.0016861388581273506),  Value(-0.0022368235418916693), Value(3.885780586188048e-16),
-      Value(-0.014341119954057291),  Value(0.0033770331272442444),  Value(0.00010970462666373693)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(-0.00961305571192303), Value(-0.0006447875623699917), Value(-1.887379141862766e-15),
+      Value(0.020538910465585758), Value(-0.006001695295446752), Value(0.0007828667109403172),
+      Value(-9.298117831235686e-16), Value(0.018175477343666646), Value(-0.006336606109286769),
+      Value(0.001593380039338052), Value(1.3739009929736312e-15), Value(0.011082076239769756),
+      Value(-0.003824805446097701), Value(0.0016368444263866189), Value(0.0), Value(0.004535813087850227),
+      Value(0.001657606392170663), Value(-0.0031462023695061486), Value(8.326672684688674e-16),
+      Value(0.0058069048868079065), Value(-0.005056687334016652), Value(0.004616838519467495),
+      Value(-7.216449660063518e-16), Value(0.003048049821459564), Value(0.0016861388581273506),
+      Value(-0.0022368235418916693), Value(3.885780586188048e-16), Value(-0.014341119954057291),
+      Value(0.0033770331272442444), Value(0.00010970462666373693)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_b36512(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_b36512(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(0.002520174111294576),    Value(0.0010014643331625172),   Value(0.00016735180967564385),
-      Value(-0.000661283650287536),   Value(-0.0030508705564728893),  Value(-0.0015673216658125978),
-      Value(-0.0010567590483782172),  Value(-0.00031358174856232005), Value(-0.0008566918854030266),
-      Value(-0.00016217766991212523), Value(0.00011968438383723598),  Value(0.00025561064453681376),
-      Value(-4.2361901915011733e-05), Value(5.603234546110256e-05),   Value(0.0001780215130292817),
-      Value(0.00026113917041507406),  Value(0.0003661394930630684),   Value(0.0001880482880677162),
-      Value(0.00022822956404562828),  Value(0.00022983267380287994),  Value(0.0003878039296627339),
-      Value(0.00018177450226803055),  Value(0.00016906023078821011),  Value(0.00014953013437340144),
-      Value(0.00030264478828598285),  Value(0.0001248537028601714),   Value(0.00011552951280153264),
-      Value(9.204678870352277e-05),   Value(0.0002216169171933395),   Value(9.881068629125946e-05),
-      Value(7.882171800565815e-05),   Value(5.228271081250506e-05),   Value(0.00013088754294065044),
-      Value(5.990355197479317e-05),   Value(3.918361517584162e-05),   Value(3.8822368046460484e-05),
-      Value(8.483291104404919e-05),   Value(3.15751058095632e-05),    Value(2.4443821290973458e-05),
-      Value(-7.572182998347339e-06),  Value(8.978081288314559e-05),   Value(4.3796024786955934e-05),
-      Value(3.3041099660270634e-05),  Value(4.146636394693464e-05),   Value(-0.00015395616257662947),
-      Value(-5.675920495739131e-05),  Value(-9.66082199320541e-05),   Value(-0.00013829327278938684)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(0.002520174111294576), Value(0.0010014643331625172), Value(0.00016735180967564385),
+      Value(-0.000661283650287536), Value(-0.0030508705564728893), Value(-0.0015673216658125978),
+      Value(-0.0010567590483782172), Value(-0.00031358174856232005), Value(-0.0008566918854030266),
+      Value(-0.00016217766991212523), Value(0.00011968438383723598), Value(0.00025561064453681376),
+      Value(-4.2361901915011733e-05), Value(5.603234546110256e-05), Value(0.0001780215130292817),
+      Value(0.00026113917041507406), Value(0.0003661394930630684), Value(0.0001880482880677162),
+      Value(0.00022822956404562828), Value(0.00022983267380287994), Value(0.0003878039296627339),
+      Value(0.00018177450226803055), Value(0.00016906023078821011), Value(0.00014953013437340144),
+      Value(0.00030264478828598285), Value(0.0001248537028601714), Value(0.00011552951280153264),
+      Value(9.204678870352277e-05), Value(0.0002216169171933395), Value(9.881068629125946e-05),
+      Value(7.882171800565815e-05), Value(5.228271081250506e-05), Value(0.00013088754294065044),
+      Value(5.990355197479317e-05), Value(3.918361517584162e-05), Value(3.8822368046460484e-05),
+      Value(8.483291104404919e-05), Value(3.15751058095632e-05), Value(2.4443821290973458e-05),
+      Value(-7.572182998347339e-06), Value(8.978081288314559e-05), Value(4.3796024786955934e-05),
+      Value(3.3041099660270634e-05), Value(4.146636394693464e-05), Value(-0.00015395616257662947),
+      Value(-5.675920495739131e-05), Value(-9.66082199320541e-05), Value(-0.00013829327278938684)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_bf4540(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(0.0), Value(1.0), Value(2.0), Value(3.0)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_d2773d(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(2.0),  Value(3.0),  Value(4.0),  Value(5.0),
-                                     Value(6.0),  Value(7.0),  Value(8.0),  Value(9.0),
-                                     Value(10.0), Value(11.0), Value(12.0), Value(13.0)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_d8db61(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_bf4540(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(0.006265702745323502),  Value(0.02081473818596692),   Value(0.044891243248499954),
-      Value(0.05848262066013904),   Value(-0.014546989162803642), Value(0.03115662638807828),
-      Value(0.06455801956636548),   Value(0.03891611195642141),   Value(-0.11292588886460575),
-      Value(-0.013415397517420291), Value(0.045578792602657),     Value(-0.013857393530806911),
-      Value(-0.21852610306289594),  Value(-0.07792226013779202),  Value(0.004583662361046592),
-      Value(-0.07173431595037906),  Value(-0.27362213389824386),  Value(-0.12792919798567434),
-      Value(-0.043501820595307716), Value(-0.12125014711672073),  Value(-0.26769202071863984),
-      Value(-0.1531966367509436),   Value(-0.09102866970140949),  Value(-0.15923724893389435),
-      Value(-0.21360480485829025),  Value(-0.1561760172856239),   Value(-0.1342296874542736),
-      Value(-0.18662463154114764),  Value(-0.12849601694728585),  Value(-0.14316169022479522),
-      Value(-0.17204490193290786),  Value(-0.20548312811231076),  Value(-0.02731780916070177),
-      Value(-0.12000191763447143),  Value(-0.204288101853895),    Value(-0.2179285899336881),
-      Value(0.07949994035224149),   Value(-0.0912762693200197),   Value(-0.2314319773982177),
-      Value(-0.22574127872586486),  Value(0.18566697351214329),   Value(-0.06021786426824958),
-      Value(-0.2538489511327111),   Value(-0.23004255474502555),  Value(0.2865054991773284),
-      Value(-0.028815684539400914), Value(-0.2723125160808019),   Value(-0.2319374080246367)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(0.0), Value(1.0), Value(2.0), Value(3.0)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_dd33ea(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_d2773d(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(-0.0012608541997803542), Value(0.023447609140747783),  Value(0.02857612755118584),
-      Value(-0.011148569468289361),  Value(-0.05991636732482071),  Value(-0.01586955367516147),
-      Value(0.0018480738512248874),  Value(-0.03640238717457415),  Value(-0.11664845133072466),
-      Value(-0.06265980155026345),   Value(-0.03390577489361427),  Value(-0.060261924406251915),
-      Value(-0.08542716905255748),   Value(-0.06072789970139565),  Value(-0.046148045892724546),
-      Value(-0.05450119892081949),   Value(-0.023731607559959525), Value(-0.037970001048916),
-      Value(-0.048743881129381744),  Value(-0.04391154066821144),  Value(0.032855846325163966),
-      Value(-0.013215225942395213),  Value(-0.045713425777116734), Value(-0.03236143735688038),
-      Value(0.07236020937916447),    Value(0.006090446918648078),  Value(-0.040586016339048736),
-      Value(-0.022766163177547906),  Value(0.09529132747224026),   Value(0.018958277846248255),
-      Value(-0.034991205561183555),  Value(-0.015311547468177335), Value(0.10533546782463987),
-      Value(0.026598740649816315),   Value(-0.02962440461508125),  Value(-0.009899522127364193),
-      Value(0.10735467312778216),    Value(0.03030302226881309),   Value(-0.024672402374420838),
-      Value(-0.005864815863028131),  Value(0.10420018768276669),   Value(0.03154133037359713),
-      Value(-0.02036853372368391),   Value(-0.002983108854535477), Value(0.0968612526164118),
-      Value(0.030913410578654685),   Value(-0.01649507877859615),  Value(-0.0007911366151457038)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(2.0), Value(3.0), Value(4.0), Value(5.0), Value(6.0), Value(7.0), Value(8.0), Value(9.0), Value(10.0),
+      Value(11.0), Value(12.0), Value(13.0)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_e7b879(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(70.16223593017205),  Value(91.21090670922366),
-                                     Value(99.48376736367679),  Value(104.71975511965978),
-                                     Value(109.95574287564277), Value(115.19173063162575)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_f8a59e(const Real& i) noexcept {
-  using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(-2.7755575615628914e-17),
-                                     Value(0.2831381335331955),
-                                     Value(-0.22436964151854683),
-                                     Value(-0.2308418548118228),
-                                     Value(1.6653345369377348e-16),
-                                     Value(0.50473930462494),
-                                     Value(-0.3017102485755898),
-                                     Value(-0.13660774766599593),
-                                     Value(-3.0531133177191805e-16),
-                                     Value(0.618664354806066),
-                                     Value(-0.2891674805195335),
-                                     Value(-0.012851745738450628),
-                                     Value(1.6653345369377348e-16),
-                                     Value(0.28303277817568007),
-                                     Value(-0.11595996034476141),
-                                     Value(0.0202398775174083),
-                                     Value(4.163336342344337e-17),
-                                     Value(-0.16315997079275174),
-                                     Value(0.03970039927460105),
-                                     Value(0.01567414344447088),
-                                     Value(-5.551115123125783e-17),
-                                     Value(-0.5279355997146704),
-                                     Value(0.15553366125421184),
-                                     Value(-0.002531144336793554),
-                                     Value(5.551115123125783e-17),
-                                     Value(-0.7593955396644174),
-                                     Value(0.2245226702117202),
-                                     Value(-0.020322194672349587),
-                                     Value(2.7755575615628914e-16),
-                                     Value(-0.8747123161864023),
-                                     Value(0.2564967749550209),
-                                     Value(-0.030984504757074822),
-                                     Value(5.551115123125783e-17),
-                                     Value(-0.9022564319580814),
-                                     Value(0.25798664503216767),
-                                     Value(-0.0319561414446286),
-                                     Value(-5.551115123125783e-17),
-                                     Value(-0.8829468797468982),
-                                     Value(0.25297491794753735),
-                                     Value(-0.03745585196154196),
-                                     Value(0.0),
-                                     Value(-0.8326091736117378),
-                                     Value(0.23776594803736117),
-                                     Value(-0.03854365402856399),
-                                     Value(-5.551115123125783e-17),
-                                     Value(-0.755706603351783),
-                                     Value(0.21244533269951232),
-                                     Value(-0.032491411162861646)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
-}
-
-template <class Real>
-JOURDAIN_FUNCTION Real table_fb3e97(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_d8db61(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
   static constexpr Value values[] = {
-      Value(1.081508004710909),    Value(-1.938536905369308),   Value(-0.02472203372087912),
-      Value(0.8817509343792778),   Value(1.927962127291803),    Value(-3.0804103859067533),
-      Value(0.6306450992783037),   Value(0.5218031593366464),   Value(2.363123764371445),
-      Value(-3.4676621781181605),  Value(1.0554483610674852),   Value(0.04909005267923025),
-      Value(1.0811055768885922),   Value(-1.524039998239208),   Value(0.520245058657897),
-      Value(-0.07731063730728001), Value(-0.6232251807934961),  Value(0.7748695356880877),
-      Value(-0.09177353710453616), Value(-0.05987081779005525), Value(-2.016565447890576),
-      Value(2.610660272029493),    Value(-0.6037630833280317),  Value(0.00966825918911373),
-      Value(-2.900677293588709),   Value(3.75829072079799),     Value(-0.9352384928872053),
-      Value(0.07762506567792511),  Value(-3.341154933706244),   Value(4.32090044461555),
-      Value(-1.0980976011015318),  Value(0.11835209019222766),  Value(-3.446365705982041),
-      Value(4.431802101387567),    Value(-1.1074998643588818),  Value(0.12206346895335413),
-      Value(-3.37260864958282),    Value(4.338901657653633),    Value(-1.1093638237683559),
-      Value(0.14307081569754415),  Value(-3.1803327754551876),  Value(4.0885317977530296),
-      Value(-1.0554249358211167),  Value(0.14722591352327521),  Value(-2.88658659481494),
-      Value(3.6980679908772522),   Value(-0.9355894447327261),  Value(0.12410804867041486)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+      Value(0.006265702745323502), Value(0.02081473818596692), Value(0.044891243248499954), Value(0.05848262066013904),
+      Value(-0.014546989162803642), Value(0.03115662638807828), Value(0.06455801956636548), Value(0.03891611195642141),
+      Value(-0.11292588886460575), Value(-0.013415397517420291), Value(0.045578792602657),
+      Value(-0.013857393530806911), Value(-0.21852610306289594), Value(-0.07792226013779202),
+      Value(0.004583662361046592), Value(-0.07173431595037906), Value(-0.27362213389824386),
+      Value(-0.12792919798567434), Value(-0.043501820595307716), Value(-0.12125014711672073),
+      Value(-0.26769202071863984), Value(-0.1531966367509436), Value(-0.09102866970140949),
+      Value(-0.15923724893389435), Value(-0.21360480485829025), Value(-0.1561760172856239), Value(-0.1342296874542736),
+      Value(-0.18662463154114764), Value(-0.12849601694728585), Value(-0.14316169022479522),
+      Value(-0.17204490193290786), Value(-0.20548312811231076), Value(-0.02731780916070177),
+      Value(-0.12000191763447143), Value(-0.204288101853895), Value(-0.2179285899336881), Value(0.07949994035224149),
+      Value(-0.0912762693200197), Value(-0.2314319773982177), Value(-0.22574127872586486), Value(0.18566697351214329),
+      Value(-0.06021786426824958), Value(-0.2538489511327111), Value(-0.23004255474502555), Value(0.2865054991773284),
+      Value(-0.028815684539400914), Value(-0.2723125160808019), Value(-0.2319374080246367)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real table_fe74b8(const Real& i) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_dd33ea(const Real& i) noexcept {
   using Value = typename hooks::TableOf<Real>::Type;
-  static constexpr Value values[] = {Value(0.0),     Value(19403.31), Value(23082.7),
-                                     Value(25576.4), Value(28197.98), Value(30947.44)};
-  return hooks::entry(values, i, hooks::ByOwnEntry());
+  static constexpr Value values[] = {
+      Value(-0.0012608541997803542), Value(0.023447609140747783), Value(0.02857612755118584),
+      Value(-0.011148569468289361), Value(-0.05991636732482071), Value(-0.01586955367516147),
+      Value(0.0018480738512248874), Value(-0.03640238717457415), Value(-0.11664845133072466),
+      Value(-0.06265980155026345), Value(-0.03390577489361427), Value(-0.060261924406251915),
+      Value(-0.08542716905255748), Value(-0.06072789970139565), Value(-0.046148045892724546),
+      Value(-0.05450119892081949), Value(-0.023731607559959525), Value(-0.037970001048916),
+      Value(-0.048743881129381744), Value(-0.04391154066821144), Value(0.032855846325163966),
+      Value(-0.013215225942395213), Value(-0.045713425777116734), Value(-0.03236143735688038),
+      Value(0.07236020937916447), Value(0.006090446918648078), Value(-0.040586016339048736),
+      Value(-0.022766163177547906), Value(0.09529132747224026), Value(0.018958277846248255),
+      Value(-0.034991205561183555), Value(-0.015311547468177335), Value(0.10533546782463987),
+      Value(0.026598740649816315), Value(-0.02962440461508125), Value(-0.009899522127364193),
+      Value(0.10735467312778216), Value(0.03030302226881309), Value(-0.024672402374420838),
+      Value(-0.005864815863028131), Value(0.10420018768276669), Value(0.03154133037359713),
+      Value(-0.02036853372368391), Value(-0.002983108854535477), Value(0.0968612526164118),
+      Value(0.030913410578654685), Value(-0.01649507877859615), Value(-0.0007911366151457038)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real table_e7b879(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(70.16223593017205), Value(91.21090670922366), Value(99.48376736367679), Value(104.71975511965978),
+      Value(109.95574287564277), Value(115.19173063162575)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real table_f8a59e(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(-2.7755575615628914e-17), Value(0.2831381335331955), Value(-0.22436964151854683),
+      Value(-0.2308418548118228), Value(1.6653345369377348e-16), Value(0.50473930462494), Value(-0.3017102485755898),
+      Value(-0.13660774766599593), Value(-3.0531133177191805e-16), Value(0.618664354806066),
+      Value(-0.2891674805195335), Value(-0.012851745738450628), Value(1.6653345369377348e-16),
+      Value(0.28303277817568007), Value(-0.11595996034476141), Value(0.0202398775174083), Value(4.163336342344337e-17),
+      Value(-0.16315997079275174), Value(0.03970039927460105), Value(0.01567414344447088),
+      Value(-5.551115123125783e-17), Value(-0.5279355997146704), Value(0.15553366125421184),
+      Value(-0.002531144336793554), Value(5.551115123125783e-17), Value(-0.7593955396644174),
+      Value(0.2245226702117202), Value(-0.020322194672349587), Value(2.7755575615628914e-16),
+      Value(-0.8747123161864023), Value(0.2564967749550209), Value(-0.030984504757074822),
+      Value(5.551115123125783e-17), Value(-0.9022564319580814), Value(0.25798664503216767), Value(-0.0319561414446286),
+      Value(-5.551115123125783e-17), Value(-0.8829468797468982), Value(0.25297491794753735),
+      Value(-0.03745585196154196), Value(0.0), Value(-0.8326091736117378), Value(0.23776594803736117),
+      Value(-0.03854365402856399), Value(-5.551115123125783e-17), Value(-0.755706603351783),
+      Value(0.21244533269951232), Value(-0.032491411162861646)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real table_fb3e97(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(1.081508004710909), Value(-1.938536905369308), Value(-0.02472203372087912), Value(0.8817509343792778),
+      Value(1.927962127291803), Value(-3.0804103859067533), Value(0.6306450992783037), Value(0.5218031593366464),
+      Value(2.363123764371445), Value(-3.4676621781181605), Value(1.0554483610674852), Value(0.04909005267923025),
+      Value(1.0811055768885922), Value(-1.524039998239208), Value(0.520245058657897), Value(-0.07731063730728001),
+      Value(-0.6232251807934961), Value(0.7748695356880877), Value(-0.09177353710453616), Value(-0.05987081779005525),
+      Value(-2.016565447890576), Value(2.610660272029493), Value(-0.6037630833280317), Value(0.00966825918911373),
+      Value(-2.900677293588709), Value(3.75829072079799), Value(-0.9352384928872053), Value(0.07762506567792511),
+      Value(-3.341154933706244), Value(4.32090044461555), Value(-1.0980976011015318), Value(0.11835209019222766),
+      Value(-3.446365705982041), Value(4.431802101387567), Value(-1.1074998643588818), Value(0.12206346895335413),
+      Value(-3.37260864958282), Value(4.338901657653633), Value(-1.1093638237683559), Value(0.14307081569754415),
+      Value(-3.1803327754551876), Value(4.0885317977530296), Value(-1.0554249358211167), Value(0.14722591352327521),
+      Value(-2.88658659481494), Value(3.6980679908772522), Value(-0.9355894447327261), Value(0.12410804867041486)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+Real table_fe74b8(const Real& i) noexcept {
+  using Value = typename hooks::TableOf<Real>::Type;
+  static constexpr Value values[] = {
+      Value(0.0), Value(19403.31), Value(23082.7), Value(25576.4), Value(28197.98), Value(30947.44)};
+  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());
+}
+
+template <class Real> JOURDAIN_FUNCTION
+void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   s = sine(x);
   c = cosine(x);
 }
 
 // Inputs at a stage: held over the step, or sampled there.
-template <class Real>
-JOURDAIN_FUNCTION const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
   return held;
 }
-template <class Real, class InputAt>
-JOURDAIN_FUNCTION Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
+template <class Real, class InputAt> JOURDAIN_FUNCTION
+Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept {
   return sampled(stage);
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[2]) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[2]) noexcept {
   for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
 }
 
-template <class Real, class Inputs>
-JOURDAIN_FUNCTION void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
-                                     Real (&zdot)[2]) noexcept {
+template <class Real, class Inputs> JOURDAIN_FUNCTION
+void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
+                   Real (&zdot)[2]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
 }
 
-template <class Real, class Inputs>
-JOURDAIN_FUNCTION void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
-                             Real (&ydot)[2], Real (&zdot)[2]) noexcept {
+template <class Real, class Inputs> JOURDAIN_FUNCTION
+void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[2],
+           Real (&zdot)[2]) noexcept {
   velocities(model, stage, ydot);
   accelerations(model, stage, input, zdot);
 }
 
 }  // namespace detail
 
-template <class Real>
-JOURDAIN_FUNCTION Model<Real>::Model(const Parameters& parameters) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression_3 = parameters.rotor_inertia * Real(0.5);
   const Real t4 = Real(0.5) * expression_3;
   const Real blades_S_yy = t4 + (expression_3 - t4);
@@ -705,8 +596,8 @@ JOURDAIN_FUNCTION Model<Real>::Model(const Parameters& parameters) noexcept {
   lTh1 = Real(0.5) * S1b_zz;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION State<Real> initial_state(const Model<Real>&) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
   initial.y[0] = Real(0.0);
@@ -716,22 +607,22 @@ JOURDAIN_FUNCTION State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void mass_matrix(const Model<Real>& model, const State<Real>&, Real (&M)[2][2]) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+void mass_matrix(const Model<Real>& model, const State<Real>&, Real (&M)[2][2]) noexcept {
   M[0][0] = model.J0;
   M[0][1] = M[1][0] = model.S1b_zz;
   M[1][1] = model.S1b_zz;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void k_bar(const Model<Real>&, const State<Real>&, Real (&k)[2]) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+void k_bar(const Model<Real>&, const State<Real>&, Real (&k)[2]) noexcept {
   k[0] = Real(0.0);
   k[1] = Real(0.0);
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input,
-                             Real (&q)[2]) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
+    noexcept {
   const Real push1_0 = state.z[1] * Real(6215000.0) + state.y[1] * Real(867637000.0);
   const Real expression = detail::larger(input.u[0], model.calm);
   const Real expression_2 = expression * expression;
@@ -833,9 +724,9 @@ JOURDAIN_FUNCTION void q_bar(const Model<Real>& model, const State<Real>& state,
   q[1] = push1_0_2;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void forward_dynamics(const Model<Real>& model, const State<Real>& state,
-                                        const Input<Real>& input, Real (&zdot)[2]) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
+    (&zdot)[2]) noexcept {
   const Real expression = detail::larger(input.u[0], model.calm);
   const Real expression_2 = expression * expression;
   const Real expression_3 = state.z[0] / expression * model.radius;
@@ -937,9 +828,9 @@ JOURDAIN_FUNCTION void forward_dynamics(const Model<Real>& model, const State<Re
   zdot[1] = -zdot_1;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void inverse_dynamics(const Model<Real>& model, const State<Real>& state,
-                                        const Real (&zdot)[2], Real (&tau)[2]) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
+    (&tau)[2]) noexcept {
   const Real expression = state.z[0] * model.c8;
   const Real expression_2 = expression - Real(2.0);
   const Real expression_3 = detail::whole_below(expression_2);
@@ -997,22 +888,22 @@ JOURDAIN_FUNCTION void inverse_dynamics(const Model<Real>& model, const State<Re
   tau[1] = ltau1;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real w1_z = state.z[0] + state.z[1];
   const Real T = state.z[0] * state.z[0] * model.lTh0 + w1_z * w1_z * model.lTh1;
   return T;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real V = state.y[1] * state.y[1] * Real(433818500.0);
   return V;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>&,
-                               Outputs<Real>& result) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Outputs<Real>& result)
+    noexcept {
   const Real expression = state.z[0] + state.z[1];
   const Real expression_2 = expression * model.gear;
   const Real expression_3 = expression_2 - Real(109.95574287564277);
@@ -1046,9 +937,8 @@ JOURDAIN_FUNCTION void outputs(const Model<Real>& model, const State<Real>& stat
 }
 
 // `input` may be a function that gives the Input at the state of a stage.
-template <class Real, class InputAt>
-JOURDAIN_FUNCTION void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input,
-                                Real h) noexcept {
+template <class Real, class InputAt> JOURDAIN_FUNCTION
+void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
   State<Real> stage;
@@ -1073,9 +963,8 @@ JOURDAIN_FUNCTION void rk4_step(const Model<Real>& model, State<Real>& state, co
   state.t = state.t + h;
 }
 
-template <class Real>
-JOURDAIN_FUNCTION void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input,
-                                Real h) noexcept {
+template <class Real> JOURDAIN_FUNCTION
+void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   rk4_step<Real, Input<Real>>(model, state, input, h);
 }
 

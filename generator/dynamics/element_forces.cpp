@@ -22,7 +22,15 @@ Vector3 world_spin(const Scene& scene, const kinematics::BodyPose& pose, const s
   return w;
 }
 
-/// Position, velocity or spin of a frame, by component.
+/// Of an axis of a frame, given in its link, the components in the inertial one.
+Vector3 world_direction(const Scene& scene, std::size_t link, Vector3 axis, const std::string& name) {
+  if (link != kGround) axis = scene.frames.to_working(link, axis, name);
+  for (std::size_t j = link; j != kGround; j = scene.tree.links[j].parent)
+    axis = scene.frames.to_parent(j, axis, fmt::format("{}_{}", name, j));
+  return axis;
+}
+
+/// Position, velocity, spin or direction of a frame, by component.
 Ex frame_value(const Scene& scene, const Variable& variable) {
   const model::Frame& frame = scene.mechanism.frames[variable.index];
   const kinematics::BodyPose pose = frame_pose(scene, frame);
@@ -30,6 +38,11 @@ Ex frame_value(const Scene& scene, const Variable& variable) {
     if (pose.link == kGround) return 0;
     const Vector3 w = scene.frames.to_link(pose.link, scene.omega.own[pose.link], "spin_" + frame.name);
     return scene.statements.bind("spin_" + frame.name, (transpose(pose.R_LB) * w)[variable.component]);
+  }
+  if (variable.kind == Variable::Kind::kFrameDirection) {
+    const std::size_t of = variable.component / 3, axis = variable.component % 3;
+    return world_direction(scene, pose.link, transpose(pose.R_LB)[axis],
+                           fmt::format("{}_{}", "xyz"[axis], frame.name))[of];
   }
   if (variable.kind == Variable::Kind::kFrameWorldSpin)
     return world_spin(scene, pose, frame.name)[variable.component];
@@ -58,6 +71,7 @@ Ex variable_value(const Scene& scene, const Variable& variable, Inputs inputs) {
     case Variable::Kind::kFrameVelocity:
     case Variable::Kind::kFrameSpin:
     case Variable::Kind::kFrameWorldSpin:
+    case Variable::Kind::kFrameDirection:
       return frame_value(scene, variable);
     case Variable::Kind::kArgument:
       break;

@@ -39,6 +39,8 @@ class Inspection {
     const int operands = operand_count(node.op);
     if (operands >= 1) inspect_operand(i, node.a);
     if (operands == 2) inspect_operand(i, node.b);
+    if (node.op == Op::kEntry && node.b.value < i && program_.nodes[node.b.value].op != Op::kLiteral)
+      found("%{} is an entry of an array that %{} decides, which is no literal", i, node.b.value);
   }
 
   void inspect_operand(std::size_t i, ValueId operand) {

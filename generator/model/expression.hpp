@@ -34,6 +34,7 @@ struct Variable {
     kFrameVelocity,   ///< its velocity, inertial frame, m/s
     kFrameSpin,       ///< component of the frame's angular velocity, in its own axes, rad/s
     kFrameWorldSpin,  ///< of the same, inertial frame
+    kFrameDirection,  ///< R_ij with `component` 3 i + j: component i of axis j of frame `index`, inertial frame
     kState,           ///< number `index` of the states beside the mechanism
     kStepLength,      ///< of the step that begins, s; in what a state is sampled to
     kArgument  ///< `component` of what it is a function of: a curve's coordinate; a spring's length (0), rate (1)

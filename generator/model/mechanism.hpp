@@ -209,7 +209,7 @@ struct Loop {
   std::array<double, 3> axis{0, 0, 1};     ///< not normalised; in `from`, of a pin in the carrier's axes
   std::array<double, 3> to_axis{0, 0, 1};  ///< in `to`, not normalised
   Expression length;    ///< rod, m: of time and parameters, positive; radius: of parameters
-  Expression residual;  ///< of time, coordinates, positions of frames; kVelocity: and their rates
+  Expression residual;  ///< of time, coordinates, positions and axes of frames; kVelocity: and their rates
   Vector3 radii;        ///< r, m: of parameters
   std::optional<ScalarCoordinate> follower;  ///< of a coupler: follows the residual's other coordinate
   SourceRange where = {};

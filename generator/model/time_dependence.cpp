@@ -62,6 +62,7 @@ class OutputTime {
       case Variable::Kind::kFrameVelocity:
       case Variable::Kind::kFrameSpin:
       case Variable::Kind::kFrameWorldSpin:
+      case Variable::Kind::kFrameDirection:
         return frame_depends(FrameIndex(variable.index));
       case Variable::Kind::kInput:
       case Variable::Kind::kState:

@@ -111,17 +111,18 @@ struct TableOf<Real, typename Real::value_type> { using Type = float; };
 struct ByComparison {};
 struct BySearch : ByComparison {};
 struct ByLane : BySearch {};
+template <class Real>
 struct ByOwnEntry : ByLane {};
 
 template <class Value> JOURDAIN_FUNCTION
 int place(const Value& i, int last) noexcept { return i > 0 ? (i < static_cast<Value>(last) ? static_cast<int>(i) : last) : 0; }
 
 template <class Value, int n> JOURDAIN_FUNCTION
-double entry(const Value (&values)[n], const double& i, ByOwnEntry) noexcept { return values[place(i, n - 1)]; }
+double entry(const Value (&values)[n], const double& i, ByOwnEntry<double>) noexcept { return values[place(i, n - 1)]; }
 template <class Value, int n> JOURDAIN_FUNCTION
-float entry(const Value (&values)[n], const float& i, ByOwnEntry) noexcept { return static_cast<float>(values[place(i, n - 1)]); }
+float entry(const Value (&values)[n], const float& i, ByOwnEntry<float>) noexcept { return static_cast<float>(values[place(i, n - 1)]); }
 template <class Real, class Value, int n> JOURDAIN_FUNCTION
-auto entry(const Value (&values)[n], const Real& i, ByOwnEntry) noexcept -> decltype(table_entry(values, n - 1, i)) {
+auto entry(const Value (&values)[n], const Real& i, ByOwnEntry<Real>) noexcept -> decltype(table_entry(values, n - 1, i)) {
   return table_entry(values, n - 1, i);
 }
 template <class Real, class Value, int n> JOURDAIN_FUNCTION

@@ -49,7 +49,7 @@ bool ExpressionParser::table_function() {
     values = listed_numbers();
     for (const double value : values)
       if (!holds_doubles && std::isinf(static_cast<float>(value))) refuse_here("numbers that floats hold");
-    expect_text("}; return hooks::entry(values, i, hooks::ByOwnEntry()); }");
+    expect_text("}; return hooks::entry(values, i, hooks::ByOwnEntry<Real>()); }");
   }
   if (!unit_.tables.emplace(name, values).second) refuse_here("no second " + name);
   return true;

@@ -37,6 +37,8 @@ Scalar value(const model::Expression& expression, const Scene<Scalar>& scene,
         return scene.frames.at(i).omega[component];
       case Variable::Kind::kFrameWorldSpin:
         return scene.frames.at(i).R_WF.row(component).dot(scene.frames.at(i).omega);
+      case Variable::Kind::kFrameDirection:
+        return scene.frames.at(i).R_WF(component / 3, component % 3);
       case Variable::Kind::kState:
         return scene.states.at(i);
       case Variable::Kind::kStepLength:

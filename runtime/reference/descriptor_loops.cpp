@@ -187,6 +187,8 @@ class Closing {
           if (v.kind == Kind::kVelocity) return rate_of(coordinate(v.index, v.component));
           const Pose<T> at = frame(v.index);
           if (v.kind == Kind::kFramePosition) return at.p_WF[Eigen::Index(v.component)];
+          if (v.kind == Kind::kFrameDirection)
+            return at.R_WF(Eigen::Index(v.component / 3), Eigen::Index(v.component % 3));
           if (v.kind == Kind::kFrameVelocity) return rate_of(at.p_WF[Eigen::Index(v.component)]);
           const Rotation R_rate = at.R_WF.unaryExpr(&rate_of<Scalar>);
           if (v.kind == Kind::kFrameSpin) return spin(at.R_WF.transpose() * R_rate, v.component);

@@ -49,6 +49,8 @@ Bounded<Scalar> Reference<Scalar>::general(const model::Expression& expression, 
       }
       case Kind::kFrameWorldSpin:
         return {at.frames[v.index].omega[k], at.frames[v.index].omega_scale[k]};
+      case Kind::kFrameDirection:
+        return {at.frames[v.index].R(k / 3, k % 3), Scalar(1)};
       case Kind::kArgument:
         break;
     }

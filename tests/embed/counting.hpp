@@ -31,8 +31,13 @@ struct Counting {
   friend Counting tanh(Counting a);
   friend Counting atan(Counting a);
   friend Counting fabs(Counting a);
+  friend Counting floor(Counting a);
   /// Whoever compares chooses.
   friend bool operator<(Counting a, Counting b) { return ++counted.selections, a.value < b.value; }
+  friend Counting table_entry(const double* values, int last, Counting i) {
+    const double place = i.value > 0 ? (i.value < last ? i.value : last) : 0;
+    return ++counted.selections, Counting(values[static_cast<int>(place)]);
+  }
 };
 
 Counting sqrt(Counting a);
@@ -43,5 +48,6 @@ Counting exp(Counting a);
 Counting tanh(Counting a);
 Counting atan(Counting a);
 Counting fabs(Counting a);
+Counting floor(Counting a);
 
 }  // namespace jourdain::tests

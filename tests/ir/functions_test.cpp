@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "ir/interval.hpp"
@@ -21,11 +22,18 @@ std::vector<Function> all_functions() {
   return list;
 }
 
+/// y1, or the number of an array.
+Signed second_operand(Builder& builder, Function function) {
+  if (function != Function::kEntry) return builder.leaf(LeafKind::kPosition, 1);
+  return builder.literal(support::number_of_array(std::vector<double>{0.5, -1, 2, 0.25}));
+}
+
 /// f(y0, y1), and its two derivatives behind it.
 Program with_slopes(Function function, EliminationOrder order = {}) {
   Builder builder;
   const Signed a = builder.leaf(LeafKind::kPosition, 0), b = builder.leaf(LeafKind::kPosition, 1);
-  const Signed value = builder.function(function, a, b), one = builder.literal(1);
+  const Signed value = builder.function(function, a, second_operand(builder, function)),
+               one = builder.literal(1);
   builder.output("f", 0, -1, value);
   const JacobianEntries J = differentiate(builder, {value}, {{a, 0, one}, {b, 1, one}}, order);
   for (std::size_t column = 0; column < 2; ++column) {
@@ -44,9 +52,9 @@ std::vector<Real> at(const Program& program, const Real& a, const Real& b) {
 
 /// Away from kinks by more than the difference.
 bool is_smooth(Function function, double a, double b) {
-  const double near = function == Function::kMin || function == Function::kMax ? a - b
-                      : function == Function::kFloor                           ? a - std::round(a)
-                                                                               : a;
+  const double near = function == Function::kMin || function == Function::kMax       ? a - b
+                      : function == Function::kFloor || function == Function::kEntry ? a - std::round(a)
+                                                                                     : a;
   return !support::facts_of(function).has_kinks || std::fabs(near) > 1e-3;
 }
 
@@ -75,13 +83,23 @@ TEST(Functions, HaveTheDerivativesOfDifferencesInSeventyDigits) {
   }
 }
 
+TEST(Functions, TakeEntriesUpToTheEndsOfAnArray) {
+  const Program program = with_slopes(Function::kEntry);
+  for (const auto& [place, value] :
+       {std::pair{-7.0, 0.5}, {-0.0, 0.5}, {0.0, 0.5}, {1.0, -1.0}, {2.0, 2.0}, {3.0, 0.25}, {1e300, 0.25}}) {
+    EXPECT_EQ(at(program, place, 0.0)[0], value) << place;
+    EXPECT_EQ(at(program, float(place), 0.0f)[0], float(value)) << place;
+    EXPECT_EQ(at(program, ScaledReal(place), ScaledReal(0))[0], ScaledReal(value)) << place;
+  }
+}
+
 TEST(Functions, AreEnclosed) {
   support::Uniform uniform(11);
   for (const Function function : all_functions()) {
     Builder builder;
-    builder.output("f", 0, -1,
-                   builder.function(function, builder.leaf(LeafKind::kPosition, 0),
-                                    builder.leaf(LeafKind::kPosition, 1)));
+    builder.output(
+        "f", 0, -1,
+        builder.function(function, builder.leaf(LeafKind::kPosition, 0), second_operand(builder, function)));
     const Program program = builder.finish("f");
     for (int k = 0; k < 300; ++k) {
       const double size = k % 3 == 0 ? 1e-3 : 1.0;

@@ -224,7 +224,7 @@ void LoopEnds::close(LoopType type) {
   mechanism_.loops.push_back(loop);
 }
 
-/// A scalar coordinate or a component of a frame's position, with its value.
+/// A scalar coordinate or a component of a frame's position or of one of its axes, with its value.
 std::pair<Expression, long double> LoopEnds::quantity() {
   const std::size_t joint = random_.below(mechanism_.joints.size());
   const auto& coordinates = mechanism_.joints[joint].coordinates;
@@ -236,6 +236,11 @@ std::pair<Expression, long double> LoopEnds::quantity() {
   }
   const model::Frame frame = random_frame(model::BodyIndex(random_.below(mechanism_.bodies.size())));
   const std::size_t component = random_.below(3);
+  if (random_.chance(0.3)) {
+    const std::size_t axis = random_.below(3);
+    return {variable(Variable::Kind::kFrameDirection, add(frame).value, 3 * component + axis),
+            pose(frame).R(Eigen::Index(component), Eigen::Index(axis))};
+  }
   const Long value = pose(frame).p[Eigen::Index(component)];
   return {variable(Variable::Kind::kFramePosition, add(frame).value, component), value};
 }

@@ -85,6 +85,7 @@ class Laws {
       choice.push_back(variable(Variable::Kind::kFramePosition, frame, axis));
       choice.push_back(variable(Variable::Kind::kFrameVelocity, frame, axis));
       choice.push_back(variable(Variable::Kind::kFrameWorldSpin, frame, axis));
+      choice.push_back(variable(Variable::Kind::kFrameDirection, frame, 3 * axis + random_.below(3)));
     }
     for (std::size_t i = 0; i < mechanism_.states.size(); ++i)
       choice.push_back(variable(Variable::Kind::kState, i));

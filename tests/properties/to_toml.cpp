@@ -112,6 +112,9 @@ class Writer {
         return fmt::format("{}.w{}", mechanism_.frames[v.index].name, kAxes[v.component]);
       case Kind::kFrameWorldSpin:
         return fmt::format("{}.world_w{}", mechanism_.frames[v.index].name, kAxes[v.component]);
+      case Kind::kFrameDirection:
+        return fmt::format("{}.R_{}{}", mechanism_.frames[v.index].name, kAxes[v.component / 3],
+                           kAxes[v.component % 3]);
       case Kind::kState:
         return mechanism_.states[v.index].name;
       case Kind::kStepLength:

@@ -210,6 +210,8 @@ class Definitions {
         parameters, [](double v) { return Long(v); },
         [&](const model::Variable& v) -> Long {
           if (v.kind == Kind::kTime) return state.t;
+          if (v.kind == Kind::kFrameDirection)
+            return frames[v.index].R_WB(Eigen::Index(v.component / 3), Eigen::Index(v.component % 3));
           if (v.kind == Kind::kFramePosition) return frames[v.index].p_WC[Eigen::Index(v.component)];
           return state.y[Eigen::Index(*layout.joints[v.index].position[v.component])];
         });

@@ -21,7 +21,7 @@ std::string table_text(std::uint32_t array) {
       "Real {}(const Real& i) noexcept {{\n"
       "  using Value = {};\n"
       "  static constexpr Value values[] = {{{}}};\n"
-      "  return hooks::entry(values, i, hooks::ByOwnEntry());\n"
+      "  return hooks::entry(values, i, hooks::ByOwnEntry<Real>());\n"
       "}}\n",
       table_function(array), overflows_float(array) ? "double" : "typename hooks::TableOf<Real>::Type",
       listed(numbers));

@@ -88,7 +88,8 @@ class LoopCheck {
   bool moves(const Variable& variable, bool velocity) const {
     using Kind = Variable::Kind;
     const auto& [kind, index, component] = variable;
-    const bool moves = variable.is_rate() || kind == Kind::kPosition || kind == Kind::kFramePosition;
+    const bool moves = variable.is_rate() || kind == Kind::kPosition || kind == Kind::kFramePosition ||
+                       kind == Kind::kFrameDirection;
     if (!moves || variable.is_rate() != velocity) return false;
     if (kind == Kind::kPosition || kind == Kind::kVelocity)
       return !mechanism_.joints[index].coordinates[component].motion;

@@ -131,6 +131,7 @@ class Renumber {
       case Kind::kFrameVelocity:
       case Kind::kFrameSpin:
       case Kind::kFrameWorldSpin:
+      case Kind::kFrameDirection:
         variable.index += frames_;
         break;
     }

@@ -227,9 +227,9 @@ KeySection force_section() {
           "[[force]]",
           "A force and a moment on a frame, or a force on a coordinate. Expressions of t, inputs, states, "
           "coordinates (crank, "
-          "crank.rate) and frames: position (tip.x), velocity (tip.vx) and angular velocity (tip.world_wx) "
-          "in the inertial "
-          "frame, angular velocity in the frame's own axes (tip.wx).",
+          "crank.rate) and frames: position (tip.x), velocity (tip.vx), angular velocity (tip.world_wx) and "
+          "axes (tip.R_zx, the z component of its x axis) in the inertial frame, angular velocity in the "
+          "frame's own axes (tip.wx).",
           {{"name", "text", "", "its number", "for messages"},
            {"frame", "name", "", "none", "this, or joint"},
            {"joint", "name", "", "none", "whose coordinate is pushed forward"},
@@ -268,7 +268,7 @@ KeySection loop_section() {
            {"to_axis", "3 constants", "", "the numbers of axis", "in to"},
            {"length", "expression of t", "m", kRequired, "rod"},
            {"residual", "expression", "any", kRequired,
-            "residual: of t, coordinates and positions of frames; kept at zero"}},
+            "residual: of t, coordinates, positions and axes of frames; kept at zero"}},
           R"([[loop]]
 name = "piston_pin"
 type = "planar_pin"

@@ -28,13 +28,18 @@ void add_frame(Scope& scope, const std::string& name, std::size_t index) {
     add("v", Kind::kFrameVelocity, Measure::variable(needed::kSpeed));
     add("w", Kind::kFrameSpin, Measure::variable(needed::kAngularRate));
     add("world_w", Kind::kFrameWorldSpin, Measure::variable(needed::kAngularRate));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      scope.push_back({fmt::format("{}.R_{}{}", name, kAxes[k], kAxes[axis]),
+                       {Kind::kFrameDirection, index, 3 * k + axis},
+                       Measure::variable(needed::kPure)});
   }
 }
 
 bool of_frame(const Variable& variable) {
   using Kind = Variable::Kind;
   return variable.kind == Kind::kFramePosition || variable.kind == Kind::kFrameVelocity ||
-         variable.kind == Kind::kFrameSpin || variable.kind == Kind::kFrameWorldSpin;
+         variable.kind == Kind::kFrameSpin || variable.kind == Kind::kFrameWorldSpin ||
+         variable.kind == Kind::kFrameDirection;
 }
 
 }  // namespace

@@ -39,11 +39,12 @@ std::vector<std::string> keys_of_type(const toml::table& table) {
 /// Why a residual cannot be of it; empty: it can.
 std::string_view refusal_in_residual(const Variable& variable) {
   if (variable.kind == Variable::Kind::kInput)
-    return "it is an input; a residual is of t, coordinates and positions of frames";
+    return "it is an input; a residual is of t, coordinates, positions and axes of frames";
   if (variable.kind == Variable::Kind::kState)
-    return "it is a state; a residual is of t, coordinates and positions of frames";
+    return "it is a state; a residual is of t, coordinates, positions and axes of frames";
   if (variable.is_rate())
-    return "it is a velocity; a residual is of t, coordinates and positions of frames; [[constraint]] takes "
+    return "it is a velocity; a residual is of t, coordinates, positions and axes of frames; [[constraint]] "
+           "takes "
            "rates";
   return "";
 }
@@ -140,11 +141,11 @@ class LoopReader {
 
   void read_residual(Loop& loop, Mechanism& mechanism) {
     if (!table_.has("residual"))
-      return table_.missing("residual", "an expression of t, coordinates and positions of frames");
+      return table_.missing("residual", "an expression of t, coordinates, positions and axes of frames");
     loop.residual = settled(
         table_.function("residual", needed::kAnything,
                         general_scope_but(file_, mechanism, refusal_in_residual,
-                                          "it is of more than t, coordinates and positions of frames")),
+                                          "it is of more than t, coordinates, positions and axes of frames")),
         mechanism);
     refuse_kinks(table_, "residual", loop.residual);
     if (loop.residual.calls(support::Function::kAtan2))
