@@ -177,20 +177,20 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
 
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
-/// 62 operations (27 mul, 34 add and sub, 1 div), 0 sin and cos, 39 selections.
+/// 62 operations (27 mul, 34 add and sub, 1 div), 0 sin and cos, 37 selections.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[2])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 65 operations (29 mul, 35 add and sub, 1 div), 0 sin and cos, 39 selections.
+/// 65 operations (29 mul, 35 add and sub, 1 div), 0 sin and cos, 37 selections.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 38 operations (14 mul, 24 add and sub, 0 div), 0 sin and cos, 21 selections.
+/// 38 operations (14 mul, 24 add and sub, 0 div), 0 sin and cos, 20 selections.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept;

@@ -18,14 +18,14 @@ class Entries {
  public:
   explicit Entries(Composition& make) : make_(make) {}
 
-  /// A whole number, of which a constant one is known.
-  struct Whole {
+  /// The place of an entry, of which a constant one is known.
+  struct Number {
     std::size_t value = 0;
     std::optional<std::size_t> constant;
   };
-  Whole whole(std::size_t constant) { return {make_.literal(static_cast<double>(constant)), constant}; }
+  Number constant(std::size_t value) { return {make_.literal(static_cast<double>(value)), value}; }
 
-  std::size_t entry(const std::vector<double>& values, const Whole& place) {
+  std::size_t entry(const std::vector<double>& values, const Number& place) {
     if (place.constant) return make_.literal(values[std::min(*place.constant, values.size() - 1)]);
     const bool are_equal =
         std::all_of(values.begin(), values.end(), [&](double v) { return v == values[0]; });
@@ -50,7 +50,7 @@ bool are_uniform(const std::vector<double>& points) {
 
 /// Where an argument is among the intervals of an axis.
 struct Place {
-  Entries::Whole number;   ///< of the interval; beyond the ends it may be less or more
+  Entries::Number number;  ///< of the interval, rounded down; beyond the ends it may be less or more
   std::size_t behind = 0;  ///< how far the argument is behind its beginning
 };
 
@@ -58,17 +58,17 @@ struct Place {
 Place place_of(Composition& make, std::size_t argument, const std::vector<double>& points, bool holds) {
   Entries entries(make);
   const std::vector<double> beginnings(points.begin(), points.end() - 1);
-  Entries::Whole number = entries.whole(0);
+  Entries::Number number = entries.constant(0);
   if (beginnings.size() > 1 && are_uniform(points)) {
     const double width = (points.back() - points.front()) / static_cast<double>(beginnings.size());
     const std::size_t from_first = make.difference(argument, make.literal(points.front()));
-    number = {make.function(Function::kFloor, make.quotient(from_first, make.literal(width))), {}};
+    number = {make.quotient(from_first, make.literal(width)), {}};
   } else {
     for (std::size_t step = std::bit_floor(beginnings.size() - 1); step > 0; step /= 2) {
-      const Entries::Whole next =
+      const Entries::Number next =
           number.constant
-              ? entries.whole(*number.constant + step)
-              : Entries::Whole{make.sum(number.value, make.literal(static_cast<double>(step))), {}};
+              ? entries.constant(*number.constant + step)
+              : Entries::Number{make.sum(number.value, make.literal(static_cast<double>(step))), {}};
       const std::size_t beyond = make.difference(argument, entries.entry(beginnings, next));
       const std::size_t taken =
           make.function(Function::kWhereNotNegative, beyond, make.literal(static_cast<double>(step)));
@@ -168,8 +168,8 @@ std::vector<Bicubic> bilinears(const Grid& f, const std::vector<double>& x, cons
 }
 
 /// The number of a cell: that of its row times the cells of a row, and that of its column.
-Entries::Whole cell_of(Composition& make, const Place& in_x, std::size_t rows, const Place& in_y,
-                       std::size_t columns) {
+Entries::Number cell_of(Composition& make, const Place& in_x, std::size_t rows, const Place& in_y,
+                        std::size_t columns) {
   std::vector<double> before_row, before_column;
   for (std::size_t i = 0; i < rows; ++i) before_row.push_back(static_cast<double>(i * columns));
   for (std::size_t j = 0; j < columns; ++j) before_column.push_back(static_cast<double>(j));
@@ -184,7 +184,7 @@ Expression of_cells(const LookupTable& table, std::span<const Expression> argume
   Composition make(arguments);
   const bool holds = table.beyond == Beyond::kHold;
   const Place in_x = place_of(make, 0, x, holds), in_y = place_of(make, 1, y, holds);
-  const Entries::Whole cell = cell_of(make, in_x, x.size() - 1, in_y, y.size() - 1);
+  const Entries::Number cell = cell_of(make, in_x, x.size() - 1, in_y, y.size() - 1);
   Entries entries(make);
   std::array<std::size_t, n> rows;
   for (std::size_t a = 0; a < n; ++a) {

@@ -27,7 +27,7 @@ enum class Function : std::uint8_t {
   kMax,               ///< a < b ? b : a
   kWhereNegative,     ///< a < 0 ? b : 0, whatever b is where it is not taken, not a number too
   kWhereNotNegative,  ///< a < 0 ? 0 : b, likewise
-  kEntry  ///< entry a of the array whose number is b, a constant; that at the end where a, a whole number, is beyond it
+  kEntry  ///< entry a, rounded down, of the array whose number is b, a constant; that at the end where a is beyond it
 };
 inline constexpr std::size_t kFunctions = 14;
 
@@ -74,7 +74,7 @@ std::uint32_t whole_part(const Real& x, std::uint32_t most) {
   return whole;
 }
 
-/// Entry a, a whole number, of the array with the number b.
+/// Entry a, rounded down, of the array with the number b; the first or last one where a is beyond them.
 template <class Real>
 Real entry_of(const Real& a, const Real& b) {
   const std::vector<double>& values = array_of(whole_part(b, kLargestArrayNumber));

@@ -23,15 +23,37 @@ ValueId appended(ir::Program& program, const ir::Node& node) {
   return ValueId(program.nodes.size() - 1);
 }
 
-/// Entries of arrays have none of their own: their places are whole numbers.
-bool has_kink(Op op) { return ir::is_selection(op) && op != Op::kEntry; }
+bool is_whole(double value) { return value == std::floor(value); }
 
-/// How far an operand is beyond the kink of node `i`; of floor, the sine of π times that.
+/// Which values are whole numbers for all arguments: sums of whole numbers are, and what is chosen among them.
+std::vector<bool> whole_values(const ir::Program& program) {
+  std::vector<bool> whole;
+  for (const ir::Node& node : program.nodes) {
+    const auto all_entries = [&] {
+      const auto& values = support::array_of(static_cast<std::uint32_t>(program[node.b].literal));
+      return std::all_of(values.begin(), values.end(), [](double value) { return is_whole(value); });
+    };
+    const bool is_sum = node.op == Op::kAdd || node.op == Op::kSubtract;
+    const bool selects = node.op == Op::kWhereNegative || node.op == Op::kWhereNotNegative;
+    whole.push_back((node.op == Op::kLiteral && is_whole(node.literal)) || node.op == Op::kFloor ||
+                    (node.op == Op::kEntry && all_entries()) ||
+                    (node.op == Op::kNegate && whole[node.a.value]) || (selects && whole[node.b.value]) ||
+                    (is_sum && whole[node.a.value] && whole[node.b.value]));
+  }
+  return whole;
+}
+
+/// An entry of an array goes over to the next one where its place does, unless that is a whole number already.
+bool has_kink(const ir::Node& node, const std::vector<bool>& whole) {
+  return ir::is_selection(node.op) && !(node.op == Op::kEntry && whole[node.a.value]);
+}
+
+/// How far an operand is beyond the kink of node `i`; of floor and of entries, the sine of π times that.
 ValueId distance(ir::Program& program, std::size_t i) {
   const ir::Node node = program.nodes[i];
   if (node.op == Op::kMin || node.op == Op::kMax)
     return appended(program, {.op = Op::kSubtract, .a = node.a, .b = node.b});
-  if (node.op != Op::kFloor) return node.a;
+  if (node.op != Op::kFloor && node.op != Op::kEntry) return node.a;
   const ValueId pi = appended(program, {.op = Op::kLiteral, .literal = 3.141592653589793});
   const ValueId angle = appended(program, {.op = Op::kMultiply, .a = pi, .b = node.a});
   return appended(program, {.op = Op::kSin, .a = angle});
@@ -57,8 +79,9 @@ KinkSurvey::KinkSurvey(const ir::Module& module)
   for (ir::Program program : module.functions) {
     program.outputs.clear();
     const std::size_t count = program.nodes.size();
+    const std::vector<bool> whole = whole_values(program);
     for (std::size_t i = 0; i < count; ++i)
-      if (has_kink(program.nodes[i].op))
+      if (has_kink(program.nodes[i], whole))
         program.outputs.push_back({"distance", -1, -1, distance(program, i)});
     seen_.resize(seen_.size() + program.outputs.size());
     if (!program.outputs.empty()) programs_.push_back(std::move(program));
