@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace jourdain {
 
@@ -98,11 +99,18 @@ struct Pack {
 
   /// Of each lane the value at its number, that of an end beyond the ends.
   template <class Value>
-  friend Pack table_entry(const Value* table, int last, const Pack& numbers) noexcept {
-    const Real end = static_cast<Real>(last);
-    return each(numbers, [table, last, end](Real i) {
-      return static_cast<Real>(table[i > 0 ? (i < end ? static_cast<int>(i) : last) : 0]);
-    });
+  __attribute__((always_inline)) friend Pack table_entry(const Value* table, int last,
+                                                         const Pack& numbers) noexcept {
+    const Vector i = numbers.values, none = {}, end = none + static_cast<Real>(last);
+    const BitVector above = (BitVector)i & (BitVector)(i > none),
+                    is_within = (BitVector)((Vector)above < end);
+    const Vector within = (Vector)((above & is_within) | ((BitVector)end & ~is_within));
+    int places[lanes];
+    const auto whole = __builtin_convertvector(within, typename detail::VectorOf<int, lanes>::Type);
+    std::memcpy(places, &whole, sizeof places);
+    Pack entries;
+    take(table, places, std::make_index_sequence<lanes>(), entries.values);
+    return entries;
   }
 
   friend Pack sqrt(const Pack& a) noexcept {
@@ -131,7 +139,11 @@ struct Pack {
   }
   friend Pack atan(const Pack& a) noexcept { return atan2(a, Pack(1)); }
   /// As emitted code takes it, with its bits: less than 2 ulp off.
-  friend Pack atan2(const Pack& y, const Pack& x) noexcept { return of(arctangents(y.values, x.values)); }
+  friend Pack atan2(const Pack& y, const Pack& x) noexcept {
+    Pack angle;
+    arctangents(y.values, x.values, angle.values);
+    return angle;
+  }
 
   friend void sine_cosine(const Pack& x, Pack& s, Pack& c) noexcept {
     if constexpr (sizeof(Real) == 8) {
@@ -159,7 +171,12 @@ struct Pack {
   }
   static void sines_of_doubles(const Vector& x, Vector& s, Vector& c) noexcept;
   static void sines_of_floats(const Vector& x, Vector& s, Vector& c) noexcept;
-  static Vector arctangents(const Vector& y, const Vector& x) noexcept;
+  template <class Value, std::size_t... k>
+  __attribute__((always_inline)) static void take(const Value* table, const int* places,
+                                                  std::index_sequence<k...>, Vector& entries) noexcept {
+    entries = Vector{static_cast<Real>(table[places[k]])...};
+  }
+  static void arctangents(const Vector& y, const Vector& x, Vector& result) noexcept;
   static void call_library(const Vector& x, const BitVector& in_range, Vector& s, Vector& c) noexcept;
 };
 
@@ -179,9 +196,8 @@ __attribute__((always_inline)) inline void turn(const I& sine_bits, const I& cos
 
 /// As the emitted functions do it for double and float (see there for the sources of the numbers).
 template <class Real, std::size_t lanes>
-__attribute__((always_inline)) inline auto Pack<Real, lanes>::arctangents(const Vector& y,
-                                                                          const Vector& x) noexcept
-    -> Vector {
+__attribute__((always_inline)) inline void Pack<Real, lanes>::arctangents(const Vector& y, const Vector& x,
+                                                                          Vector& result) noexcept {
 #if defined(__clang__)
 #pragma clang fp reassociate(off)
 #endif
@@ -191,15 +207,15 @@ __attribute__((always_inline)) inline auto Pack<Real, lanes>::arctangents(const 
   constexpr int last = is_double ? 63 : 31;
   const Bits zero = 0, one = 1;
   const auto number = [](double value) { return static_cast<Real>(value); };
-  // 1 in the lanes where something holds, else 0.
-  const auto where = [=](const I& holds) { return (V)((I)(V{} + number(1)) & (zero - holds)); };
+  const I unit = (I)(V{} + number(1));  // 1 in the lanes where something holds: & (zero - it)
   const I y_bits = (I)y, x_bits = (I)x, sign = y_bits & (one << last), is_behind = x_bits >> last;
   const I b = y_bits ^ sign, a = x_bits ^ (is_behind << last), is_steep = (a - b) >> last;
   const I exchange = (a ^ b) & (zero - is_steep);
   const V large = (V)(a ^ exchange), small = (V)(b ^ exchange);
   const I is_wide =
       ((I)(large * number(is_double ? 0.5463024898437905 : 0.5463025)) - (b ^ exchange)) >> last;
-  const V turn = where(is_wide), nothing = where(((a ^ exchange) - one) >> last);
+  const V turn = (V)(unit & (zero - is_wide)),
+          nothing = (V)(unit & (zero - (((a ^ exchange) - one) >> last)));
   const V t = (small - turn * large) / (large + turn * small + nothing), z = t * t;
   V angle;
   if constexpr (is_double) {
@@ -216,11 +232,12 @@ __attribute__((always_inline)) inline auto Pack<Real, lanes>::arctangents(const 
     angle = t + t * z * (low + z * z * z * z * (-0.079587296f + z * 0.037864342f));
   }
   const I is_back = is_steep ^ is_behind;
-  const V eighths = where(is_steep) * number(2) + where(is_behind & ~is_steep) * number(4) + turn -
-                    where(is_wide & is_back) * number(2);
+  const V steep = (V)(unit & (zero - is_steep)), behind = (V)(unit & (zero - (is_behind & ~is_steep))),
+          back = (V)(unit & (zero - (is_wide & is_back)));
+  const V eighths = steep * number(2) + behind * number(4) + turn - back * number(2);
   const V part = (V)((I)angle ^ (is_back << last));
   const V rest = part + eighths * number(is_double ? 3.061616997868383e-17 : 1.5695824e-07);
-  return (V)((I)(eighths * number(is_double ? 0.7853981633974483 : 0.785398) + rest) ^ sign);
+  result = (V)((I)(eighths * number(is_double ? 0.7853981633974483 : 0.785398) + rest) ^ sign);
 }
 
 /// By the C library where a lane is out of range.

@@ -15,6 +15,7 @@
 #include "panda_packs/panda_packs_kernels.hpp"
 #include "quadrotor_packs/quadrotor_packs_kernels.hpp"
 #include "quadruped_packs/quadruped_packs_kernels.hpp"
+#include "wind_turbine_packs/wind_turbine_packs_kernels.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -124,6 +125,8 @@ TEST(Ensembles, KeepAnglesOfLongTimes) {
 }
 
 TEST(Ensembles, ChooseInEachLane) { expect_scalars_of<cart_stops_packs::Model>(kNone); }
+
+TEST(Ensembles, TakeEntriesOfTables) { expect_scalars_of<wind_turbine_packs::Model>(kNone); }
 
 TEST(Ensembles, CloseLoops) { expect_scalars<four_bar_packs::Model, double, 4>(kNone); }
 

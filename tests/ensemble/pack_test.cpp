@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "embed/emitted_sines.hpp"
@@ -108,6 +111,33 @@ TEST(Packs, HaveTheBitsOfEmittedArctangents) {
   expect_arctangents_as_emitted<double, 8>();
   expect_arctangents_as_emitted<float, 4>();
   expect_arctangents_as_emitted<float, 16>();
+}
+
+/// Rounded down, up to the ends; of what is no number some entry.
+template <class Real, std::size_t lanes>
+void expect_entries() {
+  const Real table[] = {Real(0.5), Real(-1), Real(2), Real(7)};
+  const Real none = std::numeric_limits<Real>::quiet_NaN(), infinity = std::numeric_limits<Real>::infinity();
+  const std::pair<Real, Real> expected[] = {
+      {Real(-3), Real(0.5)}, {Real(-0.0), Real(0.5)}, {Real(0.99), Real(0.5)},
+      {Real(1), Real(-1)},   {Real(2.5), Real(2)},    {Real(3), Real(7)},
+      {Real(1e30), Real(7)}, {infinity, Real(7)},     {-infinity, Real(0.5)}};
+  for (std::size_t first = 0; first < std::size(expected); ++first) {
+    Pack<Real, lanes> places;
+    for (std::size_t k = 0; k < lanes; ++k) places.set(k, expected[(first + k) % std::size(expected)].first);
+    const Pack<Real, lanes> found = table_entry(table, 3, places);
+    for (std::size_t k = 0; k < lanes; ++k)
+      EXPECT_EQ(found[k], expected[(first + k) % std::size(expected)].second) << places[k];
+  }
+  const Real some = table_entry(table, 3, Pack<Real, lanes>(static_cast<double>(none)))[0];
+  EXPECT_NE(std::find(std::begin(table), std::end(table), some), std::end(table));
+}
+
+TEST(Packs, TakeEntriesOfTables) {
+  expect_entries<double, 2>();
+  expect_entries<double, 8>();
+  expect_entries<float, 4>();
+  expect_entries<float, 16>();
 }
 
 template <class Real, std::size_t lanes>
