@@ -13,21 +13,21 @@ using model::Variable;
 
 namespace {
 
-/// Angular velocity of a frame in the axes of the inertial one.
+/// A vector in the working frame of a link, in the axes of the inertial frame.
+Vector3 in_world(const Scene& scene, std::size_t link, Vector3 v, const std::string& name) {
+  for (std::size_t j = link; j != kGround; j = scene.tree.links[j].parent)
+    v = scene.frames.to_parent(j, v, fmt::format("{}_{}", name, j));
+  return v;
+}
+
 Vector3 world_spin(const Scene& scene, const kinematics::BodyPose& pose, const std::string& name) {
   if (pose.link == kGround) return kinematics::zero_vector();
-  Vector3 w = scene.omega.own[pose.link];
-  for (std::size_t j = pose.link; j != kGround; j = scene.tree.links[j].parent)
-    w = scene.frames.to_parent(j, w, fmt::format("spin_{}_{}", name, j));
-  return w;
+  return in_world(scene, pose.link, scene.omega.own[pose.link], "spin_" + name);
 }
 
 /// Of an axis of a frame, given in its link, the components in the inertial one.
-Vector3 world_direction(const Scene& scene, std::size_t link, Vector3 axis, const std::string& name) {
-  if (link != kGround) axis = scene.frames.to_working(link, axis, name);
-  for (std::size_t j = link; j != kGround; j = scene.tree.links[j].parent)
-    axis = scene.frames.to_parent(j, axis, fmt::format("{}_{}", name, j));
-  return axis;
+Vector3 world_direction(const Scene& scene, std::size_t link, const Vector3& axis, const std::string& name) {
+  return link == kGround ? axis : in_world(scene, link, scene.frames.to_working(link, axis, name), name);
 }
 
 /// Position, velocity, spin or direction of a frame, by component.

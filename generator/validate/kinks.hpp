@@ -11,7 +11,8 @@ namespace jourdain::validate {
 
 using support::ScaledReal;
 
-/// Where abs, min, max or `if` go over from one side to the other, or floor from one whole number to the next.
+/// Where abs, min, max or `if` go over from one side to the other, floor from one whole number to the next, or a table
+/// from one interval to the next.
 struct Kinks {
   std::size_t count = 0;
   std::size_t on_both_sides = 0;  ///< of them, at the states compared

@@ -11,7 +11,6 @@ Counting exp(Counting a) { return ++counted.functions, Counting(std::exp(a.value
 Counting tanh(Counting a) { return ++counted.functions, Counting(std::tanh(a.value)); }
 Counting atan(Counting a) { return ++counted.functions, Counting(std::atan(a.value)); }
 Counting fabs(Counting a) { return ++counted.selections, Counting(std::fabs(a.value)); }
-Counting floor(Counting a) { return ++counted.selections, Counting(std::floor(a.value)); }
 Counting atan2(Counting a, Counting b) { return ++counted.atan2, Counting(std::atan2(a.value, b.value)); }
 
 }  // namespace jourdain::tests

@@ -31,7 +31,6 @@ struct Counting {
   friend Counting tanh(Counting a);
   friend Counting atan(Counting a);
   friend Counting fabs(Counting a);
-  friend Counting floor(Counting a);
   /// Whoever compares chooses.
   friend bool operator<(Counting a, Counting b) { return ++counted.selections, a.value < b.value; }
   friend Counting table_entry(const double* values, int last, Counting i) {
@@ -48,6 +47,5 @@ Counting exp(Counting a);
 Counting tanh(Counting a);
 Counting atan(Counting a);
 Counting fabs(Counting a);
-Counting floor(Counting a);
 
 }  // namespace jourdain::tests

@@ -25,6 +25,9 @@ namespace {
 
 TEST(Names, AreIdentifiersThatDiffer) {
   Names names({"state"});
+  EXPECT_EQ(names.unique("table_0a1b2c", "t"),
+            "table_0a1b2c_value");  // what a table's function may be called
+  EXPECT_EQ(names.unique("table_force", "t"), "table_force");
   EXPECT_EQ(names.unique("w3_x", "t0"), "w3_x");
   EXPECT_EQ(names.unique("w3_x", "t0"), "w3_x_2");
   EXPECT_EQ(names.unique("state", "t0"), "state_2");

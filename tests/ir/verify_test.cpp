@@ -54,6 +54,11 @@ TEST(Verify, NamesLiteralsThatAreNotFinite) {
             "p: %4 is the literal inf");
 }
 
+TEST(Verify, NamesEntriesOfArraysThatAreNoneYet) {
+  EXPECT_EQ(defect([](Program& p) { p.nodes[2].op = Op::kEntry; }),
+            "p: %2 is an entry of an array that %1 decides, which is no literal");
+}
+
 TEST(Verify, NamesWrongOutputs) {
   EXPECT_EQ(defect([](Program& p) { p.outputs[0].value = ValueId(9); }), "p: output 'r' is %9 of 6");
   EXPECT_EQ(defect([](Program& p) { p.outputs[1].row = 0; }), "p: output 'r' [0][-1] is given twice");

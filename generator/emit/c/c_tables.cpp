@@ -11,10 +11,7 @@ namespace jourdain::emit::c {
 
 std::string table_text(std::uint32_t array, const CNames& names) {
   std::vector<std::string> numbers;
-  for (const double value : support::array_of(array)) {
-    const std::string digits = names.literal(value);
-    numbers.push_back(digits[0] == '(' ? digits.substr(1, digits.size() - 2) : digits);
-  }
+  for (const double value : support::array_of(array)) numbers.push_back(names.digits(value));
   return fmt::format(
       "\nstatic {0} {1}({0} i) {{\n"
       "  static const {0} values[] = {{{2}}};\n\n"

@@ -12,11 +12,14 @@
 
 namespace jourdain::emit::c {
 
-std::string CNames::literal(double value) const {
+std::string CNames::digits(double value) const {
   std::string digits = is_float ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
   if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
-  digits += suffix();
-  return std::signbit(value) ? "(" + digits + ")" : digits;
+  return digits + suffix();
+}
+
+std::string CNames::literal(double value) const {
+  return std::signbit(value) ? "(" + digits(value) + ")" : digits(value);
 }
 
 bool is_internal(const Type& type) {

@@ -21,7 +21,9 @@ struct CNames {
   const char* real() const { return is_float ? "float" : "double"; }
   /// Behind the names of functions of the C library.
   const char* suffix() const { return is_float ? "f" : ""; }
-  /// Shortest decimal that reads back as `value`, rounded to the number type; negative ones are in parentheses.
+  /// Shortest decimal that reads back as `value`, rounded to the number type.
+  std::string digits(double value) const;
+  /// The same; negative ones are in parentheses.
   std::string literal(double value) const;
 
   /// "panda_state"; structs of steps are internal.

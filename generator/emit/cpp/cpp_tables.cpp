@@ -5,17 +5,15 @@
 #include <vector>
 
 #include "emit/constant_tables.hpp"
+#include "emit/cpp/printer.hpp"
 #include "support/constant_array.hpp"
 
 namespace jourdain::emit::cpp {
 
 std::string table_text(std::uint32_t array) {
   std::vector<std::string> numbers;
-  for (const double value : support::array_of(array)) {
-    const std::string digits = fmt::format("{}", value);
-    numbers.push_back(
-        fmt::format("Value({}{})", digits, digits.find_first_of(".e") == std::string::npos ? ".0" : ""));
-  }
+  for (const double value : support::array_of(array))
+    numbers.push_back(fmt::format("Value({})", digits_text(value)));
   return fmt::format(
       "template <class Real> JOURDAIN_FUNCTION\n"
       "Real {}(const Real& i) noexcept {{\n"

@@ -10,11 +10,13 @@ namespace jourdain::emit::cpp {
 
 using Kind = Expression::Kind;
 
-std::string literal_text(double value) {
+std::string digits_text(double value) {
   std::string digits = fmt::format("{}", value);
   if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
-  return fmt::format("Real({})", digits);
+  return digits;
 }
+
+std::string literal_text(double value) { return fmt::format("Real({})", digits_text(value)); }
 
 namespace {
 
@@ -89,14 +91,12 @@ class ExpressionPrinter {
     return {at_least(e, 0, strength) + sign + at_least(e, 1, right), strength};
   }
 
-  Text call(const Expression& argument, const std::string& function) const {
-    return {fmt::format("{}{}({})", place_.in_detail ? "" : "detail::", function, print(argument).text)};
+  Text call(const std::string& function, const std::string& arguments) const {
+    return {fmt::format("{}{}({})", place_.in_detail ? "" : "detail::", function, arguments)};
   }
 
   Text call(const Expression& e, const char* function) const {
-    std::string arguments = whole(e, 0);
-    if (e.operands.size() > 1) arguments += ", " + whole(e, 1);
-    return {fmt::format("{}{}({})", place_.in_detail ? "" : "detail::", function, arguments)};
+    return call(function, e.operands.size() > 1 ? whole(e, 0) + ", " + whole(e, 1) : whole(e, 0));
   }
 
   Text operation(const Expression& e) const {
@@ -121,7 +121,7 @@ class ExpressionPrinter {
       case ir::Op::kLeaf:
         break;
       case ir::Op::kEntry:
-        return call(e.operands[0], table_function(e.operands[1].number));
+        return call(table_function(e.operands[1].number), whole(e, 0));
       default:
         return call(e, function_name(ir::function_of(e.operation)));
     }

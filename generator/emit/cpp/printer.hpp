@@ -13,7 +13,10 @@ struct Place {
   bool samples_inputs = false;  ///< the inputs may be a function of the state
 };
 
-/// Shortest decimal that reads back as `value`, as a Real.
+/// Shortest decimal that reads back as `value`.
+std::string digits_text(double value);
+
+/// The same as a Real.
 std::string literal_text(double value);
 
 std::string expression_text(const Expression& expression, const Place& place);
