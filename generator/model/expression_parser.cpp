@@ -2,7 +2,7 @@
 //   sum := product (('+'|'-') product)*      product := signed (('*'|'/') signed)*
 //   signed := ('+'|'-') signed | power       power := primary ('^' signed)?
 //   primary := number | name | function '(' sum (',' sum)* ')' | '(' sum ')'
-//            | table '(' sum (',' sum)? ')' | 'if' '(' sum ('<' | '<=' | '>' | '>=') sum ',' sum ',' sum ')'
+//            | callable '(' sum (',' sum)* ')' | 'if' '(' sum ('<' | '<=' | '>' | '>=') sum ',' sum ',' sum ')'
 // Dimensions are inferred beside; the first that do not agree are an error where the syntax has none and a
 // parameter with a unit stands in the expression.
 #include <fmt/format.h>
@@ -13,10 +13,10 @@
 #include <numbers>
 #include <optional>
 
+#include "model/callable.hpp"
 #include "model/expression.hpp"
+#include "model/expression_dimensions.hpp"
 #include "model/expression_functions.hpp"
-#include "model/expression_text.hpp"
-#include "model/lookup_table.hpp"
 #include "support/diagnostics.hpp"
 
 namespace jourdain::model {
@@ -29,11 +29,11 @@ constexpr int kMaximumExponent = 64;
 
 using Term = MeasuredExpression;
 
-class Parser : ExpressionText {
+class Parser : public ExpressionDimensions {
  public:
   Parser(std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope,
-         const std::vector<LookupTable>& tables)
-      : ExpressionText(text), parameters_(parameters), scope_(scope), tables_(tables) {}
+         const std::vector<Callable>& callables)
+      : ExpressionDimensions(text), parameters_(parameters), scope_(scope), callables_(callables) {}
 
   Term parse() {
     Term result = sum(0);
@@ -51,8 +51,6 @@ class Parser : ExpressionText {
 
   /// A parameter with a unit stands in the expression.
   bool is_strict() const { return strict_; }
-  /// The first dimensions that do not agree.
-  const std::optional<ExpressionError>& mismatch() const { return mismatch_; }
 
  private:
   /// Checks what an operation written at `begin` gave.
@@ -104,12 +102,6 @@ class Parser : ExpressionText {
         return result;
       }
     }
-  }
-
-  /// Of what begins at `begin` and was read last.
-  void note_mismatch(std::size_t begin, std::string message) {
-    if (!mismatch_)
-      mismatch_ = {begin, std::max<std::size_t>(1, written(begin, position_).size()), std::move(message), ""};
   }
 
   Term signed_power(int depth) {
@@ -185,8 +177,8 @@ class Parser : ExpressionText {
     const std::string_view word = dotted_name_at(begin);
     position_ += word.size();
     if (next_is('('))
-      for (const LookupTable& table : tables_)
-        if (table.name == word) return value_of(table, depth);
+      for (const Callable& callable : callables_)
+        if (callable.name == word) return value_of(callable, begin, depth);
     const auto is_called = [word](const ScopeEntry& entry) { return entry.name == word; };
     const auto variable = std::find_if(scope_.begin(), scope_.end(), is_called);
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -203,16 +195,20 @@ class Parser : ExpressionText {
     if (variable != scope_.end() &&
         (is_expression_word(word) || (word == "t" && std::count_if(variable, scope_.end(), is_called) > 1)))
       fail(begin, word.size(), fmt::format("'{}' has two meanings", word), "rename the coordinate or input");
-    if (variable != scope_.end())
+    if (variable != scope_.end()) {
+      strict_ = strict_ || variable->measure.is_anchored();
       return {variable->meaning.value_or(Expression::variable(variable->variable)), variable->measure};
+    }
     if (word == "pi") return {Expression(std::numbers::pi), Measure::count()};
     if (word == "deg") return {Expression(std::numbers::pi / 180), Measure::degree()};
     if (next_is('(')) return word == "if" ? selection(depth) : function(word, begin, depth);
     if (const NamedFunction* function = find_function(word))
       fail(begin, word.size(), fmt::format("function '{}' needs an argument", word),
            fmt::format("write {}({})", word, function->count == 1 ? "..." : function->arguments));
-    for (const LookupTable& table : tables_)
-      if (table.name == word) fail(begin, word.size(), fmt::format("table '{}' needs an argument", word));
+    for (const Callable& callable : callables_)
+      if (callable.name == word)
+        fail(begin, word.size(), fmt::format("{} '{}' needs an argument", callable.kind, word),
+             fmt::format("write {}({})", word, in_words(callable.arguments)));
     std::vector<std::string> known;
     for (const DeclaredParameter& parameter : parameters_) known.push_back(parameter.name);
     known.insert(known.end(), {"pi", "deg"});
@@ -251,30 +247,39 @@ class Parser : ExpressionText {
     return {called(*function, arguments, begin), measure_of(function->dimensions, *common)};
   }
 
-  Term value_of(const LookupTable& table, int depth) {
+  static std::string in_words(const std::vector<Callable::Argument>& arguments) {
+    std::vector<std::string_view> names;
+    for (const Callable::Argument& argument : arguments) names.push_back(argument.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+  Term value_of(const Callable& callable, std::size_t begin, int depth) {
     const std::size_t bracket = position_;
+    const std::string names = in_words(callable.arguments);
     accept('(');
     std::vector<Expression> arguments;
-    for (const LookupTable::Axis& axis : table.axes) {
+    for (const Callable::Argument& needed : callable.arguments) {
       if (!arguments.empty() && !accept(','))
-        fail(bracket, position_ - bracket, fmt::format("table '{}' needs two arguments", table.name),
-             fmt::format("write {}(x, y)", table.name));
+        fail(bracket, position_ - bracket,
+             fmt::format("{} '{}' needs {} arguments", callable.kind, callable.name,
+                         callable.arguments.size()),
+             fmt::format("write {}({})", callable.name, names));
       const std::size_t at = skip_blanks();
       const Term argument = sum(depth + 1);
-      if (!argument.measure.plus(axis.measure))
-        note_mismatch(at,
-                      fmt::format("table '{}' needs {}, but '{}' is in {}", table.name, axis.measure.unit(),
-                                  support::shown(written(at, position_)), argument.measure.unit()));
+      if (!argument.measure.plus(needed.measure))
+        note_mismatch(at, fmt::format("{} '{}' needs {}, but '{}' is in {}", callable.kind, callable.name,
+                                      needed.measure.unit(), support::shown(written(at, position_)),
+                                      argument.measure.unit()));
       arguments.push_back(argument.expression);
     }
-    close(bracket, table.name, table.axes.size() == 1 ? "x" : "x, y");
-    strict_ = strict_ || table.has_units();
-    return {looked_up(table, arguments), table.measure};
+    close(bracket, callable.name, names, callable.kind);
+    strict_ = strict_ || callable.has_units();
+    return {finite(callable.value(arguments), begin), callable.measure};
   }
 
   std::string close_function(std::string_view word) const {
     std::vector<std::string> known = function_names();
-    for (const LookupTable& table : tables_) known.push_back(table.name);
+    for (const Callable& callable : callables_) known.push_back(callable.name);
     const std::string close = support::nearest(word, known);
     return close.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
                          : fmt::format("did you mean '{}'?", close);
@@ -325,40 +330,17 @@ class Parser : ExpressionText {
     if (!accept(',')) fail(begin, position_ - begin, "'if' needs three arguments", "write if(a < b, x, y)");
   }
 
-  void close(std::size_t bracket, std::string_view function, std::string_view arguments) {
+  void close(std::size_t bracket, std::string_view function, std::string_view arguments,
+             std::string_view kind = "function") {
     if (next_is(','))
-      fail(position_, 1, fmt::format("function '{}' has an argument too many", function),
+      fail(position_, 1, fmt::format("{} '{}' has an argument too many", kind, function),
            fmt::format("write {}({})", function, arguments));
     if (!accept(')')) fail(bracket, 1, "'(' is not closed");
   }
 
-  /// Of arguments of one dimension, written from `begin` on.
-  Measure in_common(const Measure& a, const Measure& b, std::size_t begin, std::string_view function) {
-    const std::optional<Measure> measure = a.plus(b);
-    if (!measure)
-      note_mismatch(begin, fmt::format("{} needs arguments of one unit, but '{}' are in {} and {}", function,
-                                       support::shown(written(begin, position_)), a.unit(), b.unit()));
-    return measure.value_or(Measure::open());
-  }
-
-  void check_argument(const NamedFunction& function, const Measure& argument, std::size_t begin) {
-    if (function.dimensions == NamedFunction::Dimensions::kAngle && !argument.fits(needed::kAngle))
-      note_mismatch(begin, fmt::format("{} needs rad, but '{}' is in {}", function.name,
-                                       support::shown(written(begin, position_)), argument.unit()));
-    if (function.dimensions == NamedFunction::Dimensions::kPure)
-      check_pure(function.name, argument, begin, position_);
-  }
-
-  void check_pure(std::string_view what, const Measure& measure, std::size_t begin, std::size_t end) {
-    if (!measure.fits(needed::kPure))
-      note_mismatch(begin, fmt::format("{} needs a pure number, but '{}' is in {}", what,
-                                       support::shown(written(begin, end)), measure.unit()));
-  }
-
   const std::vector<DeclaredParameter>& parameters_;
   const Scope& scope_;
-  const std::vector<LookupTable>& tables_;
-  std::optional<ExpressionError> mismatch_;
+  const std::vector<Callable>& callables_;
   bool strict_ = false;
 };
 
@@ -371,12 +353,12 @@ std::variant<MeasuredExpression, ExpressionError> parse_expression(
 
 std::variant<MeasuredExpression, ExpressionError> parse_expression(
     std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope,
-    const std::vector<LookupTable>& tables) {
+    const std::vector<Callable>& callables) {
   if (text.size() > kMaximumExpressionLength)
     return ExpressionError{
         0, 1, fmt::format("the expression is longer than {} characters", kMaximumExpressionLength), ""};
   try {
-    Parser parser(text, parameters, scope, tables);
+    Parser parser(text, parameters, scope, callables);
     MeasuredExpression result = parser.parse();
     if (result.expression.written_out_size() > kMaximumWrittenOutSize)
       return ExpressionError{
@@ -388,7 +370,7 @@ std::variant<MeasuredExpression, ExpressionError> parse_expression(
     if (result.expression.nodes().size() > kMaximumExpressionSize)
       return ExpressionError{
           0, text.size(), fmt::format("the expression has more than {} operations", kMaximumExpressionSize),
-          "a table has some for each of its points"};
+          "a table has some for each of its points, a function all of its own at each call"};
     if (parser.is_strict() && parser.mismatch()) return *parser.mismatch();
     if (!parser.is_strict()) result.measure = result.measure.times(Measure::open());
     return result;

@@ -153,4 +153,13 @@ Expression looked_up(const LookupTable& table, std::span<const Expression> argum
   return arguments.size() == 1 ? on_a_curve(table, arguments[0]) : on_a_grid(table, arguments);
 }
 
+Callable callable(LookupTable table) {
+  Callable result{"table", table.name, {{"x", table.axes[0].measure}}, table.measure, {}, table.where};
+  if (table.axes.size() == 2) result.arguments.push_back({"y", table.axes[1].measure});
+  result.value = [table = std::move(table)](std::span<const Expression> arguments) {
+    return looked_up(table, arguments);
+  };
+  return result;
+}
+
 }  // namespace jourdain::model

@@ -1,13 +1,12 @@
 // Functions of one or two arguments that are given by points, as expressions call them.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "model/callable.hpp"
 #include "model/expression.hpp"
 #include "support/diagnostics.hpp"
 
@@ -41,12 +40,6 @@ struct LookupTable {
   Interpolation interpolation = Interpolation::kLinear;  ///< cubics: values are constant; of two axes splines
   Beyond beyond = Beyond::kHold;
   support::SourceRange where;
-
-  /// One is given: dimensions of expressions that call it are checked.
-  bool has_units() const {
-    return measure.is_anchored() ||
-           std::any_of(axes.begin(), axes.end(), [](const Axis& axis) { return axis.measure.is_anchored(); });
-  }
 };
 
 /// Are its coefficients entries of arrays? Of few intervals, or where values are not constant, all are computed.
@@ -68,9 +61,7 @@ Expression looked_up(const LookupTable& table, std::span<const Expression> argum
 std::vector<double> slopes(Interpolation kind, std::span<const double> points,
                            std::span<const double> values);
 
-/// As `parse_expression`, where tables may be called like functions.
-std::variant<MeasuredExpression, ExpressionError> parse_expression(
-    std::string_view text, const std::vector<DeclaredParameter>& parameters, const Scope& scope,
-    const std::vector<LookupTable>& tables);
+/// What expressions call it by.
+Callable callable(LookupTable table);
 
 }  // namespace jourdain::model

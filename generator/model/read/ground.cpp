@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/callable.hpp"
 #include "model/coordinates.hpp"
 #include "model/expression_derivative.hpp"
 #include "model/expression_sums.hpp"
@@ -23,12 +24,6 @@ Scope scope_of_height() {
   for (std::size_t k = 0; k < 3; ++k)
     scope.push_back({kNames[k], argument(k), Measure::variable(needed::kLength)});
   return scope;
-}
-
-Expression with_arguments(const Expression& function, std::span<const Expression> values) {
-  return function.substituted([&values](const Variable& v) {
-    return v.kind == Variable::Kind::kArgument ? values[v.component] : Expression::variable(v);
-  });
 }
 
 Expression reciprocal_root(const Expression& square) {

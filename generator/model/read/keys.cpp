@@ -342,14 +342,14 @@ frame = "small_end"
 
 std::span<const KeySection> key_sections() {
   static const std::vector<KeySection> sections = {
-      model_section(),    parameter_section(),  table_section(),      body_section(),
-      joint_section(),    coordinate_section(), frame_section(),      actuator_section(),
-      input_section(),    state_section(),      memory_section(),     signal_section(),
-      friction_section(), force_section(),      spring_section(),     bushing_section(),
-      cable_section(),    gear_mesh_section(),  stop_section(),       contact_section(),
-      tyre_section(),     loop_section(),       coupler_section(),    constraint_section(),
-      loops_section(),    output_section(),     kinematics_section(), import_section(),
-      override_section(), repeat_section()};
+      model_section(),      parameter_section(), table_section(),      function_section(),
+      body_section(),       joint_section(),     coordinate_section(), frame_section(),
+      actuator_section(),   input_section(),     state_section(),      memory_section(),
+      signal_section(),     friction_section(),  force_section(),      spring_section(),
+      bushing_section(),    cable_section(),     gear_mesh_section(),  stop_section(),
+      contact_section(),    tyre_section(),      loop_section(),       coupler_section(),
+      constraint_section(), loops_section(),     output_section(),     kinematics_section(),
+      import_section(),     override_section(),  repeat_section()};
   return sections;
 }
 

@@ -36,4 +36,26 @@ beyond = "extend"
 )"};
 }
 
+KeySection function_section() {
+  return {"function",
+          "[[function]]",
+          "A function that is given by an expression of its arguments; expressions of this file call it, "
+          "grip(slip, load).",
+          {{"name", "name", "", kRequired, "an identifier that means nothing else in expressions"},
+           {"arguments", "list of names", "", kRequired, "one or more, which are no parameters"},
+           {"argument_units", "texts", "", "none",
+            "an SI unit for each argument; strict once given, as that of a parameter"},
+           {"value", "expression", "unit", kRequired,
+            "of the arguments, parameters, tables and functions before it; what moves is an argument"},
+           {"unit", "text", "", "none", "an SI unit"},
+           {"description", "text", "", "empty", ""}},
+          R"([[function]]
+name = "grip"
+arguments = ["slip", "load"]
+argument_units = ["1", "N"]
+unit = "N"
+value = "0.9*sin(1.4*atan(12*slip))*load"
+)"};
+  }
+
 }  // namespace jourdain::model

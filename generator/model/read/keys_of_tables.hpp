@@ -1,4 +1,4 @@
-// The keys of functions given by points.
+// The keys of functions given by points or by an expression.
 #pragma once
 
 #include "model/read/keys.hpp"
@@ -6,5 +6,6 @@
 namespace jourdain::model {
 
 KeySection table_section();
+KeySection function_section();
 
 }  // namespace jourdain::model

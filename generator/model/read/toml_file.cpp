@@ -136,7 +136,7 @@ bool TomlFile::is_underflow(const toml::node& node) const {
 }
 
 Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& place, const Scope& scope) {
-  const auto result = parse_expression(this->text(text), parameters_, scope, tables_);
+  const auto result = parse_expression(this->text(text), parameters_, scope, callables_);
   if (const auto* wrong = std::get_if<ExpressionError>(&result))
     return number_error(inside(text, wrong->offset, wrong->length), wrong->message, wrong->hint);
   const auto& [expression, measure] = std::get<MeasuredExpression>(result);

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/expression_functions.hpp"
+#include "model/lookup_table.hpp"
 #include "model/read/import_file.hpp"
 #include "model/read/keys.hpp"
-#include "model/read/toml_names.hpp"
+#include "model/read/toml_callable.hpp"
 #include "model/read/toml_sections.hpp"
 #include "support/csv.hpp"
 
@@ -63,15 +63,7 @@ class LookupTableReader {
     if (file_.error_count() == mark) check_kind();
   }
 
-  void check_name() {
-    const std::string& name = table_.name;
-    check_identifier(file_, table_.where, "table", name);
-    if (is_expression_word(name))
-      keys_.error("name", fmt::format("table '{}' would hide what '{}' means in expressions", name, name));
-    for (const DeclaredParameter& parameter : file_.declared())
-      if (parameter.name == name) keys_.error("name", fmt::format("'{}' is a parameter too", shown(name)));
-    is_new_name(file_, table_.where, "tables", name, file_.tables());
-  }
+  void check_name() { check_callable_name(file_, keys_, "table", table_.name); }
 
   void read_kinds() {
     const auto interpolation = keys_.choice("interpolation", {"linear", "monotone", "spline"});
@@ -276,7 +268,7 @@ class LookupTableReader {
 void read_lookup_tables(TomlFile& file, const TomlTables& section, const ImportChain& chain) {
   for (const toml::node& node : section)
     if (std::optional<LookupTable> table = LookupTableReader(file, *node.as_table(), chain).read())
-      file.declare(std::move(*table));
+      file.declare(callable(std::move(*table)));
 }
 
 }  // namespace jourdain::model

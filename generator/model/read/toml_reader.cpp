@@ -22,9 +22,10 @@ using support::Diagnostics;
 
 /// Tables that a file may have any number of, and that [[repeat]] may hold.
 const std::vector<std::string> kLists{
-    "import",   "override", "body",       "joint",     "frame",      "actuator", "input",   "force", "spring",
-    "bushing",  "output",   "kinematics", "loop",      "coupler",    "stop",     "contact", "table", "state",
-    "friction", "signal",   "cable",      "gear_mesh", "constraint", "tyre",     "memory"};
+    "import",    "override",   "body",    "joint",  "frame",      "actuator", "input",
+    "force",     "spring",     "bushing", "output", "kinematics", "loop",     "coupler",
+    "stop",      "contact",    "table",   "state",  "friction",   "signal",   "cable",
+    "gear_mesh", "constraint", "tyre",    "memory", "function"};
 
 class TomlReader {
  public:
@@ -48,6 +49,7 @@ class TomlReader {
     if (imports.size() < importing.size()) return mechanism;
     check_loop_options(imports);
     read_lookup_tables(file_, repeats_.tables("table"), chain_);
+    read_functions(file_, repeats_.tables("function"));
     read_bodies(file_, repeats_.tables("body"), mechanism);
     read_joints(file_, repeats_.tables("joint"), mechanism);
     read_overrides(file_, repeats_.tables("override"), mechanism);

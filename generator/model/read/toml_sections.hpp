@@ -20,6 +20,8 @@ void read_parameters(TomlFile& file, const toml::table& section, Mechanism& mech
 
 /// All [[table]] tables: `file` has declared them then.
 void read_lookup_tables(TomlFile& file, const TomlTables& section, const ImportChain& chain);
+/// All [[function]] tables, which may call tables and functions before them: `file` has declared them then.
+void read_functions(TomlFile& file, const TomlTables& section);
 
 // Each of the following appends to what `mechanism` has, which may be imported.
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/callable.hpp"
 #include "model/dimensions.hpp"
-#include "model/lookup_table.hpp"
 #include "model/mechanism.hpp"
 #include "model/read/read.hpp"
 #include "model/units.hpp"
@@ -68,9 +68,9 @@ class TomlFile {
   void declare(const DerivedParameter& derived);
   /// All parameters of a mechanism.
   void declare(const Mechanism& mechanism);
-  /// A table that expressions may call from now on.
-  void declare(LookupTable table) { tables_.push_back(std::move(table)); }
-  const std::vector<LookupTable>& tables() const { return tables_; }
+  /// A table or function that expressions may call from now on.
+  void declare(Callable callable) { callables_.push_back(std::move(callable)); }
+  const std::vector<Callable>& callables() const { return callables_; }
   /// A signal that expressions may name from now on.
   void declare(Signal signal) { signals_.push_back(std::move(signal)); }
   const std::vector<Signal>& signals() const { return signals_; }
@@ -142,7 +142,7 @@ class TomlFile {
   std::vector<DeclaredParameter> parameters_;
   std::vector<Expression> meanings_;  ///< of those that are derived, the last ones
   std::vector<double> values_;        ///< of the others
-  std::vector<LookupTable> tables_;
+  std::vector<Callable> callables_;
   std::vector<Signal> signals_;
   std::optional<Repetition> repetition_;
   std::map<std::pair<int, int>, std::int64_t> repeated_errors_;  ///< index by line and column

@@ -1,0 +1,166 @@
+// [[function]]: functions that are given by an expression of their arguments.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/expression_functions.hpp"
+#include "model/read/keys.hpp"
+#include "model/read/toml_callable.hpp"
+#include "model/read/toml_names.hpp"
+#include "model/read/toml_sections.hpp"
+
+namespace jourdain::model {
+
+using support::shown;
+
+void check_callable_name(TomlFile& file, const TomlTable& table, const char* what, const std::string& name) {
+  const SourceRange where = table.where("name");
+  check_identifier(file, where, what, name);
+  if (is_expression_word(name))
+    table.error("name", fmt::format("{} '{}' would hide what '{}' means in expressions", what, name, name));
+  for (const DeclaredParameter& parameter : file.declared())
+    if (parameter.name == name) table.error("name", fmt::format("'{}' is a parameter too", shown(name)));
+  is_new_name(file, where, "tables or functions", name, file.callables());
+}
+
+namespace {
+
+class FunctionReader {
+ public:
+  FunctionReader(TomlFile& file, const toml::table& node)
+      : file_(file),
+        keys_(file, node, fmt::format("function '{}'", shown(file.text_or(node, "name"))),
+              file.range(node.source()), keys_of("function")) {}
+
+  /// One that is zero after a diagnostic, nothing where it has no name or its arguments have none.
+  std::optional<Callable> read() {
+    function_.kind = "function";
+    function_.name = keys_.required_text("name").value_or("");
+    function_.where = keys_.where("name");
+    if (!function_.name.empty()) check_callable_name(file_, keys_, "function", function_.name);
+    keys_.text("description");
+    const std::string unit = read_unit();
+    if (!keys_.has("arguments")) keys_.missing("arguments", "the names that 'value' uses");
+    const bool is_known = keys_.has("arguments") && read_arguments();
+    if (!keys_.has("value")) keys_.missing("value", "an expression of the arguments");
+    if (!is_known || function_.name.empty()) {
+      file_.complete().numbers = false;
+      return {};
+    }
+    if (keys_.has("argument_units")) read_units();
+    Expression value = keys_.function("value", {{unit}}, scope());
+    function_.value = [value = std::move(value)](std::span<const Expression> arguments) {
+      return with_arguments(value, arguments);
+    };
+    return std::move(function_);
+  }
+
+ private:
+  std::string read_unit() {
+    const std::optional<Unit> unit = keys_.unit("unit");
+    if (!keys_.has("unit") || !unit) return "";
+    if (unit->factor != 1) keys_.error("unit", not_si(keys_.quoted("unit")), si_hint(*unit));
+    function_.measure = Measure::parameter(*keys_.text("unit"));
+    return *keys_.text("unit");
+  }
+
+  static std::string not_si(const std::string& what) {
+    return fmt::format("{}: functions take and have SI units", what);
+  }
+  static std::string si_hint(const Unit& unit) {
+    return fmt::format("'{}', with the conversion in the expressions that call it", unit.si);
+  }
+
+  bool read_arguments() {
+    const std::optional<std::vector<Text>> names = texts("arguments");
+    if (!names) return false;
+    if (names->empty()) {
+      keys_.error("arguments", fmt::format("{} has no argument", keys_.what()),
+                  "[[signal]] names an expression");
+      return false;
+    }
+    for (const Text& name : *names)
+      if (!take_argument(name)) return false;
+    return true;
+  }
+
+  struct Text {
+    const toml::value<std::string>* node;
+    std::string text;
+    SourceRange where;
+  };
+
+  std::optional<std::vector<Text>> texts(const char* key) {
+    const toml::array* array = keys_.array(key, "an array of texts");
+    if (!array) return {};
+    std::vector<Text> result;
+    for (const toml::node& node : *array) {
+      const auto* text = node.as_string();
+      const SourceRange where = file_.range(node.source());
+      if (!text) {
+        file_.error(where, fmt::format("{} holds texts, not {}", keys_.quoted(key), type_in_words(node)));
+        return {};
+      }
+      result.push_back({text, file_.text(*text), where});
+    }
+    return result;
+  }
+
+  bool take_argument(const Text& name) {
+    const std::size_t mark = file_.error_count();
+    check_identifier(file_, name.where, "argument", name.text);
+    if (is_expression_word(name.text) || name.text == time_scope().front().name)
+      file_.error(name.where, fmt::format("argument '{}' would hide what '{}' means in expressions",
+                                          name.text, name.text));
+    for (const DeclaredParameter& parameter : file_.declared())
+      if (parameter.name == name.text)
+        file_.error(name.where, fmt::format("argument '{}' has the name of a parameter", shown(name.text)));
+    for (const Callable& callable : file_.callables())
+      if (callable.name == name.text)
+        file_.error(name.where,
+                    fmt::format("argument '{}' has the name of a {}", shown(name.text), callable.kind));
+    for (const Callable::Argument& argument : function_.arguments)
+      if (argument.name == name.text)
+        file_.error(name.where, fmt::format("{} has two arguments '{}'", keys_.what(), shown(name.text)));
+    function_.arguments.push_back({name.text, Measure::open()});
+    return file_.error_count() == mark;
+  }
+
+  /// Without effect after a diagnostic.
+  void read_units() {
+    const std::optional<std::vector<Text>> units = texts("argument_units");
+    if (!units) return;
+    if (units->size() != function_.arguments.size())
+      return keys_.error("argument_units", fmt::format("{} has {} arguments and {} units", keys_.what(),
+                                                       function_.arguments.size(), units->size()));
+    for (std::size_t i = 0; i < units->size(); ++i) {
+      const Text& text = (*units)[i];
+      const std::optional<Unit> unit = file_.unit(*text.node);
+      if (unit && unit->factor != 1)
+        file_.error(text.where, not_si(fmt::format("'{}'", shown(text.text))), si_hint(*unit));
+      if (unit && unit->factor == 1) function_.arguments[i].measure = Measure::parameter(text.text);
+    }
+  }
+
+  Scope scope() const {
+    Scope scope;
+    for (std::size_t i = 0; i < function_.arguments.size(); ++i)
+      scope.push_back(
+          {function_.arguments[i].name, {Variable::Kind::kArgument, 0, i}, function_.arguments[i].measure});
+    return scope;
+  }
+
+  TomlFile& file_;
+  TomlTable keys_;
+  Callable function_;
+};
+
+}  // namespace
+
+void read_functions(TomlFile& file, const TomlTables& section) {
+  for (const toml::node& node : section)
+    if (std::optional<Callable> function = FunctionReader(file, *node.as_table()).read())
+      file.declare(std::move(*function));
+}
+
+}  // namespace jourdain::model
